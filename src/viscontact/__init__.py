@@ -1,0 +1,44 @@
+"""Contact of creeping bodies: viscoelastic half-space contact mechanics, over time.
+
+Names are loaded when first used, so that ``import viscontact`` stays fast.
+"""
+
+import lazy_loader as _lazy
+
+__version__ = "0.1.0"
+
+__getattr__, __dir__, __all__ = _lazy.attach(
+    __name__,
+    submodules=["reference"],
+    submod_attrs={
+        "errors": ["AccuracyWarning", "ConvergenceError", "DomainError"],
+        "grid": ["Grid"],
+        "indenters": [
+            "Cone",
+            "FlatPunch",
+            "HeightMap",
+            "Indenter",
+            "Paraboloid",
+            "Roller",
+            "Sphere",
+        ],
+        "laws": [
+            "Burgers",
+            "CreepSeries",
+            "Elastic",
+            "Law",
+            "Maxwell",
+            "RelaxationSeries",
+            "Zener",
+        ],
+        "material": ["Material"],
+        "load": ["ForceHistory", "ramp", "step", "triangle"],
+        "stepping": ["log_times", "uniform_times"],
+        "extent": ["auto_grid"],
+        "state": ["ContactState", "Outcome"],
+        "march": ["march"],
+        "dataset": ["simulate"],
+        "results": ["open_results", "save"],
+    },
+)
+__all__ += ["__version__"]
