@@ -1,0 +1,59 @@
+"""What an indenter accepts as a length."""
+
+from __future__ import annotations
+
+import math
+from numbers import Real
+
+
+def real_number(name: str, value: object, unit: str) -> float:
+    """Return `value` as a float, or refuse what is not a plain number.
+
+    Parameters
+    ----------
+    name : str
+        What the value is, for the message: "Sphere: radius".
+    value : object
+        What the user gave.
+    unit : str
+        The unit the number is taken in.
+
+    Raises
+    ------
+    ValueError
+        If the value is a boolean, a text, an array, None or anything else but a real number.
+
+    Examples
+    --------
+    >>> real_number("Cone: half_angle", 1, "rad")
+    1.0
+    """
+    if isinstance(value, bool) or not isinstance(value, Real):
+        raise ValueError(f"{name} must be a number in {unit}, got {value!r}")
+    return float(value)
+
+
+def positive_length(name: str, value: object) -> float:
+    """Return `value` as a float if it is a positive, finite length [m].
+
+    Parameters
+    ----------
+    name : str
+        What the length is, for the message: "Sphere: radius".
+    value : object
+        What the user gave [m].
+
+    Raises
+    ------
+    ValueError
+        If the value is not a number, not finite, zero or negative.
+
+    Examples
+    --------
+    >>> positive_length("Sphere: radius", 1)
+    1.0
+    """
+    length = real_number(name, value, "m")
+    if not (math.isfinite(length) and length > 0):
+        raise ValueError(f"{name} must be a positive, finite length in m, got {value!r}")
+    return length
