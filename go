@@ -1,0 +1,183 @@
+#!/usr/bin/env python3
+"""Run a task of the project: `./go demo`, `./go test` (on Windows: `py go demo`).
+
+The first start makes `.venv` from `requirements.lock`, where every file is pinned by its hash:
+with uv when it is on the path, else with Python's own venv and pip. Later starts need no network.
+Standard library only, so that an empty machine with Python and git is enough.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import shutil
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent
+LOCK = ROOT / "requirements.lock"
+VENV = ROOT / ".venv"
+STAMP = VENV / "go-stamp"  # written last: without it the environment is half made
+LOG = VENV / "go-setup.log"
+PYTHON = VENV / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
+OLDEST = (3, 11)
+# Words by which pip and uv say that they could not reach anything.
+OFFLINE = ("dns error", "connection", "name resolution", "unreachable", "timed out", "retries")
+
+
+class TaskError(Exception):
+    """The task cannot go on; the message is one line for the user."""
+
+
+# --- tasks ------------------------------------------------------------------------------------
+
+
+def demo(args: list[str]) -> int:
+    """Compute the shipped roller case and draw its pictures."""
+    return run(["-m", "viscontact", "demo", *args])
+
+
+def test(args: list[str]) -> int:
+    """Run the tests on two processes; --slow adds the slow ones, the rest goes to pytest."""
+    chosen = ["-m", ""] if "--slow" in args else []
+    return run(["-m", "pytest", "-n", "2", *chosen, *(a for a in args if a != "--slow")])
+
+
+def lint(args: list[str]) -> int:
+    """Check style, format and types; `--fix` mends the first two."""
+    mend = "--fix" in args
+    style = ["ruff", "check", "--fix"] if mend else ["ruff", "check"]
+    layout = ["ruff", "format"] if mend else ["ruff", "format", "--check"]
+    return max([run(["-m", *check]) for check in (style, layout, ["mypy"])])
+
+
+def bench(args: list[str]) -> int:
+    """Time a run in reference convolutions."""
+    if not (ROOT / "benchmarks" / "run.py").exists():
+        raise TaskError("there is no benchmarks/run.py")
+    return run(["benchmarks/run.py", *args])
+
+
+def build(args: list[str]) -> int:
+    """Make the wheel in dist/."""
+    return run(["-m", "hatchling", "build", "-t", "wheel", *args])
+
+
+def lock(args: list[str]) -> int:
+    """Write requirements.lock anew from pyproject.toml (`--upgrade`: to the newest versions)."""
+    # No configuration of this machine may leak in: the lock names public files only.
+    for name in [n for n in os.environ if n.startswith(("UV_INDEX", "UV_DEFAULT", "UV_FIND"))]:
+        del os.environ[name]
+    options = "--no-config --universal --generate-hashes --no-emit-index-url --no-annotate --quiet"
+    wanted = f"--python-version {OLDEST[0]}.{OLDEST[1]} --extra all --extra dev"
+    written = ["--custom-compile-command", "./go lock", "--output-file", LOCK.name]
+    uv = ["-m", "uv", "pip", "compile", "pyproject.toml"]
+    return run([*uv, *options.split(), *wanted.split(), *written, *args])
+
+
+TASKS = {"demo": demo, "test": test, "lint": lint, "bench": bench, "build": build, "lock": lock}
+
+
+# --- environment ------------------------------------------------------------------------------
+
+
+def fingerprint() -> str:
+    """Return what the environment depends on, as one hash: lock, project file and place."""
+    contents = [LOCK.read_bytes(), (ROOT / "pyproject.toml").read_bytes(), str(ROOT).encode()]
+    return hashlib.sha256(b"\0".join(contents)).hexdigest()
+
+
+def is_ready() -> bool:
+    """Tell whether the environment is whole and up to date."""
+    return PYTHON.exists() and STAMP.exists() and STAMP.read_text() == fingerprint()
+
+
+def set_up() -> None:
+    """Make the environment, or bring it up to date; a half-made one is made from scratch."""
+    uv = shutil.which("uv")
+    updating = PYTHON.exists() and STAMP.exists()
+    doing = "bringing .venv up to date" if updating else "setting up .venv, once, about a minute"
+    print(f"go: {doing}", flush=True)
+    STAMP.unlink(missing_ok=True)
+    if not updating:
+        make = [uv, "venv", "--clear", "--python", sys.executable] if uv else None
+        install(make or [sys.executable, "-m", "venv", "--clear"], [str(VENV)])
+    pip = [str(PYTHON), "-m", "pip", "install", "--only-binary", ":all:"]
+    if uv:
+        pip = [uv, "pip", "install", "--python", str(PYTHON)]
+    install(pip, ["--require-hashes", "-r", str(LOCK)])
+    # The build backend is in the lock: no isolated build, which would fetch another one.
+    install(pip, ["--no-deps", "--no-build-isolation", "--editable", str(ROOT)])
+    STAMP.write_text(fingerprint())
+
+
+def install(command: list[str], args: list[str]) -> None:
+    """Run a step of the set-up in silence; raise `TaskError` with its last word if it fails."""
+    done = subprocess.run(
+        [*command, *args], cwd=ROOT, env=clean(), text=True, capture_output=True, errors="replace"
+    )
+    if done.returncode == 0:
+        return
+    said = (done.stdout + done.stderr).strip()
+    if VENV.is_dir():
+        LOG.write_text(said, encoding="utf-8")
+    raise TaskError(cause(said))
+
+
+def cause(said: str) -> str:
+    """Return in one line why the set-up failed, from what the installer said."""
+    if "ensurepip" in said:
+        return "this Python cannot make environments: install python3-venv, or uv"
+    if any(word in said.lower() for word in OFFLINE):
+        return "set-up needs the network once, and the package index could not be reached"
+    last = said.splitlines()[-1] if said else "no reason given"
+    return f"set-up failed ({last}); all of it is in {LOG}"
+
+
+def clean() -> dict[str, str]:
+    """Return the environment variables without those that would let other packages in."""
+    foreign = ("PYTHONPATH", "PYTHONHOME", "VIRTUAL_ENV", "PIP_USER", "PIP_TARGET", "PIP_PREFIX")
+    return {name: value for name, value in os.environ.items() if name not in foreign}
+
+
+def run(args: list[str]) -> int:
+    """Run the environment's Python and return its exit status."""
+    child = subprocess.Popen([str(PYTHON), *args], cwd=ROOT, env=clean())
+    # Ctrl-C reaches the child too, which finishes its step and saves: wait for it.
+    signal.signal(signal.SIGINT, lambda *_: None)
+    signal.signal(signal.SIGTERM, lambda *_: child.terminate())
+    return child.wait()
+
+
+# --- front door -------------------------------------------------------------------------------
+
+
+def main(argv: list[str], version: tuple[int, int] = sys.version_info[:2]) -> int:
+    """Run the task named first, with the other arguments passed on to it."""
+    if not argv or argv[0] in ("-h", "--help"):
+        print("usage: ./go TASK [ARGUMENTS]\n")
+        print("\n".join(f"  {name:6} {task.__doc__}" for name, task in TASKS.items()))
+        return 0
+    try:
+        if argv[0] not in TASKS:
+            raise TaskError(f"no task '{argv[0]}'; there are {', '.join(TASKS)}")
+        if version < OLDEST:
+            raise TaskError(
+                f"needs Python {OLDEST[0]}.{OLDEST[1]} or newer, and this is"
+                f" {version[0]}.{version[1]} ({sys.executable}); try: python3.13 go {argv[0]}"
+            )
+        if not is_ready():
+            set_up()
+        return TASKS[argv[0]](argv[1:])
+    except TaskError as error:
+        print(f"go: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("go: stopped; the next start begins the set-up again", file=sys.stderr)
+        return 130
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
