@@ -12,12 +12,14 @@ from viscontact.reference.hertz import (
     hertz_line,
     hertz_sphere,
 )
+from viscontact.reference.lee_radok import LeeRadokContact, lee_radok_ramp, lee_radok_step
 from viscontact.reference.punch import ConeContact, FlatPunchContact, cone, flat_punch
 
 __all__ = [
     "ConeContact",
     "EllipticalContact",
     "FlatPunchContact",
+    "LeeRadokContact",
     "LineContact",
     "SphereContact",
     "cone",
@@ -25,4 +27,6 @@ __all__ = [
     "hertz_elliptical",
     "hertz_line",
     "hertz_sphere",
+    "lee_radok_ramp",
+    "lee_radok_step",
 ]

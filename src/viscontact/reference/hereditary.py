@@ -1,0 +1,183 @@
+"""Quadrature for Boltzmann integrals whose functions of time are known as callables only.
+
+Creep and relaxation are smooth on a logarithmic scale of time: each relaxation time, however
+short, lives at its own decade. So intervals are halved again and again towards the end where
+things happen fast, and polynomials of degree 16 serve on each panel. Algebraic singularities
+at such an end (a square-root start, a power law) are resolved by the same halving.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeAlias
+
+import numpy as np
+from numpy.polynomial import chebyshev, legendre
+from numpy.typing import ArrayLike, NDArray
+
+TimeFunction: TypeAlias = Callable[[NDArray[np.float64]], ArrayLike]
+"""A function of time, called with a one-dimensional array of times [s]."""
+
+_DEGREE = 16
+_HALVINGS = 48  # the innermost panel is 2**-48 of the interval, near the rounding of its length
+
+_NODES: NDArray[np.float64] = np.sin(np.linspace(-0.5, 0.5, _DEGREE + 1) * np.pi)
+_FIT = np.linalg.inv(chebyshev.chebvander(_NODES, _DEGREE))
+_GAUSS, _WEIGHTS = legendre.leggauss(_DEGREE)
+
+
+def _stieltjes_matrix() -> NDArray[np.float64]:
+    """Give B with: integral of k ds over a panel = sum of k(Gauss node j) B_ji s(node i).
+
+    It does not depend on the panel's length, as the integral does not. Where k is constant it
+    gives k times the difference of s, whatever s does in between.
+    """
+    slopes = chebyshev.chebval(_GAUSS, chebyshev.chebder(np.eye(_DEGREE + 1))).T
+    matrix: NDArray[np.float64] = _WEIGHTS[:, None] * (slopes @ _FIT)
+    return matrix
+
+
+def _panels(edges: NDArray[np.float64], nodes: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Place ``nodes``, given on [-1, 1], in every panel between ``edges``."""
+    half = np.diff(edges)[:, None] / 2
+    return edges[:-1, None] + half * (1 + nodes)
+
+
+# Fractions of an interval: halved towards its start; towards its start and its end.
+_TO_START = np.concatenate([[0.0], 0.5 ** np.arange(_HALVINGS, -1, -1)])
+_TO_BOTH = np.concatenate([_TO_START / 2, 1 - _TO_START[-2::-1] / 2])
+_STIELTJES = _stieltjes_matrix()
+_PATH_FRACTIONS = _panels(_TO_BOTH, _NODES)
+# Counted back from the end, so that lags far below the rounding of the interval stay exact.
+_LAG_FRACTIONS = _panels(_TO_BOTH, _GAUSS)[::-1, ::-1]
+
+
+def evaluate(function: TimeFunction, times: ArrayLike) -> NDArray[np.float64]:
+    """Evaluate a function of time on an array of any shape.
+
+    Parameters
+    ----------
+    function : callable
+        Takes a one-dimensional array of times [s]; may return a scalar for a constant.
+    times : array_like
+        Times of any shape [s].
+
+    Returns
+    -------
+    ndarray
+        The values, in the shape of ``times``.
+
+    Examples
+    --------
+    >>> evaluate(lambda t: 2 * t, [[1.0, 2.0]]).tolist()
+    [[2.0, 4.0]]
+    """
+    times = np.asarray(times, dtype=np.float64)
+    values = np.asarray(function(times.ravel()), dtype=np.float64)
+    return np.broadcast_to(values, times.size).reshape(times.shape)
+
+
+def accumulated(function: TimeFunction, times: ArrayLike) -> NDArray[np.float64]:
+    """Integrate a function of time from 0 to each of many instants.
+
+    Parameters
+    ----------
+    function : callable
+        A function smooth on a logarithmic scale of time, finite at 0.
+    times : array_like
+        Upper limits, at least 0, of any shape [s].
+
+    Returns
+    -------
+    ndarray
+        The integrals, in the shape of ``times``, in the function's unit times second.
+
+    Examples
+    --------
+    >>> print(f"{accumulated(np.sqrt, 9.0):.12f}")
+    18.000000000000
+    """
+    times = np.asarray(times, dtype=np.float64)
+    edges = max(float(times.max()), np.finfo(float).tiny) * _TO_START
+    half = np.diff(edges) / 2
+    fitted = (evaluate(function, _panels(edges, _NODES)) @ _FIT.T).T
+    coefficients = chebyshev.chebint(fitted, lbnd=-1) * half
+    whole = coefficients.sum(axis=0)  # every Chebyshev polynomial is 1 at the panel's end
+    before = np.cumsum(whole) - whole
+    panel = np.clip(np.searchsorted(edges, times, side="right") - 1, 0, len(half) - 1)
+    place = (times - edges[panel]) / half[panel] - 1
+    integrals: NDArray[np.float64] = before[panel] + chebyshev.chebval(
+        place, coefficients[:, panel], tensor=False
+    )
+    return integrals
+
+
+def averaged(
+    function: TimeFunction, starts: NDArray[np.float64], length: float
+) -> NDArray[np.float64]:
+    """Average a function of time over intervals that begin no earlier than their own length.
+
+    Parameters
+    ----------
+    function : callable
+        A function smooth on a logarithmic scale of time.
+    starts : ndarray
+        Beginnings of the intervals, each at least ``length`` [s].
+    length : float
+        Their common length [s].
+
+    Returns
+    -------
+    ndarray
+        The averages, in the shape of ``starts``.
+
+    Examples
+    --------
+    >>> print(f"{averaged(np.square, np.array([3.0]), 3.0)[0]:.10f}")
+    21.0000000000
+    """
+    times = starts[..., None] + length / 2 * (1 + _GAUSS)
+    average: NDArray[np.float64] = evaluate(function, times) @ _WEIGHTS / 2
+    return average
+
+
+def superposed(
+    kernel: TimeFunction,
+    path: Callable[[NDArray[np.float64]], NDArray[np.float64]],
+    start: NDArray[np.float64],
+    end: NDArray[np.float64],
+    now: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """Superpose past increments of a path: integral over t' of kernel(now - t') d path(t').
+
+    Parameters
+    ----------
+    kernel : callable
+        A function of the lag, smooth on a logarithmic scale; integrably infinite at 0 at most.
+    path : callable
+        Called with instants of shape (n, panels, nodes), one row for each integral; smooth but
+        for algebraic singularities at ``start`` and ``end``.
+    start, end, now : ndarray, shape (n,)
+        Limits of each integral and the instant it is felt at, start <= end <= now [s].
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        The integrals, in the units of kernel times path.
+
+    Notes
+    -----
+    A Stieltjes integral: neither function is differentiated by the caller, and the kernel is
+    never asked for its value at lag 0.
+
+    Examples
+    --------
+    >>> zero, one = np.zeros(1), np.ones(1)
+    >>> print(f"{superposed(lambda lag: np.exp(-lag), np.sqrt, zero, one, one)[0]:.12f}")
+    0.538079506913
+    """
+    start, width = start[:, None, None], (end - start)[:, None, None]
+    along_path = path(start + width * _PATH_FRACTIONS)
+    kernel_there = evaluate(kernel, (now - end)[:, None, None] + width * _LAG_FRACTIONS)
+    integral: NDArray[np.float64] = np.sum((kernel_there @ _STIELTJES) * along_path, axis=(1, 2))
+    return integral
