@@ -125,11 +125,13 @@ def _require_finite(name: str, values: NDArray[np.float64]) -> None:
 
 
 def _read_only(name: str, values: ArrayLike) -> NDArray[np.float64]:
-    given = np.asarray(values)
+    try:
+        given = np.asarray(values)
+    except ValueError as error:
+        raise ValueError(f"HeightMap: {name} must have rows of equal length") from error
     if given.dtype.kind not in "iuf":
-        raise ValueError(
-            f"HeightMap: {name} must hold numbers in m, got {given.dtype} values: {given!r:.60}"
-        )
+        first = given.flat[0] if given.size else None
+        raise ValueError(f"HeightMap: {name} must hold numbers in m, got {first!r} first")
     copy = given.astype(np.float64)
     copy.flags.writeable = False
     return copy

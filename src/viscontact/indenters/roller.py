@@ -84,13 +84,16 @@ class Roller(Indenter):
 
 
 def _refusal(profile: object) -> str:
-    if isinstance(profile, str) and profile not in NAMED_PROFILES:
-        return (
-            f"Roller: unknown profile {profile!r}; the names are {', '.join(NAMED_PROFILES)} "
-            "(none built yet: use crown_radius=, or leave both out for sharp ends)"
-        )
-    what = f"roller profile {profile!r}" if isinstance(profile, str) else "a table as profile"
-    return (
-        f"Roller: {what} is not built yet; use crown_radius= for a circular crown tangent to "
-        "the straight part, or leave both out for sharp ends"
+    remedy = (
+        "use crown_radius= for a circular crown tangent to the straight part, or leave both "
+        "out for sharp ends"
     )
+    if not isinstance(profile, str):
+        return f"roller profile as a table is not built yet, got {profile!r:.60}; {remedy}"
+    if profile not in NAMED_PROFILES:
+        names = ", ".join(map(repr, NAMED_PROFILES))
+        return (
+            f"roller profile {profile!r} is unknown; the names are {names}, none of them built "
+            f"yet; {remedy}"
+        )
+    return f"roller profile {profile!r} is not built yet; {remedy}"
