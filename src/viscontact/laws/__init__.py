@@ -1,0 +1,16 @@
+"""Linear viscoelastic laws: creep compliance Phi(t) and relaxation modulus G(t) in shear."""
+
+from viscontact.laws.law import Law, SeriesLaw
+from viscontact.laws.models import Burgers, Elastic, Maxwell, Zener
+from viscontact.laws.series import CreepSeries, RelaxationSeries
+
+__all__ = [
+    "Burgers",
+    "CreepSeries",
+    "Elastic",
+    "Law",
+    "Maxwell",
+    "RelaxationSeries",
+    "SeriesLaw",
+    "Zener",
+]

@@ -1,0 +1,265 @@
+"""Exact interconversion of creep and relaxation series, by poles and residues.
+
+A creep function and a relaxation function of the same material,
+
+    J(t) = J_0 + sum_i J_i (1 - exp(-t/τ_i)) + φ t,
+    M(t) = M_inf + sum_j M_j exp(-t/ρ_j),
+
+are inverse under the Boltzmann integral: s² L[J](s) L[M](s) = 1. With s = -1/x both become
+rational functions of a *time* x,
+
+    s L[J] = x [ J_0/x + sum_i J_i/(x - τ_i) - φ ],
+    s L[M] = - [ sum_j M_j ρ_j/(x - ρ_j) - M_inf ],
+
+whose brackets have one and the same form, sum_i w_i/(x - p_i) - c with w_i > 0 and c >= 0: the
+secular equation of a symmetric rank-one update. The roots of one bracket are the poles of the
+other function. They interlace, one between each two neighbouring poles and one beyond the last
+if c > 0, so each is found by bisection inside a bracket that cannot fail; nothing is fitted.
+
+No factor 2 and no material convention here: J and M are plain inverses of each other.
+
+References
+----------
+.. [1] N. W. Tschoegl, The Phenomenological Theory of Linear Viscoelastic Behavior,
+   Springer, 1989, sections 3.5 and 8.1.
+.. [2] S. W. Park, R. A. Schapery, Int. J. Solids Struct. 36 (1999) 1653-1675.
+.. [3] R.-C. Li, Solving secular equations stably and efficiently, LAPACK Working Note 89,
+   1993: why roots are kept as offsets from their nearest pole.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+# Each bisection of a ratio halves its logarithm; 64 of them take any ratio that double
+# precision can hold (ln 1e600 = 1400) below one unit in the last place.
+_BISECTIONS = 64
+
+# Two exponentials whose times differ by the share g differ from one at their mean time by less
+# than g²/8 of their strength, here 3e-17.
+_SAME_TIME = 1.5e-8
+
+
+class SeriesTerms(NamedTuple):
+    """The terms of J(t) = instant + sum amplitudes (1 - exp(-t/times)) + fluidity t."""
+
+    instant: float
+    amplitudes: NDArray[np.float64]
+    times: NDArray[np.float64]
+    fluidity: float
+
+
+class RelaxationTerms(NamedTuple):
+    """The terms of M(t) = equilibrium + sum moduli exp(-t/times)."""
+
+    equilibrium: float
+    moduli: NDArray[np.float64]
+    times: NDArray[np.float64]
+
+
+def creep_from_relaxation(equilibrium: float, moduli: ArrayLike, times: ArrayLike) -> SeriesTerms:
+    """Return the creep series that is the exact inverse of a relaxation series.
+
+    Parameters
+    ----------
+    equilibrium : float
+        Modulus left after all relaxation, M_inf >= 0 [Pa]; 0 for a fluid.
+    moduli, times : array_like
+        Strengths M_j >= 0 [Pa] and relaxation times ρ_j > 0 [s], in any order.
+
+    Returns
+    -------
+    SeriesTerms
+        Compliances [1/Pa], retardation times ascending [s] and fluidity [1/(Pa s)], which is
+        positive exactly when `equilibrium` is 0.
+
+    Raises
+    ------
+    ValueError
+        If there is no modulus at all.
+
+    Notes
+    -----
+    J_0 = 1/M(0); the residues give J_i = 1 / (τ_i sum_j M_j ρ_j / (τ_i - ρ_j)²), and for a
+    fluid φ = 1 / sum_j M_j ρ_j, all sums of positive terms.
+
+    Examples
+    --------
+    The inverse of 1 + 2 exp(-t) is 1/3 + 2/3 (1 - exp(-t/3)):
+
+    >>> terms = creep_from_relaxation(1.0, [2.0], [1.0])
+    >>> round(terms.instant, 6), terms.amplitudes.round(6), terms.times.round(6)
+    (0.333333, array([0.666667]), array([3.]))
+    """
+    moduli, times = merged(moduli, times)
+    total = float(equilibrium + moduli.sum())
+    if not total > 0:
+        raise ValueError("relaxation series: all moduli are 0; at least one must be positive")
+    viscosities = moduli * times
+    retardation_times, offsets = _secular_roots(times, viscosities, equilibrium)
+    stiffness = (viscosities / offsets**2).sum(axis=1)
+    fluidity = float(1.0 / viscosities.sum()) if equilibrium == 0 else 0.0
+    amplitudes = 1.0 / (retardation_times * stiffness)
+    return SeriesTerms(1.0 / total, *merged(amplitudes, retardation_times), fluidity)
+
+
+def relaxation_from_creep(
+    instant: float, amplitudes: ArrayLike, times: ArrayLike, fluidity: float
+) -> RelaxationTerms:
+    """Return the relaxation series that is the exact inverse of a creep series.
+
+    Parameters
+    ----------
+    instant : float
+        Compliance at once, J_0 > 0 [1/Pa].
+    amplitudes, times : array_like
+        Delayed compliances J_i >= 0 [1/Pa] and retardation times τ_i > 0 [s], in any order.
+    fluidity : float
+        Rate of steady flow φ >= 0 [1/(Pa s)].
+
+    Returns
+    -------
+    RelaxationTerms
+        Equilibrium modulus [Pa], 0 if there is flow; moduli [Pa]; times ascending [s].
+
+    Raises
+    ------
+    ValueError
+        If `instant` is 0: the inverse then holds a Dirac impulse and is not a series.
+
+    Notes
+    -----
+    M_inf = 1/J(inf); the residues give M_j = 1 / sum_i J_i (ρ_j / (ρ_j - τ_i))², where the
+    sum takes J_0 in as a term of time 0.
+
+    Examples
+    --------
+    >>> terms = relaxation_from_creep(1 / 3, [2 / 3], [3.0], 0.0)
+    >>> round(terms.equilibrium, 6), terms.moduli.round(6), terms.times.round(6)
+    (1.0, array([2.]), array([1.]))
+    """
+    if not instant > 0:
+        raise ValueError(
+            f"instant: a relaxation modulus needs an instant compliance > 0, got {instant!r}; "
+            "without one a step in strain takes an infinite stress (a Dirac impulse): "
+            "give a small instant compliance, or use the creep function alone"
+        )
+    amplitudes, times = merged(amplitudes, times)
+    compliances = np.concatenate([[instant], amplitudes])
+    relaxation_times, offsets = _secular_roots(
+        np.concatenate([[0.0], times]), compliances, fluidity
+    )
+    with np.errstate(over="ignore"):  # a root upon its pole: modulus 1/inf = 0, dropped below
+        moduli = 1.0 / (compliances * (relaxation_times[:, None] / offsets) ** 2).sum(axis=1)
+    equilibrium = 0.0 if fluidity > 0 else float(1.0 / compliances.sum())
+    return RelaxationTerms(equilibrium, *merged(moduli, relaxation_times))
+
+
+def creep_function(terms: SeriesTerms, t: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return J(t) of a creep series; `t` of any shape, >= 0 [s]."""
+    # expm1 keeps all digits of 1 - exp(-t/τ) at times far below τ.
+    delayed = -np.expm1(-t[..., None] / terms.times) @ terms.amplitudes
+    # Without flow the product is left out, so that J(inf) is a number and not 0 * inf.
+    flow = terms.fluidity * t if terms.fluidity > 0 else 0.0
+    return np.asarray(terms.instant + delayed + flow, dtype=np.float64)
+
+
+def relaxation_function(terms: RelaxationTerms, t: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return M(t) of a relaxation series; `t` of any shape, >= 0 [s]."""
+    relaxing = np.exp(-t[..., None] / terms.times) @ terms.moduli
+    return np.asarray(terms.equilibrium + relaxing, dtype=np.float64)
+
+
+def merged(
+    strengths: ArrayLike, times: ArrayLike
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the series with times ascending, equal times added up, zero strengths left out.
+
+    Times count as equal within _SAME_TIME, where the sum of two exponentials is one at their
+    mean time to all digits, and the exact inverse is lost in rounding.
+    """
+    strengths, times = np.asarray(strengths, np.float64), np.asarray(times, np.float64)
+    present = strengths > 0
+    order = np.argsort(times[present], kind="stable")
+    strengths, times = strengths[present][order], times[present][order]
+    first = _group_starts(times)
+    sums = np.add.reduceat(strengths, first) if first else strengths
+    # Measured from the group's first time, so that a lone time comes back digit for digit.
+    earliest = times[first]
+    excess = times - np.repeat(earliest, np.diff([*first, times.size]))
+    mean_excess = np.add.reduceat(strengths * excess, first) / sums if first else excess
+    return sums, earliest + mean_excess
+
+
+def _group_starts(times: NDArray[np.float64]) -> list[int]:
+    """Return the index of the first time of each group of equal ones; `times` ascend."""
+    starts: list[int] = []
+    for i, time in enumerate(times):
+        if not starts or time > times[starts[-1]] * (1.0 + _SAME_TIME):
+            starts.append(i)
+    return starts
+
+
+def _secular_roots(
+    poles: NDArray[np.float64], weights: NDArray[np.float64], constant: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the roots x_j of F(x) = sum_i w_i/(x - p_i) - c, and the matrix x_j - p_i.
+
+    `poles` ascend, `weights` are positive, `constant` is not negative. The differences are
+    returned because forming them from the rounded roots would lose the digits that the
+    residues are made of whenever a root lies close to a pole.
+    """
+    left, width = _intervals(poles, weights, constant)
+    origins, side, reach = _nearest_poles(poles, weights, constant, left, width)
+    from_origin = poles[origins][:, None] - poles
+
+    def differences(distance: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.asarray(from_origin + (side * distance)[:, None])
+
+    # Seen from its nearest pole, at distance d, every root is where side * F falls through 0.
+    # The nearest pole's own share w/d cannot be less than all other shares together, which
+    # bounds d from below without any cancellation.
+    shares = np.abs(weights / differences(reach)).sum(axis=1) + constant
+    lower = reach / (1.0 + reach * shares / weights[origins])
+    lower, upper = np.maximum(lower, np.finfo(np.float64).tiny), reach
+    for _ in range(_BISECTIONS):
+        middle = np.sqrt(lower) * np.sqrt(upper)  # halves the ratio, not the difference
+        beyond = side * ((weights / differences(middle)).sum(axis=1) - constant) > 0
+        lower, upper = np.where(beyond, middle, lower), np.where(beyond, upper, middle)
+    return poles[origins] + side * upper, differences(upper)
+
+
+def _intervals(
+    poles: NDArray[np.float64], weights: NDArray[np.float64], constant: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return left ends and widths of the intervals that hold exactly one root each."""
+    left, width = poles[:-1], np.diff(poles)
+    if constant > 0 and poles.size > 0:
+        # Beyond the last pole F <= sum(w)/(x - p_n) - c, which is 0 at this distance.
+        left, width = poles, np.append(width, weights.sum() / constant)
+    return left, width
+
+
+def _nearest_poles(
+    poles: NDArray[np.float64],
+    weights: NDArray[np.float64],
+    constant: float,
+    left: NDArray[np.float64],
+    width: NDArray[np.float64],
+) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.float64]]:
+    """Return, for each interval, the index of the pole nearest to the root, side and reach.
+
+    Side is +1 where the root lies right of that pole and -1 where left; reach is how far off
+    it can be.
+    """
+    index = np.arange(left.size)
+    middle = (left[:, None] - poles) + (width / 2)[:, None]
+    # F falls from +inf to -inf between two poles: its sign half-way tells the root's half.
+    right_half = (weights / middle).sum(axis=1) - constant > 0
+    reach = width / 2
+    if left.size == poles.size and left.size > 0:  # beyond the last pole there is no other
+        right_half[-1], reach[-1] = False, width[-1]
+    return index + right_half, np.where(right_half, -1.0, 1.0), reach

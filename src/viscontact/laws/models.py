@@ -1,0 +1,449 @@
+"""Laws named after their springs and dashpots: Elastic, Maxwell, Zener, Burgers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from viscontact.laws.arguments import make_positive
+from viscontact.laws.law import SeriesLaw
+from viscontact.laws.series import CreepSeries
+from viscontact.laws.uniaxial import uniaxial
+
+
+@dataclass(frozen=True)
+class Elastic(SeriesLaw):
+    """A spring: Phi = 1/(2G).
+
+    Parameters
+    ----------
+    shear_modulus : float
+        G > 0 [Pa].
+
+    Raises
+    ------
+    ValueError
+        If the modulus is not positive and finite.
+
+    Examples
+    --------
+    >>> law = Elastic(shear_modulus=1e9)
+    >>> law(0.0), round(law.relaxation(0.0))
+    (5e-10, 1000000000)
+    """
+
+    shear_modulus: float
+
+    def __post_init__(self) -> None:
+        make_positive(self, shear_modulus="Pa")
+
+    @classmethod
+    def from_shear(cls, shear_modulus: float) -> Elastic:
+        """Return the law from its shear modulus, which is what the class takes.
+
+        Parameters
+        ----------
+        shear_modulus : float
+            As in the class.
+
+        Returns
+        -------
+        Elastic
+            The law.
+
+        Examples
+        --------
+        >>> Elastic.from_shear(1e9)
+        Elastic(shear_modulus=1000000000.0)
+        """
+        return cls(shear_modulus)
+
+    @classmethod
+    def from_uniaxial(
+        cls,
+        youngs_modulus: float,
+        poisson_ratio: float | None = None,
+        *,
+        bulk_modulus: float | None = None,
+    ) -> Elastic:
+        """Return the law from Young's modulus.
+
+        Parameters
+        ----------
+        youngs_modulus : float
+            E > 0 [Pa].
+        poisson_ratio : float, optional
+            Above -1 and up to 0.5: G = E / (2 (1 + nu)).
+        bulk_modulus : float, optional
+            K [Pa], above E/9: G = 3 K E / (9 K - E). Exactly one of the two.
+
+        Returns
+        -------
+        Elastic
+            The law in terms of G.
+
+        Raises
+        ------
+        ValueError
+            If not exactly one is given, or it is out of range.
+
+        Examples
+        --------
+        >>> round(Elastic.from_uniaxial(3e9, poisson_ratio=0.5).shear_modulus)
+        1000000000
+        """
+        owner = "Elastic.from_uniaxial"
+        convert = uniaxial(owner, poisson_ratio, bulk_modulus)
+        return cls(convert.spring(owner, "youngs_modulus", youngs_modulus))
+
+    def creep_series(self) -> CreepSeries:
+        """Return the same law as a series in Phi."""
+        return CreepSeries(0.5 / self.shear_modulus, (), ())
+
+
+@dataclass(frozen=True)
+class Maxwell(SeriesLaw):
+    """A spring and a dashpot in series: Phi(t) = [1/G + t/eta] / 2, G(t) = G exp(-t G/eta).
+
+    Parameters
+    ----------
+    shear_modulus : float
+        G > 0 of the spring [Pa].
+    viscosity : float
+        eta > 0 of the dashpot [Pa s].
+
+    Raises
+    ------
+    ValueError
+        If an argument is not positive and finite.
+
+    Examples
+    --------
+    >>> law = Maxwell(shear_modulus=1e9, viscosity=1e10)
+    >>> law(0.0), law(10.0), round(law.relaxation(10.0) / 1e9, 6)
+    (5e-10, 1e-09, 0.367879)
+    """
+
+    shear_modulus: float
+    viscosity: float
+
+    def __post_init__(self) -> None:
+        make_positive(self, shear_modulus="Pa", viscosity="Pa s")
+
+    @classmethod
+    def from_shear(cls, shear_modulus: float, viscosity: float) -> Maxwell:
+        """Return the law from shear data, which are what the class takes.
+
+        Parameters
+        ----------
+        shear_modulus, viscosity : float
+            As in the class.
+
+        Returns
+        -------
+        Maxwell
+            The law.
+
+        Examples
+        --------
+        >>> Maxwell.from_shear(1e9, 1e10).viscosity
+        10000000000.0
+        """
+        return cls(shear_modulus, viscosity)
+
+    @classmethod
+    def from_uniaxial(
+        cls,
+        youngs_modulus: float,
+        viscosity: float,
+        *,
+        poisson_ratio: float | None = None,
+        bulk_modulus: float | None = None,
+    ) -> Maxwell:
+        """Return the law from tensile data, D(t) = 1/E + t/eta_E.
+
+        Parameters
+        ----------
+        youngs_modulus : float
+            E > 0 of the spring [Pa].
+        viscosity : float
+            Tensile viscosity eta_E > 0, stress per rate of strain in steady flow [Pa s].
+        poisson_ratio : float, optional
+            Constant Poisson's ratio: G = E / (2 (1 + nu)), eta = eta_E / (2 (1 + nu)).
+        bulk_modulus : float, optional
+            Elastic bulk modulus K [Pa], above E/9: 1/G = 3/E - 1/(3K), eta = eta_E / 3.
+            Exactly one of the two.
+
+        Returns
+        -------
+        Maxwell
+            The law in terms of G.
+
+        Raises
+        ------
+        ValueError
+            If not exactly one is given, or it is out of range.
+
+        Examples
+        --------
+        >>> law = Maxwell.from_uniaxial(3e9, 3e10, poisson_ratio=0.5)
+        >>> round(law.shear_modulus), law.viscosity
+        (1000000000, 10000000000.0)
+        """
+        owner = "Maxwell.from_uniaxial"
+        convert = uniaxial(owner, poisson_ratio, bulk_modulus)
+        return cls(
+            convert.spring(owner, "youngs_modulus", youngs_modulus),
+            convert.delayed(owner, "viscosity", viscosity, "Pa s"),
+        )
+
+    def creep_series(self) -> CreepSeries:
+        """Return the same law as a series in Phi."""
+        return CreepSeries(0.5 / self.shear_modulus, (), (), 0.5 / self.viscosity)
+
+
+@dataclass(frozen=True)
+class Zener(SeriesLaw):
+    """A spring in series with a Kelvin unit, the standard linear solid.
+
+    Phi(t) = [1/G_1 + (1 - exp(-t/τ))/G_2] / 2 with τ = eta/G_2.
+
+    Parameters
+    ----------
+    shear_modulus : float
+        G_1 > 0 of the spring, the modulus at once [Pa].
+    delayed_modulus : float
+        G_2 > 0 of the Kelvin unit's spring [Pa].
+    viscosity : float
+        eta > 0 of the Kelvin unit's dashpot [Pa s].
+
+    Raises
+    ------
+    ValueError
+        If an argument is not positive and finite.
+
+    Examples
+    --------
+    >>> law = Zener(shear_modulus=1e9, delayed_modulus=1e9, viscosity=1e10)
+    >>> law(0.0), round(law(1e3) * 1e9, 6), round(law.relaxation(1e3) / 1e9, 6)
+    (5e-10, 1.0, 0.5)
+    """
+
+    shear_modulus: float
+    delayed_modulus: float
+    viscosity: float
+
+    def __post_init__(self) -> None:
+        make_positive(self, shear_modulus="Pa", delayed_modulus="Pa", viscosity="Pa s")
+
+    @classmethod
+    def from_shear(cls, shear_modulus: float, delayed_modulus: float, viscosity: float) -> Zener:
+        """Return the law from shear data, which are what the class takes.
+
+        Parameters
+        ----------
+        shear_modulus, delayed_modulus, viscosity : float
+            As in the class.
+
+        Returns
+        -------
+        Zener
+            The law.
+
+        Examples
+        --------
+        >>> Zener.from_shear(1e9, 1e9, 1e10).delayed_modulus
+        1000000000.0
+        """
+        return cls(shear_modulus, delayed_modulus, viscosity)
+
+    @classmethod
+    def from_uniaxial(
+        cls,
+        youngs_modulus: float,
+        delayed_modulus: float,
+        viscosity: float,
+        *,
+        poisson_ratio: float | None = None,
+        bulk_modulus: float | None = None,
+    ) -> Zener:
+        """Return the law from tensile data, D(t) = 1/E_1 + (1 - exp(-t E_2/eta_E))/E_2.
+
+        Parameters
+        ----------
+        youngs_modulus : float
+            E_1 > 0 of the spring [Pa].
+        delayed_modulus : float
+            E_2 > 0 of the Kelvin unit [Pa].
+        viscosity : float
+            eta_E > 0 of the Kelvin unit in tension [Pa s].
+        poisson_ratio : float, optional
+            Constant Poisson's ratio: every argument is divided by 2 (1 + nu).
+        bulk_modulus : float, optional
+            Elastic bulk modulus K [Pa], above E_1/9: 1/G_1 = 3/E_1 - 1/(3K), and the Kelvin
+            unit is divided by 3. Exactly one of the two.
+
+        Returns
+        -------
+        Zener
+            The law in terms of G.
+
+        Raises
+        ------
+        ValueError
+            If not exactly one is given, or it is out of range.
+
+        Examples
+        --------
+        >>> Zener.from_uniaxial(3e9, 6e9, 3e10, poisson_ratio=0.5).delayed_modulus
+        2000000000.0
+        """
+        owner = "Zener.from_uniaxial"
+        convert = uniaxial(owner, poisson_ratio, bulk_modulus)
+        return cls(
+            convert.spring(owner, "youngs_modulus", youngs_modulus),
+            convert.delayed(owner, "delayed_modulus", delayed_modulus),
+            convert.delayed(owner, "viscosity", viscosity, "Pa s"),
+        )
+
+    def creep_series(self) -> CreepSeries:
+        """Return the same law as a series in Phi."""
+        return CreepSeries(
+            0.5 / self.shear_modulus,
+            (0.5 / self.delayed_modulus,),
+            (self.viscosity / self.delayed_modulus,),
+        )
+
+
+@dataclass(frozen=True)
+class Burgers(SeriesLaw):
+    """A Maxwell and a Kelvin unit in series: instant, delayed and steady creep.
+
+    Phi(t) = [1/G_1 + t/eta_1 + (1 - exp(-t/τ))/G_2] / 2 with τ = eta_2/G_2.
+
+    Parameters
+    ----------
+    shear_modulus : float
+        G_1 > 0 of the Maxwell unit [Pa].
+    viscosity : float
+        eta_1 > 0 of the Maxwell unit, the steady flow [Pa s].
+    delayed_modulus : float
+        G_2 > 0 of the Kelvin unit [Pa].
+    delayed_viscosity : float
+        eta_2 > 0 of the Kelvin unit [Pa s].
+
+    Raises
+    ------
+    ValueError
+        If an argument is not positive and finite.
+
+    Examples
+    --------
+    >>> law = Burgers(1e9, 1e12, 1e9, 1e10)
+    >>> law(0.0), round(law(1e3) * 1e9, 6), round(law.relaxation(0.0) / 1e9, 6)
+    (5e-10, 1.5, 1.0)
+    """
+
+    shear_modulus: float
+    viscosity: float
+    delayed_modulus: float
+    delayed_viscosity: float
+
+    def __post_init__(self) -> None:
+        make_positive(
+            self,
+            shear_modulus="Pa",
+            viscosity="Pa s",
+            delayed_modulus="Pa",
+            delayed_viscosity="Pa s",
+        )
+
+    @classmethod
+    def from_shear(
+        cls,
+        shear_modulus: float,
+        viscosity: float,
+        delayed_modulus: float,
+        delayed_viscosity: float,
+    ) -> Burgers:
+        """Return the law from shear data, which are what the class takes.
+
+        Parameters
+        ----------
+        shear_modulus, viscosity, delayed_modulus, delayed_viscosity : float
+            As in the class.
+
+        Returns
+        -------
+        Burgers
+            The law.
+
+        Examples
+        --------
+        >>> Burgers.from_shear(1e9, 1e12, 1e9, 1e10).viscosity
+        1000000000000.0
+        """
+        return cls(shear_modulus, viscosity, delayed_modulus, delayed_viscosity)
+
+    @classmethod
+    def from_uniaxial(
+        cls,
+        youngs_modulus: float,
+        viscosity: float,
+        delayed_modulus: float,
+        delayed_viscosity: float,
+        *,
+        poisson_ratio: float | None = None,
+        bulk_modulus: float | None = None,
+    ) -> Burgers:
+        """Return the law from tensile data.
+
+        D(t) = 1/E_1 + t/eta_E1 + (1 - exp(-t E_2/eta_E2))/E_2.
+
+        Parameters
+        ----------
+        youngs_modulus : float
+            E_1 > 0 of the Maxwell unit [Pa].
+        viscosity : float
+            eta_E1 > 0 of the Maxwell unit in tension [Pa s].
+        delayed_modulus : float
+            E_2 > 0 of the Kelvin unit [Pa].
+        delayed_viscosity : float
+            eta_E2 > 0 of the Kelvin unit in tension [Pa s].
+        poisson_ratio : float, optional
+            Constant Poisson's ratio: every argument is divided by 2 (1 + nu).
+        bulk_modulus : float, optional
+            Elastic bulk modulus K [Pa], above E_1/9: 1/G_1 = 3/E_1 - 1/(3K), and all else is
+            divided by 3. Exactly one of the two.
+
+        Returns
+        -------
+        Burgers
+            The law in terms of G.
+
+        Raises
+        ------
+        ValueError
+            If not exactly one is given, or it is out of range.
+
+        Examples
+        --------
+        >>> Burgers.from_uniaxial(3e9, 3e12, 6e9, 3e10, poisson_ratio=0.5).delayed_modulus
+        2000000000.0
+        """
+        owner = "Burgers.from_uniaxial"
+        convert = uniaxial(owner, poisson_ratio, bulk_modulus)
+        return cls(
+            convert.spring(owner, "youngs_modulus", youngs_modulus),
+            convert.delayed(owner, "viscosity", viscosity, "Pa s"),
+            convert.delayed(owner, "delayed_modulus", delayed_modulus),
+            convert.delayed(owner, "delayed_viscosity", delayed_viscosity, "Pa s"),
+        )
+
+    def creep_series(self) -> CreepSeries:
+        """Return the same law as a series in Phi."""
+        return CreepSeries(
+            0.5 / self.shear_modulus,
+            (0.5 / self.delayed_modulus,),
+            (self.delayed_viscosity / self.delayed_modulus,),
+            0.5 / self.viscosity,
+        )

@@ -1,0 +1,328 @@
+"""Laws given as sums of exponentials, in creep or in relaxation."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.laws import arguments
+from viscontact.laws.interconversion import (
+    RelaxationTerms,
+    SeriesTerms,
+    creep_from_relaxation,
+    creep_function,
+    merged,
+    relaxation_from_creep,
+    relaxation_function,
+)
+from viscontact.laws.law import SeriesLaw
+from viscontact.laws.uniaxial import uniaxial
+
+
+@dataclass(frozen=True)
+class CreepSeries(SeriesLaw):
+    """A creep series, Phi(t) = J_0 + sum_i J_i (1 - exp(-t/τ_i)) + φ t.
+
+    Parameters
+    ----------
+    instant : float
+        Compliance at once, J_0 = 1/(2 G_0) >= 0 [1/Pa]. Zero is a law that cannot follow a
+        jump of the load.
+    amplitudes : sequence of float
+        Delayed compliances J_i >= 0 [1/Pa].
+    times : sequence of float
+        Retardation times τ_i > 0 [s], one for each amplitude, in any order.
+    fluidity : float, optional
+        Rate of steady flow, φ = 1/(2 eta) >= 0 [1/(Pa s)].
+
+    Raises
+    ------
+    ValueError
+        If a compliance is negative, a time not positive, a value not finite, the lengths
+        differ, or every compliance is 0.
+
+    Notes
+    -----
+    All compliances are strain deviator per unit stress deviator. From data as a rheometer
+    gives them (1/G) use `from_shear`, from tensile data (1/E) use `from_uniaxial`.
+
+    Examples
+    --------
+    >>> law = CreepSeries(1e-9, [2e-9], [10.0])
+    >>> law(0.0), round(law(10.0) * 1e9, 6), law.relaxation(0.0)
+    (1e-09, 2.264241, 500000000.0)
+    """
+
+    instant: float
+    amplitudes: Sequence[float]
+    times: Sequence[float]
+    fluidity: float = 0.0
+
+    def __post_init__(self) -> None:
+        instant = arguments.non_negative("CreepSeries.instant", self.instant, "1/Pa")
+        amplitudes, times = arguments.series(
+            "CreepSeries", "amplitudes", self.amplitudes, self.times, "1/Pa"
+        )
+        fluidity = arguments.non_negative("CreepSeries.fluidity", self.fluidity, "1/(Pa s)")
+        if not (instant > 0 or fluidity > 0 or any(a > 0 for a in amplitudes)):
+            raise ValueError(
+                "CreepSeries: instant, amplitudes and fluidity are all 0, which is a rigid body; "
+                "give at least one positive compliance"
+            )
+        object.__setattr__(self, "instant", instant)
+        object.__setattr__(self, "amplitudes", amplitudes)
+        object.__setattr__(self, "times", times)
+        object.__setattr__(self, "fluidity", fluidity)
+
+    @classmethod
+    def from_shear(
+        cls,
+        instant: float,
+        amplitudes: Sequence[float],
+        times: Sequence[float],
+        fluidity: float = 0.0,
+    ) -> CreepSeries:
+        """Return the law from a rheometer's compliance, shear angle per shear stress.
+
+        Parameters
+        ----------
+        instant, amplitudes, times, fluidity
+            As in the class, but in terms of 1/G [1/Pa] and 1/eta [1/(Pa s)]: Phi is half of it.
+
+        Returns
+        -------
+        CreepSeries
+            The law in terms of Phi.
+
+        Examples
+        --------
+        >>> CreepSeries.from_shear(2e-9, [4e-9], [10.0])
+        CreepSeries(instant=1e-09, amplitudes=(2e-09,), times=(10.0,), fluidity=0.0)
+        """
+        given = cls(instant, amplitudes, times, fluidity)
+        return given._scaled(0.5, 0.5 * given.instant)
+
+    @classmethod
+    def from_uniaxial(
+        cls,
+        instant: float,
+        amplitudes: Sequence[float],
+        times: Sequence[float],
+        fluidity: float = 0.0,
+        *,
+        poisson_ratio: float | None = None,
+        bulk_modulus: float | None = None,
+    ) -> CreepSeries:
+        """Return the law from a tensile compliance D, strain per stress.
+
+        Parameters
+        ----------
+        instant, amplitudes, times, fluidity
+            As in the class, but in terms of D, with D(0) = 1/E_0 [1/Pa].
+        poisson_ratio : float, optional
+            Constant Poisson's ratio, above -1 and up to 0.5: Phi = (1 + nu) D.
+        bulk_modulus : float, optional
+            Elastic bulk modulus K [Pa]: Phi = (3/2) (D - 1/(9K)). Exactly one of the two.
+
+        Returns
+        -------
+        CreepSeries
+            The law in terms of Phi.
+
+        Raises
+        ------
+        ValueError
+            If not exactly one is given, or K is so small that Phi(0) would be negative.
+
+        Examples
+        --------
+        >>> law = CreepSeries.from_uniaxial(2e-9, [4e-9], [10.0], poisson_ratio=0.5)
+        >>> round(law.instant * 1e9, 6), round(law.amplitudes[0] * 1e9, 6)
+        (3.0, 6.0)
+        """
+        convert = uniaxial("CreepSeries.from_uniaxial", poisson_ratio, bulk_modulus)
+        given = cls(instant, amplitudes, times, fluidity)
+        return given._scaled(
+            convert.factor, convert.instant("CreepSeries.from_uniaxial", given.instant)
+        )
+
+    def creep_series(self) -> CreepSeries:
+        """Return the law itself."""
+        return self
+
+    def relaxation_series(self) -> RelaxationSeries:
+        """Return the same law as a series in G; ValueError without instant compliance."""
+        return RelaxationSeries(
+            self._inverse.equilibrium, tuple(self._inverse.moduli), tuple(self._inverse.times)
+        )
+
+    def _scaled(self, factor: float, instant: float) -> CreepSeries:
+        amplitudes = tuple(factor * a for a in self.amplitudes)
+        return CreepSeries(instant, amplitudes, self.times, factor * self.fluidity)
+
+    @cached_property
+    def _terms(self) -> SeriesTerms:
+        return SeriesTerms(self.instant, *merged(self.amplitudes, self.times), self.fluidity)
+
+    @cached_property
+    def _inverse(self) -> RelaxationTerms:
+        # G is the inverse of 1/G = 2 Phi: the convention's factor 2 is put in here.
+        instant, amplitudes, times, fluidity = self._terms
+        return relaxation_from_creep(2 * instant, 2 * amplitudes, times, 2 * fluidity)
+
+    def _creep(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
+        return creep_function(self._terms, t)
+
+    def _relaxation(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
+        return relaxation_function(self._inverse, t)
+
+
+@dataclass(frozen=True)
+class RelaxationSeries(SeriesLaw):
+    """A relaxation (Prony) series, G(t) = G_inf + sum_i G_i exp(-t/τ_i).
+
+    Parameters
+    ----------
+    equilibrium : float
+        Shear modulus left after all relaxation, G_inf >= 0 [Pa]; 0 for a fluid.
+    moduli : sequence of float
+        Shear moduli G_i >= 0 that relax [Pa].
+    times : sequence of float
+        Relaxation times τ_i > 0 [s], one for each modulus, in any order.
+
+    Raises
+    ------
+    ValueError
+        If a modulus is negative, a time not positive, a value not finite, the lengths differ,
+        or every modulus is 0.
+
+    Examples
+    --------
+    >>> law = RelaxationSeries(1e9, [2e9], [1.0])
+    >>> law.relaxation(0.0), round(law(0.0) * 1e9, 6)
+    (3000000000.0, 0.166667)
+    """
+
+    equilibrium: float
+    moduli: Sequence[float]
+    times: Sequence[float]
+
+    def __post_init__(self) -> None:
+        equilibrium = arguments.non_negative("RelaxationSeries.equilibrium", self.equilibrium, "Pa")
+        moduli, times = arguments.series(
+            "RelaxationSeries", "moduli", self.moduli, self.times, "Pa"
+        )
+        if not (equilibrium > 0 or any(m > 0 for m in moduli)):
+            raise ValueError(
+                "RelaxationSeries: equilibrium and moduli are all 0, which resists nothing; "
+                "give at least one positive modulus"
+            )
+        object.__setattr__(self, "equilibrium", equilibrium)
+        object.__setattr__(self, "moduli", moduli)
+        object.__setattr__(self, "times", times)
+
+    @classmethod
+    def from_shear(
+        cls, equilibrium: float, moduli: Sequence[float], times: Sequence[float]
+    ) -> RelaxationSeries:
+        """Return the law from shear moduli, which are what the class takes.
+
+        Parameters
+        ----------
+        equilibrium, moduli, times
+            As in the class.
+
+        Returns
+        -------
+        RelaxationSeries
+            The law.
+
+        Examples
+        --------
+        >>> RelaxationSeries.from_shear(1e9, [2e9], [1.0]).equilibrium
+        1000000000.0
+        """
+        return cls(equilibrium, moduli, times)
+
+    @classmethod
+    def from_uniaxial(
+        cls,
+        equilibrium: float,
+        moduli: Sequence[float],
+        times: Sequence[float],
+        *,
+        poisson_ratio: float | None = None,
+        bulk_modulus: float | None = None,
+    ) -> RelaxationSeries:
+        """Return the law from a tensile relaxation modulus E(t).
+
+        Parameters
+        ----------
+        equilibrium, moduli, times
+            As in the class, but in terms of E [Pa].
+        poisson_ratio : float, optional
+            Constant Poisson's ratio, above -1 and up to 0.5: G = E / (2 (1 + nu)).
+        bulk_modulus : float, optional
+            Elastic bulk modulus K [Pa], above E(0)/9; G(t) is then the exact inverse of
+            3 D(t) - 1/(3K), with other times than E(t). Exactly one of the two.
+
+        Returns
+        -------
+        RelaxationSeries
+            The law in terms of G.
+
+        Raises
+        ------
+        ValueError
+            If not exactly one is given, or K is not above E(0)/9.
+
+        Examples
+        --------
+        >>> RelaxationSeries.from_uniaxial(3e9, [6e9], [1.0], poisson_ratio=0.5).moduli
+        (2000000000.0,)
+        """
+        owner = "RelaxationSeries.from_uniaxial"
+        convert = uniaxial(owner, poisson_ratio, bulk_modulus)
+        given = cls(equilibrium, moduli, times)
+        if convert.volumetric == 0:
+            factor = 2 * convert.factor
+            return cls(given.equilibrium / factor, [m / factor for m in given.moduli], given.times)
+        convert.spring(owner, "E(0)", given.equilibrium + sum(given.moduli))
+        instant, amplitudes, retardation_times, fluidity = creep_from_relaxation(
+            given.equilibrium, given.moduli, given.times
+        )
+        return CreepSeries(
+            convert.instant(owner, instant),
+            tuple(convert.factor * amplitudes),
+            tuple(retardation_times),
+            convert.factor * fluidity,
+        ).relaxation_series()
+
+    def creep_series(self) -> CreepSeries:
+        """Return the same law as a series in Phi."""
+        instant, amplitudes, times, fluidity = self._inverse
+        return CreepSeries(instant, tuple(amplitudes), tuple(times), fluidity)
+
+    def relaxation_series(self) -> RelaxationSeries:
+        """Return the law itself."""
+        return self
+
+    @cached_property
+    def _terms(self) -> RelaxationTerms:
+        return RelaxationTerms(self.equilibrium, *merged(self.moduli, self.times))
+
+    @cached_property
+    def _inverse(self) -> SeriesTerms:
+        # Phi is half the inverse of G: the convention's factor 2 is put in here.
+        instant, amplitudes, times, fluidity = creep_from_relaxation(*self._terms)
+        return SeriesTerms(instant / 2, amplitudes / 2, times, fluidity / 2)
+
+    def _creep(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
+        return creep_function(self._inverse, t)
+
+    def _relaxation(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
+        return relaxation_function(self._terms, t)
