@@ -164,14 +164,14 @@ class ForceHistory:
         Raises
         ------
         ValueError
-            If the side is neither of the two.
+            If a time is not a finite number, or the side is neither of the two.
 
         Examples
         --------
         >>> ForceHistory([0.0], [10.0]).force_at([0.0, 1.0], side="left").tolist()
         [0.0, 10.0]
         """
-        instants = np.asarray(times, dtype=np.float64)
+        instants = points.numbers("times", times)
         force = self._interpolate(self.force, instants, side)
         started = np.searchsorted(self.times, instants, side=points.side_of_jump(side)) > 0
         return np.where(started & (force >= NEGLIGIBLE * self.largest_force), force, 0.0)

@@ -79,7 +79,7 @@ def instants(times: ArrayLike) -> NDArray[np.float64]:
     >>> instants([0, 1, 1]).tolist()
     [0.0, 1.0, 1.0]
     """
-    given = _numbers("times", times)
+    given = numbers("times", times)
     if given.ndim != 1 or given.size == 0:
         raise ValueError(
             f"times must be a list of at least one instant in s, got shape {given.shape}"
@@ -119,7 +119,7 @@ def values(name: str, given: ArrayLike, count: int) -> float | NDArray[np.float6
     >>> values("tilt_x", [0, 1e-3], count=2).tolist()
     [0.0, 0.001]
     """
-    array = _numbers(name, given)
+    array = numbers(name, given)
     if array.shape not in ((), (count,)):
         raise ValueError(
             f"{name} must be a scalar or have one value for each of the {count} times, "
@@ -176,8 +176,26 @@ def refuse_both(
         )
 
 
-def _numbers(name: str, given: ArrayLike) -> NDArray[np.float64]:
-    """Finite numbers as a read-only copy."""
+def numbers(name: str, given: ArrayLike) -> NDArray[np.float64]:
+    """Return finite numbers of any shape as a read-only copy.
+
+    Parameters
+    ----------
+    name : str
+        The argument's name.
+    given : array_like
+        What the user gave.
+
+    Raises
+    ------
+    ValueError
+        If a value is a boolean, a text, None, NaN, infinite or anything else.
+
+    Examples
+    --------
+    >>> numbers("times", [0, 2]).tolist()
+    [0.0, 2.0]
+    """
     try:
         array = np.asarray(given)
     except ValueError:  # rows of unequal length
