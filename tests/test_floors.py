@@ -1,0 +1,242 @@
+"""The package is a stack of floors: what is imported lies below.
+
+The imports are read with `ast`, wherever they stand, those under `TYPE_CHECKING` included: to
+name another module's type is to know it.
+"""
+
+from __future__ import annotations
+
+import ast
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+import viscontact
+
+PACKAGE = Path(viscontact.__file__).parent
+
+# The floors from the ground up. A new module gets its place here; think twice before it is high.
+FLOORS = (
+    ("errors", "grid", "load", "indenters", "laws"),  # 0 words: they do not know each other
+    ("material", "influence", "memory", "state", "rim"),  # 1 single ideas
+    ("convolution", "balance"),  # 2 operators on fields
+    ("contact",),  # 3 equilibrium at one instant
+    ("stepping", "schedule", "prediction", "plausibility", "extent", "march"),  # 4 time
+    ("description", "results", "dataset"),  # 5 labels and files
+    ("units", "case", "plot"),  # 6 people
+    ("cli", "__main__"),  # 7 shell
+)
+# Neighbours on a floor of which the first needs the second; the second stands to the left above.
+NEIGHBOURS = {
+    ("memory", "material"),  # the past is weighted by the contact compliance
+    ("schedule", "stepping"),  # which instants
+    ("march", "stepping"),  # likewise
+    ("march", "schedule"),  # which steps lead there
+    ("march", "prediction"),  # where the next one starts
+    ("march", "plausibility"),  # which warnings
+    ("march", "extent"),  # the grid when none is given
+    ("extent", "plausibility"),  # a first estimate of the contact's size
+    ("results", "description"),  # the case travels in the file
+    ("dataset", "description"),  # likewise
+    ("dataset", "results"),  # a dataset is laid out as the file is
+    ("case", "units"),
+    ("plot", "units"),
+    ("__main__", "cli"),
+}
+# The exact solutions stand aside: they rest on the lower floors, and the product computes nothing
+# with what it is checked against, so only people's floors may show them.
+REFERENCE_RESTS_ON, REFERENCE_SEEN_FROM = 1, 6
+# Other people's packages, and the lowest floor that may import them.
+OTHERS = {
+    "numpy": 0, "scipy": 0,
+    "xarray": 5, "netCDF4": 5,
+    "pint": 6, "pydantic": 6, "pydantic_core": 6, "ruamel": 6, "matplotlib": 6, "plotly": 6,
+    "typer": 7, "click": 7, "rich": 7,
+}  # fmt: skip
+TOP = len(FLOORS) - 1
+
+
+@dataclass(frozen=True)
+class Import:
+    """One import: where it stands, what it asks for, and whether it hides in a function."""
+
+    where: str
+    target: str
+    hidden: bool
+
+
+def part_of(name: str) -> str:
+    """Return the part of the package (module or subpackage) that a dotted name lies in."""
+    return name.split(".")[1] if "." in name else ""
+
+
+def floor_of(part: str) -> int | None:
+    """Return the floor a part of the package stands on; None if it has no place."""
+    return next((n for n, parts in enumerate(FLOORS) if part in parts), None)
+
+
+def modules(package: Path) -> dict[str, Path]:
+    """Return the files of a package by dotted name; its lazy `__init__` is not a floor's."""
+    found = {}
+    for path in sorted(package.rglob("*.py")):
+        parts = path.relative_to(package.parent).with_suffix("").parts
+        found[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
+    del found[package.name]
+    return found
+
+
+def targets(node: ast.AST, module: str, is_package: bool) -> list[str]:
+    """Return the dotted names a statement imports; `*.` marks one made up at run time."""
+    if isinstance(node, ast.Import):
+        return [alias.name for alias in node.names]
+    if isinstance(node, ast.ImportFrom):
+        above = module.split(".") if is_package else module.split(".")[:-1]
+        stem = ".".join(above[: len(above) + 1 - node.level]) if node.level else ""
+        source = ".".join(filter(None, (stem, node.module)))
+        return [f"{source}.{a.name}" for a in node.names]
+    if isinstance(node, ast.Call) and node.args:
+        called = getattr(node.func, "attr", getattr(node.func, "id", ""))
+        if called in ("import_module", "__import__"):
+            name = node.args[0]
+            return [str(name.value) if isinstance(name, ast.Constant) else "*.unknown"]
+    return []
+
+
+def imports(name: str, path: Path) -> Iterator[Import]:
+    """Yield every import of a file."""
+
+    def walk(node: ast.AST, hidden: bool) -> Iterator[Import]:
+        for child in ast.iter_child_nodes(node):
+            where = f"{path.parent.name}/{path.name}:{getattr(child, 'lineno', 0)}"
+            for target in targets(child, name, path.name == "__init__.py"):
+                yield Import(where, target, hidden or isinstance(child, ast.Call))
+            function = isinstance(child, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda)
+            yield from walk(child, hidden or function)
+
+    yield from walk(ast.parse(path.read_text(encoding="utf-8")), hidden=False)
+
+
+def fault_of_other(floor: int, target: str) -> str | None:
+    """Return what is wrong with an import of another package, if anything."""
+    other = target.split(".")[0]
+    if other in sys.stdlib_module_names:
+        return None
+    if other not in OTHERS:
+        return f"imports {other}: give it a reason in pyproject.toml and a floor in OTHERS"
+    if floor < OTHERS[other]:
+        return f"imports {other} on floor {floor}: it begins on floor {OTHERS[other]}"
+    return None
+
+
+def fault_of_own(part: str, floor: int, found: Import, root: str) -> str | None:
+    """Return what is wrong with an import of our own package, if anything."""
+    wanted = part_of(found.target)
+    if found.hidden and part != "cli":
+        return f"imports {found.target} inside a function: move it to the top of the file"
+    if wanted in (part, "__version__"):
+        return None
+    below = floor_of(wanted)
+    if wanted == "reference":
+        allowed = floor >= REFERENCE_SEEN_FROM
+    elif below is None:  # a name of the package's front door, which knows all floors
+        allowed = floor == TOP
+    else:
+        limit = REFERENCE_RESTS_ON + 1 if part == "reference" else floor
+        allowed = below < limit or (part, wanted) in NEIGHBOURS
+    if allowed:
+        return None
+    return f"imports {found.target}: {root}.{part} (floor {floor}) may import lower floors only"
+
+
+def faults(package: Path) -> list[str]:
+    """Return every breach of the floors in a package, one line each."""
+    lines = []
+    for name, path in modules(package).items():
+        part = part_of(name)
+        floor = REFERENCE_RESTS_ON if part == "reference" else floor_of(part)
+        if floor is None:
+            lines.append(f"{name} has no floor: give it one in FLOORS of tests/test_floors.py")
+            continue
+        for found in imports(name, path):
+            own = found.target.split(".")[0] in (package.name, "*")
+            fault = (
+                fault_of_own(part, floor, found, package.name)
+                if own
+                else fault_of_other(floor, found.target)
+            )
+            if fault:
+                lines.append(f"{found.where}: {fault}")
+    return lines
+
+
+def test_imports_point_down() -> None:
+    assert faults(PACKAGE) == []
+
+
+def test_neighbours_need_only_those_to_their_left() -> None:
+    for above, below in NEIGHBOURS:
+        floor = FLOORS[floor_of(above) or 0]
+        assert floor.index(below) < floor.index(above)
+
+
+@pytest.mark.parametrize("name", viscontact.__all__)
+def test_every_exported_name_is_where_the_front_door_says(name: str) -> None:
+    assert getattr(viscontact, name) is not None
+
+
+# The rules are tested on forged packages of one or two files; a fault must be found, and named.
+FORGED = {
+    "upward": ("grid", "from viscontact.march import march", "may import lower floors only"),
+    "upward, relative": ("grid", "from . import contact", "may import lower floors only"),
+    "upward, as a type": (
+        "grid",
+        "if TYPE_CHECKING:\n    from .march import march",
+        "may import lower floors only",
+    ),
+    "neighbour": ("laws", "import viscontact.grid", "may import lower floors only"),
+    "hidden": (
+        "march",
+        "def f():\n    from viscontact.grid import Grid",
+        "inside a function",
+    ),
+    "made up at run time": ("results", "import_module(name)", "inside a function"),
+    "front door": ("case", "from viscontact import Sphere", "may import lower floors only"),
+    "oracle in the product": ("march", "from viscontact import reference", "lower floors only"),
+    "oracle on the product": ("reference", "import viscontact.contact", "lower floors only"),
+    "heavy and low": ("contact", "def f():\n    import xarray as xr", "begins on floor 5"),
+    "shell below": ("case", "import typer", "begins on floor 7"),
+    "stranger": ("grid", "import pandas", "a reason in pyproject.toml"),
+    "homeless": ("utils", "", "has no floor"),
+}
+SOUND = {
+    "downward": ("march", "from viscontact.contact import solve"),
+    "listed neighbour": ("march", "from .stepping import uniform_times"),
+    "own part": ("laws", "from viscontact.laws.series import CreepSeries"),
+    "late in the shell": ("cli", "def f():\n    import viscontact\n    import rich"),
+    "version": ("dataset", "from viscontact import __version__"),
+    "oracle on the ground": ("reference", "from viscontact.grid import Grid"),
+    "oracle shown": ("plot", "from viscontact import reference"),
+    "standard library": ("grid", "import math"),
+}
+
+
+def forge(folder: Path, module: str, source: str) -> Path:
+    package = folder / "viscontact"
+    package.mkdir()
+    (package / "__init__.py").write_text("")
+    (package / f"{module}.py").write_text(source)
+    return package
+
+
+@pytest.mark.parametrize(("module", "source", "message"), FORGED.values(), ids=FORGED.keys())
+def test_a_breach_is_found(tmp_path: Path, module: str, source: str, message: str) -> None:
+    [fault] = faults(forge(tmp_path, module, source))
+    assert message in fault
+
+
+@pytest.mark.parametrize(("module", "source"), SOUND.values(), ids=SOUND.keys())
+def test_what_is_allowed_passes(tmp_path: Path, module: str, source: str) -> None:
+    assert faults(forge(tmp_path, module, source)) == []
