@@ -24,7 +24,7 @@ FLOORS = (
     ("material", "influence", "memory", "state", "rim"),  # 1 single ideas
     ("convolution", "balance"),  # 2 operators on fields
     ("contact",),  # 3 equilibrium at one instant
-    ("stepping", "schedule", "prediction", "plausibility", "extent", "march"),  # 4 time
+    ("stepping", "schedule", "prediction", "plausibility", "extent", "run", "march"),  # 4 time
     ("description", "results", "dataset"),  # 5 labels and files
     ("units", "case", "plot"),  # 6 people
     ("cli", "__main__"),  # 7 shell
@@ -36,6 +36,7 @@ NEIGHBOURS = {
     ("march", "stepping"),  # likewise
     ("march", "schedule"),  # which steps lead there
     ("march", "prediction"),  # where the next one starts
+    ("march", "run"),  # what has been checked beforehand
     ("march", "plausibility"),  # which warnings
     ("march", "extent"),  # the grid when none is given
     ("extent", "plausibility"),  # a first estimate of the contact's size
