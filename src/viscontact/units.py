@@ -1,0 +1,340 @@
+"""Units: quantities in words become SI numbers, SI numbers become readable words.
+
+Case files and the command line take ``"5 mm"``; everything behind them is SI. Tables and
+figures turn SI numbers back into units a person reads.
+"""
+
+from __future__ import annotations
+
+import difflib
+import functools
+import math
+import re
+from dataclasses import dataclass
+from decimal import Decimal
+from typing import Any
+
+# --- quantities in words ---------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Dimension:
+    """What kind of quantity is wanted: its name in a sentence, its SI unit and an example."""
+
+    name: str
+    unit: str
+    example: str
+
+
+DIMENSIONS = {
+    "length": Dimension("a length", "m", "5 mm"),
+    "time": Dimension("a time", "s", "1000 s"),
+    "force": Dimension("a force", "N", "10 kN"),
+    "angle": Dimension("an angle", "rad", "1 mrad"),
+    "pressure": Dimension("a pressure", "Pa", "1800 MPa"),
+    "compliance": Dimension("a compliance", "1/Pa", "5.5e-4 / MPa"),
+    "viscosity": Dimension("a viscosity", "Pa s", "10 GPa s"),
+    "fluidity": Dimension("a fluidity", "1/(Pa s)", "1e-6 / (MPa s)"),
+}
+
+# Only to name what was given instead: "(got a mass)".
+_OTHER_DIMENSIONS = {
+    "kg": "a mass",
+    "m^2": "an area",
+    "m^3": "a volume",
+    "m/s": "a speed",
+    "1/s": "a rate",
+    "1/m": "a curvature",
+    "K": "a temperature",
+    "N m": "an energy or a moment",
+    "N/m": "a stiffness",
+    "W": "a power",
+    "V": "a voltage",
+}
+
+_COMMON_UNITS = (
+    *("nm", "um", "µm", "mm", "cm", "m", "in"),
+    *("us", "ms", "s", "min", "h", "d"),
+    *("uN", "mN", "N", "kN", "MN", "lbf"),
+    *("Pa", "kPa", "MPa", "GPa", "psi", "bar"),
+    *("urad", "mrad", "rad", "deg"),
+)
+
+_NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+_QUANTITY = re.compile(rf"\s*(?P<number>{_NUMBER})\s*(?P<unit>.*?)\s*", re.DOTALL)
+# Stricter than pint, which skips characters that it does not know and would spend forever on
+# the powers of "9**9**9": words, each with a small power, joined by products and quotients.
+_UNIT = re.compile(
+    r"(?:1\s*)?[\s/*·×()]*{word}(?:[\s/*·×()]+{word})*\)*".format(
+        word=r"[A-Za-zµμΩ°%_]+(?:\s*(?:\^|\*\*)\s*-?\d|[⁻]?[¹²³⁴])?"
+    )
+)
+_NOT_FINITE = re.compile(r"\s*[+-]?\.?(?:nan|inf|infinity)\b.*", re.IGNORECASE | re.DOTALL)
+
+
+def parse_quantity(text: str, dimension: str) -> float:
+    """Read a quantity given in words, as the SI number it means.
+
+    Parameters
+    ----------
+    text : str
+        A number and a unit, such as ``"5 mm"``, ``"10kN"`` or ``"5.545e-4 / MPa"``.
+    dimension : str
+        What is wanted: a key of `DIMENSIONS`.
+
+    Returns
+    -------
+    float
+        The value in the dimension's SI unit.
+
+    Raises
+    ------
+    ValueError
+        If there is no unit, the unit is unknown or measures something else, or the number
+        is not finite.
+
+    Examples
+    --------
+    >>> parse_quantity("9.565 mm", "length")
+    0.009565
+    >>> parse_quantity("10 MPa", "force")
+    Traceback (most recent call last):
+        ...
+    ValueError: cannot read '10 MPa' as a force (got a pressure); write e.g. '10 kN'
+    """
+    wanted = DIMENSIONS[dimension]
+    number, unit = _split(text, wanted)
+    factor = _factor(unit, text, wanted)
+    value = _scaled(number, factor)
+    if not math.isfinite(value):
+        raise ValueError(f"{text!r} is not a finite number; write e.g. {wanted.example!r}")
+    return value
+
+
+def parse_unit(text: str, dimension: str) -> float:
+    """Return how many SI units one unit, given in words, is.
+
+    Parameters
+    ----------
+    text : str
+        A unit alone, such as ``"kN"`` or ``"1/MPa"``.
+    dimension : str
+        What is wanted: a key of `DIMENSIONS`.
+
+    Returns
+    -------
+    float
+        The factor to the dimension's SI unit.
+
+    Raises
+    ------
+    ValueError
+        If the unit is unknown or measures something else.
+
+    Examples
+    --------
+    >>> parse_unit("min", "time")
+    60.0
+    """
+    return _factor(text.strip(), text, DIMENSIONS[dimension])
+
+
+def _split(text: str, wanted: Dimension) -> tuple[str, str]:
+    hint = f"write e.g. {wanted.example!r}"
+    if _NOT_FINITE.fullmatch(text):
+        raise ValueError(f"{text!r} is not a finite number; {hint}")
+    if re.match(r"\s*[+-]?\d+,\d", text):
+        raise ValueError(f"cannot read {text!r}: write a decimal point, not a comma; {hint}")
+    match = _QUANTITY.fullmatch(text)
+    if match is None:
+        raise ValueError(f"cannot read {text!r} as {wanted.name}: no number in front; {hint}")
+    if not match["unit"]:
+        raise ValueError(f"{text.strip()} has no unit, {wanted.name} is wanted; {hint}")
+    return match["number"], match["unit"]
+
+
+def _factor(unit: str, text: str, wanted: Dimension) -> float:
+    parsed = _parsed_unit(unit, text, wanted)
+    factor, base = _in_base_units(parsed)
+    wanted_base = _in_base_units(_registry().parse_units(wanted.unit))[1]
+    if base != wanted_base:
+        raise ValueError(
+            f"cannot read {text!r} as {wanted.name} (got {_dimension_name(base)}); "
+            f"write e.g. {wanted.example!r}"
+        )
+    return factor
+
+
+def _parsed_unit(unit: str, text: str, wanted: Dimension) -> Any:
+    plain = re.sub(r"[·×]", "*", unit)
+    if plain.startswith("/"):
+        plain = "1" + plain
+    try:
+        if len(unit) > 60 or not _UNIT.fullmatch(unit):
+            raise ValueError("characters that no unit has")
+        return _registry().parse_units(plain)
+    except Exception as error:  # pint leaks its tokenizer's and parser's many kinds
+        raise ValueError(
+            f"cannot read {text!r} as {wanted.name}: unknown unit {unit!r}"
+            f"{_nearest_unit(unit)}; write e.g. {wanted.example!r}"
+        ) from error
+
+
+def _nearest_unit(unit: str) -> str:
+    by_lower_case = {known.lower(): known for known in _COMMON_UNITS}
+    near = difflib.get_close_matches(unit.lower(), by_lower_case, n=1)
+    return f" (did you mean {by_lower_case[near[0]]!r}?)" if near else ""
+
+
+def _in_base_units(unit: Any) -> tuple[float, str]:
+    # The string of the base units tells an angle (radian) from a ratio, which its
+    # dimensionality does not.
+    try:
+        factor = _registry().Quantity(1.0, unit).to_base_units()
+    except Exception:  # a unit without a fixed factor, such as a degree Celsius
+        return math.nan, str(unit)
+    return float(factor.magnitude), str(factor.units)
+
+
+def _dimension_name(base: str) -> str:
+    known = {_si_base(d.unit): d.name for d in DIMENSIONS.values()}
+    known |= {_si_base(unit): name for unit, name in _OTHER_DIMENSIONS.items()}
+    return known.get(base, f"a quantity in {base}" if base != "dimensionless" else "a plain ratio")
+
+
+@functools.lru_cache(maxsize=64)
+def _si_base(unit: str) -> str:
+    return _in_base_units(_registry().parse_units(unit))[1]
+
+
+def _scaled(number: str, factor: float) -> float:
+    # In decimals, so that 9.565 mm is the 0.009565 m that a script would say, to the last
+    # digit; 9.565 * 0.001 is not.
+    if not math.isfinite(float(number)):
+        return math.inf
+    return float(Decimal(number) * Decimal(repr(factor)))
+
+
+@functools.lru_cache(maxsize=1)
+def _registry() -> Any:
+    # Half a second of unit definitions: only when a quantity is parsed.
+    import pint
+
+    return pint.UnitRegistry(cache_folder=None)
+
+
+# --- readable numbers ------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class ReadableUnit:
+    """A unit to print in: its symbol, and how many SI units it is."""
+
+    symbol: str
+    factor: float
+
+
+_PREFIXES = ((1e-9, "n"), (1e-6, "µ"), (1e-3, "m"), (1.0, ""), (1e3, "k"), (1e6, "M"), (1e9, "G"))
+_LONG_TIMES = ((1e4, 3600.0, "h"), (2.6e5, 86400.0, "d"))
+_SYMBOLS = {"m2": "m²", "m^2": "m²", "m**2": "m²", "1": ""}
+
+
+def readable_unit(largest: float, unit: str) -> ReadableUnit:
+    """Choose the unit in which a number reads best.
+
+    Parameters
+    ----------
+    largest : float
+        The largest magnitude to be printed, in `unit`.
+    unit : str
+        The SI unit: ``"m"``, ``"m2"``, ``"s"``, ``"N"``, ``"Pa"``, ``"rad"``, ``"J"`` or ``"1"``.
+
+    Returns
+    -------
+    ReadableUnit
+        Divide by its `factor`, print its `symbol`.
+
+    Examples
+    --------
+    >>> readable_unit(1.05e-4, "m2")
+    ReadableUnit(symbol='mm²', factor=1e-06)
+    >>> readable_unit(1.5e8, "Pa").symbol
+    'MPa'
+    """
+    symbol = _SYMBOLS.get(unit, unit)
+    size = abs(largest)
+    if not symbol or not math.isfinite(size) or size == 0.0:
+        return ReadableUnit(symbol, 1.0)
+    if symbol == "s":
+        for above, factor, name in reversed(_LONG_TIMES):
+            if size > above:
+                return ReadableUnit(name, factor)
+    return _prefixed(size, symbol)
+
+
+def _prefixed(size: float, symbol: str) -> ReadableUnit:
+    power = 2 if symbol == "m²" else 1
+    # Kilometres, kiloseconds and kiloradians are nobody's daily unit.
+    top = 1.0 if symbol in ("m", "m²", "s", "rad") else math.inf
+    usable = [(p**power, name) for p, name in _PREFIXES if p <= top]
+    # One in a thousand of slack: 0.9999 mm stays in millimetres.
+    fitting = [entry for entry in usable if entry[0] <= size * 1.001] or usable[:1]
+    factor, prefix = fitting[-1]
+    return ReadableUnit(prefix + symbol, factor)
+
+
+def in_words(value: float, unit: str, digits: int = 4) -> str:
+    """Write a number with the unit in which it reads best.
+
+    Parameters
+    ----------
+    value : float
+        The number, in `unit`.
+    unit : str
+        Its SI unit, as in `readable_unit`.
+    digits : int
+        How many significant digits to print.
+
+    Returns
+    -------
+    str
+        The number and its unit.
+
+    Examples
+    --------
+    >>> in_words(0.009565, "m")
+    '9.565 mm'
+    >>> in_words(152.23e6, "Pa")
+    '152.2 MPa'
+    """
+    readable = readable_unit(value, unit)
+    number = in_digits(value / readable.factor, digits)
+    return f"{number} {readable.symbol}".rstrip()
+
+
+def in_digits(value: float, digits: int = 4) -> str:
+    """Write a number with so many significant digits, without an exponent where it can.
+
+    Parameters
+    ----------
+    value : float
+        The number.
+    digits : int
+        How many significant digits to print.
+
+    Returns
+    -------
+    str
+        The number; a dash for NaN, which stands for "does not apply".
+
+    Examples
+    --------
+    >>> in_digits(152.2349), in_digits(10000.0), in_digits(float("nan"))
+    ('152.2', '10000', '-')
+    """
+    if math.isnan(value):
+        return "-"
+    if value == 0.0 or not 1e-4 <= abs(value) < 1e6:
+        return f"{value:.{digits}g}"
+    decimals = max(0, digits - 1 - math.floor(math.log10(abs(value))))
+    return f"{value:.{decimals}f}"
