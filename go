@@ -102,8 +102,13 @@ def set_up() -> None:
     print(f"go: {doing}", flush=True)
     STAMP.unlink(missing_ok=True)
     if not updating:
-        make = [uv, "venv", "--clear", "--python", sys.executable] if uv else None
-        install(make or [sys.executable, "-m", "venv", "--clear"], [str(VENV)])
+        if VENV.exists():
+            shutil.rmtree(VENV)
+        with_uv, with_venv = (
+            [uv, "venv", "--python", sys.executable],
+            [sys.executable, "-m", "venv"],
+        )
+        install(with_uv if uv else with_venv, [str(VENV)])
     pip = [str(PYTHON), "-m", "pip", "install", "--only-binary", ":all:"]
     if uv:
         pip = [uv, "pip", "install", "--python", str(PYTHON)]
@@ -171,7 +176,7 @@ def main(argv: list[str], version: tuple[int, int] = sys.version_info[:2]) -> in
         if not is_ready():
             set_up()
         return TASKS[argv[0]](argv[1:])
-    except TaskError as error:
+    except (TaskError, OSError) as error:
         print(f"go: {error}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
