@@ -97,25 +97,26 @@ def is_ready() -> bool:
 def set_up() -> None:
     """Make the environment, or bring it up to date; a half-made one is made from scratch."""
     uv = shutil.which("uv")
-    updating = PYTHON.exists() and STAMP.exists()
+    make = [uv, "venv", "--python", sys.executable] if uv else [sys.executable, "-m", "venv"]
+    pip = [uv, "pip", "install", "--python", str(PYTHON)] if uv else venv_pip()
+    # An environment made by uv has no pip: without uv it cannot be brought up to date.
+    updating = PYTHON.exists() and STAMP.exists() and (uv or any(PYTHON.parent.glob("pip*")))
     doing = "bringing .venv up to date" if updating else "setting up .venv, once, about a minute"
     print(f"go: {doing}", flush=True)
     STAMP.unlink(missing_ok=True)
     if not updating:
         if VENV.exists():
             shutil.rmtree(VENV)
-        with_uv, with_venv = (
-            [uv, "venv", "--python", sys.executable],
-            [sys.executable, "-m", "venv"],
-        )
-        install(with_uv if uv else with_venv, [str(VENV)])
-    pip = [str(PYTHON), "-m", "pip", "install", "--only-binary", ":all:"]
-    if uv:
-        pip = [uv, "pip", "install", "--python", str(PYTHON)]
+        install(make, [str(VENV)])
     install(pip, ["--require-hashes", "-r", str(LOCK)])
     # The build backend is in the lock: no isolated build, which would fetch another one.
     install(pip, ["--no-deps", "--no-build-isolation", "--editable", str(ROOT)])
     STAMP.write_text(fingerprint())
+
+
+def venv_pip() -> list[str]:
+    """Return the command of the environment's own pip; building would fetch unhashed files."""
+    return [str(PYTHON), "-m", "pip", "install", "--only-binary", ":all:"]
 
 
 def install(command: list[str], args: list[str]) -> None:

@@ -54,6 +54,8 @@ class Installer:
             self.environments += 1
             self.go.PYTHON.parent.mkdir(parents=True)
             self.go.PYTHON.touch()
+            if "uv" not in command[0]:
+                self.go.PYTHON.with_name("pip").touch()
             return
         self.asked.append(" ".join([*command, *args]))
         if self.interrupted:
@@ -92,6 +94,20 @@ def test_an_interrupted_set_up_is_begun_again(
     assert go.main(["test"]) == 0
     assert installer.environments == 2
     assert go.is_ready()
+
+
+def test_an_environment_of_uv_is_made_anew_where_uv_is_gone(
+    go: ModuleType, installer: Installer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # It has no pip inside.
+    monkeypatch.setattr(go.shutil, "which", lambda name: "/bin/uv")
+    go.main(["test"])
+    monkeypatch.setattr(go.shutil, "which", lambda name: None)
+    go.main(["test"])
+    assert installer.environments == 1
+    (go.ROOT / "pyproject.toml").write_text("changed")
+    go.main(["test"])
+    assert installer.environments == 2
 
 
 def test_a_moved_clone_is_set_up_anew(go: ModuleType, installer: Installer) -> None:
