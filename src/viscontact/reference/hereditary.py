@@ -19,8 +19,6 @@ TimeFunction: TypeAlias = Callable[[NDArray[np.float64]], ArrayLike]
 """A function of time, called with a one-dimensional array of times [s]."""
 
 _DEGREE = 16
-_HALVINGS = 48  # the innermost panel is 2**-48 of the interval, near the rounding of its length
-
 _NODES: NDArray[np.float64] = np.sin(np.linspace(-0.5, 0.5, _DEGREE + 1) * np.pi)
 _FIT = np.linalg.inv(chebyshev.chebvander(_NODES, _DEGREE))
 _GAUSS, _WEIGHTS = legendre.leggauss(_DEGREE)
@@ -43,13 +41,23 @@ def _panels(edges: NDArray[np.float64], nodes: NDArray[np.float64]) -> NDArray[n
     return edges[:-1, None] + half * (1 + nodes)
 
 
-# Fractions of an interval: halved towards its start; towards its start and its end.
-_TO_START = np.concatenate([[0.0], 0.5 ** np.arange(_HALVINGS, -1, -1)])
-_TO_BOTH = np.concatenate([_TO_START / 2, 1 - _TO_START[-2::-1] / 2])
+def _halved(times: int) -> NDArray[np.float64]:
+    """Give the edges of panels on [0, 1] halved towards 0 so many times."""
+    return np.concatenate([[0.0], 0.5 ** np.arange(times, -1, -1)])
+
+
+_TO_ZERO = _halved(48)  # down to the rounding of the interval's length
 _STIELTJES = _stieltjes_matrix()
-_PATH_FRACTIONS = _panels(_TO_BOTH, _NODES)
-# Counted back from the end, so that lags far below the rounding of the interval stay exact.
-_LAG_FRACTIONS = _panels(_TO_BOTH, _GAUSS)[::-1, ::-1]
+# A path is halved less often towards its end: over the innermost panel it is straight, and its
+# increments over shorter ones would be rounding only. The kernel may still vary there, even
+# be infinite at lag 0, and is averaged over it.
+_PATH_EDGES = np.concatenate([_TO_ZERO / 2, 1 - _halved(30)[-2::-1] / 2])
+_PATH_FRACTIONS = _panels(_PATH_EDGES, _NODES)
+# The same panels counted back from the end, so that the shortest lags keep their digits.
+_LAG_EDGES = np.concatenate([_halved(30) / 2, 1 - _TO_ZERO[-2::-1] / 2])
+_LAG_FRACTIONS = _panels(_LAG_EDGES, _GAUSS)[::-1, ::-1]
+_INNERMOST_FRACTIONS = _LAG_EDGES[1] * _panels(_TO_ZERO**3, _GAUSS)
+_INNERMOST_WEIGHTS = np.diff(_TO_ZERO**3)[:, None] / 2 * _WEIGHTS
 
 
 def evaluate(function: TimeFunction, times: ArrayLike) -> NDArray[np.float64]:
@@ -74,7 +82,7 @@ def evaluate(function: TimeFunction, times: ArrayLike) -> NDArray[np.float64]:
     """
     times = np.asarray(times, dtype=np.float64)
     values = np.asarray(function(times.ravel()), dtype=np.float64)
-    return np.broadcast_to(values, times.size).reshape(times.shape)
+    return np.broadcast_to(values, times.size).reshape(times.shape).copy()
 
 
 def accumulated(function: TimeFunction, times: ArrayLike) -> NDArray[np.float64]:
@@ -98,7 +106,7 @@ def accumulated(function: TimeFunction, times: ArrayLike) -> NDArray[np.float64]
     18.000000000000
     """
     times = np.asarray(times, dtype=np.float64)
-    edges = max(float(times.max()), np.finfo(float).tiny) * _TO_START
+    edges = max(float(times.max()), np.finfo(float).tiny) * _TO_ZERO
     half = np.diff(edges) / 2
     fitted = (evaluate(function, _panels(edges, _NODES)) @ _FIT.T).T
     coefficients = chebyshev.chebint(fitted, lbnd=-1) * half
@@ -156,7 +164,7 @@ def superposed(
         A function of the lag, smooth on a logarithmic scale; integrably infinite at 0 at most.
     path : callable
         Called with instants of shape (n, panels, nodes), one row for each integral; smooth but
-        for algebraic singularities at ``start`` and ``end``.
+        for an algebraic singularity at ``start``.
     start, end, now : ndarray, shape (n,)
         Limits of each integral and the instant it is felt at, start <= end <= now [s].
 
@@ -176,8 +184,11 @@ def superposed(
     >>> print(f"{superposed(lambda lag: np.exp(-lag), np.sqrt, zero, one, one)[0]:.12f}")
     0.538079506913
     """
-    start, width = start[:, None, None], (end - start)[:, None, None]
-    along_path = path(start + width * _PATH_FRACTIONS)
-    kernel_there = evaluate(kernel, (now - end)[:, None, None] + width * _LAG_FRACTIONS)
+    width = (end - start)[:, None, None]
+    lag_of_end = (now - end)[:, None, None]
+    kernel_there = evaluate(kernel, lag_of_end + width * _LAG_FRACTIONS)
+    innermost = evaluate(kernel, lag_of_end + width * _INNERMOST_FRACTIONS)
+    kernel_there[:, -1] = np.sum(innermost * _INNERMOST_WEIGHTS, axis=(1, 2))[:, None]
+    along_path = path(start[:, None, None] + width * _PATH_FRACTIONS)
     integral: NDArray[np.float64] = np.sum((kernel_there @ _STIELTJES) * along_path, axis=(1, 2))
     return integral
