@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.grid import Grid
+from viscontact.load import LoadPoint
 
 
 @dataclass(frozen=True)
@@ -25,6 +26,29 @@ class Support:
 
     resultants: tuple[float | None, float | None, float | None]
     motions: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+    @classmethod
+    def of(cls, point: LoadPoint) -> Support:
+        """Support by a force at an eccentricity, with the tilts that are prescribed.
+
+        Parameters
+        ----------
+        point : LoadPoint
+            Force, eccentricities, and tilts (None where free).
+
+        Returns
+        -------
+        Support
+            A prescribed tilt takes the place of its moment.
+        """
+        return cls(
+            (
+                point.force,
+                point.force * point.eccentricity_x if point.tilt_x is None else None,
+                point.force * point.eccentricity_y if point.tilt_y is None else None,
+            ),
+            (0.0, point.tilt_x or 0.0, point.tilt_y or 0.0),
+        )
 
     @property
     def free(self) -> NDArray[np.intp]:
@@ -137,7 +161,7 @@ class RigidPlane:
         scaled = (gram * np.outer(unit, unit))[np.ix_(free, free)]
         result = np.zeros(3)
         result[free] = _solve_rank_revealing(scaled, (target * unit)[free], 0 in free)
-        return result * unit
+        return np.asarray(result * unit)
 
 
 def _solve_rank_revealing(

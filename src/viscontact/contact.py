@@ -101,7 +101,7 @@ class ContactSolution:
     motion : ndarray, shape (3,)
         Approach [m] and tilts [rad].
     residual : float
-        Largest \\|gap\\| under pressure or penetration elsewhere, over the largest displacement.
+        Largest gap under pressure or penetration elsewhere, over the largest displacement.
     iterations, convolutions : int
         Search directions used, and half-space convolutions spent.
     converged : bool
@@ -188,6 +188,8 @@ class _Search:
         self.iterations = 0
         self.convolutions = 0
         self.direction: NDArray[np.float64] | None = None
+        self.residual: NDArray[np.float64] = np.zeros(half_space.grid.shape)
+        self.slope = 1.0
         self._start(guess)
 
     def _start(self, guess: Guess | None) -> None:

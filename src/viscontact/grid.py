@@ -76,4 +76,5 @@ class Grid:
 
 def _centres(cells: int, extent: float) -> NDArray[np.float64]:
     # Built from whole numbers so that mirrored centres are exact opposites.
-    return (2 * np.arange(cells) - (cells - 1)) * (extent / (2 * cells))
+    offsets = (2 * np.arange(cells) - (cells - 1)).astype(np.float64)
+    return offsets * (extent / (2 * cells))

@@ -1,0 +1,135 @@
+"""Nouns as plain data and back: how a result remembers the case it came from."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import fields, is_dataclass
+from typing import Any
+
+import numpy as np
+
+from viscontact.grid import Grid
+from viscontact.indenters import (
+    CombinedIndenter,
+    Cone,
+    FlatPunch,
+    HeightMap,
+    Paraboloid,
+    Roller,
+    Sphere,
+)
+from viscontact.laws import Burgers, CreepSeries, Elastic, Maxwell, RelaxationSeries, Zener
+from viscontact.load import ForceHistory
+from viscontact.material import Material
+from viscontact.run import Run
+
+NOUNS = {
+    noun.__name__: noun
+    for noun in (
+        *(Sphere, Paraboloid, Cone, FlatPunch, Roller, HeightMap, CombinedIndenter),
+        *(Elastic, Maxwell, Zener, Burgers, CreepSeries, RelaxationSeries),
+        *(Material, ForceHistory, Grid),
+    )
+}
+
+#: Larger arrays (a measured surface) are named by shape and fingerprint, not written out.
+LARGEST_ARRAY = 4096
+
+
+def describe(noun: Any) -> Any:
+    """Turn a noun into plain data: its type's name and its arguments in SI units.
+
+    Parameters
+    ----------
+    noun : object
+        Indenter, law, material, load, grid; numbers, arrays and tuples of these.
+
+    Returns
+    -------
+    object
+        Dicts, lists, strings and numbers that JSON can hold.
+
+    Examples
+    --------
+    >>> describe(Grid((4, 8), (0.1, 0.2)))
+    {'type': 'Grid', 'shape': [4, 8], 'size': [0.1, 0.2]}
+    """
+    if is_dataclass(noun) and not isinstance(noun, type):
+        arguments = {item.name: describe(getattr(noun, item.name)) for item in fields(noun)}
+        return {"type": type(noun).__name__, **arguments}
+    if isinstance(noun, np.ndarray):
+        return noun.tolist() if noun.size <= LARGEST_ARRAY else _fingerprint(noun)
+    if isinstance(noun, np.generic):
+        return noun.item()
+    if isinstance(noun, tuple | list):
+        return [describe(item) for item in noun]
+    return noun
+
+
+def rebuild(description: Any) -> Any:
+    """Make the noun again that a description came from.
+
+    Parameters
+    ----------
+    description : object
+        From `describe`.
+
+    Returns
+    -------
+    object
+        The noun.
+
+    Raises
+    ------
+    ValueError
+        If its type is unknown, or a large array was left out of the description.
+
+    Examples
+    --------
+    >>> rebuild({"type": "Sphere", "radius": 0.01})
+    Sphere(radius=0.01)
+    """
+    if isinstance(description, list):
+        return [rebuild(item) for item in description]
+    if not isinstance(description, dict):
+        return description
+    if "sha256" in description:
+        raise ValueError(
+            f"an array of shape {description['shape']} is too large to be kept in a result; "
+            "build the indenter from its source again"
+        )
+    noun = NOUNS.get(description.get("type", ""))
+    if noun is None:
+        raise ValueError(
+            f"no noun is called {description.get('type')!r}; known are {sorted(NOUNS)}"
+        )
+    return noun(**{key: rebuild(value) for key, value in description.items() if key != "type"})
+
+
+def describe_run(run: Run) -> dict[str, Any]:
+    """Describe a whole run.
+
+    Parameters
+    ----------
+    run : Run
+        The run.
+
+    Returns
+    -------
+    dict
+        Indenter, materials, load, grid, times [s] and tolerance.
+    """
+    return {
+        "indenter": describe(run.indenter),
+        "material": describe(run.material),
+        "indenter_material": describe(run.indenter_material),
+        "load": describe(run.load),
+        "grid": describe(run.grid),
+        "times": describe(run.times),
+        "tolerance": run.tolerance,
+    }
+
+
+def _fingerprint(array: np.ndarray[Any, Any]) -> dict[str, Any]:
+    digest = hashlib.sha256(np.ascontiguousarray(array).tobytes()).hexdigest()
+    return {"shape": list(array.shape), "sha256": digest}

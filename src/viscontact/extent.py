@@ -1,0 +1,232 @@
+"""How large a grid has to be: coarse elastic solves at the largest compliance and load."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import fft
+
+from viscontact.balance import Support
+from viscontact.contact import ContactProblem, HalfSpace, solve_contact
+from viscontact.grid import Grid
+from viscontact.indenters import Indenter
+from viscontact.load import ForceHistory, LoadPoint
+from viscontact.material import ContactCompliance, Material
+from viscontact.rim import trace_rim
+
+#: Cells of a coarse solve along each axis, and how far it has to converge.
+COARSE_CELLS, COARSE_TOLERANCE = 48, 1e-4
+
+#: The coarse grid fits when the contact's reach is this part of its half size.
+TIGHTEST, LOOSEST = 0.85, 0.5
+
+#: Room around the contact in the grid that is returned.
+MARGIN = 1.3
+
+MAX_TRIES = 60
+
+
+@dataclass(frozen=True)
+class ContactEstimate:
+    """A coarse elastic answer.
+
+    Attributes
+    ----------
+    length, width : float
+        Extents of the contact along x and y [m].
+    approach : float
+        Approach [m].
+    peak_pressure : float
+        Largest pressure [Pa].
+    centre_x, centre_y : float
+        Middle of the contact [m].
+    """
+
+    length: float
+    width: float
+    approach: float
+    peak_pressure: float
+    centre_x: float
+    centre_y: float
+
+    @property
+    def reach(self) -> tuple[float, float]:
+        """Farthest distances of the contact from the origin along x and y [m]."""
+        return abs(self.centre_x) + self.length / 2, abs(self.centre_y) + self.width / 2
+
+
+def estimate_contact(
+    indenter: Indenter, contact_compliance: float, point: LoadPoint
+) -> ContactEstimate:
+    """Solve an elastic contact coarsely, on a grid that is fitted to it.
+
+    Parameters
+    ----------
+    indenter : Indenter
+        Shape of the pressed body.
+    contact_compliance : float
+        J of an elastic body in its place [1/Pa].
+    point : LoadPoint
+        Force, eccentricities and prescribed tilts.
+
+    Returns
+    -------
+    ContactEstimate
+        To a few per cent.
+
+    Raises
+    ------
+    ValueError
+        If no grid can be fitted: the force acts outside what can touch, say.
+
+    Examples
+    --------
+    >>> from viscontact.indenters import Sphere
+    >>> from viscontact.load import step
+    >>> found = estimate_contact(Sphere(0.01), 1e-9, step(100.0).at(0.0))
+    >>> round(found.length / 2 * 1e3, 1)  # Hertz: (3 * 100 * 0.01 * 1e-9 / 4)**(1/3) = 0.909 mm
+    0.9
+    """
+    size = np.full(2, _first_size(indenter, contact_compliance, point))
+    for _ in range(MAX_TRIES):
+        grid = Grid((COARSE_CELLS, COARSE_CELLS), (float(size[0]), float(size[1])))
+        found = _coarse_contact(indenter, contact_compliance, point, grid)
+        if found is None:
+            size = size * 2
+            continue
+        part = np.array(found.reach) / (size / 2)
+        if ((part >= LOOSEST) & (part <= TIGHTEST)).all():
+            return found
+        # A contact of a few cells says little about its size: do not trust it beyond a factor 4.
+        size = size * np.clip(part / 0.68, 0.25, 2.0)
+    raise ValueError(
+        "grid: no fitting grid was found for this load; the force may act outside what can "
+        "touch, or the contact runs on without end. Give a grid, or move the force in"
+    )
+
+
+def auto_grid(
+    indenter: Indenter,
+    material: Material,
+    load: ForceHistory,
+    tolerance: float = 0.01,
+    *,
+    end: float | None = None,
+    indenter_material: Material | None = None,
+) -> Grid:
+    """Choose a grid for a run.
+
+    Parameters
+    ----------
+    indenter : Indenter
+        Shape of the pressed body.
+    material : Material
+        Material of the half-space.
+    load : ForceHistory
+        Force, eccentricity and prescribed tilts over time.
+    tolerance : float
+        Aimed-at relative error of peak pressure, area and approach.
+    end : float, optional
+        Last instant of the run [s]; the load's last point, or the end of all creep, when left
+        out.
+    indenter_material : Material, optional
+        Material of the indenter; rigid when left out.
+
+    Returns
+    -------
+    Grid
+        Holds the contact at the largest compliance under every corner of the load's history,
+        with a margin. The number of cells is a rule of thumb, not yet an error estimate.
+
+    Raises
+    ------
+    ValueError
+        If the tolerance makes no sense, no end of the creep is known, or no grid fits.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> vc.auto_grid(vc.Sphere(0.01), rubber, vc.step(1.0)).shape
+    (54, 54)
+    """
+    if not 1e-4 <= tolerance <= 0.5:
+        raise ValueError(f"tolerance must lie between 1e-4 and 0.5, got {tolerance!r}")
+    compliance = material.contact_compliance()
+    if indenter_material is not None:
+        compliance = compliance + indenter_material.contact_compliance()
+    largest = _largest_compliance(compliance, load, end)
+    reach, extents = _reach_of_history(indenter, largest, load, end)
+    size = 2 * MARGIN * reach
+    # Cells across the contact, then over the grid: errors are at worst of second order.
+    cells = (4 / math.sqrt(tolerance)) * size / extents
+    shape = [max(16, fft.next_fast_len(math.ceil(count), real=True)) for count in cells]
+    return Grid((shape[0], shape[1]), (float(size[0]), float(size[1])))
+
+
+def _reach_of_history(
+    indenter: Indenter, compliance: float, load: ForceHistory, end: float | None
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Farthest reach over the history, and the extents of the contact under the largest force."""
+    points = _corners(load, end)
+    if not points:
+        raise ValueError("load: the force is zero throughout; there is no contact to resolve")
+    found = [estimate_contact(indenter, compliance, point) for point in points]
+    reach = np.max([estimate.reach for estimate in found], axis=0)
+    largest = found[int(np.argmax([point.force for point in points]))]
+    return reach, np.array([largest.length, largest.width])
+
+
+def _corners(load: ForceHistory, end: float | None) -> list[LoadPoint]:
+    """Distinct loads at the history's points; between them the contact lies between theirs."""
+    instants = [float(kink) for kink in load.kinks if end is None or kink <= end]
+    if end is not None:
+        instants.append(end)
+    points = [load.at(time, side=side) for time in instants for side in ("left", "right")]
+    return list(dict.fromkeys(point for point in points if point.force > 0))
+
+
+def _largest_compliance(
+    compliance: ContactCompliance, load: ForceHistory, end: float | None
+) -> float:
+    if end is not None:
+        return float(compliance(end))
+    if compliance.fluidity > 0:
+        raise ValueError("end: the law flows without end, so say when the run ends, in s")
+    return compliance.instant + float(np.sum(compliance.amplitudes))
+
+
+def _first_size(indenter: Indenter, compliance: float, point: LoadPoint) -> float:
+    radius = indenter.radius_of_curvature
+    scale = math.sqrt(point.force * compliance)
+    if math.isfinite(radius):
+        scale = (0.75 * point.force * radius * compliance) ** (1 / 3)
+    return 4 * max(scale, abs(point.eccentricity_x), abs(point.eccentricity_y))
+
+
+def _coarse_contact(
+    indenter: Indenter, compliance: float, point: LoadPoint, grid: Grid
+) -> ContactEstimate | None:
+    """Contact on this grid; None if it does not fit on it."""
+    open_gap = indenter.gap(grid.x[:, None], grid.y[None, :])
+    if not np.isfinite(open_gap).any():
+        return None
+    problem = ContactProblem(open_gap, compliance, Support.of(point), 1e-12 * max(grid.size))
+    solution = solve_contact(problem, HalfSpace(grid), tolerance=COARSE_TOLERANCE)
+    contact = solution.pressure > 0
+    touching_rim = contact[[0, -1]].any() or contact[:, [0, -1]].any()
+    if touching_rim or not solution.converged:
+        return None
+    rim = trace_rim(grid, contact, solution.gap)
+    rows, columns = np.flatnonzero(contact.any(axis=1)), np.flatnonzero(contact.any(axis=0))
+    return ContactEstimate(
+        rim.length,
+        rim.width,
+        float(solution.motion[0]),
+        float(solution.pressure.max()),
+        float(grid.x[rows[[0, -1]]].mean()),
+        float(grid.y[columns[[0, -1]]].mean()),
+    )

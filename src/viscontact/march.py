@@ -1,0 +1,241 @@
+"""The one loop over time: from an indenter, a material and a load to states."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Iterator, Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from viscontact.balance import Support
+from viscontact.contact import ContactProblem, Guess, HalfSpace, solve_contact
+from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
+from viscontact.grid import Grid
+from viscontact.indenters import Indenter
+from viscontact.load import ForceHistory
+from viscontact.material import Material
+from viscontact.memory import Memory, Response
+from viscontact.observation import Instant, Observer
+from viscontact.prediction import Found, predict
+from viscontact.run import Run, prepare_run
+from viscontact.schedule import Step, schedule
+from viscontact.state import ContactState, Outcome
+
+#: Called after each instant asked for: the state, how many are done, how many there are.
+Progress = Callable[[ContactState, int, int], None]
+
+
+def march(
+    indenter: Indenter,
+    material: Material,
+    load: ForceHistory,
+    grid: Grid | None = None,
+    times: ArrayLike | None = None,
+    *,
+    indenter_material: Material | None = None,
+    tolerance: float = 1e-6,
+    fields: str | Sequence[float] = "all",
+    threads: int = 1,
+    progress: Progress | None = None,
+) -> Iterator[ContactState]:
+    """Press an indenter on a creeping half-space and yield the state at each instant.
+
+    Parameters
+    ----------
+    indenter : Indenter
+        Shape of the pressed body.
+    material : Material
+        Material of the half-space.
+    load : ForceHistory
+        Force, eccentricity and prescribed tilts over time.
+    grid : Grid, optional
+        Cells that carry the pressure; `auto_grid` chooses when left out.
+    times : array_like, optional
+        Instants of the states, strictly increasing, none before 0 [s]; chosen from load and
+        law when left out. At a jump the state is the one just after it.
+    indenter_material : Material, optional
+        Material of the indenter; rigid when left out.
+    tolerance : float
+        Relative error of gap and balances at every instant.
+    fields : str or sequence of float
+        As in `simulate`, checked but not needed here: states carry their fields.
+    threads : int
+        Threads of one Fourier transform.
+    progress : callable, optional
+        Called with (state, done, total) after each instant.
+
+    Returns
+    -------
+    iterator of ContactState
+        All checks of the input are done before it is returned.
+
+    Raises
+    ------
+    ValueError
+        If an argument makes no sense, with a remedy; before the first step.
+    ConvergenceError
+        If the contact solver stagnates, from the iterator.
+    DomainError
+        If pressure reaches the outermost cells, or the largest contact has fewer than four
+        cells across; from the iterator.
+
+    Notes
+    -----
+    Steps also end at the load's kinks and jumps. Within a step the pressure is linear in time,
+    so the error falls with the square of the step; the paper's piecewise-constant rule (Spinu &
+    Cerlinca 2018, eq. 12) is of first order.
+
+    Examples
+    --------
+    A sphere on an elastic half-space, E* = 4/3 MPa, R = 0.75 m, sinks like Hertz's:
+
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6 / 3), poisson_ratio=0.5)
+    >>> grid = vc.Grid((40, 40), (0.26, 0.26))
+    >>> states = vc.march(vc.Paraboloid(0.75, 0.75), rubber, vc.step(2370.0), grid, [0.0])
+    >>> round(next(states).approach, 4)
+    0.0133
+    """
+    run = prepare_run(
+        indenter,
+        material,
+        load,
+        grid,
+        times,
+        indenter_material=indenter_material,
+        tolerance=tolerance,
+        fields=fields,
+        threads=threads,
+    )
+    return march_run(run, progress)
+
+
+def march_run(run: Run, progress: Progress | None = None) -> Iterator[ContactState]:
+    """Yield the states of a run that has been checked.
+
+    Parameters
+    ----------
+    run : Run
+        From `prepare_run`.
+    progress : callable, optional
+        Called with (state, done, total) after each instant.
+
+    Yields
+    ------
+    ContactState
+        One for each of the run's instants.
+
+    Raises
+    ------
+    ConvergenceError, DomainError
+        As in `march`.
+    """
+    observer = Observer(run)
+    total, done = len(run.times), 0
+    for step, instant in _instants(run):
+        state = observer.observe(step, instant)
+        if step.wanted:
+            done += 1
+            state = observer.judge(state, last=done == total)
+            for text in state.warnings:
+                warnings.warn(text, AccuracyWarning, stacklevel=2)
+            if progress is not None:
+                progress(state, done, total)
+            yield state
+        if instant.outcome is Outcome.NOT_CONVERGED:
+            raise ConvergenceError(_not_converged(run, step, instant))
+    observer.refuse_coarse_mesh()
+
+
+def _instants(run: Run) -> Iterator[tuple[Step, Instant]]:
+    """Solve step after step; the memory is the only thing that is carried along besides."""
+    half_space = HalfSpace(run.grid, run.threads)
+    memory = Memory(run.compliance, run.grid.shape)
+    scale = 1e-12 * max(run.grid.cell_size)
+    motion = np.zeros(3)
+    past: list[Found] = []
+    for step in schedule(run.times, run.load):
+        response = memory.jump() if step.is_jump else memory.ramp(step.duration)
+        point = run.load.at(step.time, side=step.side)
+        past = past if step.smooth else past[-1:]
+        if point.force > 0:
+            problem = ContactProblem(
+                run.open_gap + response.history, response.compliance, Support.of(point), scale
+            )
+            guess = predict(past, step.time) if not step.is_jump else _last(past)
+            instant = _in_contact(run, step, half_space, problem, guess, response)
+        else:
+            tilts = Support.of(point).with_prescribed(motion) * np.array([0.0, 1.0, 1.0])
+            instant = _apart(run.open_gap + response.history, response, tilts, half_space)
+        memory.accept(instant.found.deflection)
+        motion = instant.found.motion
+        scale = max(scale, float(instant.displacement.max()))
+        past = _remember(past, step, instant)
+        yield step, instant
+
+
+def _in_contact(
+    run: Run,
+    step: Step,
+    half_space: HalfSpace,
+    problem: ContactProblem,
+    guess: Guess | None,
+    response: Response,
+) -> Instant:
+    solution = solve_contact(problem, half_space, guess, tolerance=run.tolerance)
+    pressure = solution.pressure
+    if pressure[[0, -1]].any() or pressure[:, [0, -1]].any():
+        raise DomainError(
+            f"grid: the contact reaches the grid's rim at t = {step.time:.6g} s; "
+            f"enlarge grid.size, now {run.grid.size[0]:.4g} m x {run.grid.size[1]:.4g} m"
+        )
+    return Instant(
+        Guess(pressure, solution.deflection, solution.motion),
+        solution.gap,
+        response.history + problem.compliance * solution.deflection,
+        solution.residual,
+        solution.iterations,
+        Outcome.CONVERGED if solution.converged else Outcome.NOT_CONVERGED,
+    )
+
+
+def _apart(
+    open_gap: NDArray[np.float64],
+    response: Response,
+    tilts: NDArray[np.float64],
+    half_space: HalfSpace,
+) -> Instant:
+    """No force: the body is where it just touches the (dented) surface, tilts as they were."""
+    distance = open_gap - half_space.plane.field(tilts)
+    approach = float(distance.min())
+    nothing = np.zeros_like(open_gap)
+    return Instant(
+        Guess(nothing, nothing, tilts + np.array([approach, 0.0, 0.0])),
+        distance - approach,
+        response.history,
+        residual=0.0,
+        iterations=0,
+        outcome=Outcome.NO_CONTACT,
+    )
+
+
+def _last(past: list[Found]) -> Guess | None:
+    return past[-1].guess if past else None
+
+
+def _remember(past: list[Found], step: Step, instant: Instant) -> list[Found]:
+    """Only contact predicts contact, and only instants on this side of a jump."""
+    if instant.outcome is Outcome.NO_CONTACT:
+        return []
+    earlier = [] if step.is_jump else past[-2:]
+    return [*earlier, Found(step.time, instant.found)]
+
+
+def _not_converged(run: Run, step: Step, instant: Instant) -> str:
+    return (
+        f"the contact solver stopped at t = {step.time:.6g} s with residual "
+        f"{instant.residual:.2g} after {instant.iterations} iterations, short of the tolerance "
+        f"{run.tolerance:g}; likely causes: a resultant that hardly fits under the body, a grid "
+        f"too coarse for the contact, or a tolerance near rounding"
+    )

@@ -1,0 +1,190 @@
+"""From an equilibrium to a state: resultants, sub-cell rim, work, and doubts."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.balance import RigidPlane
+from viscontact.contact import Guess
+from viscontact.errors import DomainError
+from viscontact.plausibility import (
+    REFUSED_CELLS,
+    Doubts,
+    Geometry,
+    geometry_doubts,
+    mesh_doubts,
+    step_doubts,
+)
+from viscontact.rim import Rim, trace_outline, trace_rim
+from viscontact.run import Run
+from viscontact.schedule import Step
+from viscontact.state import ContactState, Outcome
+
+
+@dataclass(frozen=True, eq=False)
+class Instant:
+    """Equilibrium at the end of a step, as the solver left it.
+
+    Attributes
+    ----------
+    found : Guess
+        Pressure [Pa], deflection [Pa m] and rigid motion [m, rad, rad].
+    gap, displacement : ndarray, shape (nx, ny)
+        Gap and total displacement of the surface [m].
+    residual : float
+        Relative violation of the contact conditions.
+    iterations : int
+        Search directions of the solver.
+    outcome : Outcome
+        How it ended.
+    """
+
+    found: Guess
+    gap: NDArray[np.float64]
+    displacement: NDArray[np.float64]
+    residual: float
+    iterations: int
+    outcome: Outcome
+
+
+class Observer:
+    """Watches a run from step to step, for what needs the step before: work and doubts.
+
+    Parameters
+    ----------
+    run : Run
+        The run it watches.
+    """
+
+    def __init__(self, run: Run) -> None:
+        self._run = run
+        self._plane = RigidPlane(run.grid)
+        self._outline = trace_outline(run.indenter, run.grid)
+        self._geometry = Geometry(run.indenter, run.open_gap, run.grid.cell_size)
+        self._doubts = Doubts()
+        self._open: dict[str, str] = {}
+        self._work = 0.0
+        self._before: Instant | None = None
+        self._largest_area, self._cells_at_largest = 0.0, 0
+
+    def observe(self, step: Step, instant: Instant) -> ContactState:
+        """Describe the end of a step.
+
+        Parameters
+        ----------
+        step : Step
+            The step.
+        instant : Instant
+            Its end.
+
+        Returns
+        -------
+        ContactState
+            Without warnings yet; see `judge`.
+        """
+        contact = instant.found.pressure > 0
+        rim = trace_rim(self._run.grid, contact, instant.gap, self._outline)
+        resultants = self._plane.sums(instant.found.pressure) * self._run.grid.cell_area
+        self._work += self._work_of(step, instant, resultants)
+        self._collect_doubts(step, instant, rim)
+        state = _state(step, instant, rim, resultants, self._work)
+        if state.contact_area > self._largest_area:
+            self._largest_area, self._cells_at_largest = state.contact_area, state.cells_across
+        self._before, self._resultants = instant, resultants
+        return state
+
+    def judge(self, state: ContactState, *, last: bool) -> ContactState:
+        """Attach the doubts met since the last judged state, each kind once a run.
+
+        Parameters
+        ----------
+        state : ContactState
+            From `observe`.
+        last : bool
+            Whether it is the run's last, so that the mesh can be judged at the largest contact.
+
+        Returns
+        -------
+        ContactState
+            With its warnings.
+        """
+        mesh = mesh_doubts(self._cells_at_largest) if last and self._largest_area else {}
+        return replace(state, warnings=self._doubts.new(self._open, mesh))
+
+    def refuse_coarse_mesh(self) -> None:
+        """Raise at the run's end if even its largest contact had too few cells.
+
+        Raises
+        ------
+        DomainError
+            If fewer than four cells lay across it.
+        """
+        if not self._largest_area or self._cells_at_largest >= REFUSED_CELLS:
+            return
+        nx, ny = self._run.grid.shape
+        raise DomainError(
+            f"grid: only {self._cells_at_largest} cells lie across the run's largest contact and "
+            f"{REFUSED_CELLS} are the least (20 or more recommended); use more cells than "
+            f"{nx} x {ny} or a smaller grid.size"
+        )
+
+    def _collect_doubts(self, step: Step, instant: Instant, rim: Rim) -> None:
+        if instant.outcome is Outcome.NO_CONTACT:
+            return
+        half_width = min(rim.length, rim.width) / 2
+        found = geometry_doubts(self._geometry, rim.contact, instant.found.motion, half_width)
+        self._open = found | self._open
+        if self._before is not None and not step.is_jump:
+            peaks = [float(end.found.pressure.max()) for end in (self._before, instant)]
+            self._open = step_doubts(self._run.compliance, step.duration, *peaks) | self._open
+
+    def _work_of(self, step: Step, instant: Instant, resultants: NDArray[np.float64]) -> float:
+        """Work over a step: trapezium rule on the motion; across a jump exact.
+
+        Across a jump only J(0) answers, so the work is that of an elastic body, whose
+        reciprocity makes it independent of the path: half the change of J(0) p·K p.
+        """
+        if step.is_jump:
+            change = _energy(instant) - (_energy(self._before) if self._before else 0.0)
+            return self._run.compliance.instant * change * self._run.grid.cell_area
+        assert self._before is not None  # every run starts with a jump
+        travel = instant.found.motion - self._before.found.motion
+        return float((self._resultants + resultants) @ travel / 2)
+
+
+def _energy(instant: Instant) -> float:
+    return float(np.vdot(instant.found.pressure, instant.found.deflection)) / 2
+
+
+def _state(
+    step: Step, instant: Instant, rim: Rim, resultants: NDArray[np.float64], work: float
+) -> ContactState:
+    force, moment_x, moment_y = (float(resultant) for resultant in resultants)
+    area = rim.area
+    touching = force > 0
+    return ContactState(
+        time=step.time,
+        pressure=instant.found.pressure,
+        gap=instant.gap,
+        displacement=instant.displacement,
+        force=force,
+        eccentricity_x=moment_x / force if touching else math.nan,
+        eccentricity_y=moment_y / force if touching else math.nan,
+        approach=float(instant.found.motion[0]),
+        tilt_x=float(instant.found.motion[1]),
+        tilt_y=float(instant.found.motion[2]),
+        contact_area=area,
+        contact_length=rim.length,
+        contact_width=rim.width,
+        peak_pressure=float(instant.found.pressure.max()),
+        mean_pressure=force / area if touching else 0.0,
+        work=work,
+        iterations=instant.iterations,
+        residual=instant.residual,
+        cells_across=int(min(rim.contact.any(axis=1).sum(), rim.contact.any(axis=0).sum())),
+        outcome=instant.outcome,
+    )

@@ -1,0 +1,199 @@
+"""Doubts about a result: what a careful reader would ask before believing a number."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.indenters import Indenter
+from viscontact.material import ContactCompliance
+
+#: Fewer cells across the largest contact than this are doubtful, or refused.
+DOUBTFUL_CELLS, REFUSED_CELLS = 10, 4
+
+#: Small-strain theory is doubtful beyond these: slope, contact half width / R, approach / R.
+STEEP_SLOPE, WIDE_CONTACT, DEEP_APPROACH = 0.3, 0.3, 0.1
+
+#: A step is long if it exceeds this many times the law's time of a term with this share of the
+#: compliance while the peak pressure changes by this much.
+LONG_STEP, NOTABLE_SHARE, NOTABLE_CHANGE = 2.0, 0.05, 0.1
+
+
+@dataclass(frozen=True)
+class Geometry:
+    """What the doubts about geometry need to know.
+
+    Attributes
+    ----------
+    indenter : Indenter
+        The shape; its radius of curvature is the measure of depth and width.
+    open_gap : ndarray, shape (nx, ny)
+        Initial gap [m], +inf outside the outline.
+    cell_size : tuple of float
+        Edge lengths of a cell [m].
+    """
+
+    indenter: Indenter
+    open_gap: NDArray[np.float64]
+    cell_size: tuple[float, float]
+
+
+def geometry_doubts(
+    geometry: Geometry,
+    contact: NDArray[np.bool_],
+    motion: NDArray[np.float64],
+    half_width: float,
+) -> dict[str, str]:
+    """Doubts about small strains and about where the body ends.
+
+    Parameters
+    ----------
+    geometry : Geometry
+        The undeformed shape on its grid.
+    contact : ndarray of bool
+        Cells under pressure.
+    motion : ndarray, shape (3,)
+        Approach [m] and tilts [rad].
+    half_width : float
+        Half the shorter extent of the contact [m].
+
+    Returns
+    -------
+    dict of str to str
+        Sentences by kind of doubt; empty if there is none.
+    """
+    doubts: dict[str, str] = {}
+    slope = _steepest_slope(geometry, contact, motion)
+    if slope > STEEP_SLOPE:
+        doubts["slope"] = (
+            f"the indenter's slope within the contact reaches {slope:.2g}; "
+            f"small-strain half-space theory is meant for slopes below {STEEP_SLOPE:g}"
+        )
+    radius = geometry.indenter.radius_of_curvature
+    if half_width > WIDE_CONTACT * radius:
+        doubts["width"] = (
+            f"the contact's half width is {half_width / radius:.2g} of the indenter's radius of "
+            f"curvature; half-space theory is meant for less than {WIDE_CONTACT:g}"
+        )
+    if motion[0] > DEEP_APPROACH * radius:
+        doubts["approach"] = (
+            f"the approach is {motion[0] / radius:.2g} of the indenter's radius of curvature; "
+            f"small-strain theory is meant for less than {DEEP_APPROACH:g}"
+        )
+    if _touches_end(geometry.open_gap, contact):
+        doubts["end"] = (
+            "the contact reaches the end of the indenter's profile: pressure is singular there "
+            "and the peak pressure depends on the mesh"
+        )
+    return doubts
+
+
+def step_doubts(
+    compliance: ContactCompliance, duration: float, peak_before: float, peak_after: float
+) -> dict[str, str]:
+    """Doubt about a time step too long for the law while the pressure changes.
+
+    Parameters
+    ----------
+    compliance : ContactCompliance
+        The law, as the contact sees it.
+    duration : float
+        Length of the step [s].
+    peak_before, peak_after : float
+        Peak pressure at its ends [Pa].
+
+    Returns
+    -------
+    dict of str to str
+        Sentences by kind of doubt; empty if there is none.
+    """
+    change = abs(peak_after - peak_before) / max(peak_after, peak_before, np.finfo(float).tiny)
+    total = compliance.instant + float(np.sum(compliance.amplitudes))
+    notable = compliance.times[compliance.amplitudes > NOTABLE_SHARE * total]
+    if change < NOTABLE_CHANGE or not (notable < duration / LONG_STEP).any():
+        return {}
+    return {
+        "step": (
+            f"a time step of {duration:.3g} s is long against the law's {notable.min():.3g} s "
+            f"while the peak pressure changes by {change:.0%}; use more steps there"
+        )
+    }
+
+
+def mesh_doubts(cells_across: int) -> dict[str, str]:
+    """Doubt about a coarse mesh.
+
+    Parameters
+    ----------
+    cells_across : int
+        Cells across the run's largest contact, along its shorter way.
+
+    Returns
+    -------
+    dict of str to str
+        Sentences by kind of doubt; empty if there is none.
+
+    Examples
+    --------
+    >>> list(mesh_doubts(8)), list(mesh_doubts(30))
+    (['mesh'], [])
+    """
+    if cells_across >= DOUBTFUL_CELLS:
+        return {}
+    return {
+        "mesh": (
+            f"only {cells_across} cells lie across the largest contact, "
+            f"{DOUBTFUL_CELLS} or more are wanted; use a finer or smaller grid"
+        )
+    }
+
+
+@dataclass
+class Doubts:
+    """Each kind of doubt once: what has been said already, and what is new."""
+
+    said: dict[str, str] = field(default_factory=dict)
+
+    def new(self, *found: dict[str, str]) -> tuple[str, ...]:
+        """Keep what has not been said, and return it.
+
+        Parameters
+        ----------
+        *found : dict of str to str
+            Sentences by kind of doubt.
+
+        Returns
+        -------
+        tuple of str
+            The sentences of kinds met for the first time.
+        """
+        fresh = {
+            kind: text for doubts in found for kind, text in doubts.items() if kind not in self.said
+        }
+        self.said.update(fresh)
+        return tuple(fresh.values())
+
+
+def _steepest_slope(
+    geometry: Geometry, contact: NDArray[np.bool_], motion: NDArray[np.float64]
+) -> float:
+    steepest = 0.0
+    for axis in (0, 1):
+        shape = np.moveaxis(geometry.open_gap, axis, 0)
+        touched = np.moveaxis(contact, axis, 0)
+        pairs = touched[1:] & touched[:-1]
+        slope = (shape[1:][pairs] - shape[:-1][pairs]) / geometry.cell_size[axis]
+        steepest = max(steepest, float(np.abs(slope - motion[1 + axis]).max(initial=0.0)))
+    return steepest
+
+
+def _touches_end(open_gap: NDArray[np.float64], contact: NDArray[np.bool_]) -> bool:
+    outside = np.isinf(open_gap)
+    return bool(
+        (contact[1:] & outside[:-1]).any()
+        or (contact[:-1] & outside[1:]).any()
+        or (contact[:, 1:] & outside[:, :-1]).any()
+        or (contact[:, :-1] & outside[:, 1:]).any()
+    )

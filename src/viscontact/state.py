@@ -1,0 +1,87 @@
+"""What is known at one instant."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from enum import IntEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+class Outcome(IntEnum):
+    """How an instant ended."""
+
+    CONVERGED = 0
+    NO_CONTACT = 1
+    NOT_CONVERGED = 2
+
+
+@dataclass(frozen=True, eq=False)
+class ContactState:
+    """Fields, resultants and rigid motion at one instant; names as in the result's dataset.
+
+    Attributes
+    ----------
+    time : float
+        Instant; at a jump of the load, just after it [s].
+    pressure : ndarray, shape (nx, ny)
+        Contact pressure, positive in compression [Pa].
+    gap : ndarray, shape (nx, ny)
+        Gap, positive when open, +inf outside the indenter's outline [m].
+    displacement : ndarray, shape (nx, ny)
+        Surface displacement, positive into the half-space [m].
+    force : float
+        Integral of the pressure [N].
+    eccentricity_x, eccentricity_y : float
+        Where that resultant acts; NaN without contact [m].
+    approach : float
+        Rigid approach of the bodies, positive when they come closer [m].
+    tilt_x, tilt_y : float
+        Rigid slopes, positive when they press the +x or +y end deeper [rad].
+    contact_area : float
+        Area inside the rim, resolved below the cell size [m²].
+    contact_length, contact_width : float
+        Extents of the contact along x and y [m].
+    peak_pressure, mean_pressure : float
+        Largest cell pressure, and force over area [Pa].
+    work : float
+        Work of the load on the contact since the start [J].
+    iterations : int
+        Search directions of the contact solver.
+    residual : float
+        Largest gap under pressure or penetration elsewhere, over the largest displacement.
+    cells_across : int
+        Cells across the contact along its shorter way, counted in cells.
+    outcome : Outcome
+        How the instant ended.
+    warnings : tuple of str
+        Doubts about accuracy met first at this instant.
+    """
+
+    time: float
+    pressure: NDArray[np.float64]
+    gap: NDArray[np.float64]
+    displacement: NDArray[np.float64]
+    force: float
+    eccentricity_x: float
+    eccentricity_y: float
+    approach: float
+    tilt_x: float
+    tilt_y: float
+    contact_area: float
+    contact_length: float
+    contact_width: float
+    peak_pressure: float
+    mean_pressure: float
+    work: float
+    iterations: int
+    residual: float
+    cells_across: int
+    outcome: Outcome
+    warnings: tuple[str, ...] = ()
+
+    def without_fields(self) -> ContactState:
+        """Return the same state with empty fields, so that a long run can be kept."""
+        nothing = np.empty((0, 0))
+        return replace(self, pressure=nothing, gap=nothing, displacement=nothing)
