@@ -149,12 +149,13 @@ def clean() -> dict[str, str]:
 
 
 def run(args: list[str]) -> int:
-    """Run the environment's Python and return its exit status."""
+    """Run the environment's Python and return its exit status, as a shell counts it."""
     child = subprocess.Popen([str(PYTHON), *args], cwd=ROOT, env=clean())
     # Ctrl-C reaches the child too, which finishes its step and saves: wait for it.
     signal.signal(signal.SIGINT, lambda *_: None)
     signal.signal(signal.SIGTERM, lambda *_: child.terminate())
-    return child.wait()
+    status = child.wait()
+    return status if status >= 0 else 128 - status
 
 
 # --- front door -------------------------------------------------------------------------------
