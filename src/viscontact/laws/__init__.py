@@ -1,7 +1,8 @@
 """Linear viscoelastic laws: creep compliance Phi(t) and relaxation modulus G(t) in shear."""
 
+from viscontact.laws.kelvin import Burgers, Zener
 from viscontact.laws.law import Law, SeriesLaw
-from viscontact.laws.models import Burgers, Elastic, Maxwell, Zener
+from viscontact.laws.maxwell import Elastic, Maxwell
 from viscontact.laws.series import CreepSeries, RelaxationSeries
 
 __all__ = [

@@ -27,8 +27,15 @@ def non_negative(name: str, value: float, unit: str) -> float:
 def make_positive(noun: object, **units: str) -> None:
     """Check the named fields of a frozen `noun` with `positive` and store them as floats."""
     for field, unit in units.items():
-        name = f"{type(noun).__name__}.{field}"
-        object.__setattr__(noun, field, positive(name, getattr(noun, field), unit))
+        store(
+            noun, **{field: positive(f"{type(noun).__name__}.{field}", getattr(noun, field), unit)}
+        )
+
+
+def store(noun: object, **values: object) -> None:
+    """Put checked values into a frozen `noun` while it is being made."""
+    for field, value in values.items():
+        object.__setattr__(noun, field, value)
 
 
 def series(

@@ -38,10 +38,6 @@ from numpy.typing import ArrayLike, NDArray
 # precision can hold (ln 1e600 = 1400) below one unit in the last place.
 _BISECTIONS = 64
 
-# Two exponentials whose times differ by the share g differ from one at their mean time by less
-# than g²/8 of their strength, here 3e-17.
-_SAME_TIME = 1.5e-8
-
 
 class SeriesTerms(NamedTuple):
     """The terms of J(t) = instant + sum amplitudes (1 - exp(-t/times)) + fluidity t."""
@@ -83,8 +79,8 @@ def creep_from_relaxation(equilibrium: float, moduli: ArrayLike, times: ArrayLik
 
     Notes
     -----
-    J_0 = 1/M(0); the residues give J_i = 1 / (τ_i sum_j M_j ρ_j / (τ_i - ρ_j)²), and for a
-    fluid φ = 1 / sum_j M_j ρ_j, all sums of positive terms.
+    J_0 = 1/M(0); the residues are J_i = 1 / (τ_i sum_j M_j ρ_j / (τ_i - ρ_j)²), and for a
+    fluid φ = 1 / sum_j M_j ρ_j.
 
     Examples
     --------
@@ -99,10 +95,9 @@ def creep_from_relaxation(equilibrium: float, moduli: ArrayLike, times: ArrayLik
     if not total > 0:
         raise ValueError("relaxation series: all moduli are 0; at least one must be positive")
     viscosities = moduli * times
-    retardation_times, offsets = _secular_roots(times, viscosities, equilibrium)
-    stiffness = (viscosities / offsets**2).sum(axis=1)
+    retardation_times, slopes = _secular_roots(times, viscosities, equilibrium)
     fluidity = float(1.0 / viscosities.sum()) if equilibrium == 0 else 0.0
-    amplitudes = 1.0 / (retardation_times * stiffness)
+    amplitudes = 1.0 / (retardation_times * slopes)
     return SeriesTerms(1.0 / total, *merged(amplitudes, retardation_times), fluidity)
 
 
@@ -132,7 +127,7 @@ def relaxation_from_creep(
 
     Notes
     -----
-    M_inf = 1/J(inf); the residues give M_j = 1 / sum_i J_i (ρ_j / (ρ_j - τ_i))², where the
+    M_inf = 1/J(inf); the residues are M_j = 1 / sum_i J_i (ρ_j / (ρ_j - τ_i))², where the
     sum takes J_0 in as a term of time 0.
 
     Examples
@@ -149,11 +144,9 @@ def relaxation_from_creep(
         )
     amplitudes, times = merged(amplitudes, times)
     compliances = np.concatenate([[instant], amplitudes])
-    relaxation_times, offsets = _secular_roots(
-        np.concatenate([[0.0], times]), compliances, fluidity
-    )
-    with np.errstate(over="ignore"):  # a root upon its pole: modulus 1/inf = 0, dropped below
-        moduli = 1.0 / (compliances * (relaxation_times[:, None] / offsets) ** 2).sum(axis=1)
+    poles = np.concatenate([[0.0], times])
+    relaxation_times, slopes = _secular_roots(poles, compliances, fluidity)
+    moduli = 1.0 / (relaxation_times**2 * slopes)
     equilibrium = 0.0 if fluidity > 0 else float(1.0 / compliances.sum())
     return RelaxationTerms(equilibrium, *merged(moduli, relaxation_times))
 
@@ -176,90 +169,75 @@ def relaxation_function(terms: RelaxationTerms, t: NDArray[np.float64]) -> NDArr
 def merged(
     strengths: ArrayLike, times: ArrayLike
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the series with times ascending, equal times added up, zero strengths left out.
-
-    Times count as equal within _SAME_TIME, where the sum of two exponentials is one at their
-    mean time to all digits, and the exact inverse is lost in rounding.
-    """
+    """Return the series with times ascending, equal times added up, zero strengths left out."""
     strengths, times = np.asarray(strengths, np.float64), np.asarray(times, np.float64)
     present = strengths > 0
-    order = np.argsort(times[present], kind="stable")
-    strengths, times = strengths[present][order], times[present][order]
-    first = _group_starts(times)
-    sums = np.add.reduceat(strengths, first) if first else strengths
-    # Measured from the group's first time, so that a lone time comes back digit for digit.
-    earliest = times[first]
-    excess = times - np.repeat(earliest, np.diff([*first, times.size]))
-    mean_excess = np.add.reduceat(strengths * excess, first) / sums if first else excess
-    return sums, earliest + mean_excess
-
-
-def _group_starts(times: NDArray[np.float64]) -> list[int]:
-    """Return the index of the first time of each group of equal ones; `times` ascend."""
-    starts: list[int] = []
-    for i, time in enumerate(times):
-        if not starts or time > times[starts[-1]] * (1.0 + _SAME_TIME):
-            starts.append(i)
-    return starts
+    distinct, where = np.unique(times[present], return_inverse=True)
+    sums = np.bincount(where, weights=strengths[present], minlength=distinct.size)
+    return sums.astype(np.float64), distinct
 
 
 def _secular_roots(
     poles: NDArray[np.float64], weights: NDArray[np.float64], constant: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the roots x_j of F(x) = sum_i w_i/(x - p_i) - c, and the matrix x_j - p_i.
+    """Return the roots x_j of F(x) = sum_i w_i/(x - p_i) - c, and the slopes -F'(x_j) > 0.
 
-    `poles` ascend, `weights` are positive, `constant` is not negative. The differences are
-    returned because forming them from the rounded roots would lose the digits that the
-    residues are made of whenever a root lies close to a pole.
+    `poles` ascend, `weights` are positive, `constant` is not negative.
     """
-    left, width = _intervals(poles, weights, constant)
-    origins, side, reach = _nearest_poles(poles, weights, constant, left, width)
+    origins, side, reach = _nearest_poles(poles, weights, constant)
     from_origin = poles[origins][:, None] - poles
-
-    def differences(distance: NDArray[np.float64]) -> NDArray[np.float64]:
-        return np.asarray(from_origin + (side * distance)[:, None])
-
     # Seen from its nearest pole, at distance d, every root is where side * F falls through 0.
-    # The nearest pole's own share w/d cannot be less than all other shares together, which
-    # bounds d from below without any cancellation.
-    shares = np.abs(weights / differences(reach)).sum(axis=1) + constant
-    lower = reach / (1.0 + reach * shares / weights[origins])
-    lower, upper = np.maximum(lower, np.finfo(np.float64).tiny), reach
+    # There the pole's own share w/d balances all others, which weigh no more than their
+    # magnitudes at full reach: d has a lower bound that is free of cancellation.
+    shares = np.abs(weights / (from_origin + (side * reach)[:, None])).sum(axis=1) + constant
+    lower, upper = np.maximum(weights[origins] / shares, np.finfo(np.float64).tiny), reach
     for _ in range(_BISECTIONS):
         middle = np.sqrt(lower) * np.sqrt(upper)  # halves the ratio, not the difference
-        beyond = side * ((weights / differences(middle)).sum(axis=1) - constant) > 0
+        to_poles = from_origin + (side * middle)[:, None]
+        beyond = side * ((weights / to_poles).sum(axis=1) - constant) > 0
         lower, upper = np.where(beyond, middle, lower), np.where(beyond, upper, middle)
-    return poles[origins] + side * upper, differences(upper)
+    offsets = side * upper
+    slopes = _slopes(
+        np.abs(from_origin + offsets[:, None]),
+        np.abs(from_origin[:, origins] + (offsets[:, None] - offsets)),
+        constant if constant > 0 else float(weights.sum()),
+    )
+    return poles[origins] + offsets, slopes
 
 
-def _intervals(
-    poles: NDArray[np.float64], weights: NDArray[np.float64], constant: float
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return left ends and widths of the intervals that hold exactly one root each."""
-    left, width = poles[:-1], np.diff(poles)
-    if constant > 0 and poles.size > 0:
-        # Beyond the last pole F <= sum(w)/(x - p_n) - c, which is 0 at this distance.
-        left, width = poles, np.append(width, weights.sum() / constant)
-    return left, width
+def _slopes(
+    to_poles: NDArray[np.float64], to_roots: NDArray[np.float64], leading: float
+) -> NDArray[np.float64]:
+    """Return -F'(x_j) from the distances of the roots to all poles and to each other.
+
+    F is its leading coefficient, c or sum(w), times the product of all x - x_k over that of all
+    x - p_i. At x_j this leaves a product of ratios which interlacing keeps within bounds. The
+    sum of w_i/(x_j - p_i)² would do as well for exact roots. Where F is near 0 already without
+    a weak pole's share, rounding blurs the root's distance from that pole; the product then
+    still gives residues that fit the roots found, and the product of the transforms stays one.
+    """
+    count = to_roots.shape[0]
+    np.fill_diagonal(to_roots, 1.0)
+    with np.errstate(over="ignore"):  # a root upon its pole: slope inf, strength 0, left out
+        slopes = leading * np.prod(to_roots / to_poles[:, :count], axis=1)
+        return np.asarray(slopes / np.prod(to_poles[:, count:], axis=1))
 
 
 def _nearest_poles(
-    poles: NDArray[np.float64],
-    weights: NDArray[np.float64],
-    constant: float,
-    left: NDArray[np.float64],
-    width: NDArray[np.float64],
+    poles: NDArray[np.float64], weights: NDArray[np.float64], constant: float
 ) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.float64]]:
-    """Return, for each interval, the index of the pole nearest to the root, side and reach.
+    """Return, for each root, the index of its nearest pole, its side and its reach.
 
     Side is +1 where the root lies right of that pole and -1 where left; reach is how far off
     it can be.
     """
-    index = np.arange(left.size)
-    middle = (left[:, None] - poles) + (width / 2)[:, None]
+    half = np.diff(poles) / 2
+    middle = (poles[:-1, None] - poles) + half[:, None]
     # F falls from +inf to -inf between two poles: its sign half-way tells the root's half.
-    right_half = (weights / middle).sum(axis=1) - constant > 0
-    reach = width / 2
-    if left.size == poles.size and left.size > 0:  # beyond the last pole there is no other
-        right_half[-1], reach[-1] = False, width[-1]
-    return index + right_half, np.where(right_half, -1.0, 1.0), reach
+    right = (weights / middle).sum(axis=1) > constant
+    nearest, side = np.arange(half.size) + right, np.where(right, -1.0, 1.0)
+    if constant > 0 and poles.size > 0:
+        # One more beyond the last pole, where F <= sum(w)/(x - p_n) - c.
+        half = np.append(half, weights.sum() / constant)
+        nearest, side = np.append(nearest, poles.size - 1), np.append(side, 1.0)
+    return nearest, side, half

@@ -53,8 +53,8 @@ class CreepSeries(SeriesLaw):
     Examples
     --------
     >>> law = CreepSeries(1e-9, [2e-9], [10.0])
-    >>> law(0.0), round(law(10.0) * 1e9, 6), law.relaxation(0.0)
-    (1e-09, 2.264241, 500000000.0)
+    >>> law(0.0), round(law(10.0) * 1e9, 6), round(law.relaxation(0.0))
+    (1e-09, 2.264241, 500000000)
     """
 
     instant: float
@@ -73,10 +73,9 @@ class CreepSeries(SeriesLaw):
                 "CreepSeries: instant, amplitudes and fluidity are all 0, which is a rigid body; "
                 "give at least one positive compliance"
             )
-        object.__setattr__(self, "instant", instant)
-        object.__setattr__(self, "amplitudes", amplitudes)
-        object.__setattr__(self, "times", times)
-        object.__setattr__(self, "fluidity", fluidity)
+        arguments.store(
+            self, instant=instant, amplitudes=amplitudes, times=times, fluidity=fluidity
+        )
 
     @classmethod
     def from_shear(
@@ -221,9 +220,7 @@ class RelaxationSeries(SeriesLaw):
                 "RelaxationSeries: equilibrium and moduli are all 0, which resists nothing; "
                 "give at least one positive modulus"
             )
-        object.__setattr__(self, "equilibrium", equilibrium)
-        object.__setattr__(self, "moduli", moduli)
-        object.__setattr__(self, "times", times)
+        arguments.store(self, equilibrium=equilibrium, moduli=moduli, times=times)
 
     @classmethod
     def from_shear(
