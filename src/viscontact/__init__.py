@@ -36,7 +36,7 @@ __getattr__, __dir__, __all__ = _lazy.attach(
         "stepping": ["log_times", "uniform_times"],
         "extent": ["auto_grid"],
         "state": ["ContactState", "Outcome"],
-        "march": ["march"],
+        "marching": ["march"],
         "dataset": ["simulate"],
         "results": ["open_results", "save"],
     },

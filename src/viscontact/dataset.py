@@ -18,7 +18,7 @@ from viscontact.errors import ConvergenceError, DomainError
 from viscontact.grid import Grid
 from viscontact.indenters import Indenter
 from viscontact.load import ForceHistory
-from viscontact.march import Progress, march_run
+from viscontact.marching import Progress, march_run
 from viscontact.material import Material
 from viscontact.run import Run, field_instants, prepare_run
 from viscontact.state import ContactState, Outcome
