@@ -63,7 +63,8 @@ REFERENCE_RESTS_ON, REFERENCE_SEEN_FROM = 1, 6
 OTHERS = {
     "numpy": 0, "scipy": 0,
     "xarray": 5, "netCDF4": 5,
-    "pint": 6, "pydantic": 6, "pydantic_core": 6, "ruamel": 6, "matplotlib": 6, "contourpy": 6, "plotly": 6,
+    "pint": 6, "pydantic": 6, "pydantic_core": 6, "ruamel": 6,
+    "matplotlib": 6, "contourpy": 6, "plotly": 6,
     "typer": 7, "click": 7, "rich": 7,
 }  # fmt: skip
 TOP = len(FLOORS) - 1
