@@ -1,6 +1,5 @@
 """Lee and Radok's sphere against closed forms, force balance and the classical integral."""
 
-import itertools
 import math
 
 import numpy as np
@@ -8,62 +7,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
-from scipy.optimize import brentq
 from scipy.special import beta, gamma, hyp1f1
 
+from inverse_pairs import MODULUS, maxwell, power_law, series
 from viscontact import reference
 
-FORCE, RADIUS, MODULUS = 10.0, 0.01, 2e9
-
-
-def maxwell(tau):
-    """J and M of a Maxwell body."""
-    return (lambda t: (1 + t / tau) / MODULUS), (lambda t: MODULUS * np.exp(-t / tau))
-
-
-def series(instant, amplitudes, times):
-    """J and M of a solid with delayed compliances.
-
-    With f(s) = s L[J] = J0 + sum J_i/(1 + s tau_i), M = 1/f(0) + sum exp(s_k t)/(s_k f'(s_k))
-    over the zeros s_k, one below each pole -1/tau_i.
-    """
-    amplitudes, times = np.array(amplitudes), np.array(times)
-
-    def transform(s):
-        return instant + np.sum(amplitudes / (1 + s * times))
-
-    rates = np.sort(1 / times)
-    bounds = [*rates, rates[-1] * (2 + np.sum(amplitudes) / instant)]
-    zeros = np.array(
-        [
-            -brentq(
-                lambda rate: transform(-rate), low * (1 + 1e-12), high * (1 - 1e-12), rtol=1e-15
-            )
-            for low, high in itertools.pairwise(bounds)
-        ]
-    )
-    slopes = [-np.sum(amplitudes * times / (1 + s * times) ** 2) for s in zeros]
-    moduli = 1 / (zeros * np.array(slopes))
-    equilibrium = 1 / (instant + amplitudes.sum())
-
-    def creep(t):
-        return instant + np.sum(amplitudes * -np.expm1(-t[:, None] / times), axis=1)
-
-    def relaxation(t):
-        return equilibrium + np.sum(moduli * np.exp(zeros * t[:, None]), axis=1)
-
-    return creep, relaxation
-
-
-def power_law(exponent):
-    """J = t^n/E and its inverse M = E t^-n/(Gamma(1+n) Gamma(1-n))."""
-    scale = MODULUS / (gamma(1 + exponent) * gamma(1 - exponent))
-
-    def relaxation(t):
-        with np.errstate(divide="ignore"):
-            return scale * t**-exponent
-
-    return (lambda t: t**exponent / MODULUS), relaxation
+FORCE, RADIUS = 10.0, 0.01
 
 
 ZENER = series(1 / 2e9, [1 / 1e9], [1.5])
@@ -78,12 +27,12 @@ def integrated_force(contact, t):
     sit, and before t, where the rim was just reached. In between, a cubic substitution removes
     square roots at both ends.
     """
-    decades = np.append(0.0, np.geomspace(1e-9, 1.0, 10))
+    decades = np.append(0.0, np.geomspace(1e-8, 1.0, 6))
     corners = [corner for corner in contact.load.corners if corner <= t]
     instants = [corner + (t - corner) * decades for corner in corners]
     instants += [t - (t - corner) * decades for corner in corners]
     edges = np.unique(np.append(0.0, contact.contact_radius(np.concatenate(instants))))
-    nodes, weights = np.polynomial.legendre.leggauss(24)
+    nodes, weights = np.polynomial.legendre.leggauss(40)
     u = (nodes + 1) / 2
     low, high = edges[:-1, None], edges[1:, None]
     r = low + (high - low) * u**2 * (3 - 2 * u)
@@ -108,14 +57,21 @@ def test_pressure_under_a_step_balances_the_force(law, times):
 
 
 @pytest.mark.parametrize(
-    ("law", "tolerance"),
-    [(maxwell(3.0), 1e-8), (ZENER, 1e-8), (STIFF, 1e-8), (power_law(0.5), 1e-7)],
+    "law",
+    [maxwell(3.0), ZENER, STIFF, power_law(0.5)],
+    ids=["maxwell", "zener", "stiff", "power-law"],
 )
-@pytest.mark.parametrize("t", [0.2, 2.0, 2.0001, 3.0, 4.5, 2e4])
-def test_pressure_under_a_ramp_balances_the_force(law, tolerance, t):
+@pytest.mark.parametrize("t", [2.0, 2.0001, 4.5, 2e4])
+def test_pressure_under_a_ramp_balances_the_force(law, t):
+    """At the ramp's end, just after it, a while after and ten thousand ramps after."""
     contact = reference.lee_radok_ramp(FORCE, 2.0, RADIUS, *law)
-    assert contact.force(t) == pytest.approx(FORCE * min(t / 2, 1))
-    assert integrated_force(contact, t) == pytest.approx(contact.force(t), rel=tolerance)
+    assert contact.force(t) == FORCE
+    assert integrated_force(contact, t) == pytest.approx(FORCE, rel=1e-8)
+
+
+def test_pressure_within_a_ramp_balances_the_force():
+    contact = reference.lee_radok_ramp(FORCE, 2.0, RADIUS, *ZENER)
+    assert integrated_force(contact, 0.5) == pytest.approx(FORCE / 4, rel=1e-8)
 
 
 def test_maxwell_central_pressure_follows_its_closed_form():
@@ -250,7 +206,7 @@ def test_maxwell_pressure_leaves_the_axis_before_twice_its_relaxation_time():
 
 
 @settings(max_examples=25, deadline=None)
-@given(softer=st.floats(1e-3, 1e3), slower=st.floats(1e-6, 1e6), t=st.floats(0.0, 100.0))
+@given(softer=st.floats(1e-3, 1e3), slower=st.floats(1e-6, 1e6), t=st.floats(1e-6, 100.0))
 def test_softer_and_slower_laws_scale(softer, slower, t):
     """J(t) -> c J(t/d) with F -> F/c: same contact at time d t, pressure divided by c."""
     creep, relaxation = ZENER
@@ -264,10 +220,9 @@ def test_softer_and_slower_laws_scale(softer, slower, t):
     )
     a = contact.contact_radius(t)
     r = a * np.array([0.0, 0.4, 0.8])
-    assert scaled.contact_radius(t * slower) == pytest.approx(a, rel=1e-9)
-    # atol: at a barely positive time the bisection and rounding of t d leave 1e-9 of the peak.
+    assert scaled.contact_radius(t * slower) == pytest.approx(a, rel=1e-12)
     p = contact.pressure(r, t)
-    np.testing.assert_allclose(scaled.pressure(r, t * slower) * softer, p, rtol=1e-8)
+    np.testing.assert_allclose(scaled.pressure(r, t * slower) * softer, p, rtol=1e-10)
 
 
 def test_scalars_give_scalars_and_arrays_broadcast():

@@ -6,13 +6,13 @@ J(t) [1/Pa] and its convolution inverse M(t) [Pa] as callables.
 
 from viscontact.reference.hertz import (
     EllipticalContact,
-    LineContact,
     SphereContact,
     hertz_elliptical,
-    hertz_line,
     hertz_sphere,
 )
-from viscontact.reference.lee_radok import LeeRadokContact, lee_radok_ramp, lee_radok_step
+from viscontact.reference.lee_radok import lee_radok_ramp, lee_radok_step
+from viscontact.reference.lee_radok_contact import LeeRadokContact
+from viscontact.reference.line import LineContact, hertz_line
 from viscontact.reference.punch import ConeContact, FlatPunchContact, cone, flat_punch
 
 __all__ = [
