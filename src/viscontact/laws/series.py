@@ -289,14 +289,13 @@ class RelaxationSeries(SeriesLaw):
             factor = 2 * convert.factor
             return cls(given.equilibrium / factor, [m / factor for m in given.moduli], given.times)
         convert.spring(owner, "E(0)", given.equilibrium + sum(given.moduli))
-        instant, amplitudes, retardation_times, fluidity = creep_from_relaxation(
-            given.equilibrium, given.moduli, given.times
-        )
-        return CreepSeries(
-            convert.instant(owner, instant),
-            tuple(convert.factor * amplitudes),
-            tuple(retardation_times),
-            convert.factor * fluidity,
+        creep = creep_from_relaxation(given.equilibrium, given.moduli, given.times)
+        return CreepSeries.from_uniaxial(
+            creep.instant,
+            tuple(creep.amplitudes),
+            tuple(creep.times),
+            creep.fluidity,
+            bulk_modulus=bulk_modulus,
         ).relaxation_series()
 
     def creep_series(self) -> CreepSeries:
