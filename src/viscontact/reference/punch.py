@@ -99,13 +99,13 @@ def flat_punch(
     Notes
     -----
     approach = F/(2 a E*), tilt = 3 F e/(4 a³ E*). The tilt follows from the pressure
-    2 E* tilt x / (pi sqrt(a² - r²)), whose displacement is tilt * x and whose moment is
-    4 E* a³ tilt / 3.
+    2 E* tilt x / (pi sqrt(a² - r²)): along every chord it integrates to pi times its value at
+    mid-chord, so its displacement is tilt * x; its moment is 4 E* a³ tilt / 3.
 
     References
     ----------
-    I. N. Sneddon, Int. J. Eng. Sci. 3 (1965) 47-57, for the central load;
-    K. L. Johnson, *Contact Mechanics*, Cambridge 1985, section 5.1(c), for the moment.
+    I. N. Sneddon, Int. J. Eng. Sci. 3 (1965) 47-57, for the central load. The eccentric one is
+    derived in the Notes; that the pressure tilts the surface so is checked in the tests.
 
     Examples
     --------
