@@ -1,0 +1,7 @@
+"""Case files: a run described in words, read, checked and turned into nouns."""
+
+from viscontact.case.problems import CaseError
+from viscontact.case.reader import Case, read_case
+from viscontact.case.sections import case_schema
+
+__all__ = ["Case", "CaseError", "case_schema", "read_case"]

@@ -1,0 +1,120 @@
+"""The text of a case file as plain data, and on which line each key stands."""
+
+from __future__ import annotations
+
+import difflib
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from viscontact.case import toml_source, yaml_source
+from viscontact.case.problems import CaseError, KeyPath, SourceError, dotted
+
+# A case file is a page of text; histories of a hundred thousand points belong in a CSV.
+_LARGEST_FILE = 10_000_000
+
+
+@dataclass(frozen=True)
+class Document:
+    """A case file before anything in it has been understood.
+
+    Parameters
+    ----------
+    path : Path
+        The file, as the user named it.
+    text : str
+        Its text, as YAML.
+    data : dict
+        Its content: mappings, lists, texts, numbers.
+    lines : dict
+        Line number of each key and list entry, by its path.
+    overridden : frozenset
+        Paths of the keys that were given on the command line.
+    """
+
+    path: Path
+    text: str
+    data: dict[str, Any]
+    lines: dict[KeyPath, int]
+    overridden: frozenset[KeyPath] = field(default_factory=frozenset)
+
+    def place(self, key: KeyPath) -> str:
+        """Say where a key stands: ``case.yaml:6:``, or ``--set`` if it came from there."""
+        if any(path[: len(key)] == key for path in self.overridden if key):
+            return "--set"
+        for length in range(len(key), -1, -1):
+            if key[:length] in self.overridden:
+                return "--set"
+            if key[:length] in self.lines:
+                return f"{self.path}:{self.lines[key[:length]]}:"
+        return f"{self.path}:"
+
+    def problem(self, key: KeyPath, why: str) -> str:
+        """Write one problem as one line: where, which key, and what is wrong with it."""
+        return " ".join(filter(None, (self.place(key), f"{dotted(key)}:" if key else "", why)))
+
+
+def read_document(path: Path) -> Document:
+    """Read a case file, YAML or by its suffix TOML, without understanding it yet.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+
+    Returns
+    -------
+    Document
+        Its content and line numbers.
+
+    Raises
+    ------
+    CaseError
+        If there is no such file, or it is not text, empty, broken or not a mapping.
+    """
+    text = _read_text(path)
+    if not text.strip():
+        raise CaseError(f"{path}: the file is empty; `viscontact example` shows complete ones")
+    is_toml = path.suffix.lower() == ".toml"
+    source = toml_source if is_toml else yaml_source
+    try:
+        data, lines = source.parse(text)
+    except SourceError as problem:
+        place = f"{path}:{problem.line}" if problem.line else str(path)
+        raise CaseError(f"{place}: {problem}") from problem
+    if not isinstance(data, dict):
+        raise CaseError(
+            f"{path}: a case file is a mapping of keys such as indenter:, material:, load:, "
+            f"got {_kind(data)}; `viscontact example` shows complete ones"
+        )
+    return Document(path, yaml_source.write(data) if is_toml else text, data, lines)
+
+
+def _read_text(path: Path) -> str:
+    try:
+        if path.is_dir():
+            raise CaseError(f"{path}: is a directory; name the case file in it")
+        if path.stat().st_size > _LARGEST_FILE:
+            raise CaseError(f"{path}: larger than 10 MB, which no case file is")
+        return path.read_bytes().decode("utf-8-sig")
+    except FileNotFoundError:
+        raise CaseError(f"{path}: no such file{_nearest_file(path)}") from None
+    except UnicodeDecodeError:
+        raise CaseError(f"{path}: is not a text file in UTF-8") from None
+    except (OSError, ValueError) as error:
+        if isinstance(error, CaseError):
+            raise
+        raise CaseError(f"{path}: cannot be read: {error}") from error
+
+
+def _nearest_file(path: Path) -> str:
+    folder = path.parent
+    names = [entry.name for entry in folder.iterdir()] if folder.is_dir() else []
+    near = difflib.get_close_matches(path.name, names, n=1)
+    return f"; did you mean '{folder / near[0]}'?" if near else ""
+
+
+def _kind(data: object) -> str:
+    if data is None:
+        return "only comments"
+    return "a list" if isinstance(data, list) else f"only {str(data)[:40]!r}"

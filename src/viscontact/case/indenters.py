@@ -1,0 +1,141 @@
+"""The `indenter` of a case file."""
+
+from __future__ import annotations
+
+import functools
+import operator
+from abc import abstractmethod
+from collections.abc import Sequence
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator, Field, GetJsonSchemaHandler, model_validator
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema
+
+from viscontact import indenters
+from viscontact.case.quantities import Length, OpenAngle, Section
+
+
+class Shape(Section):
+    """A shape that can be pressed."""
+
+    @abstractmethod
+    def noun(self) -> indenters.Indenter:
+        """Return the indenter that is described."""
+
+    @model_validator(mode="after")
+    def _accepted(self) -> Shape:
+        # What the noun refuses belongs among the problems of the file.
+        self.noun()
+        return self
+
+
+class Sphere(Shape):
+    """A sphere, with its true circular section."""
+
+    shape: Literal["sphere"]
+    radius: Length
+
+    def noun(self) -> indenters.Sphere:
+        """Return the sphere."""
+        return indenters.Sphere(self.radius)
+
+
+class Paraboloid(Shape):
+    """An elliptic paraboloid, the shape of Hertz's theory."""
+
+    shape: Literal["paraboloid"]
+    radius_x: Length = Field(description="radius of curvature along x")
+    radius_y: Length = Field(description="radius of curvature along y")
+
+    def noun(self) -> indenters.Paraboloid:
+        """Return the paraboloid."""
+        return indenters.Paraboloid(self.radius_x, self.radius_y)
+
+
+class Cone(Shape):
+    """A cone, apex down."""
+
+    shape: Literal["cone"]
+    half_angle: OpenAngle = Field(description="from the axis to the flank", examples=["70 deg"])
+
+    def noun(self) -> indenters.Cone:
+        """Return the cone."""
+        return indenters.Cone(self.half_angle)
+
+
+class FlatPunch(Shape):
+    """A punch with a flat end: round (radius) or rectangular (half_length and half_width)."""
+
+    shape: Literal["flat-punch"]
+    radius: Length | None = Field(default=None, description="radius of a round punch")
+    half_length: Length | None = Field(default=None, description="half the edge along x")
+    half_width: Length | None = Field(default=None, description="half the edge along y")
+
+    def noun(self) -> indenters.FlatPunch:
+        """Return the punch."""
+        return indenters.FlatPunch(
+            self.radius, half_length=self.half_length, half_width=self.half_width
+        )
+
+
+class Roller(Shape):
+    """A roller lying along x: a straight part, and beyond it a circular crown or nothing."""
+
+    shape: Literal["roller"]
+    radius: Length
+    half_length: Length = Field(description="half the length of the straight part")
+    crown_radius: Length | None = Field(
+        default=None, description="radius of the crown that continues the straight part"
+    )
+
+    def noun(self) -> indenters.Roller:
+        """Return the roller."""
+        return indenters.Roller(self.radius, self.half_length, self.crown_radius)
+
+
+AnyShape = Annotated[Sphere | Paraboloid | Cone | FlatPunch | Roller, Field(discriminator="shape")]
+
+
+class _OneOrMany:
+    """Tells editors that one shape may stand without the list."""
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        many = handler(schema)
+        return {"anyOf": [many["items"], many]}
+
+
+def _as_list(given: Any) -> Any:
+    return given if isinstance(given, list) else [given]
+
+
+Shapes = Annotated[
+    list[AnyShape],
+    Field(min_length=1, description="the pressed body; a list of shapes is their sum"),
+    BeforeValidator(_as_list),
+    _OneOrMany(),
+]
+
+
+def combined(shapes: Sequence[Shape]) -> indenters.Indenter:
+    """Return the indenter that a list of shapes describes: their sum.
+
+    Parameters
+    ----------
+    shapes : list of Shape
+        One or more.
+
+    Returns
+    -------
+    Indenter
+        The only one's, or the sum.
+
+    Examples
+    --------
+    >>> combined([Sphere(shape="sphere", radius="5 mm")])
+    Sphere(radius=0.005)
+    """
+    first, *others = [shape.noun() for shape in shapes]
+    return functools.reduce(operator.add, others, first)

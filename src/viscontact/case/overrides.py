@@ -1,0 +1,79 @@
+"""Values given on the command line, in place of those in the file."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from copy import deepcopy
+from dataclasses import replace
+from typing import Any
+
+from viscontact.case import yaml_source
+from viscontact.case.document import Document
+from viscontact.case.problems import CaseError, KeyPath, SourceError, dotted
+
+_STEP = re.compile(r"\.?([^.\[\]=]+)|\[(\d+)\]")
+
+
+def override(document: Document, settings: Iterable[str]) -> Document:
+    """Put the values of ``--set`` into a document.
+
+    Parameters
+    ----------
+    document : Document
+        The case file.
+    settings : iterable of str
+        Such as ``load.force=20kN`` or ``indenter[2].radius=3 mm``.
+
+    Returns
+    -------
+    Document
+        With the new values, which remember where they are from.
+
+    Raises
+    ------
+    CaseError
+        If a setting is not of that form, or leads into something that has no keys.
+    """
+    values = dict(_setting(text) for text in settings)
+    if not values:
+        return document
+    data = deepcopy(document.data)
+    problems = [why for path, value in values.items() if (why := _put(data, path, value))]
+    if problems:
+        raise CaseError(*problems)
+    text = yaml_source.with_overrides(document.text, values)
+    return replace(document, data=data, text=text, overridden=frozenset(values))
+
+
+def _setting(text: str) -> tuple[KeyPath, Any]:
+    name, equals, value = text.partition("=")
+    steps = _STEP.findall(name.strip())
+    rebuilt = "".join(f"[{index}]" if index else f".{key}" for key, index in steps)
+    if not equals or not steps or rebuilt.removeprefix(".") != name.strip():
+        raise CaseError(f"--set {text}: write KEY=VALUE, e.g. --set load.force=20kN")
+    path = tuple(int(index) - 1 if index else key for key, index in steps)
+    try:
+        return path, yaml_source.parse_value(value)
+    except SourceError as problem:
+        raise CaseError(f"--set {name}: cannot read the value {value!r}: {problem}") from problem
+
+
+def _put(data: Any, path: KeyPath, value: Any) -> str | None:
+    """Put the value in its place; return why that is impossible, if it is."""
+    for position, step in enumerate(path[:-1]):
+        if isinstance(data, dict):
+            data.setdefault(step, {})
+        if not _has(data, step):
+            return f"--set {dotted(path)}: there is no {dotted(path[: position + 1])} to set it in"
+        data = data[step]
+    if not (isinstance(data, dict) or _has(data, path[-1])):
+        return f"--set {dotted(path)}: {dotted(path[:-1])} is {str(data)[:40]!r}, without keys"
+    data[path[-1]] = value
+    return None
+
+
+def _has(data: Any, step: str | int) -> bool:
+    if isinstance(data, list):
+        return isinstance(step, int) and 0 <= step < len(data)
+    return isinstance(data, dict) and step in data

@@ -1,0 +1,118 @@
+"""The kinds of values that a case file holds, checked by pydantic, described in the schema."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from pydantic import BaseModel, ConfigDict, Field, GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+
+from viscontact.units import DIMENSIONS, parse_quantity
+
+ANY, NOT_NEGATIVE, POSITIVE = "any", "zero or more", "more than zero"
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """Annotation of a float that is written with a unit and arrives in SI.
+
+    Parameters
+    ----------
+    dimension : str
+        A key of `viscontact.units.DIMENSIONS`.
+    sign : str
+        Which values make sense: `ANY`, `NOT_NEGATIVE` or `POSITIVE`.
+
+    Examples
+    --------
+    >>> Quantity("length", POSITIVE).read("5 mm")
+    0.005
+    """
+
+    dimension: str
+    sign: str = ANY
+
+    def read(self, given: Any) -> float:
+        """Return the SI value of what stands in the file.
+
+        Parameters
+        ----------
+        given : object
+            Text such as ``"5 mm"``; anything else is refused with an example.
+
+        Returns
+        -------
+        float
+            The value in SI units.
+
+        Raises
+        ------
+        PydanticCustomError
+            If it cannot be read or has the wrong sign.
+        """
+        wanted = DIMENSIONS[self.dimension]
+        if not isinstance(given, str):
+            given = _as_text(given, wanted.name, wanted.example)
+        try:
+            value = parse_quantity(given, self.dimension)
+        except ValueError as error:
+            raise _problem(str(error)) from error
+        refused = {ANY: False, NOT_NEGATIVE: value < 0, POSITIVE: value <= 0}[self.sign]
+        if refused:
+            raise _problem(f"must be {self.sign}, got {given!r}; write e.g. {wanted.example!r}")
+        return value
+
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        """Let pydantic read the value with `read`."""
+        return core_schema.no_info_plain_validator_function(self.read)
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        """Tell editors that a text with a number in front is wanted, and show one."""
+        wanted = DIMENSIONS[self.dimension]
+        return {
+            "type": "string",
+            "pattern": r"^\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?\s*[^\s\d].*$",
+            "description": f"{wanted.name} with its unit, {self.sign}",
+            "examples": [wanted.example],
+        }
+
+
+def _as_text(given: Any, name: str, example: str) -> str:
+    """Text of a bare number, for the one message about missing units; the rest is refused."""
+    if isinstance(given, int | float) and not isinstance(given, bool):
+        return f"{given}"
+    shown = str(given) if len(str(given)) <= 40 else str(given)[:37] + "..."
+    raise _problem(f"cannot read {shown} as {name}; write e.g. {example!r}")
+
+
+def _problem(why: str) -> PydanticCustomError:
+    # The text travels as context: braces in it are not placeholders.
+    return PydanticCustomError("quantity", "{why}", {"why": why})
+
+
+Length = Annotated[float, Quantity("length", POSITIVE)]
+Offset = Annotated[float, Quantity("length")]
+Angle = Annotated[float, Quantity("angle")]
+OpenAngle = Annotated[float, Quantity("angle", POSITIVE)]
+Force = Annotated[float, Quantity("force", NOT_NEGATIVE)]
+Modulus = Annotated[float, Quantity("pressure", POSITIVE)]
+ModulusOrZero = Annotated[float, Quantity("pressure", NOT_NEGATIVE)]
+Compliance = Annotated[float, Quantity("compliance", NOT_NEGATIVE)]
+Viscosity = Annotated[float, Quantity("viscosity", POSITIVE)]
+Fluidity = Annotated[float, Quantity("fluidity", NOT_NEGATIVE)]
+Instant = Annotated[float, Quantity("time", NOT_NEGATIVE)]
+Duration = Annotated[float, Quantity("time", POSITIVE)]
+Ratio = Annotated[float, Field(allow_inf_nan=False)]
+WholeNumber = Annotated[int, Field(ge=1)]
+
+
+class Section(BaseModel):
+    """A part of a case file: only its own keys, and no silent conversions."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)

@@ -1,0 +1,149 @@
+"""From a case file to nouns."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import ValidationError
+
+from viscontact.case.document import Document, read_document
+from viscontact.case.indenters import combined
+from viscontact.case.overrides import override
+from viscontact.case.problems import CaseError
+from viscontact.case.schedule import kept_fields, with_instants
+from viscontact.case.sections import CaseFile
+from viscontact.case.wording import corrected, noun_problem, problem
+from viscontact.grid import Grid
+from viscontact.indenters import Indenter
+from viscontact.load import ForceHistory
+from viscontact.material import Material
+
+
+@dataclass(frozen=True, eq=False)
+class Case:
+    """A run as a case file describes it, in nouns and SI numbers.
+
+    Parameters
+    ----------
+    title : str
+        What the user calls it.
+    indenter : Indenter
+        The pressed body's shape.
+    material : Material
+        The half-space's material.
+    indenter_material : Material or None
+        The pressed body's material; None for a rigid one.
+    load : ForceHistory
+        Force, eccentricity and prescribed tilts over time.
+    times : ndarray
+        Instants of the run, those of the fields among them [s].
+    grid : Grid or None
+        The grid; None for an automatic one.
+    fields : str or tuple of float
+        ``"all"``, ``"none"``, or the instants whose fields are kept [s].
+    tolerance : float
+        Relative error of pressure and balances.
+    document : Document
+        The file it is from.
+    """
+
+    title: str
+    indenter: Indenter
+    material: Material
+    indenter_material: Material | None
+    load: ForceHistory
+    times: NDArray[np.float64]
+    grid: Grid | None
+    fields: str | tuple[float, ...]
+    tolerance: float
+    document: Document
+
+    @property
+    def text(self) -> str:
+        """The case as YAML, with all that was set on the command line."""
+        return self.document.text
+
+    def error(self, why: str) -> CaseError:
+        """Return what the run refused as an error at the key it speaks of.
+
+        Parameters
+        ----------
+        why : str
+            The refusal, as ``load.eccentricity_x: the force acts ...``.
+
+        Returns
+        -------
+        CaseError
+            The same with file, line and key in front.
+        """
+        return CaseError(noun_problem(self.document, (), why))
+
+
+def read_case(path: str | PathLike[str], overrides: Iterable[str] = ()) -> Case:
+    """Read and check a case file, YAML or TOML.
+
+    Parameters
+    ----------
+    path : path-like
+        The file.
+    overrides : iterable of str
+        Values in place of those in the file, such as ``"load.force=20kN"``.
+
+    Returns
+    -------
+    Case
+        The run it describes.
+
+    Raises
+    ------
+    CaseError
+        If anything in it cannot be understood or makes no sense; all problems at once, each
+        with its line and key.
+    """
+    document = override(read_document(Path(path)), overrides)
+    return _case(document, _checked(document))
+
+
+def _checked(document: Document) -> CaseFile:
+    try:
+        return _validated(document, document.data)
+    except ValidationError as error:
+        findings = error.errors()
+    if guess := corrected(document.data, findings):
+        try:
+            _validated(document, guess)
+        except ValidationError as error:
+            findings += error.errors()
+    problems = [problem(document, finding) for finding in findings]
+    raise CaseError(*dict.fromkeys(problems))
+
+
+def _validated(document: Document, data: dict[str, Any]) -> CaseFile:
+    return CaseFile.model_validate(data, context={"folder": str(document.path.parent)})
+
+
+def _case(document: Document, found: CaseFile) -> Case:
+    times = found.time.instants()
+    try:
+        fields = kept_fields(found.output, times)
+    except ValueError as error:
+        raise CaseError(document.problem(("output", "fields"), str(error))) from error
+    of_indenter = found.indenter_material
+    return Case(
+        title=found.title,
+        indenter=combined(found.indenter),
+        material=found.material.noun(),
+        indenter_material=of_indenter.noun() if of_indenter else None,
+        load=found.load.noun(),
+        times=with_instants(times, fields),
+        grid=found.grid.noun() if found.grid else None,
+        fields=fields,
+        tolerance=found.tolerance,
+        document=document,
+    )

@@ -1,0 +1,48 @@
+"""The whole case file: which sections there are, and their JSON schema."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from pydantic import Field
+
+from viscontact.case.indenters import Shapes
+from viscontact.case.loads import AnyLoad
+from viscontact.case.materials import AnyMaterial
+from viscontact.case.quantities import Section
+from viscontact.case.schedule import Cells, Output, Time
+
+
+class CaseFile(Section):
+    """A viscontact case: what is pressed on what, how, for how long."""
+
+    title: str = ""
+    indenter: Shapes
+    material: AnyMaterial = Field(description="the half-space")
+    indenter_material: AnyMaterial | None = Field(
+        default=None, description="the pressed body's material; rigid when left out"
+    )
+    load: AnyLoad
+    time: Time
+    grid: Cells | None = Field(default=None, description="an automatic grid when left out")
+    output: Output = Output()
+    tolerance: Annotated[float, Field(ge=1e-13, le=1e-2)] = Field(
+        default=1e-6, description="relative error of pressure and balances at every step"
+    )
+
+
+def case_schema() -> dict[str, Any]:
+    """Return the JSON schema of case files, for completion and hover texts in editors.
+
+    Returns
+    -------
+    dict
+        JSON Schema, draft 2020-12.
+
+    Examples
+    --------
+    >>> sorted(case_schema()["required"])
+    ['indenter', 'load', 'material', 'time']
+    """
+    schema = CaseFile.model_json_schema()
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}

@@ -1,0 +1,68 @@
+"""What case files will hold one day: refused by name until it is built."""
+
+from __future__ import annotations
+
+#: Values of the key that says what a section is.
+VALUES: dict[str, frozenset[str]] = {
+    "shape": frozenset({"height-map"}),
+    "law": frozenset({"power-law", "fractional-maxwell", "fractional-zener", "table"}),
+    "kind": frozenset({"harmonic"}),
+    "spacing": frozenset({"adaptive"}),
+}
+
+#: Keys by section, with what to do instead.
+KEYS: dict[str, dict[str, str]] = {
+    "indenter": {
+        "profile": "give crown_radius, or leave both out for sharp ends",
+        "file": "measured maps can be pressed from Python with viscontact.HeightMap",
+    },
+    "material": {
+        "file": "give the terms of a creep-series or relaxation-series",
+        "quantity": "give the terms of a creep-series or relaxation-series",
+    },
+    "load": {
+        "approach": "give force: the load is force-controlled",
+        "sentences": "give kind: history with points or file",
+    },
+    "time": {"tolerance": "give steps with spacing: uniform or log"},
+}
+KEYS["indenter_material"] = KEYS["material"]
+
+
+def refused_value(key: str, value: object, built: list[str]) -> str | None:
+    """Return why a known value is refused, or None if it is not known either.
+
+    Parameters
+    ----------
+    key : str
+        The key that says what a section is.
+    value : object
+        What stands there.
+    built : list of str
+        What may stand there.
+
+    Examples
+    --------
+    >>> refused_value("kind", "harmonic", ["ramp", "step"])
+    "'harmonic' is not built yet; built: ramp, step"
+    """
+    if value not in VALUES.get(key, ()):
+        return None
+    return f"{value!r} is not built yet; built: {', '.join(built)}"
+
+
+def refused_key(section: object, key: object) -> str | None:
+    """Return why a known key is refused, or None if it is not known either.
+
+    Parameters
+    ----------
+    section, key : object
+        The name of the section, and the key in it.
+
+    Examples
+    --------
+    >>> refused_key("load", "sentences")
+    'is not built yet; give kind: history with points or file'
+    """
+    remedy = KEYS.get(str(section), {}).get(str(key))
+    return f"is not built yet; {remedy}" if remedy else None

@@ -1,0 +1,229 @@
+"""From pydantic's findings to problems in words, each at its key."""
+
+from __future__ import annotations
+
+import difflib
+import re
+from copy import deepcopy
+from typing import Any, get_args
+
+from pydantic import BaseModel
+from pydantic_core import ErrorDetails
+
+from viscontact.case import indenters, loads, materials, schedule
+from viscontact.case.document import Document
+from viscontact.case.problems import KeyPath
+from viscontact.case.sections import CaseFile
+from viscontact.case.unbuilt import refused_key, refused_value
+from viscontact.units import DIMENSIONS
+
+# The section that a value of shape, law or kind stands for; one without such a key, by its name.
+_MODELS: dict[str | int, type[BaseModel]] = {
+    **{"time": schedule.Time, "grid": schedule.Cells, "output": schedule.Output},
+    **{"sphere": indenters.Sphere, "paraboloid": indenters.Paraboloid, "cone": indenters.Cone},
+    **{"flat-punch": indenters.FlatPunch, "roller": indenters.Roller},
+    **{"elastic": materials.Elastic, "maxwell": materials.Maxwell, "zener": materials.Zener},
+    **{"burgers": materials.Burgers, "creep-series": materials.CreepSeries},
+    "relaxation-series": materials.RelaxationSeries,
+    **{"step": loads.Step, "ramp": loads.Ramp, "triangle": loads.Triangle},
+    "history": loads.History,
+}
+
+
+def problem(document: Document, error: ErrorDetails) -> str:
+    """Write one finding as a line.
+
+    Parameters
+    ----------
+    document : Document
+        The case file.
+    error : ErrorDetails
+        What pydantic found.
+
+    Returns
+    -------
+    str
+        Where, which key, why, and what to do.
+    """
+    key = _key_path(document.data, error)
+    model = _model_at(error["loc"])
+    if error["type"] == "value_error":
+        why = str(error["ctx"]["error"])
+        return noun_problem(document, key, why)
+    if error["type"].startswith("union_tag"):
+        key = (*key, _union_key(error))
+    return document.problem(key, _why(key, model, error))
+
+
+def corrected(data: dict[str, Any], errors: list[ErrorDetails]) -> dict[str, Any] | None:
+    """Return the data with misspelt shapes, laws and kinds set right.
+
+    What else is wrong in a section can be told only when it is known what it describes.
+
+    Parameters
+    ----------
+    data : dict
+        Content of the case file.
+    errors : list of ErrorDetails
+        What pydantic found in it.
+
+    Returns
+    -------
+    dict or None
+        Content with the nearest names; None if nothing is misspelt.
+    """
+    changed = None
+    for error in errors:
+        if error["type"] != "union_tag_invalid":
+            continue
+        near = difflib.get_close_matches(error["ctx"]["tag"], _choices(_union_key(error)), n=1)
+        if near:
+            changed = deepcopy(data) if changed is None else changed
+            _at(changed, _key_path(data, error))[_union_key(error)] = near[0]
+    return changed
+
+
+def _at(data: Any, path: KeyPath) -> Any:
+    for step in path:
+        data = data[step]
+    return data
+
+
+def noun_problem(document: Document, section: KeyPath, why: str) -> str:
+    """Write what a noun or the run refused as a line, at the key that it speaks of.
+
+    Parameters
+    ----------
+    document : Document
+        The case file.
+    section : tuple
+        Where it was refused; empty for the run as a whole.
+    why : str
+        The refusal; it begins with, or mentions, the name of an argument.
+
+    Returns
+    -------
+    str
+        Where, which key, why, and what to do.
+    """
+    key = _named_key(document.data, section, why)
+    # "Roller: radius must be" and "load.force: ..." name the key a second time.
+    why = re.sub(r"^[A-Z]\w+[:.] ?", "", why)
+    last = ".".join(str(part) for part in key)
+    for name in (last, *(str(part) for part in key[-1:])):
+        why = re.sub(rf"^{re.escape(name)}(: | (?=must|has|is|stands|does))", "", why)
+    return document.problem(key, why)
+
+
+def _named_key(data: Any, section: KeyPath, why: str) -> KeyPath:
+    """The key that a message speaks of first, if it is one that stands in the file."""
+    words = re.findall(r"\w+(?:\.\w+)*", why)
+    for word in words:
+        path = (*section, *word.split("."))
+        if len(path) > len(section) and _holds(data, path):
+            return path
+    return section
+
+
+def _holds(data: Any, path: KeyPath) -> bool:
+    for step in path:
+        if isinstance(data, list) and len(data) == 1 and isinstance(step, str):
+            data = data[0]
+        if not isinstance(data, dict) or step not in data:
+            return False
+        data = data[step]
+    return True
+
+
+def _key_path(data: Any, error: ErrorDetails) -> KeyPath:
+    """Pydantic's location without what is not a key: names of alternatives, a list of one."""
+    path: list[str | int] = []
+    for step in error["loc"]:
+        if isinstance(data, dict) and step in data:
+            data = data[str(step)]
+        elif isinstance(data, list) and isinstance(step, int) and step < len(data):
+            data = data[step]
+        else:
+            continue
+        path.append(step)
+    return (*path, error["loc"][-1]) if error["type"] == "missing" else tuple(path)
+
+
+def _model_at(loc: tuple[str | int, ...]) -> type[BaseModel]:
+    return next((_MODELS[step] for step in reversed(loc) if step in _MODELS), CaseFile)
+
+
+def _union_key(error: ErrorDetails) -> str:
+    return str(error["ctx"]["discriminator"]).strip("'")
+
+
+def _why(key: KeyPath, model: type[BaseModel], error: ErrorDetails) -> str:
+    kind, context = error["type"], error.get("ctx", {})
+    if kind == "extra_forbidden":
+        allowed = sorted(model.model_fields)
+        return refused_key(key[0] if len(key) > 1 else "", key[-1]) or _unknown(
+            "key", key[-1], allowed
+        )
+    if kind == "missing":
+        return f"is missing{_example(model, str(key[-1]))}"
+    if kind == "union_tag_not_found":
+        return f"is missing; it says which: {', '.join(_choices(_union_key(error)))}"
+    if kind == "union_tag_invalid":
+        return _wrong_choice(str(key[-1]), context["tag"], _choices(str(key[-1])))
+    if kind == "literal_error":
+        choices = re.findall(r"'([^']*)'", context["expected"])
+        return _wrong_choice(str(key[-1]), error["input"], choices)
+    return _plain_words(error)
+
+
+def _choices(discriminator: str) -> list[str]:
+    fields = {tag: model.model_fields.get(discriminator) for tag, model in _MODELS.items()}
+    return [
+        str(tag) for tag, field in fields.items() if field and tag in get_args(field.annotation)
+    ]
+
+
+def _wrong_choice(key: str, value: object, choices: list[str]) -> str:
+    return refused_value(key, value, choices) or _unknown("value", value, choices)
+
+
+def _unknown(what: str, given: object, allowed: list[str]) -> str:
+    near = difflib.get_close_matches(str(given), allowed, n=1)
+    shown = "" if what == "key" else f" {str(given)[:40]!r}"
+    hint = f"; did you mean {near[0]!r}?" if near else "."
+    return f"unknown {what}{shown}{hint} Allowed: {', '.join(allowed)}"
+
+
+def _example(model: type[BaseModel], key: str) -> str:
+    """How the missing key is written, from what it takes."""
+    if key not in model.model_fields:
+        return ""
+    for annotation in model.model_fields[key].metadata:
+        if dimension := getattr(annotation, "dimension", None):
+            return f"; write e.g. '{key}: {DIMENSIONS[dimension].example}'"
+    described = model.model_fields[key].description
+    return f"; {described}" if described else ""
+
+
+def _plain_words(error: ErrorDetails) -> str:
+    given = error["input"]
+    shown = repr(given) if len(repr(given)) <= 40 else repr(given)[:37] + "..."
+    words = {
+        "int_type": "must be a whole number",
+        "float_type": "must be a plain number, without a unit",
+        "string_type": "must be a text",
+        "list_type": "must be a list",
+        "tuple_type": "must be a list",
+        "model_type": "must be a section with keys of its own",
+        "model_attributes_type": "must be a section with keys of its own",
+        "dict_type": "must be a section with keys of its own",
+        "finite_number": "must be a finite number",
+        "too_short": "has too few entries",
+        "too_long": "has too many entries",
+    }
+    if error["type"] in words:
+        return f"{words[error['type']]}, got {shown}"
+    if error["type"] in ("quantity", "library"):
+        return error["msg"]
+    bounds = error["msg"].removeprefix("Input should be ")
+    return f"must be {bounds}, got {shown}"

@@ -1,0 +1,187 @@
+"""YAML 1.2 as plain data with line numbers."""
+
+from __future__ import annotations
+
+import io
+from typing import Any
+
+from ruamel.yaml import YAML
+from ruamel.yaml.comments import CommentedMap, CommentedSeq
+from ruamel.yaml.constructor import DuplicateKeyError
+from ruamel.yaml.error import MarkedYAMLError
+
+from viscontact.case.problems import KeyPath, SourceError
+
+__all__ = ["SourceError", "parse", "parse_value", "with_overrides"]
+
+# Aliases can make a small file expand without end.
+_MOST_VALUES, _DEEPEST = 200_000, 12
+
+
+def parse(text: str) -> tuple[Any, dict[KeyPath, int]]:
+    r"""Read YAML.
+
+    Parameters
+    ----------
+    text : str
+        The text of the file.
+
+    Returns
+    -------
+    data : dict, list, str, int, float, bool or None
+        Its content, in plain Python types.
+    lines : dict
+        Line number, from 1, of each key and list entry, by its path.
+
+    Raises
+    ------
+    SourceError
+        If it is not YAML, has a key twice, or expands without end.
+
+    Examples
+    --------
+    >>> parse("load:\n  force: 10 kN")
+    ({'load': {'force': '10 kN'}}, {('load',): 1, ('load', 'force'): 2})
+    """
+    lines: dict[KeyPath, int] = {}
+    return _plain(_load(text), (), lines), lines
+
+
+def parse_value(text: str) -> Any:
+    """Read one value, as it would stand behind a key.
+
+    Parameters
+    ----------
+    text : str
+        Such as ``20 kN`` or ``[64, 64]``.
+
+    Raises
+    ------
+    SourceError
+        If it is not YAML.
+
+    Examples
+    --------
+    >>> parse_value("[64, 1e3]")
+    [64, 1000.0]
+    """
+    return parse(text)[0]
+
+
+def with_overrides(text: str, values: dict[KeyPath, Any]) -> str:
+    r"""Write values into the text of a YAML file, keeping its comments.
+
+    Parameters
+    ----------
+    text : str
+        The text of the file; it has been parsed before.
+    values : dict
+        New values by key path; the mappings on the way are there.
+
+    Returns
+    -------
+    str
+        The text with the values in it.
+
+    Examples
+    --------
+    >>> print(with_overrides("load:  # a step\n  force: 10 kN", {("load", "force"): "20 kN"}))
+    load:  # a step
+      force: 20 kN
+    <BLANKLINE>
+    """
+    document = _load(text)
+    for path, value in values.items():
+        target = document
+        for step in path[:-1]:
+            if isinstance(target, dict):
+                target.setdefault(step, {})
+            target = target[step]
+        target[path[-1]] = value
+    return write(document)
+
+
+def write(data: Any) -> str:
+    r"""Write data as YAML.
+
+    Parameters
+    ----------
+    data : dict
+        Mappings, lists, texts and numbers.
+
+    Returns
+    -------
+    str
+        The text of a YAML file.
+
+    Examples
+    --------
+    >>> write({"load": {"force": "20 kN"}})
+    'load:\n  force: 20 kN\n'
+    """
+    stream = io.StringIO()
+    _yaml().dump(data, stream)
+    return stream.getvalue()
+
+
+def _yaml() -> YAML:
+    yaml = YAML(typ="rt", pure=True)
+    yaml.preserve_quotes = True
+    yaml.width = 100
+    return yaml
+
+
+def _load(text: str) -> Any:
+    try:
+        return _yaml().load(text)
+    except DuplicateKeyError as error:
+        name = str(error.problem).split('"')[1]
+        raise SourceError(f"the key {name!r} stands there twice", _line(error)) from error
+    except MarkedYAMLError as error:
+        why = " ".join(str(part) for part in (error.context, error.problem) if part)
+        hint = "; indent with spaces, not tabs" if "'\\t'" in why else ""
+        raise SourceError(f"not valid YAML: {why}{hint}", _line(error)) from error
+    except RecursionError as error:
+        raise SourceError("nested too deeply for a case file") from error
+    except Exception as error:  # malformed text makes the parser raise many other kinds
+        why = str(error).splitlines()[0] if str(error) else type(error).__name__
+        raise SourceError(f"not valid YAML: {why}") from error
+
+
+def _line(error: MarkedYAMLError) -> int | None:
+    mark = error.problem_mark or error.context_mark
+    return mark.line + 1 if mark else None
+
+
+def _plain(value: Any, path: KeyPath, lines: dict[KeyPath, int]) -> Any:
+    """Turn the parser's containers into plain ones, noting the lines on the way."""
+    if len(path) > _DEEPEST:
+        raise SourceError("nested too deeply for a case file")
+    if len(lines) > _MOST_VALUES:
+        raise SourceError(
+            f"expands to more than {_MOST_VALUES} values; a long history belongs in a CSV file"
+        )
+    if isinstance(value, CommentedMap):
+        return {str(key): _entry(value, key, path, lines) for key in value}
+    if isinstance(value, CommentedSeq):
+        return [_entry(value, index, path, lines) for index in range(len(value))]
+    return _plain_scalar(value)
+
+
+def _entry(container: Any, key: Any, path: KeyPath, lines: dict[KeyPath, int]) -> Any:
+    here = (*path, key if isinstance(container, CommentedSeq) else str(key))
+    known = container.lc.data or {}
+    # A key merged from an anchor has no line of its own: its mapping's will do.
+    if key in known:
+        lines[here] = known[key][0] + 1
+    elif path in lines:
+        lines[here] = lines[path]
+    return _plain(container[key], here, lines)
+
+
+def _plain_scalar(value: Any) -> Any:
+    # bool before int, of which it is a kind
+    for kind in (bool, int, float, str):
+        if isinstance(value, kind):
+            return kind(value)
+    return None if value is None else str(value)
