@@ -99,7 +99,7 @@ def flat_punch(
     Notes
     -----
     approach = F/(2 a E*), tilt = 3 F e/(4 a³ E*). The tilt follows from the pressure
-    2 E* tilt x / (pi sqrt(a² - r²)): along every chord it integrates to pi times its value at
+    2 E* tilt x / (pi sqrt(a² - r²)): along every chord it integrates to pi times its numerator at
     mid-chord, so its displacement is tilt * x; its moment is 4 E* a³ tilt / 3.
 
     References
