@@ -2,51 +2,31 @@
 
 Minimise ½ p·Kc p + p·g over p >= 0 subject to the body's force and moment balances, by a
 preconditioned conjugate-gradient iteration that treats bound and balances together. Multipliers
-of the balances are the rigid motion: approach and tilts.
+of the balances are the rigid motion: approach and tilts. The search runs on the contact's own
+patch of the grid; what it finds is checked on the whole.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.balance import RigidPlane, Support, bedding_pressure, restore_balance
-from viscontact.convolution import Convolution, Preconditioner
-from viscontact.grid import Grid
+from viscontact.balance import Support, restore_balance
+from viscontact.bedding import bedding_pressure
+from viscontact.half_space import HalfSpace, Patch
 
-#: Iterations without a new best error after which a solve is called stagnant.
+#: Iterations without a new best error after which a search is called stagnant.
 PATIENCE = 40
 
 MAX_ITERATIONS = 400
 
-
-@dataclass(frozen=True)
-class HalfSpace:
-    """A grid with the operators that live on it.
-
-    Parameters
-    ----------
-    grid : Grid
-        The cells that carry pressure and displacement.
-    threads : int
-        Threads of one transform.
-    """
-
-    grid: Grid
-    threads: int = 1
-    convolution: Convolution = field(init=False)
-    preconditioner: Preconditioner = field(init=False)
-    plane: RigidPlane = field(init=False)
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "convolution", Convolution(self.grid, self.threads))
-        object.__setattr__(self, "preconditioner", Preconditioner(self.grid, self.threads))
-        object.__setattr__(self, "plane", RigidPlane(self.grid))
+#: Moments and force of a guess within this are as good as balanced.
+BALANCED = 1e-12
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ContactProblem:
     """One instant's problem: gap = open_gap + compliance K p - approach - tilts.
 
@@ -68,17 +48,21 @@ class ContactProblem:
     support: Support
     displacement_scale: float
 
+    def within(self, patch: Patch) -> ContactProblem:
+        """The same problem on a patch."""
+        return replace(self, open_gap=patch.cut(self.open_gap))
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, eq=False)
 class Guess:
-    """Where a solve starts.
+    """A pressure, what it does, and the body's rigid motion.
 
     Attributes
     ----------
     pressure : ndarray, shape (nx, ny)
-        Pressure [Pa]; negative values are cut off, balances restored.
+        Pressure [Pa].
     deflection : ndarray, shape (nx, ny)
-        ``K pressure`` of that pressure, exactly [Pa m].
+        ``K pressure`` of that pressure [Pa m].
     motion : ndarray, shape (3,)
         Approach [m] and tilts [rad] along x and y.
     """
@@ -87,31 +71,31 @@ class Guess:
     deflection: NDArray[np.float64]
     motion: NDArray[np.float64]
 
+    def within(self, patch: Patch) -> Guess:
+        """The part on a patch."""
+        return Guess(patch.cut(self.pressure), patch.cut(self.deflection), self.motion)
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, eq=False)
 class ContactSolution:
     """What a solve found.
 
     Attributes
     ----------
-    pressure, deflection : ndarray, shape (nx, ny)
-        Pressure [Pa] and ``K pressure`` [Pa m], the latter by a fresh convolution.
+    found : Guess
+        Pressure, deflection by a fresh convolution, and rigid motion.
     gap : ndarray, shape (nx, ny)
         Gap [m], +inf where the body has no surface.
-    motion : ndarray, shape (3,)
-        Approach [m] and tilts [rad].
     residual : float
         Largest gap under pressure or penetration elsewhere, over the largest displacement.
     iterations, convolutions : int
-        Search directions used, and half-space convolutions spent.
+        Search directions used, and convolutions (on patches or the whole grid) spent.
     converged : bool
         Whether residual and balances are within the tolerance.
     """
 
-    pressure: NDArray[np.float64]
-    deflection: NDArray[np.float64]
+    found: Guess
     gap: NDArray[np.float64]
-    motion: NDArray[np.float64]
     residual: float
     iterations: int
     convolutions: int
@@ -135,7 +119,8 @@ def solve_contact(
     half_space : HalfSpace
         Grid and operators.
     guess : Guess, optional
-        Start; an elastic bedding of about the right stiffness when left out.
+        Start; its deflection must belong to its pressure. Negative pressure is cut off, balances
+        are restored. A bedding of about the right stiffness when left out.
     tolerance : float
         Bound on the relative residual of the returned pressure, and on the balances.
     max_iterations : int
@@ -148,7 +133,7 @@ def solve_contact(
 
     Notes
     -----
-    After Polonsky & Keer (1999), with these departures: a |q|/2 preconditioner, Polak-Ribiere+
+    After Polonsky & Keer (1999), with these departures: a preconditioner, Polak-Ribiere+
     directions that are not reset when the contact set changes, the deflection updated along the
     direction instead of convolved again, and both moments balanced (in pressure itself: scaled
     variables lose convergence).
@@ -157,141 +142,205 @@ def solve_contact(
     ----------
     I. A. Polonsky, L. M. Keer, Wear 231 (1999) 206.
     """
-    search = _Search(problem, half_space, guess)
-    best, since_best = np.inf, 0
+    whole = half_space.whole
+    start = _bedding(problem, whole) if guess is None else guess
+    cells = start.pressure > 0
+    iterations = convolutions = 0
     while True:
-        search.measure()
-        good = search.error <= tolerance and search.imbalance <= tolerance
-        if good and search.fresh:
-            return search.solution(converged=True)
-        if good:
-            # Certify what is returned, not what the recurrence believes.
-            search.convolve()
-            continue
-        since_best = 0 if search.error < best else since_best + 1
-        best = min(best, search.error)
-        if search.iterations >= max_iterations or since_best > PATIENCE:
-            search.convolve()
-            search.measure()
-            return search.solution(converged=False)
-        search.advance()
+        patch = half_space.patch_around(cells)
+        search = Search(problem.within(patch), patch, start.within(patch))
+        search.run(tolerance, max_iterations - iterations)
+        iterations += search.iterations
+        convolutions += search.convolutions + 1
+        # Certify what is returned, by a fresh convolution: not what the recurrence believes.
+        pressure = patch.embed(search.now.pressure, half_space.grid.shape)
+        start = replace(search.now, pressure=pressure, deflection=whole.convolution.apply(pressure))
+        checked = measure(problem, whole, start)
+        start = replace(start, motion=checked.motion)
+        converged = checked.within(tolerance)
+        if converged or search.gave_up or iterations >= max_iterations:
+            return ContactSolution(
+                start, checked.gap, checked.error, iterations, convolutions, converged
+            )
+        cells = (pressure > 0) | (checked.gap < 0)
 
 
-class _Search:
-    """The iteration's working state; one pass of DESIGN's five steps is measure + advance."""
+@dataclass(frozen=True, eq=False)
+class Measure:
+    """How far a pressure is from equilibrium.
 
-    def __init__(self, problem: ContactProblem, half_space: HalfSpace, guess: Guess | None) -> None:
-        self.problem = problem
-        self.half_space = half_space
-        self.plane = half_space.plane
-        self.cell_area = half_space.grid.cell_area
-        self.iterations = 0
-        self.convolutions = 0
-        self.direction: NDArray[np.float64] | None = None
-        self.residual: NDArray[np.float64] = np.zeros(half_space.grid.shape)
-        self.slope = 1.0
-        self._start(guess)
+    Attributes
+    ----------
+    contact : ndarray of bool
+        Cells under pressure.
+    motion : ndarray, shape (3,)
+        Rigid motion that fits best.
+    gap : ndarray
+        Gap with that motion [m].
+    error : float
+        Largest gap under pressure or penetration elsewhere, over the largest displacement.
+    imbalance : float
+        Largest relative error of the balances.
+    """
 
-    def _start(self, guess: Guess | None) -> None:
-        if guess is None:
-            self.motion = self.problem.support.prescribed_motion()
-            self.pressure = self._bedding()
-            self.convolve()
-            return
-        self.motion = self.problem.support.with_prescribed(guess.motion)
-        self.pressure, self.deflection, self.fresh = guess.pressure, guess.deflection, False
+    contact: NDArray[np.bool_]
+    motion: NDArray[np.float64]
+    gap: NDArray[np.float64]
+    error: float
+    imbalance: float
+
+    def within(self, tolerance: float) -> bool:
+        """Whether both are small enough."""
+        return self.error <= tolerance and self.imbalance <= tolerance
+
+
+def measure(problem: ContactProblem, patch: Patch, now: Guess) -> Measure:
+    """Step 1: rigid motion by least squares over the contact, the gap, and its errors.
+
+    Parameters
+    ----------
+    problem : ContactProblem
+        Gap, compliance and support.
+    patch : Patch
+        The cells.
+    now : Guess
+        Pressure and deflection.
+
+    Returns
+    -------
+    Measure
+        Gap and errors.
+    """
+    plane, support = patch.plane, problem.support
+    contact = now.pressure > 0
+    weight = contact.astype(float)
+    gap = problem.open_gap + problem.compliance * now.deflection
+    gap -= plane.field(now.motion)
+    inverse = plane.inverse_gram(weight, support.free)
+    # A correction, so that a motion the contact does not determine stays as it was.
+    correction = inverse @ plane.sums(np.where(contact, gap, 0.0))
+    gap -= plane.field(correction)
+    violation = np.where(contact, np.abs(gap), -gap)
+    scale = max(problem.displacement_scale, problem.compliance * float(now.deflection.max()))
+    imbalance = support.imbalance(plane.sums(now.pressure) * patch.cell_area, plane.arm(contact))
+    error = max(float(violation.max()), 0.0) / scale
+    return Measure(contact, now.motion + correction, gap, error, imbalance)
+
+
+class Search:
+    """The iteration on one patch, with its working state.
+
+    Parameters
+    ----------
+    problem : ContactProblem
+        The problem on the patch.
+    patch : Patch
+        The cells.
+    start : Guess
+        Where it starts, on the patch.
+    """
+
+    def __init__(self, problem: ContactProblem, patch: Patch, start: Guess) -> None:
+        self.problem, self.patch = problem, patch
+        self.iterations = self.convolutions = 0
+        self.gave_up = False
+        self.now = replace(start, motion=problem.support.with_prescribed(start.motion))
+        self._residual = self._direction = np.zeros(0)
+        self._slope = 0.0
         self._keep_admissible()
 
-    def _bedding(self) -> NDArray[np.float64]:
-        problem = self.problem
-        return bedding_pressure(
-            problem.open_gap, problem.compliance, problem.support, self.half_space.grid, self.plane
-        )
+    def run(self, tolerance: float, max_iterations: int) -> None:
+        """Iterate until the tolerance is met, or no progress is made.
 
-    def convolve(self) -> None:
-        """Deflection of the present pressure, from scratch."""
-        self.deflection = self.half_space.convolution.apply(self.pressure)
-        self.convolutions += 1
-        self.fresh = True
+        Parameters
+        ----------
+        tolerance : float
+            Bound on the relative residual and the imbalance.
+        max_iterations : int
+            Most search directions.
+        """
+        best, since_best = np.inf, 0
+        while True:
+            checked = measure(self.problem, self.patch, self.now)
+            self.now = replace(self.now, motion=checked.motion)
+            if checked.within(tolerance):
+                return
+            since_best = 0 if checked.error < best else since_best + 1
+            best = min(best, checked.error)
+            self.gave_up = self.iterations >= max_iterations or since_best > PATIENCE
+            if self.gave_up:
+                return
+            self._advance(checked)
 
-    def measure(self) -> None:
-        """Step 1: rigid motion by least squares over the contact; gap; error; imbalance."""
-        problem, plane = self.problem, self.plane
-        self.contact = self.pressure > 0
-        raw = problem.open_gap + problem.compliance * self.deflection
-        gap = raw - plane.field(self.motion)
-        correction = plane.fit(gap, self.contact, problem.support.free)
-        self.motion = self.motion + correction
-        self.gap = gap - plane.field(correction)
-        self.scale = max(
-            problem.displacement_scale, problem.compliance * float(self.deflection.max())
-        )
-        violation = np.where(self.contact, np.abs(self.gap), -self.gap)
-        self.error = max(float(violation.max()), 0.0) / self.scale
-        self.imbalance = problem.support.imbalance(
-            plane.sums(self.pressure) * self.cell_area, plane.extent(self.contact)
-        )
-
-    def advance(self) -> None:
+    def _advance(self, checked: Measure) -> None:
         """Steps 2 to 5: precondition, project, conjugate, step exactly, cut and rebalance."""
-        self.iterations += 1
-        active = self.contact | (self.gap < 0)
-        residual = np.where(active, self.gap, 0.0)
-        steepest = self._project(self.half_space.preconditioner.apply(residual), active)
+        active = checked.contact | (checked.gap < 0)
+        weight = active.astype(float)
+        inverse = self.patch.plane.inverse_gram(weight, self.problem.support.free)
+        residual = np.where(active, checked.gap, 0.0)
+        steepest = self._project(self.patch.preconditioner.apply(residual), weight, inverse)
         direction = -steepest
-        if self.direction is not None:
-            change = float(np.vdot(steepest, residual - self.residual))
-            conjugacy = max(change / self.slope, 0.0)
-            direction += conjugacy * self._project(self.direction, active)
-        self.residual = residual
-        self.slope = float(np.vdot(steepest, residual)) or 1.0
-        self.direction = direction
-        self._step(residual, direction)
+        if self._slope > 0:
+            change = float(np.vdot(steepest, residual)) - float(np.vdot(steepest, self._residual))
+            conjugacy = max(change / self._slope, 0.0)
+            direction += conjugacy * self._project(self._direction, weight, inverse)
+        self._residual, self._direction = residual, direction
+        self._slope = float(np.vdot(steepest, residual))
+        self.iterations += 1
+        self._step()
 
     def _project(
-        self, vector: NDArray[np.float64], active: NDArray[np.bool_]
+        self,
+        vector: NDArray[np.float64],
+        weight: NDArray[np.float64],
+        inverse: NDArray[np.float64],
     ) -> NDArray[np.float64]:
-        """Remove from a direction what would change the resultants."""
-        vector = np.where(active, vector, 0.0)
-        rigid = self.plane.fit(vector, active, self.problem.support.free)
-        return np.where(active, vector - self.plane.field(rigid), 0.0)
+        """Remove from a direction what lies outside the active cells or changes resultants."""
+        plane = self.patch.plane
+        vector = weight * vector
+        vector -= weight * plane.field(inverse @ plane.sums(vector))
+        return vector
 
-    def _step(self, residual: NDArray[np.float64], direction: NDArray[np.float64]) -> None:
-        change = self.half_space.convolution.apply(direction)
+    def _step(self) -> None:
+        direction = self._direction
+        change = self.patch.convolution.apply(direction)
         self.convolutions += 1
         curvature = self.problem.compliance * float(np.vdot(direction, change))
         if curvature <= 0:
-            self.direction = None
+            self._slope = 0.0
             return
-        length = -float(np.vdot(residual, direction)) / curvature
-        self.pressure = self.pressure + length * direction
-        self.deflection = self.deflection + length * change
-        self.fresh = False
+        length = -float(np.vdot(self._residual, direction)) / curvature
+        self.now = replace(
+            self.now,
+            pressure=self.now.pressure + length * direction,
+            deflection=self.now.deflection + length * change,
+        )
         self._keep_admissible()
 
     def _keep_admissible(self) -> None:
-        """Step 5's second half: no tension, balances kept; convolve only if that changed it."""
-        support = self.problem.support
-        if float(self.pressure.min()) >= 0 and self._balanced():
+        """No tension, balances kept; convolve again only if that changed anything."""
+        problem, patch = self.problem, self.patch
+        pressure = self.now.pressure
+        if float(pressure.min()) >= 0 and self._is_balanced(pressure):
             return
-        pressure = np.maximum(self.pressure, 0.0)
-        pressure = np.where(np.isfinite(self.problem.open_gap), pressure, 0.0)
-        restored = restore_balance(pressure, support, self.plane, self.cell_area)
-        self.pressure = self._bedding() if restored is None else restored
-        self.convolve()
+        pressure = np.where(np.isfinite(problem.open_gap), np.maximum(pressure, 0.0), 0.0)
+        restored = restore_balance(pressure, problem.support, patch.plane, patch.cell_area)
+        if restored is None:
+            self.now = replace(_bedding(problem, patch), motion=self.now.motion)
+        else:
+            deflection = patch.convolution.apply(restored)
+            self.now = replace(self.now, pressure=restored, deflection=deflection)
+        self.convolutions += 1
 
-    def _balanced(self) -> bool:
-        sums = self.plane.sums(self.pressure) * self.cell_area
-        return self.problem.support.imbalance(sums, self.plane.extent(self.pressure > 0)) < 1e-12
+    def _is_balanced(self, pressure: NDArray[np.float64]) -> bool:
+        plane = self.patch.plane
+        sums = plane.sums(pressure) * self.patch.cell_area
+        return self.problem.support.imbalance(sums, plane.arm(pressure > 0)) < BALANCED
 
-    def solution(self, *, converged: bool) -> ContactSolution:
-        return ContactSolution(
-            self.pressure,
-            self.deflection,
-            self.gap,
-            self.motion,
-            self.error,
-            self.iterations,
-            self.convolutions,
-            converged,
-        )
+
+def _bedding(problem: ContactProblem, patch: Patch) -> Guess:
+    pressure = bedding_pressure(
+        problem.open_gap, problem.compliance, problem.support, patch.plane, patch.cell_area
+    )
+    motion = problem.support.with_prescribed(np.zeros(3))
+    return Guess(pressure, patch.convolution.apply(pressure), motion)

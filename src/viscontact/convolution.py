@@ -10,9 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft
 
-from viscontact.grid import Grid
-from viscontact.influence import influence_coefficient
-
 
 class Convolution:
     """The free half-space as an operator on cell pressures, by zero-padded real FFTs.
@@ -22,30 +19,28 @@ class Convolution:
 
     Parameters
     ----------
-    grid : Grid
-        The cells that carry pressure and displacement.
+    coefficients : ndarray, shape (nx, ny)
+        Influence coefficients of a block of cells, from `influence_table` [m].
     threads : int
         Threads of one transform.
 
     Examples
     --------
     >>> import numpy as np
-    >>> operator = Convolution(Grid((4, 4), (4.0, 4.0)))
+    >>> from viscontact.influence import influence_table
+    >>> operator = Convolution(influence_table((4, 4), (1.0, 1.0)))
     >>> pressure = np.zeros((4, 4))
     >>> pressure[1, 1] = 1.0
     >>> round(float(operator.apply(pressure)[1, 1]), 6)
     1.1222
     """
 
-    def __init__(self, grid: Grid, threads: int = 1) -> None:
-        self.shape = grid.shape
+    def __init__(self, coefficients: NDArray[np.float64], threads: int = 1) -> None:
+        self.shape = coefficients.shape
         self.threads = threads
-        self._padded = tuple(fft.next_fast_len(2 * n - 1, real=True) for n in grid.shape)
-        kernel = influence_coefficient(
-            _wrapped_offsets(self._padded[0], grid.cell_size[0])[:, None],
-            _wrapped_offsets(self._padded[1], grid.cell_size[1])[None, :],
-            grid.cell_size,
-        )
+        self._padded = tuple(fft.next_fast_len(2 * n - 1, real=True) for n in self.shape)
+        near, across = (_distances(*lengths) for lengths in zip(self._padded, self.shape))
+        kernel = coefficients[near[:, None], across[None, :]]
         # The wrapped kernel is even along both axes, so its transform is real.
         self._symbol = np.ascontiguousarray(fft.rfft2(kernel, workers=threads).real)
 
@@ -82,8 +77,10 @@ class Preconditioner:
 
     Parameters
     ----------
-    grid : Grid
-        The cells that carry pressure and displacement.
+    shape : tuple of int
+        Cells (nx, ny).
+    cell_size : tuple of float
+        Edge lengths (dx, dy) of a cell [m].
     threads : int
         Threads of one transform.
 
@@ -93,12 +90,13 @@ class Preconditioner:
     number q displaces the surface by 2 p/(q E*).
     """
 
-    def __init__(self, grid: Grid, threads: int = 1) -> None:
-        self.shape = grid.shape
+    def __init__(
+        self, shape: tuple[int, int], cell_size: tuple[float, float], threads: int = 1
+    ) -> None:
+        self.shape = shape
         self.threads = threads
-        dx, dy = grid.cell_size
-        wave_x = 2 * np.pi * fft.fftfreq(grid.shape[0], dx)[:, None]
-        wave_y = 2 * np.pi * fft.rfftfreq(grid.shape[1], dy)[None, :]
+        wave_x = 2 * np.pi * fft.fftfreq(shape[0], cell_size[0])[:, None]
+        wave_y = 2 * np.pi * fft.rfftfreq(shape[1], cell_size[1])[None, :]
         self._symbol = (np.hypot(wave_x, wave_y) / 2).astype(np.float32)
 
     def apply(self, displacement: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -122,7 +120,10 @@ class Preconditioner:
         return np.asarray(pressure * size, dtype=np.float64)
 
 
-def _wrapped_offsets(cells: int, cell: float) -> NDArray[np.float64]:
-    """Offsets 0, 1, 2, ..., -2, -1 cells: the order in which an FFT wants a centred kernel."""
-    index = np.arange(cells)
-    return np.where(index <= cells // 2, index, index - cells) * cell
+def _distances(padded: int, cells: int) -> NDArray[np.intp]:
+    """Offsets 0, 1, 2, ..., 2, 1 in the order in which an FFT wants a centred even kernel.
+
+    Those beyond the block stand in the padding and are never read; any value will do.
+    """
+    index = np.arange(padded)
+    return np.minimum(np.minimum(index, padded - index), cells - 1)

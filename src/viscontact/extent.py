@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 from scipy import fft
 
 from viscontact.balance import Support
-from viscontact.contact import ContactProblem, HalfSpace, solve_contact
+from viscontact.contact import ContactProblem, solve_contact
 from viscontact.grid import Grid
+from viscontact.half_space import HalfSpace
 from viscontact.indenters import Indenter
 from viscontact.load import ForceHistory, LoadPoint
 from viscontact.material import ContactCompliance, Material
@@ -216,7 +217,7 @@ def _coarse_contact(
         return None
     problem = ContactProblem(open_gap, compliance, Support.of(point), 1e-12 * max(grid.size))
     solution = solve_contact(problem, HalfSpace(grid), tolerance=COARSE_TOLERANCE)
-    contact = solution.pressure > 0
+    contact = solution.found.pressure > 0
     touching_rim = contact[[0, -1]].any() or contact[:, [0, -1]].any()
     if touching_rim or not solution.converged:
         return None
@@ -225,8 +226,8 @@ def _coarse_contact(
     return ContactEstimate(
         rim.length,
         rim.width,
-        float(solution.motion[0]),
-        float(solution.pressure.max()),
+        float(solution.found.motion[0]),
+        float(solution.found.pressure.max()),
         float(grid.x[rows[[0, -1]]].mean()),
         float(grid.y[columns[[0, -1]]].mean()),
     )

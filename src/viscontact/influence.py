@@ -59,6 +59,31 @@ def influence_coefficient(
     return result / np.pi
 
 
+def influence_table(shape: tuple[int, int], cell_size: tuple[float, float]) -> NDArray[np.float64]:
+    """Influence coefficients of a cell at one corner of a block of cells.
+
+    Parameters
+    ----------
+    shape : tuple of int
+        Cells of the block along x and y.
+    cell_size : tuple of float
+        Edge lengths (dx, dy) of a cell [m].
+
+    Returns
+    -------
+    ndarray, shape (nx, ny)
+        Entry [i, j] for an offset of i and j cells [m]. All offsets of a grid follow by symmetry,
+        and those of a smaller block are its leading part.
+
+    Examples
+    --------
+    >>> influence_table((2, 2), (1.0, 1.0)).round(3).tolist()
+    [[1.122, 0.33], [0.33, 0.228]]
+    """
+    x, y = (np.arange(cells) * cell for cells, cell in zip(shape, cell_size, strict=True))
+    return influence_coefficient(x[:, None], y[None, :], cell_size)
+
+
 def _in_closed_form(
     x: NDArray[np.float64], y: NDArray[np.float64], cell_size: tuple[float, float]
 ) -> NDArray[np.float64]:

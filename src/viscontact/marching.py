@@ -9,9 +9,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.balance import Support
-from viscontact.contact import ContactProblem, Guess, HalfSpace, solve_contact
+from viscontact.contact import ContactProblem, Guess, solve_contact
 from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
 from viscontact.grid import Grid
+from viscontact.half_space import HalfSpace
 from viscontact.indenters import Indenter
 from viscontact.load import ForceHistory
 from viscontact.material import Material
@@ -184,16 +185,16 @@ def _in_contact(
     response: Response,
 ) -> Instant:
     solution = solve_contact(problem, half_space, guess, tolerance=run.tolerance)
-    pressure = solution.pressure
-    if pressure[[0, -1]].any() or pressure[:, [0, -1]].any():
+    found = solution.found
+    if found.pressure[[0, -1]].any() or found.pressure[:, [0, -1]].any():
         raise DomainError(
             f"grid: the contact reaches the grid's rim at t = {step.time:.6g} s; "
             f"enlarge grid.size, now {run.grid.size[0]:.4g} m x {run.grid.size[1]:.4g} m"
         )
     return Instant(
-        Guess(pressure, solution.deflection, solution.motion),
+        found,
         solution.gap,
-        response.history + problem.compliance * solution.deflection,
+        response.history + problem.compliance * found.deflection,
         solution.residual,
         solution.iterations,
         Outcome.CONVERGED if solution.converged else Outcome.NOT_CONVERGED,
@@ -207,7 +208,7 @@ def _apart(
     half_space: HalfSpace,
 ) -> Instant:
     """No force: the body is where it just touches the (dented) surface, tilts as they were."""
-    distance = open_gap - half_space.plane.field(tilts)
+    distance = open_gap - half_space.whole.plane.field(tilts)
     approach = float(distance.min())
     nothing = np.zeros_like(open_gap)
     return Instant(

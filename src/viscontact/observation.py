@@ -62,7 +62,7 @@ class Observer:
 
     def __init__(self, run: Run) -> None:
         self._run = run
-        self._plane = RigidPlane(run.grid)
+        self._plane = RigidPlane(run.grid.x, run.grid.y, run.grid.cell_size)
         self._outline = trace_outline(run.indenter, run.grid)
         self._geometry = Geometry(run.indenter, run.open_gap, run.grid.cell_size)
         self._doubts = Doubts()
