@@ -1,0 +1,55 @@
+"""Figures of a run, of several runs, and of a creep law.
+
+Every figure takes a result, as ``simulate`` or ``open_results`` returned it, and gives a
+`matplotlib.figure.Figure`; `FIGURES` and `COMPARISONS` list them by the names of the command
+line. Nothing here uses or changes matplotlib's global state.
+"""
+
+from collections.abc import Callable
+
+try:
+    from matplotlib.figure import Figure
+except ModuleNotFoundError as error:
+    raise ModuleNotFoundError(
+        "figures need matplotlib, which is not installed; type: pip install 'viscontact[plot]'",
+        name="matplotlib",
+    ) from error
+
+from viscontact.plot.contact_outline import contact_outline
+from viscontact.plot.creep import creep, creep_curve
+from viscontact.plot.history import compare_histories, history
+from viscontact.plot.pressure_map import pressure_map
+from viscontact.plot.pressure_profile import compare_pressure_profiles, pressure_profile
+from viscontact.plot.pressure_radial import pressure_radial
+from viscontact.plot.saving import save_figure
+
+FIGURES: dict[str, Callable[..., Figure]] = {
+    "pressure-map": pressure_map,
+    "pressure-profile": pressure_profile,
+    "pressure-radial": pressure_radial,
+    "contact-outline": contact_outline,
+    "history": history,
+    "creep": creep,
+}
+"""Figures of one run by name: ``FIGURES[name](results, times=None)``."""
+
+COMPARISONS: dict[str, Callable[..., Figure]] = {
+    "history": compare_histories,
+    "pressure-profile": compare_pressure_profiles,
+}
+"""Figures of several runs by name: ``COMPARISONS[name]({label: results, ...}, times=None)``."""
+
+__all__ = [
+    "COMPARISONS",
+    "FIGURES",
+    "compare_histories",
+    "compare_pressure_profiles",
+    "contact_outline",
+    "creep",
+    "creep_curve",
+    "history",
+    "pressure_map",
+    "pressure_profile",
+    "pressure_radial",
+    "save_figure",
+]

@@ -1,0 +1,68 @@
+"""Outlines of the contact as it grows (the paper's Figs. 9, 12 and 15)."""
+
+from __future__ import annotations
+
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import PathPatch
+from numpy.typing import ArrayLike
+
+from viscontact.plot import style
+from viscontact.plot.readable import time_labels
+from viscontact.plot.rim_polygons import rim_path, rim_polygons
+from viscontact.plot.snapshots import take_snapshots
+from viscontact.plot.window import Window, window_around
+
+_NAME = "contact-outline"
+
+
+def contact_outline(
+    results: xr.Dataset, *, times: ArrayLike | None = None, axes: Axes | None = None
+) -> Figure:
+    """Draw the outline of the contact at several instants.
+
+    Parameters
+    ----------
+    results : xarray.Dataset
+        What ``simulate`` or ``open_results`` returned, with fields stored.
+    times : array_like, optional
+        Instants [s]; the nearest stored ones are drawn and named. By default five, from the
+        first in contact to the last.
+    axes : matplotlib.axes.Axes, optional
+        Where to draw; by default in a new figure.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Outlines found between the cells, from the way the gap opens outside the contact.
+
+    Raises
+    ------
+    ValueError
+        If no fields are stored or the bodies do not touch at these instants.
+    """
+    snapshots = take_snapshots(results, times, _NAME)
+    window = window_around(snapshots)
+    axes = _new_axes(window) if axes is None else axes
+    colours = style.time_colours(len(snapshots))
+    for snapshot, colour in zip(snapshots, colours, strict=True):
+        if snapshot.touching:
+            path = rim_path(window.unit(polygon) for polygon in rim_polygons(snapshot))
+            axes.add_patch(
+                PathPatch(path, fill=False, edgecolor=colour, linewidth=style.LINE_WIDTH)
+            )
+    axes.set(xlabel=window.unit.label("x"), ylabel=window.unit.label("y"))
+    style.dress(axes)
+    window.show(axes)
+    style.add_heading(axes, window.note, aside=True)
+    lines = [Line2D([], [], color=colour, linewidth=style.LINE_WIDTH) for colour in colours]
+    style.add_legend(axes, lines, time_labels(s.time for s in snapshots))
+    return style.figure_of(axes)
+
+
+def _new_axes(window: Window) -> Axes:
+    width = style.TWO_COLUMNS if window.height_to_width < 0.6 else style.ONE_COLUMN
+    height = (width - 1.6) * window.height_to_width + 0.6
+    return style.new_figure(width, height, fixed_aspect=True).add_subplot()

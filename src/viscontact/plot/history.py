@@ -1,0 +1,195 @@
+"""Approach, tilt, area and pressure against time (the paper's Figs. 17, 18 and 19)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import ArrayLike, NDArray
+
+from viscontact.plot import style
+from viscontact.plot.readable import DisplayUnit, display_unit
+
+_NAME = "history"
+
+
+@dataclass(frozen=True)
+class _Quantity:
+    """A variable of the dataset as it is drawn, and whether to leave it out when idle."""
+
+    name: str
+    label: str
+    si_unit: str
+    only_if_varied: bool = False
+
+
+_QUANTITIES = (
+    _Quantity("force", "Force", "N", only_if_varied=True),
+    _Quantity("contact_area", "Contact area", "m2"),
+    _Quantity("approach", "Approach", "m"),
+    _Quantity("tilt_x", "Tilt along x", "rad", only_if_varied=True),
+    _Quantity("tilt_y", "Tilt along y", "rad", only_if_varied=True),
+    _Quantity("peak_pressure", "Peak pressure", "Pa"),
+)
+
+
+def history(results: xr.Dataset, *, times: ArrayLike | None = None) -> Figure:
+    """Draw contact area, approach, tilts and peak pressure against time.
+
+    Parameters
+    ----------
+    results : xarray.Dataset
+        What ``simulate`` or ``open_results`` returned.
+    times : array_like, optional
+        Draw only the span between the least and the largest of these instants [s]; by
+        default all of it.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        One panel a quantity. Force and tilts have one only where they change. Time is
+        logarithmic where the run's steps are.
+
+    Raises
+    ------
+    ValueError
+        If fewer than two steps lie in the span.
+    """
+    return compare_histories({"": results}, times=times)
+
+
+def compare_histories(runs: Mapping[str, xr.Dataset], *, times: ArrayLike | None = None) -> Figure:
+    """Overlay the histories of several runs.
+
+    Parameters
+    ----------
+    runs : mapping of str to xarray.Dataset
+        Results by the name to print.
+    times : array_like, optional
+        Draw only the span between the least and the largest of these instants [s].
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        One panel a quantity, one line a run.
+
+    Raises
+    ------
+    ValueError
+        If there are no runs, or one has fewer than two steps in the span.
+    """
+    if not runs:
+        raise ValueError(f"{_NAME}: needs at least one run to compare, got none")
+    shown = {name: _within(run, times, name) for name, run in runs.items()}
+    quantities = [quantity for quantity in _QUANTITIES if _worth_a_panel(quantity, shown)]
+    figure, panels = _panels(len(quantities))
+    time_unit = display_unit("s", *(run["time"].values for run in shown.values()))
+    for axes, quantity in zip(panels, quantities, strict=True):
+        _draw(axes, quantity, shown, time_unit)
+    _scale_time(panels, shown, time_unit)
+    if len(shown) > 1:
+        _add_runs(figure, panels[0], list(shown))
+    return figure
+
+
+def _within(run: xr.Dataset, times: ArrayLike | None, name: str) -> xr.Dataset:
+    span = run["time"].values if times is None else np.atleast_1d(np.asarray(times, dtype=float))
+    if span.size == 0 or not np.all(np.isfinite(span)):
+        raise ValueError(f"{_NAME}: times must be finite numbers of seconds, got {times!r}")
+    inside = (run["time"] >= span.min()) & (run["time"] <= span.max())
+    shown = run[[*(q.name for q in _QUANTITIES), "contact_length"]].isel(
+        time=np.flatnonzero(inside)
+    )
+    if shown.sizes["time"] < 2:
+        raise ValueError(
+            f"{_NAME}: needs at least two steps to draw a line, got {shown.sizes['time']} "
+            f"between {span.min():.4g} and {span.max():.4g} s{f' in {name}' if name else ''}"
+        )
+    return shown
+
+
+def _worth_a_panel(quantity: _Quantity, runs: Mapping[str, xr.Dataset]) -> bool:
+    if not quantity.only_if_varied:
+        return True
+    values = [run[quantity.name].values for run in runs.values()]
+    if quantity.name == "force":
+        return any(np.ptp(force) > 1e-6 * np.max(force) for force in values)
+    # A tilt that is only rounding is not worth a panel: it moves the ends of the contact
+    # by less than a millionth of the approach.
+    return any(
+        np.nanmax(np.abs(tilt)) * np.nanmax(run["contact_length"].values)
+        > 1e-6 * np.nanmax(np.abs(run["approach"].values))
+        for tilt, run in zip(values, runs.values(), strict=True)
+    )
+
+
+def _panels(count: int) -> tuple[Figure, list[Axes]]:
+    columns = 2 if count in (2, 4) else 3
+    rows = -(-count // columns)
+    figure = style.new_figure(style.TWO_COLUMNS, (2.3 if columns == 2 else 2.0) * rows + 0.2)
+    grid = figure.subplots(rows, columns, sharex=True, squeeze=False)
+    panels = list(grid.flat)
+    for unused in panels[count:]:
+        unused.remove()
+    for axes in panels[:count]:
+        style.dress(axes)
+    # The lowest panel of each column says what runs along it.
+    for axes in panels[max(count - columns, 0) : count]:
+        axes.tick_params(labelbottom=True)
+    return figure, panels[:count]
+
+
+def _draw(
+    axes: Axes, quantity: _Quantity, runs: Mapping[str, xr.Dataset], time_unit: DisplayUnit
+) -> None:
+    unit = display_unit(quantity.si_unit, *(run[quantity.name].values for run in runs.values()))
+    for (name, run), look in zip(runs.items(), style.run_styles(len(runs)), strict=True):
+        values = run[quantity.name].values
+        axes.plot(time_unit(run["time"].values), unit(values), label=name, **look)
+    axes.set_ylabel(unit.label(quantity.label))
+    if quantity.name == "force":
+        axes.set_ylim(0.0, 1.08 * axes.dataLim.y1)
+
+
+def _scale_time(panels: list[Axes], runs: Mapping[str, xr.Dataset], time_unit: DisplayUnit) -> None:
+    instants = [time_unit(run["time"].values) for run in runs.values()]
+    start = min(float(instant[0]) for instant in instants)
+    end = max(float(instant[-1]) for instant in instants)
+    for axes in panels:
+        if all(_steps_grow(instant) for instant in instants):
+            first = min(float(instant[instant > 0][0]) for instant in instants)
+            _set_log_time(axes, first, end)
+        axes.set_xlim(start, end)
+        if axes.xaxis.get_tick_params()["labelbottom"]:
+            axes.set_xlabel(time_unit.label("Time"))
+
+
+def _set_log_time(axes: Axes, first: float, end: float) -> None:
+    # Linear up to the first step, so that the instant of loading is on the axis too, over a
+    # fifth of its length, so that the tick labels there keep apart.
+    share = 0.2 * math.log10(end / first)
+    axes.set_xscale("symlog", linthresh=first, linscale=share, subs=range(2, 10))
+
+
+def _steps_grow(instants: NDArray[np.float64]) -> bool:
+    """Whether the steps are spread over decades, as on a logarithmic axis."""
+    positive = instants[instants > 0]
+    return positive.size > 2 and float(np.median(positive)) < 0.1 * float(positive[-1])
+
+
+def _add_runs(figure: Figure, axes: Axes, names: list[str]) -> None:
+    figure.legend(
+        axes.get_lines(),
+        names,
+        loc="outside upper center",
+        ncols=min(len(names), 4),
+        frameon=False,
+        fontsize=style.TICK_SIZE,
+        labelcolor=style.INK,
+        handlelength=2.4,
+    )

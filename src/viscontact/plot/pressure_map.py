@@ -1,0 +1,134 @@
+"""Iso-contours of pressure over the contact (the paper's Figs. 8, 11 and 14)."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import BoundaryNorm
+from matplotlib.contour import QuadContourSet
+from matplotlib.figure import Figure
+from matplotlib.patches import PathPatch
+from matplotlib.ticker import MaxNLocator
+from numpy.typing import ArrayLike, NDArray
+
+from viscontact.plot import style
+from viscontact.plot.readable import DisplayUnit, display_number, display_unit, time_labels
+from viscontact.plot.rim_polygons import rim_path, rim_polygons
+from viscontact.plot.snapshots import Snapshot, take_snapshots
+from viscontact.plot.squared_pressure import squared_pressure
+from viscontact.plot.window import Window, window_around
+
+_NAME = "pressure-map"
+
+
+def pressure_map(results: xr.Dataset, *, times: ArrayLike | None = None) -> Figure:
+    """Draw iso-contours of pressure, one panel an instant, with the outline of the contact.
+
+    Parameters
+    ----------
+    results : xarray.Dataset
+        What ``simulate`` or ``open_results`` returned, with fields stored.
+    times : array_like, optional
+        Instants [s]; the nearest stored ones are drawn and named. By default four, from the
+        first in contact to the last.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Panels with common axes and pressure levels. A long narrow contact is drawn with its
+        width stretched by the factor printed in the first panel.
+
+    Raises
+    ------
+    ValueError
+        If no fields are stored or the bodies do not touch at these instants.
+    """
+    snapshots = take_snapshots(results, times, _NAME, count=4)
+    window = window_around(snapshots)
+    levels, unit = _levels(snapshots)
+    figure, panels = _panels(len(snapshots), window)
+    for axes, snapshot, label in zip(
+        panels, snapshots, time_labels(s.time for s in snapshots), strict=True
+    ):
+        _draw_contours(axes, snapshot, levels, unit, window)
+        style.add_heading(axes, f"t = {label}")
+    if window.note:
+        style.add_heading(panels[0], window.note, aside=True)
+    _add_colour_bar(figure, panels, levels, unit)
+    return figure
+
+
+def _levels(snapshots: list[Snapshot]) -> tuple[NDArray[np.float64], DisplayUnit]:
+    """Round pressure levels from 0 to above the largest pressure [Pa], and their unit."""
+    peak = max(float(snapshot.pressure.max()) for snapshot in snapshots)
+    unit = display_unit("Pa", peak)
+    levels = MaxNLocator(nbins=10, steps=[1, 2, 2.5, 5, 10]).tick_values(0.0, peak / unit.factor)
+    return np.asarray(levels) * unit.factor, unit
+
+
+def _panels(count: int, window: Window) -> tuple[Figure, list[Axes]]:
+    long = window.height_to_width < 0.6
+    columns = 1 if long else min(count, 2)
+    rows = -(-count // columns)
+    width = style.TWO_COLUMNS if columns == 2 or long else style.ONE_COLUMN
+    panel_width = (width - 1.3) / columns
+    height = rows * (panel_width * window.height_to_width + 0.22) + 0.45
+    figure = style.new_figure(width, height, fixed_aspect=True)
+    grid = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
+    panels = list(grid.flat)
+    for unused in panels[count:]:
+        unused.remove()
+    for axes in panels[:count]:
+        style.dress(axes)
+        window.show(axes)
+    for axes in grid[:, 0]:
+        axes.set_ylabel(window.unit.label("y"))
+    for axes in grid[-1, :]:
+        axes.set_xlabel(window.unit.label("x"))
+    return figure, panels[:count]
+
+
+def _draw_contours(
+    axes: Axes,
+    snapshot: Snapshot,
+    levels: NDArray[np.float64],
+    unit: DisplayUnit,
+    window: Window,
+) -> None:
+    if not snapshot.touching:
+        return
+    outline = rim_path(window.unit(polygon) for polygon in rim_polygons(snapshot))
+    x, y = window.unit(snapshot.x), window.unit(snapshot.y)
+    # Contours of the square are the same lines, and smooth up to the rim.
+    squared, heights = squared_pressure(snapshot).T, levels**2
+    colours = style.pressure_colours(len(levels) - 1)
+    norm = BoundaryNorm(heights, colours.N)
+    fill = axes.contourf(x, y, squared, levels=heights, cmap=colours, norm=norm, extend="min")
+    lines = axes.contour(x, y, squared, levels=heights[1:-1], colors=style.INK, linewidths=0.5)
+    for contours in (fill, lines):
+        contours.set_clip_path(outline, axes.transData)
+    _label_contours(axes, lines, float(snapshot.pressure.max()), unit)
+    axes.add_patch(PathPatch(outline, facecolor="none", edgecolor=style.INK, linewidth=1.1))
+
+
+def _label_contours(axes: Axes, lines: QuadContourSet, peak: float, unit: DisplayUnit) -> None:
+    """Write the pressure on the contours, but for those crowded at the steep rim."""
+    texts = {
+        square: display_number(float(unit(np.sqrt(square))))
+        for square in lines.levels
+        if np.sqrt(square) > 0.45 * peak
+    }
+    axes.clabel(lines, list(texts), fmt=texts, fontsize=6.5, inline_spacing=2)
+
+
+def _add_colour_bar(
+    figure: Figure, panels: list[Axes], levels: NDArray[np.float64], unit: DisplayUnit
+) -> None:
+    colours = style.pressure_colours(len(levels) - 1)
+    shown = ScalarMappable(BoundaryNorm(unit(levels), colours.N), colours)
+    bar = figure.colorbar(shown, ax=panels, shrink=0.9, aspect=25, pad=0.02)
+    bar.set_label(unit.label("Pressure"), size=style.LABEL_SIZE, color=style.INK)
+    bar.ax.tick_params(labelsize=style.TICK_SIZE, width=style.THIN_LINE, length=2.5)
+    bar.outline.set(linewidth=style.THIN_LINE, edgecolor=style.INK)

@@ -1,0 +1,171 @@
+"""Sections through the pressure (the paper's Figs. 10, 13 and 16)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Literal
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import ArrayLike, NDArray
+
+from viscontact.plot import style
+from viscontact.plot.readable import DisplayUnit, display_unit, time_labels
+from viscontact.plot.snapshots import Snapshot, take_snapshots
+
+_NAME = "pressure-profile"
+
+
+def pressure_profile(
+    results: xr.Dataset,
+    *,
+    times: ArrayLike | None = None,
+    along: Literal["x", "y"] = "x",
+    at: float = 0.0,
+    axes: Axes | None = None,
+) -> Figure:
+    """Draw the pressure on a line through the contact at several instants.
+
+    Parameters
+    ----------
+    results : xarray.Dataset
+        What ``simulate`` or ``open_results`` returned, with fields stored.
+    times : array_like, optional
+        Instants [s]; the nearest stored ones are drawn and named. By default five, from the
+        first in contact to the last.
+    along : {"x", "y"}, optional
+        Direction of the line: along a roller, or across it.
+    at : float, optional
+        Where the line crosses the other axis [m]; between two rows of cells the pressure is
+        interpolated.
+    axes : matplotlib.axes.Axes, optional
+        Where to draw; by default in a new figure.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        One line an instant.
+
+    Raises
+    ------
+    ValueError
+        If no fields are stored, the bodies do not touch at these instants, or the line
+        misses the grid.
+    """
+    snapshots = take_snapshots(results, times, _NAME)
+    axes = style.new_figure(style.TWO_COLUMNS * 0.8, 3.0).add_subplot() if axes is None else axes
+    length, pressure = _units(snapshots, along)
+    labels = time_labels(s.time for s in snapshots)
+    lines = []
+    for snapshot, colour in zip(snapshots, style.time_colours(len(snapshots)), strict=True):
+        positions, values = _in_contact(*snapshot.section(along, at))
+        lines += axes.plot(
+            length(positions), pressure(values), color=colour, linewidth=style.LINE_WIDTH
+        )
+    _frame(axes, snapshots, along, length, pressure)
+    style.add_legend(axes, lines, labels)
+    return style.figure_of(axes)
+
+
+def compare_pressure_profiles(
+    runs: Mapping[str, xr.Dataset],
+    *,
+    times: ArrayLike | None = None,
+    along: Literal["x", "y"] = "x",
+    at: float = 0.0,
+) -> Figure:
+    """Overlay the pressure sections of several runs, one panel an instant.
+
+    Parameters
+    ----------
+    runs : mapping of str to xarray.Dataset
+        Results by the name to print, with fields stored.
+    times : array_like, optional
+        Instants [s]; of each run the nearest stored ones are drawn. By default the first in
+        contact and the last of the first run.
+    along, at
+        Where the line runs, as for `pressure_profile`.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Panels with common axes, one line a run.
+
+    Raises
+    ------
+    ValueError
+        If there are no runs, or one of them cannot be drawn.
+    """
+    if not runs:
+        raise ValueError(f"{_NAME}: needs at least one run to compare, got none")
+    first = take_snapshots(next(iter(runs.values())), times, _NAME, count=2)
+    instants = [snapshot.time for snapshot in first]
+    figure = style.new_figure(style.TWO_COLUMNS, 2.2 * len(instants) + 0.4)
+    panels = list(figure.subplots(len(instants), sharex=True, sharey=True, squeeze=False).flat)
+    drawn = {
+        name: [take_snapshots(run, instant, _NAME)[0] for instant in instants]
+        for name, run in runs.items()
+    }
+    everything = [snapshot for snapshots in drawn.values() for snapshot in snapshots]
+    length, pressure = _units(everything, along)
+    for column, axes in enumerate(panels):
+        lines, labels = [], []
+        at_instant = {name: snapshots[column] for name, snapshots in drawn.items()}
+        for (name, snapshot), look in zip(
+            at_instant.items(), style.run_styles(len(runs)), strict=True
+        ):
+            positions, values = _in_contact(*snapshot.section(along, at))
+            lines += axes.plot(length(positions), pressure(values), **look)
+            labels.append(name)
+        _frame(axes, everything, along, length, pressure)
+        style.add_heading(axes, _instants_drawn(at_instant))
+        if column == 0:
+            style.add_legend(axes, lines, labels)
+    for axes in panels[:-1]:
+        axes.set_xlabel("")
+    return figure
+
+
+def _instants_drawn(snapshots: Mapping[str, Snapshot]) -> str:
+    instants = sorted({snapshot.time for snapshot in snapshots.values()})
+    return "t = " + ", ".join(time_labels(instants))
+
+
+def _units(snapshots: list[Snapshot], along: Literal["x", "y"]) -> tuple[DisplayUnit, DisplayUnit]:
+    length = display_unit("m", _limits(snapshots, along))
+    return length, display_unit("Pa", *(snapshot.pressure for snapshot in snapshots))
+
+
+def _limits(snapshots: list[Snapshot], along: Literal["x", "y"]) -> tuple[float, float]:
+    """Ends of the longest contact along the line, with a margin [m]."""
+    side = slice(0, 2) if along == "x" else slice(2, 4)
+    ends = np.array([s.extent()[side] for s in snapshots if s.touching])
+    low, high = float(ends[:, 0].min()), float(ends[:, 1].max())
+    return low - 0.06 * (high - low), high + 0.06 * (high - low)
+
+
+def _in_contact(
+    positions: NDArray[np.float64], pressure: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Leave out where nothing is pressed, but for the zeros at the contact's ends."""
+    pressed = pressure > 0
+    near = pressed | np.append(pressed[1:], False) | np.append(False, pressed[:-1])
+    return positions, np.where(near, pressure, np.nan)
+
+
+def _frame(
+    axes: Axes,
+    snapshots: list[Snapshot],
+    along: Literal["x", "y"],
+    length: DisplayUnit,
+    pressure: DisplayUnit,
+) -> None:
+    axes.set(
+        xlim=length(_limits(snapshots, along)),
+        xlabel=length.label(along),
+        ylabel=pressure.label("Pressure"),
+    )
+    axes.set_ylim(bottom=0.0)
+    style.dress(axes)

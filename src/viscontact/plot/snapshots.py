@@ -1,0 +1,209 @@
+"""The stored fields of a result, one instant at a time."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike, NDArray
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """Pressure and gap at one instant.
+
+    Parameters
+    ----------
+    time : float
+        The instant at which the fields were stored [s].
+    x, y : ndarray
+        Cell centres, shapes (nx,) and (ny,) [m].
+    pressure : ndarray
+        Contact pressure, shape (nx, ny), positive in compression [Pa].
+    gap : ndarray
+        Distance between the bodies, shape (nx, ny), positive when open [m].
+    """
+
+    time: float
+    x: NDArray[np.float64]
+    y: NDArray[np.float64]
+    pressure: NDArray[np.float64]
+    gap: NDArray[np.float64]
+
+    @property
+    def touching(self) -> bool:
+        """Whether the bodies are in contact at this instant."""
+        return bool(np.any(self.pressure > 0))
+
+    def extent(self) -> tuple[float, float, float, float]:
+        """Box (x_min, x_max, y_min, y_max) around the cells in contact [m]."""
+        inside = self.pressure > 0
+        x, y = self.x[inside.any(axis=1)], self.y[inside.any(axis=0)]
+        dx, dy = self.x[1] - self.x[0], self.y[1] - self.y[0]
+        return (
+            float(x[0] - dx / 2),
+            float(x[-1] + dx / 2),
+            float(y[0] - dy / 2),
+            float(y[-1] + dy / 2),
+        )
+
+    def section(
+        self, along: Literal["x", "y"] = "x", at: float = 0.0
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Pressure on a line parallel to an axis.
+
+        Parameters
+        ----------
+        along : {"x", "y"}, optional
+            Direction of the line.
+        at : float, optional
+            Where the line crosses the other axis [m]. Between two rows of cells the
+            pressure is interpolated linearly: on an even grid the line through the origin
+            takes the mean of the two middle rows.
+
+        Returns
+        -------
+        positions : ndarray
+            Cell centres along the line [m].
+        pressure : ndarray
+            Pressure there [Pa].
+
+        Raises
+        ------
+        ValueError
+            If the direction is not one of those, or the line misses the grid.
+        """
+        if along not in ("x", "y"):
+            raise ValueError(f"along must be 'x' or 'y', got {along!r}")
+        positions, across = (self.x, self.y) if along == "x" else (self.y, self.x)
+        rows = self.pressure.T if along == "x" else self.pressure
+        if not across[0] <= at <= across[-1]:
+            raise ValueError(
+                f"at must lie on the grid, between {across[0]:.4g} and {across[-1]:.4g} m, "
+                f"got {at:.4g} m"
+            )
+        upper = int(np.clip(np.searchsorted(across, at), 1, across.size - 1))
+        share = (at - across[upper - 1]) / (across[upper] - across[upper - 1])
+        return positions, (1 - share) * rows[upper - 1] + share * rows[upper]
+
+
+def field_times(results: xr.Dataset, figure: str) -> NDArray[np.float64]:
+    """Instants at which pressure and gap are stored.
+
+    Parameters
+    ----------
+    results : xarray.Dataset
+        What ``simulate`` or ``open_results`` returned.
+    figure : str
+        Name of the figure, for the message.
+
+    Returns
+    -------
+    ndarray
+        Instants [s], ascending.
+
+    Raises
+    ------
+    ValueError
+        If the run stored no fields.
+    """
+    missing = [name for name in ("pressure", "gap") if name not in results]
+    if missing:
+        raise ValueError(
+            f"{figure}: needs stored fields, but this result has no {' and no '.join(missing)}; "
+            "run again with fields stored ('output: fields: all' or a list of instants in the "
+            "case file, fields= in Python)"
+        )
+    instants = np.asarray(results[_time_dimension(results)].values, dtype=np.float64)
+    if instants.size == 0:
+        raise ValueError(f"{figure}: needs stored fields, but this result holds none yet")
+    return instants
+
+
+def take_snapshots(
+    results: xr.Dataset, times: ArrayLike | None, figure: str, *, count: int = 5
+) -> list[Snapshot]:
+    """Fields at the stored instants nearest to those asked for.
+
+    Parameters
+    ----------
+    results : xarray.Dataset
+        What ``simulate`` or ``open_results`` returned.
+    times : array_like or None
+        Instants asked for [s]. None: the first instant in contact, the last one, and some in
+        between that are spread evenly on a logarithmic scale.
+    figure : str
+        Name of the figure, for messages.
+    count : int, optional
+        How many instants to take when none are asked for.
+
+    Returns
+    -------
+    list of Snapshot
+        In ascending order, each stored instant at most once.
+
+    Raises
+    ------
+    ValueError
+        If no fields are stored, a time is not a finite number, or the bodies do not touch at
+        any of the instants.
+    """
+    stored = field_times(results, figure)
+    if times is None:
+        chosen = _spread(stored, _in_contact(results, stored), count)
+    else:
+        chosen = _nearest(stored, times, figure)
+    snapshots = [_snapshot(results, index) for index in chosen]
+    if not any(snapshot.touching for snapshot in snapshots):
+        raise ValueError(
+            f"{figure}: the bodies do not touch at t = "
+            f"{', '.join(f'{s.time:.4g}' for s in snapshots) or '(any stored instant)'} s; "
+            "choose other times"
+        )
+    return snapshots
+
+
+def _time_dimension(results: xr.Dataset) -> str:
+    return "field_time" if "field_time" in results["pressure"].dims else "time"
+
+
+def _in_contact(results: xr.Dataset, instants: NDArray[np.float64]) -> NDArray[np.bool_]:
+    # From the scalars: all fields of a long run need not fit in memory.
+    peak = results["peak_pressure"].sel(time=instants, method="nearest")
+    return np.asarray(peak.values > 0, dtype=np.bool_)
+
+
+def _snapshot(results: xr.Dataset, index: int) -> Snapshot:
+    dimension = _time_dimension(results)
+    fields = results[["pressure", "gap"]].isel({dimension: index})
+    pressure, gap = (
+        np.asarray(fields[name].transpose("x", "y").values, dtype=np.float64)
+        for name in ("pressure", "gap")
+    )
+    return Snapshot(
+        float(fields[dimension]), results["x"].values, results["y"].values, pressure, gap
+    )
+
+
+def _nearest(stored: NDArray[np.float64], times: ArrayLike, figure: str) -> Sequence[int]:
+    wanted = np.atleast_1d(np.asarray(times, dtype=np.float64))
+    if wanted.size == 0 or not np.all(np.isfinite(wanted)):
+        raise ValueError(f"{figure}: times must be finite numbers of seconds, got {times!r}")
+    return sorted({int(np.argmin(np.abs(stored - instant))) for instant in wanted})
+
+
+def _spread(
+    stored: NDArray[np.float64], in_contact: NDArray[np.bool_], count: int
+) -> Sequence[int]:
+    candidates = np.flatnonzero(in_contact)
+    if candidates.size <= count:
+        return [int(index) for index in candidates]
+    instants = stored[candidates]
+    # Two decades back from the end is where creep is seen to happen; earlier, a picture at
+    # each decade would repeat the first one.
+    earliest = max(instants[instants > 0][0], instants[-1] / 100)
+    targets = np.concatenate([instants[:1], np.geomspace(earliest, instants[-1], count)[1:]])
+    return sorted({int(candidates[np.argmin(np.abs(instants - t))]) for t in targets})

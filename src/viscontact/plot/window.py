@@ -1,0 +1,94 @@
+"""Which part of the plane to show, and how far to stretch it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from matplotlib.axes import Axes
+
+from viscontact.plot.readable import DisplayUnit, display_unit
+from viscontact.plot.snapshots import Snapshot
+
+_MARGIN = 0.07
+# A contact up to three times as long as wide is shown as it is. One that is stretched is left
+# at least this much longer than wide, so that several panels fit on a page.
+_TRUE_ASPECT = 3.0
+_PANEL_SHAPE = 4.5
+_STRETCHES = (2, 3, 4, 5, 6, 8, *(10 * n for n in (1, 1.5, 2, 3, 4, 5, 6, 8)), 100, 200, 500)
+
+
+@dataclass(frozen=True)
+class Window:
+    """A part of the surface, as drawn.
+
+    Parameters
+    ----------
+    x, y : tuple of float
+        Limits [m].
+    stretch : float
+        How many times larger y is drawn than x; 1 for the true shape.
+    """
+
+    x: tuple[float, float]
+    y: tuple[float, float]
+    stretch: float
+
+    @property
+    def unit(self) -> DisplayUnit:
+        """The unit of both axes: the longer one decides."""
+        return display_unit("m", self.x, self.y)
+
+    @property
+    def height_to_width(self) -> float:
+        """Shape of the drawing."""
+        return self.stretch * (self.y[1] - self.y[0]) / (self.x[1] - self.x[0])
+
+    @property
+    def note(self) -> str:
+        """What to tell the reader about the stretch; empty for the true shape."""
+        if self.stretch == 1:
+            return ""
+        return (
+            f"y stretched {self.stretch:g}×"
+            if self.stretch > 1
+            else f"x stretched {1 / self.stretch:g}×"
+        )
+
+    def show(self, axes: Axes) -> None:
+        """Set limits and aspect of axes that are drawn in the window's unit."""
+        axes.set(xlim=self.unit(self.x), ylim=self.unit(self.y), aspect=self.stretch)
+
+
+def window_around(snapshots: Iterable[Snapshot]) -> Window:
+    """Find the window that holds the contact of all snapshots, with a margin.
+
+    Parameters
+    ----------
+    snapshots : iterable of Snapshot
+        At least one of them in contact.
+
+    Returns
+    -------
+    Window
+        In true shape if the contact is at most three times longer than wide, else with its
+        shorter side stretched by a round factor.
+    """
+    boxes = [snapshot.extent() for snapshot in snapshots if snapshot.touching]
+    lows = min(box[0] for box in boxes), min(box[2] for box in boxes)
+    highs = max(box[1] for box in boxes), max(box[3] for box in boxes)
+    x, y = (_widened(low, high) for low, high in zip(lows, highs, strict=True))
+    return Window(x, y, _stretch((x[1] - x[0]) / (y[1] - y[0])))
+
+
+def _widened(low: float, high: float) -> tuple[float, float]:
+    margin = _MARGIN * (high - low)
+    return low - margin, high + margin
+
+
+def _stretch(length_to_width: float) -> float:
+    if length_to_width < 1:
+        return 1 / _stretch(1 / length_to_width)
+    if length_to_width <= _TRUE_ASPECT:
+        return 1.0
+    return float(max((s for s in _STRETCHES if s <= length_to_width / _PANEL_SHAPE), default=1))

@@ -1,0 +1,174 @@
+"""Results written down rather than computed, for tests of what is drawn from them."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+
+RADIUS = 0.01
+SHEAR_MODULUS = 1e9
+VISCOSITY = 1e11  # tau = 100 s
+FORCE = 50.0
+SERIES = {
+    "type": "CreepSeries",
+    "instant": 5.545e-10,
+    "amplitudes": [6.17e-11, 8.38e-11],
+    "times": [10.0, 133.87],
+    "fluidity": 0.0,
+}
+
+
+def maxwell_sphere(
+    times: Sequence[float] = (0.0, 10.0, 100.0, 300.0), cells: int = 64, fields: bool = True
+) -> xr.Dataset:
+    """Step load on a sphere against a Maxwell half-space, nu = 1/2, in closed form.
+
+    Radius: a³ = 3 R W Phi / 8, Phi = (1 + t/tau) / (2G). Gap: Hertz's, at the radius a(t)
+    (Johnson, Contact Mechanics, eq. 3.42). Pressure: hereditary integral by the trapezoidal rule.
+    """
+    time = np.asarray(times, dtype=np.float64)
+    radius = np.array([_maxwell_radius(t) for t in time])
+    half_width = 1.3 * radius.max()
+    x = (2 * np.arange(cells) - (cells - 1)) * (half_width / cells)
+    r = np.hypot(x[:, None], x[None, :])
+    pressure = np.stack([maxwell_pressure(r, t) for t in time])
+    gap = np.stack([_hertz_gap(r, a) for a in radius])
+    case = {
+        "title": "Sphere on a Maxwell half-space",
+        "indenter": {"type": "Sphere", "radius": RADIUS},
+        "material": {
+            "type": "Material",
+            "law": {"type": "Maxwell", "shear_modulus": SHEAR_MODULUS, "viscosity": VISCOSITY},
+            "poisson_ratio": 0.5,
+            "bulk_modulus": None,
+        },
+        "load": _steady(FORCE),
+        "grid": {"type": "Grid", "shape": [cells, cells], "size": [2 * half_width] * 2},
+        "times": time.tolist(),
+    }
+    return _results(time, x, x, pressure, gap, radius**2 / RADIUS, radius, case, fields)
+
+
+def roller(
+    times: Sequence[float] = (0.0, 1.0, 10.0, 100.0, 1000.0),
+    shape: tuple[int, int] = (96, 32),
+    tilt: float = 0.0,
+    fields: bool = True,
+) -> xr.Dataset:
+    """A made-up field that looks like a crowned roller's: long, narrow, raised at its ends."""
+    time = np.asarray(times, dtype=np.float64)
+    growth = 1.4 - 0.4 * np.exp(-time / 50.0)
+    x = (2 * np.arange(shape[0]) - (shape[0] - 1)) * (0.075 / shape[0])
+    y = (2 * np.arange(shape[1]) - (shape[1] - 1)) * (0.75e-3 / shape[1])
+    level = np.stack([_roller_level(x, y, g, tilt) for g in growth])
+    end = 1 + 0.5 * (x / 0.055) ** 4 + tilt * x / 0.055
+    pressure = np.sqrt(np.maximum(level, 0)) * (150e6 / growth**0.5)[:, None, None] * end[:, None]
+    gap = 2e-6 * np.maximum(-level, 0) ** 1.5
+    case = {
+        "title": "Roller",
+        "indenter": {
+            "type": "Roller",
+            "radius": 5e-3,
+            "half_length": 9.565e-3,
+            "crown_radius": 7.5,
+        },
+        "material": {"type": "Material", "law": SERIES, "poisson_ratio": 0.38},
+        "load": _steady(1e4),
+        "grid": {"type": "Grid", "shape": list(shape), "size": [0.15, 1.5e-3]},
+        "times": time.tolist(),
+    }
+    approach = 1.67e-4 * growth**0.5
+    results = _results(time, x, y, pressure, gap, approach, 0.055 * growth**0.2, case, fields)
+    results["tilt_x"][:] = 1e-3 * tilt * growth**0.1
+    return results
+
+
+def maxwell_pressure(r: FloatArray, t: float) -> FloatArray:
+    """Pressure [Pa] at r [m] and t [s]: 8G/(pi R) [s(t) - int exp((t'-t)/tau) s(t') dt' / tau]."""
+    tau = VISCOSITY / SHEAR_MODULUS
+    past = np.linspace(0.0, t, 400)
+    a = np.array([_maxwell_radius(instant) for instant in past])
+    s = np.sqrt(np.maximum(a**2 - r[..., None] ** 2, 0.0))
+    memory = np.trapezoid(np.exp((past - t) / tau) * s, past, axis=-1) / tau
+    return 8 * SHEAR_MODULUS / (np.pi * RADIUS) * (s[..., -1] - memory)
+
+
+def _maxwell_radius(t: float) -> float:
+    compliance = (1 + t * SHEAR_MODULUS / VISCOSITY) / (2 * SHEAR_MODULUS)
+    return float(np.cbrt(3 * RADIUS * FORCE * compliance / 8))
+
+
+def _hertz_gap(r: FloatArray, a: float) -> FloatArray:
+    far = np.maximum(r, a)
+    dip = (2 * a**2 - far**2) * np.arcsin(a / far) + a * np.sqrt(far**2 - a**2)
+    return far**2 / (2 * RADIUS) + dip / (np.pi * RADIUS) - a**2 / RADIUS
+
+
+def _roller_level(x: FloatArray, y: FloatArray, growth: float, tilt: float) -> FloatArray:
+    ends = 1 - ((x - tilt * 6e-3) / (0.055 * growth**0.2)) ** 6
+    width = 4.2e-4 * growth**0.5 * (1 + 0.3 * (x / 0.055) ** 4 + tilt * 0.5 * x / 0.055)
+    return ends[:, None] - (y[None, :] / width[:, None]) ** 2
+
+
+def _steady(force: float) -> dict[str, Any]:
+    return {
+        "type": "ForceHistory",
+        "times": [0.0],
+        "force": [force],
+        "eccentricity_x": 0.0,
+        "eccentricity_y": 0.0,
+        "tilt_x": None,
+        "tilt_y": None,
+    }
+
+
+def _results(
+    time: FloatArray,
+    x: FloatArray,
+    y: FloatArray,
+    pressure: FloatArray,
+    gap: FloatArray,
+    approach: FloatArray,
+    half_length: FloatArray,
+    case: dict[str, Any],
+    fields: bool,
+) -> xr.Dataset:
+    inside = pressure > 0
+    cell = (x[1] - x[0]) * (y[1] - y[0])
+    area = inside.sum((1, 2)) * cell
+    force = np.full_like(time, case["load"]["force"][0])
+    zeros = np.zeros_like(time)
+    scalars = {
+        "force": (force, "N", "force"),
+        "eccentricity_x": (zeros, "m", "eccentricity along x"),
+        "eccentricity_y": (zeros, "m", "eccentricity along y"),
+        "approach": (approach, "m", "approach"),
+        "tilt_x": (zeros.copy(), "rad", "slope of the rigid body along x"),
+        "tilt_y": (zeros.copy(), "rad", "slope of the rigid body along y"),
+        "contact_area": (area, "m2", "contact area"),
+        "contact_length": (2 * half_length, "m", "extent of the contact along x"),
+        "contact_width": (area / (2 * half_length), "m", "extent of the contact along y"),
+        "peak_pressure": (pressure.max((1, 2)), "Pa", "largest pressure"),
+        "mean_pressure": (force / area, "Pa", "mean pressure"),
+    }
+    data = {
+        name: ("time", value, {"units": unit, "long_name": text})
+        for name, (value, unit, text) in scalars.items()
+    }
+    results = xr.Dataset(
+        data,
+        coords={"time": ("time", time, {"units": "s"}), "x": x, "y": y},
+        attrs={"version": "0", "case": json.dumps(case), "warnings": "", "tolerance": 1e-6},
+    )
+    if fields:
+        results["pressure"] = (("time", "x", "y"), pressure)
+        results["gap"] = (("time", "x", "y"), gap)
+        results["displacement"] = (("time", "x", "y"), 0 * gap)
+    return results

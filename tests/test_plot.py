@@ -1,0 +1,404 @@
+"""Figures: what is drawn is what was computed, in the unit that the label says."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import PathPatch
+
+from synthetic_results import FORCE, RADIUS, maxwell_pressure, maxwell_sphere, roller
+from viscontact.laws import CreepSeries, Maxwell
+from viscontact.plot import COMPARISONS, FIGURES, creep_curve, save_figure
+from viscontact.plot.readable import display_unit, time_labels
+from viscontact.plot.rim_polygons import rim_polygons
+from viscontact.plot.snapshots import Snapshot, take_snapshots
+from viscontact.plot.window import window_around
+
+
+@pytest.fixture(scope="module")
+def sphere() -> xr.Dataset:
+    return maxwell_sphere(cells=40)
+
+
+@pytest.fixture(scope="module")
+def long_contact() -> xr.Dataset:
+    return roller()
+
+
+def data_axes(figure: Figure) -> list[Axes]:
+    return [axes for axes in figure.axes if axes.get_label() != "<colorbar>"]
+
+
+def legend_texts(axes: Axes) -> list[str]:
+    legend = axes.get_legend()
+    assert legend is not None
+    return [text.get_text() for text in legend.get_texts()]
+
+
+# --- every figure ----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", sorted(FIGURES))
+def test_every_figure_of_a_sphere_draws(name: str, sphere: xr.Dataset, tmp_path: Path) -> None:
+    path = tmp_path / f"{name}.png"
+    save_figure(FIGURES[name](sphere), path)
+    assert path.stat().st_size > 5000
+
+
+@pytest.mark.parametrize("name", sorted(set(FIGURES) - {"pressure-radial"}))
+def test_every_figure_of_a_roller_draws(name: str, long_contact: xr.Dataset) -> None:
+    FIGURES[name](long_contact, times=[0.0, 1000.0]).draw_without_rendering()
+
+
+@pytest.mark.parametrize("name", sorted(COMPARISONS))
+def test_every_comparison_draws_every_run(name: str, long_contact: xr.Dataset) -> None:
+    figure = COMPARISONS[name]({"straight": long_contact, "tilted": roller(tilt=0.2)})
+    figure.draw_without_rendering()
+    for axes in figure.axes:
+        assert len(axes.get_lines()) == 2
+
+
+@pytest.mark.parametrize("name", sorted(FIGURES))
+def test_every_labelled_axis_states_its_unit(name: str, sphere: xr.Dataset) -> None:
+    labels = [
+        label
+        for axes in FIGURES[name](sphere).axes
+        for label in (axes.get_xlabel(), axes.get_ylabel())
+        if label
+    ]
+    assert len(labels) >= 2
+    for label in labels:
+        assert label.endswith("]"), label
+
+
+def test_plotting_leaves_global_settings_and_pyplots_figures_alone() -> None:
+    program = (
+        "import matplotlib, matplotlib.pyplot as pyplot; before = dict(matplotlib.rcParams)\n"
+        "from synthetic_results import maxwell_sphere\n"
+        "from viscontact.plot import FIGURES\n"
+        "FIGURES['pressure-map'](maxwell_sphere(cells=24)).draw_without_rendering()\n"
+        "assert dict(matplotlib.rcParams) == before and not pyplot.get_fignums()\n"
+    )
+    subprocess.run([sys.executable, "-c", program], check=True, cwd=Path(__file__).parent)
+
+
+# --- which instants ---------------------------------------------------------------------------
+
+
+def test_nearest_stored_instants_are_taken_once_and_in_order(sphere: xr.Dataset) -> None:
+    snapshots = take_snapshots(sphere, [290.0, 12.0, 8.0], "figure")
+    assert [snapshot.time for snapshot in snapshots] == [10.0, 300.0]
+
+
+def test_legend_names_the_instant_drawn_not_the_one_asked_for(sphere: xr.Dataset) -> None:
+    figure = FIGURES["pressure-profile"](sphere, times=[8.0])
+    assert legend_texts(figure.axes[0]) == ["10 s"]
+
+
+def test_default_instants_run_from_first_contact_to_last() -> None:
+    results = maxwell_sphere(np.concatenate([[0.0], np.geomspace(0.1, 1000.0, 25)]), cells=16)
+    results["pressure"][0] = 0.0
+    results["peak_pressure"][0] = 0.0
+    times = [snapshot.time for snapshot in take_snapshots(results, None, "figure")]
+    assert len(times) == 5
+    assert times[0] == pytest.approx(0.1)
+    assert times[-1] == pytest.approx(1000.0)
+
+
+def test_fields_stored_at_chosen_instants_are_found_by_field_time(sphere: xr.Dataset) -> None:
+    fields = sphere[["pressure", "gap"]].isel(time=[0, 3]).rename(time="field_time")
+    thinned = xr.merge([sphere.drop_vars(["pressure", "gap", "displacement"]), fields])
+    figure = FIGURES["pressure-profile"](thinned)
+    assert legend_texts(figure.axes[0]) == ["0 s", "300 s"]
+
+
+@pytest.mark.parametrize(
+    "name", ["pressure-map", "pressure-profile", "pressure-radial", "contact-outline"]
+)
+def test_figures_of_fields_refuse_a_result_without_them(name: str) -> None:
+    with pytest.raises(ValueError, match=rf"{name}: .*no pressure.*fields"):
+        FIGURES[name](maxwell_sphere(cells=16, fields=False))
+
+
+def test_figures_of_scalars_need_no_fields() -> None:
+    bare = maxwell_sphere(cells=16, fields=False)
+    for name in ("history", "creep"):
+        FIGURES[name](bare).draw_without_rendering()
+
+
+@pytest.mark.parametrize("times", [[np.nan], [], [0.0, np.inf]])
+def test_times_that_are_no_numbers_are_refused(times: list[float], sphere: xr.Dataset) -> None:
+    for name in sorted(FIGURES):
+        with pytest.raises(ValueError, match=r"times must be finite"):
+            FIGURES[name](sphere, times=times)
+
+
+def test_instants_without_contact_are_refused_by_name(sphere: xr.Dataset) -> None:
+    apart = sphere.copy(deep=True)
+    apart["pressure"][:] = 0.0
+    apart["peak_pressure"][:] = 0.0
+    for times in (None, [100.0]):
+        with pytest.raises(ValueError, match=r"contact-outline: the bodies do not touch"):
+            FIGURES["contact-outline"](apart, times=times)
+
+
+# --- what is drawn ----------------------------------------------------------------------------
+
+
+def test_profile_peak_is_the_mean_of_the_two_middle_rows_in_megapascal(
+    long_contact: xr.Dataset,
+) -> None:
+    axes = FIGURES["pressure-profile"](long_contact, times=[0.0]).axes[0]
+    middle = long_contact["pressure"].isel(time=0, y=[15, 16]).mean("y")
+    assert axes.get_ylabel() == "Pressure [MPa]"
+    assert np.nanmax(axes.get_lines()[0].get_ydata()) == pytest.approx(
+        float(middle.max()) / 1e6, rel=1e-12
+    )
+
+
+def test_transverse_section_runs_through_the_asked_position(long_contact: xr.Dataset) -> None:
+    at = float(long_contact["x"][20])
+    snapshot = take_snapshots(long_contact, [0.0], "figure")[0]
+    positions, pressure = snapshot.section("y", at)
+    np.testing.assert_array_equal(positions, long_contact["y"])
+    np.testing.assert_allclose(pressure, long_contact["pressure"][0, 20], rtol=1e-12)
+
+
+def test_section_off_the_grid_is_refused(sphere: xr.Dataset) -> None:
+    with pytest.raises(ValueError, match=r"at must lie on the grid.*got 1 m"):
+        FIGURES["pressure-profile"](sphere, at=1.0)
+
+
+def test_map_levels_cover_the_peak_and_start_at_zero(sphere: xr.Dataset) -> None:
+    figure = FIGURES["pressure-map"](sphere)
+    (bar,) = (axes for axes in figure.axes if axes.get_label() == "<colorbar>")
+    low, high = bar.get_ylim()
+    peak = float(sphere["pressure"].max()) / 1e6
+    assert bar.get_ylabel() == "Pressure [MPa]"
+    assert low == 0.0
+    assert peak <= high <= 1.25 * peak
+
+
+def test_long_contact_is_stretched_and_says_so(long_contact: xr.Dataset) -> None:
+    axes = FIGURES["contact-outline"](long_contact).axes[0]
+    assert axes.get_title(loc="right") == f"y stretched {axes.get_aspect():g}×"
+    assert float(axes.get_aspect()) >= 10
+
+
+def test_round_contact_is_drawn_in_its_true_shape(sphere: xr.Dataset) -> None:
+    axes = FIGURES["contact-outline"](sphere).axes[0]
+    assert axes.get_aspect() == 1.0
+    assert axes.get_title(loc="right") == ""
+
+
+def test_window_holds_the_contact_at_every_instant(long_contact: xr.Dataset) -> None:
+    snapshots = take_snapshots(long_contact, None, "figure")
+    window = window_around(snapshots)
+    for x_low, x_high, y_low, y_high in (snapshot.extent() for snapshot in snapshots):
+        assert window.x[0] < x_low < x_high < window.x[1]
+        assert window.y[0] < y_low < y_high < window.y[1]
+
+
+def test_outline_of_a_hertz_contact_is_its_circle_to_second_order() -> None:
+    """Hertz's radius (eq. 16 with Phi(0) = 1/(2G)), and his gap, whose 3/2 law holds at the rim."""
+    exact = np.cbrt(3 * RADIUS * FORCE / (16 * 1e9))
+    errors = []
+    for cells_a_radius in (8, 16, 32, 64):
+        at_once = maxwell_sphere([0.0], cells=round(2.6 * cells_a_radius))
+        (outline,) = rim_polygons(take_snapshots(at_once, None, "figure")[0])
+        errors.append(np.abs(np.hypot(*outline.T) - exact).max() / exact)
+    # Half a cell would be 1/16 at the coarsest; the worst corner is ten times better.
+    assert errors[0] < 0.007
+    # Where the rim falls within a cell differs between grids, so the fit is over all four.
+    order = -np.polyfit(np.log([8, 16, 32, 64]), np.log(errors), 1)[0]
+    assert order > 1.8
+
+
+def test_outline_of_a_contact_with_a_hole_has_two_polygons() -> None:
+    x = np.arange(-10.0, 11.0)
+    r = np.hypot(x[:, None], x)
+    outside = np.maximum(r - 8.2, 3.1 - r)
+    snapshot = Snapshot(0.0, x, x, 1.0 * (outside < 0), np.maximum(outside, 0) ** 1.5)
+    radii = sorted(float(np.hypot(*polygon.T).mean()) for polygon in rim_polygons(snapshot))
+    assert radii == pytest.approx([3.1, 8.2], abs=0.1)
+
+
+def test_outline_where_the_body_ends_stays_between_the_cells() -> None:
+    x = np.arange(-5.5, 6.0)
+    pressed = np.hypot(x[:, None], x) < 4
+    snapshot = Snapshot(0.0, x, x, 1.0 * pressed, np.where(pressed, 0.0, np.inf))
+    (outline,) = rim_polygons(snapshot)
+    assert np.all(np.isfinite(outline))
+    assert np.abs(np.hypot(*outline.T) - 4).max() < 1.0
+
+
+def test_outlines_are_drawn_in_millimetres(long_contact: xr.Dataset) -> None:
+    axes = FIGURES["contact-outline"](long_contact, times=[0.0]).axes[0]
+    (patch,) = (patch for patch in axes.patches if isinstance(patch, PathPatch))
+    (outline,) = rim_polygons(take_snapshots(long_contact, [0.0], "figure")[0])
+    assert axes.get_xlabel() == "x [mm]"
+    np.testing.assert_allclose(patch.get_path().vertices, outline * 1e3, rtol=1e-12)
+
+
+def test_history_draws_the_dataset_in_readable_units(sphere: xr.Dataset) -> None:
+    panels = {axes.get_ylabel(): axes for axes in FIGURES["history"](sphere).axes}
+    assert set(panels) == {"Contact area [mm²]", "Approach [µm]", "Peak pressure [MPa]"}
+    time, approach = panels["Approach [µm]"].get_lines()[0].get_data()
+    np.testing.assert_allclose(time, sphere["time"], rtol=1e-12)
+    np.testing.assert_allclose(approach, sphere["approach"] * 1e6, rtol=1e-12)
+
+
+def test_history_shows_force_and_tilt_only_where_they_change(sphere: xr.Dataset) -> None:
+    tilted = roller(tilt=0.2)
+    tilted["force"][2:] *= 0.5
+    labels = [axes.get_ylabel() for axes in FIGURES["history"](tilted).axes]
+    assert "Force [kN]" in labels
+    assert any(label.startswith("Tilt along x") for label in labels)
+    assert not any(label.startswith("Tilt along y") for label in labels)
+
+
+def test_time_axis_is_logarithmic_where_the_steps_are() -> None:
+    growing = maxwell_sphere([0.0, *np.geomspace(0.1, 300.0, 12)], cells=8)
+    uniform = maxwell_sphere(np.linspace(0.0, 300.0, 13), cells=8)
+    assert FIGURES["history"](growing).axes[0].get_xscale() == "symlog"
+    assert FIGURES["history"](uniform).axes[0].get_xscale() == "linear"
+
+
+def test_comparison_names_its_runs(long_contact: xr.Dataset) -> None:
+    figure = COMPARISONS["history"]({"e = 0": long_contact, "e = L": roller(tilt=0.2)})
+    (legend,) = figure.legends
+    assert [text.get_text() for text in legend.get_texts()] == ["e = 0", "e = L"]
+
+
+@pytest.mark.parametrize("name", sorted(COMPARISONS))
+def test_comparison_of_nothing_is_refused(name: str) -> None:
+    with pytest.raises(ValueError, match=r"at least one run"):
+        COMPARISONS[name]({})
+
+
+def test_history_of_one_step_is_refused(sphere: xr.Dataset) -> None:
+    with pytest.raises(ValueError, match=r"history: needs at least two steps.*got 1"):
+        FIGURES["history"](sphere.isel(time=[0]))
+
+
+# --- against the exact solution ---------------------------------------------------------------
+
+
+def test_radial_lines_are_the_hereditary_integral(sphere: xr.Dataset) -> None:
+    """Table 1's Maxwell row, here by the trapezoidal rule, good to some 1e-4 of the peak."""
+    above, below = FIGURES["pressure-radial"](sphere, times=[100.0]).axes
+    exact, computed = above.get_lines()
+    r = np.asarray(exact.get_xdata()) * display_unit("m", sphere["x"].max()).factor
+    expected = maxwell_pressure(r, 100.0) / 1e6
+    assert np.abs(exact.get_ydata() - expected).max() < 3e-4 * expected.max()
+    difference = below.get_lines()[-1].get_ydata()
+    assert np.abs(difference).max() < 0.03  # percent: the same trapezoidal rule
+    assert np.max(computed.get_ydata()) == pytest.approx(sphere["pressure"][2].max() / 1e6)
+    assert legend_texts(above) == ["100 s", "computed", "exact (Lee–Radok)"]
+
+
+def test_radial_difference_shows_an_error_of_one_percent(sphere: xr.Dataset) -> None:
+    wrong = sphere.copy()
+    wrong["pressure"] = sphere["pressure"] * 1.01
+    _, below = FIGURES["pressure-radial"](wrong, times=[0.0]).axes
+    assert np.max(below.get_lines()[-1].get_ydata()) == pytest.approx(1.0, abs=0.01)
+
+
+def test_radial_without_closed_form_draws_the_computed_pressure_alone(
+    sphere: xr.Dataset,
+) -> None:
+    case = sphere.attrs["case"].replace('"force": [50.0]', '"force": [50.0, 20.0]')
+    unloading = sphere.assign_attrs(case=case.replace('"times": [0.0],', '"times": [0.0, 300.0],'))
+    figure = FIGURES["pressure-radial"](unloading)
+    assert len(figure.axes) == 1
+    assert "exact (Lee–Radok)" not in legend_texts(figure.axes[0])
+
+
+def test_radial_figure_of_a_roller_is_refused(long_contact: xr.Dataset) -> None:
+    with pytest.raises(ValueError, match=r"body of revolution, got a Roller"):
+        FIGURES["pressure-radial"](long_contact)
+
+
+def test_figures_that_need_the_case_say_so(sphere: xr.Dataset) -> None:
+    bare = sphere.drop_attrs()
+    for name in ("creep", "pressure-radial"):
+        with pytest.raises(ValueError, match=rf"{name}: .*no attribute 'case'"):
+            FIGURES[name](bare)
+
+
+def test_creep_curves_are_the_law_of_eq_15() -> None:
+    law = CreepSeries(5.545e-10, [6.17e-11, 8.38e-11], [10.0, 1 / 7.47e-3])
+    compliance, modulus = creep_curve(law, np.geomspace(0.1, 1000.0, 30)).axes
+    t, phi = compliance.get_lines()[0].get_data()
+    expected = 0.7 - 6.17e-2 * np.exp(-0.1 * t) - 8.38e-2 * np.exp(-7.47e-3 * t)
+    assert compliance.get_ylabel() == "Creep compliance Φ [1/GPa]"
+    np.testing.assert_allclose(phi, expected, rtol=1e-12)
+    assert modulus.get_ylabel() == "Relaxation modulus G [MPa]"
+    # G(0) = 1/(2 Phi(0)), drawn as the dashed line.
+    assert modulus.get_lines()[1].get_ydata()[0] == pytest.approx(1e3 / (2 * 0.5545))
+
+
+@pytest.mark.parametrize("times", [[1.0], [0.0, 1.0], [2.0, 1.0], [1.0, np.nan]])
+def test_creep_curve_refuses_times_it_cannot_draw(times: list[float]) -> None:
+    with pytest.raises(ValueError, match=r"creep: times must be"):
+        creep_curve(Maxwell(1e9, 1e11), times)
+
+
+# --- units and files --------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("unit", "largest", "symbol"),
+    [
+        ("Pa", 152e6, "MPa"),
+        ("m", 167e-6, "µm"),
+        ("m", 0.055, "mm"),
+        ("m2", 94.5e-6, "mm²"),
+        ("rad", 9.5e-4, "µrad"),
+        ("1/Pa", 7e-10, "1/GPa"),
+        ("1/Pa", 2e-6, "1/MPa"),
+        ("m", 0.0, "m"),
+    ],
+)
+def test_axes_get_the_unit_that_reads_best(unit: str, largest: float, symbol: str) -> None:
+    chosen = display_unit(unit, [0.0, -largest, np.nan])
+    assert chosen.symbol == symbol
+    assert float(chosen(largest)) * chosen.factor == pytest.approx(largest)
+
+
+def test_time_labels_are_told_apart() -> None:
+    assert time_labels([100.01, 100.02]) == ("100.01 s", "100.02 s")
+
+
+@pytest.mark.parametrize(
+    ("suffix", "start"),
+    [(".png", b"\x89PNG"), (".pdf", b"%PDF"), (".svg", b"<?xml"), (".PNG", b"")],
+)
+def test_figures_are_saved_by_suffix(
+    suffix: str, start: bytes, sphere: xr.Dataset, tmp_path: Path
+) -> None:
+    path = tmp_path / f"figure{suffix}"
+    save_figure(FIGURES["history"](sphere), path)
+    assert path.read_bytes().startswith(start)
+
+
+def test_equal_figures_give_equal_files(sphere: xr.Dataset, tmp_path: Path) -> None:
+    for suffix in (".svg", ".pdf"):
+        first, second = tmp_path / f"1{suffix}", tmp_path / f"2{suffix}"
+        for path in (first, second):
+            save_figure(FIGURES["contact-outline"](sphere), path)
+        assert first.read_bytes() == second.read_bytes()
+
+
+def test_unknown_suffix_is_refused_and_nothing_written(sphere: xr.Dataset, tmp_path: Path) -> None:
+    path = tmp_path / "figure.bmp"
+    with pytest.raises(ValueError, match=r"must end in \.png, \.pdf or \.svg, got '.*figure\.bmp'"):
+        save_figure(FIGURES["history"](sphere), path)
+    assert not path.exists()
