@@ -1,0 +1,1 @@
+"""Cases that come with viscontact, to copy and to change."""
