@@ -22,7 +22,7 @@ PACKAGE = Path(viscontact.__file__).parent
 FLOORS = (
     ("errors", "grid", "load", "indenters", "laws"),  # 0 words: they do not know each other
     ("material", "influence", "memory", "state", "rim"),  # 1 single ideas
-    ("convolution", "balance"),  # 2 operators on fields
+    ("convolution", "balance", "bedding", "half_space"),  # 2 operators on fields
     ("contact",),  # 3 equilibrium at one instant
     # 4 time
     (
@@ -36,12 +36,15 @@ FLOORS = (
         "marching",
     ),
     ("description", "dataset", "results"),  # 5 labels and files
-    ("units", "case", "plot"),  # 6 people
+    ("examples", "units", "case", "plot"),  # 6 people
     ("cli",),  # 7 shell
 )
 # Neighbours on a floor of which the first needs the second; the second stands to the left above.
 NEIGHBOURS = {
     ("memory", "material"),  # the past is weighted by the contact compliance
+    ("bedding", "balance"),  # which resultants the first guess carries
+    ("half_space", "balance"),  # the rigid planes and the operators over one grid
+    ("half_space", "convolution"),
     ("run", "stepping"),  # the instants when none are given
     ("run", "extent"),  # the grid when none is given
     ("observation", "run"),  # which instants are kept
