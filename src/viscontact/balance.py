@@ -109,12 +109,13 @@ class RigidPlane:
     def field(self, coefficients: NDArray[np.float64]) -> NDArray[np.float64]:
         """The plane c0 + c1 x + c2 y on every cell."""
         along_x = coefficients[0] + coefficients[1] * self._x
-        return np.add.outer(along_x, coefficients[2] * self._y)
+        return np.asarray(np.add.outer(along_x, coefficients[2] * self._y))
 
     def sums(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
         """Sums of a field against 1, x and y."""
         rows, columns = values @ self._powers_y[:2].T, self._powers_x[:2]
-        return np.array([rows[:, 0].sum(), columns[1] @ rows[:, 0], rows[:, 1].sum()]) / self._unit
+        sums = np.array([rows[:, 0].sum(), columns[1] @ rows[:, 0], rows[:, 1].sum()])
+        return np.asarray(sums / self._unit)
 
     def arm(self, contact: NDArray[np.bool_]) -> float:
         """Larger edge of the box around the contact, at least one cell [m]."""

@@ -39,7 +39,10 @@ class Convolution:
         self.shape = coefficients.shape
         self.threads = threads
         self._padded = tuple(fft.next_fast_len(2 * n - 1, real=True) for n in self.shape)
-        near, across = (_distances(*lengths) for lengths in zip(self._padded, self.shape))
+        near, across = (
+            _distances(padded, cells)
+            for padded, cells in zip(self._padded, self.shape, strict=True)
+        )
         kernel = coefficients[near[:, None], across[None, :]]
         # The wrapped kernel is even along both axes, so its transform is real.
         self._symbol = np.ascontiguousarray(fft.rfft2(kernel, workers=threads).real)

@@ -95,7 +95,7 @@ class HalfSpace:
         Patch
             The last one if it fits well, the whole grid if a patch would save little.
         """
-        tight = [_span(cells.any(axis=1)), _span(cells.any(axis=0))]
+        tight = [_span(np.any(cells, axis=1)), _span(np.any(cells, axis=0))]
         roomy = [_widened(span, n) for span, n in zip(tight, self.grid.shape, strict=True)]
         if _size(roomy) > WORTHWHILE * cells.size:
             return self.whole
@@ -119,7 +119,7 @@ class HalfSpace:
         )
 
 
-def _span(occupied: NDArray[np.bool_]) -> slice:
+def _span(occupied: NDArray[np.bool_] | np.bool_) -> slice:
     index = np.flatnonzero(occupied)
     return slice(int(index[0]), int(index[-1]) + 1) if len(index) else slice(0, 1)
 

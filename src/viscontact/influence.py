@@ -78,7 +78,7 @@ def influence_table(shape: tuple[int, int], cell_size: tuple[float, float]) -> N
     Examples
     --------
     >>> influence_table((2, 2), (1.0, 1.0)).round(3).tolist()
-    [[1.122, 0.33], [0.33, 0.228]]
+    [[1.122, 0.33], [0.33, 0.231]]
     """
     x, y = (np.arange(cells) * cell for cells, cell in zip(shape, cell_size, strict=True))
     return influence_coefficient(x[:, None], y[None, :], cell_size)

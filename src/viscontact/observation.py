@@ -135,9 +135,7 @@ class Observer:
     def _collect_doubts(self, step: Step, instant: Instant, rim: Rim) -> None:
         if instant.outcome is Outcome.NO_CONTACT:
             return
-        half_width = min(rim.length, rim.width) / 2
-        found = geometry_doubts(self._geometry, rim.contact, instant.found.motion, half_width)
-        self._open = found | self._open
+        self._open = geometry_doubts(self._geometry, rim, instant.found.motion) | self._open
         if self._before is not None and not step.is_jump:
             peaks = [float(end.found.pressure.max()) for end in (self._before, instant)]
             self._open = step_doubts(self._run.compliance, step.duration, *peaks) | self._open

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from viscontact.indenters import Indenter
 from viscontact.material import ContactCompliance
+from viscontact.rim import Rim
 
 #: Fewer cells across the largest contact than this are doubtful, or refused.
 DOUBTFUL_CELLS, REFUSED_CELLS = 10, 4
@@ -40,24 +41,17 @@ class Geometry:
     cell_size: tuple[float, float]
 
 
-def geometry_doubts(
-    geometry: Geometry,
-    contact: NDArray[np.bool_],
-    motion: NDArray[np.float64],
-    half_width: float,
-) -> dict[str, str]:
+def geometry_doubts(geometry: Geometry, rim: Rim, motion: NDArray[np.float64]) -> dict[str, str]:
     """Doubts about small strains and about where the body ends.
 
     Parameters
     ----------
     geometry : Geometry
         The undeformed shape on its grid.
-    contact : ndarray of bool
-        Cells under pressure.
+    rim : Rim
+        The contact and its extents.
     motion : ndarray, shape (3,)
         Approach [m] and tilts [rad].
-    half_width : float
-        Half the shorter extent of the contact [m].
 
     Returns
     -------
@@ -65,7 +59,8 @@ def geometry_doubts(
         Sentences by kind of doubt; empty if there is none.
     """
     doubts: dict[str, str] = {}
-    slope = _steepest_slope(geometry, contact, motion)
+    open_gap, half_width = geometry.open_gap[rim.rows, rim.columns], min(rim.length, rim.width) / 2
+    slope = _steepest_slope(open_gap, rim.contact, motion, geometry.cell_size)
     if slope > STEEP_SLOPE:
         doubts["slope"] = (
             f"the indenter's slope within the contact reaches {slope:.2g}; "
@@ -82,7 +77,7 @@ def geometry_doubts(
             f"the approach is {motion[0] / radius:.2g} of the indenter's radius of curvature; "
             f"small-strain theory is meant for less than {DEEP_APPROACH:g}"
         )
-    if _touches_end(geometry.open_gap, contact):
+    if _touches_end(open_gap, rim.contact):
         doubts["end"] = (
             "the contact reaches the end of the indenter's profile: pressure is singular there "
             "and the peak pressure depends on the mesh"
@@ -177,14 +172,17 @@ class Doubts:
 
 
 def _steepest_slope(
-    geometry: Geometry, contact: NDArray[np.bool_], motion: NDArray[np.float64]
+    open_gap: NDArray[np.float64],
+    contact: NDArray[np.bool_],
+    motion: NDArray[np.float64],
+    cell_size: tuple[float, float],
 ) -> float:
     steepest = 0.0
     for axis in (0, 1):
-        shape = np.moveaxis(geometry.open_gap, axis, 0)
+        shape = np.moveaxis(open_gap, axis, 0)
         touched = np.moveaxis(contact, axis, 0)
         pairs = touched[1:] & touched[:-1]
-        slope = (shape[1:][pairs] - shape[:-1][pairs]) / geometry.cell_size[axis]
+        slope = (shape[1:][pairs] - shape[:-1][pairs]) / cell_size[axis]
         steepest = max(steepest, float(np.abs(slope - motion[1 + axis]).max(initial=0.0)))
     return steepest
 

@@ -44,22 +44,26 @@ class Rim:
     ----------
     grid : Grid
         The cells.
-    contact : ndarray of bool, shape (nx, ny)
-        Cells under pressure.
+    contact : ndarray of bool, shape (mx, my)
+        Cells under pressure, in the block around the contact.
     along_x, along_y : ndarray
-        Distance of the rim from the centre of the inner cell, in cells, as in `Outline`;
-        slightly negative where that cell's centre lies just outside.
+        In that block: distance of the rim from the centre of the inner cell, in cells, as in
+        `Outline`; slightly negative where that cell's centre lies just outside.
+    rows, columns : slice
+        Where the block lies in the grid.
     """
 
     grid: Grid
     contact: NDArray[np.bool_]
     along_x: NDArray[np.float64]
     along_y: NDArray[np.float64]
+    rows: slice
+    columns: slice
 
     @property
     def area(self) -> float:
         """Area enclosed by the polygons through the crossings [m²]."""
-        return self.grid.cell_area * float(_square_areas(self).sum())
+        return self.grid.cell_area * _enclosed_squares(self)
 
     @property
     def length(self) -> float:
@@ -166,13 +170,23 @@ def trace_rim(
     >>> float(round(rim.along_x[1, 0], 12))
     0.0
     """
-    end_x, end_y = (None, None) if outline is None else (outline.along_x, outline.along_y.T)
-    return Rim(
-        grid,
-        contact,
-        _crossings(contact, gap, end_x),
-        _crossings(contact.T, gap.T, end_y).T,
-    )
+    rows, columns = _block(contact, axis=0), _block(contact, axis=1)
+    contact, gap = contact[rows, columns], gap[rows, columns]
+    end_x = end_y = None
+    if outline is not None:
+        end_x = outline.along_x[rows, columns][: len(contact) - 1]
+        end_y = outline.along_y[rows, columns][:, : contact.shape[1] - 1].T
+    along_x = _crossings(contact, gap, end_x)
+    along_y = _crossings(contact.T, gap.T, end_y).T
+    return Rim(grid, contact, along_x, along_y, rows, columns)
+
+
+def _block(contact: NDArray[np.bool_], axis: int) -> slice:
+    """The contact's span along an axis and the two open cells on both sides that show its rim."""
+    touched = np.flatnonzero(contact.any(axis=1 - axis))
+    if len(touched) == 0:
+        return slice(0, 2)
+    return slice(max(int(touched[0]) - 2, 0), int(touched[-1]) + 3)
 
 
 def _crossings(
@@ -196,33 +210,29 @@ def _crossings(
     return crossings
 
 
-def _square_areas(rim: Rim) -> NDArray[np.float64]:
-    """Enclosed part of each square between four neighbouring centres, in cells."""
+def _enclosed_squares(rim: Rim) -> float:
+    """Squares between four neighbouring centres, each counted by its enclosed part."""
     inside = rim.contact
-    corners = (inside[:-1, :-1], inside[1:, :-1], inside[1:, 1:], inside[:-1, 1:])
-    edges = tuple(
-        np.clip(np.nan_to_num(edge), 0.0, 1.0)
-        for edge in (
-            rim.along_x[:, :-1],
-            rim.along_y[1:, :],
-            rim.along_x[:, 1:],
-            rim.along_y[:-1, :],
-        )
-    )
-    count = sum(corner.astype(np.int8) for corner in corners)
-    area = np.where(count == 4, 1.0, 0.0)
+    count = inside[:-1, :-1].astype(np.int8) + inside[1:, :-1] + inside[1:, 1:] + inside[:-1, 1:]
+    i, j = np.nonzero((count > 0) & (count < 4))
+    corners = (inside[i, j], inside[i + 1, j], inside[i + 1, j + 1], inside[i, j + 1])
+    crossings = (rim.along_x[i, j], rim.along_y[i + 1, j], rim.along_x[i, j + 1], rim.along_y[i, j])
+    edges = tuple(np.clip(np.nan_to_num(crossing), 0.0, 1.0) for crossing in crossings)
+    mixed = count[i, j]
+    total = float((count == 4).sum())
     for k in range(4):
-        corner, following = corners[k], corners[(k + 1) % 4]
-        before, after = edges[k - 1], edges[k]
-        beyond = edges[(k + 1) % 4]
+        corner, following, opposite = (corners[(k + step) % 4] for step in range(3))
+        before, after, beyond = edges[k - 1], edges[k], edges[(k + 1) % 4]
         # One corner in: a triangle. Opposite corners in: two of them, held apart.
-        lone = corner & ((count == 1) | ((count == 2) & corners[(k + 2) % 4]))
-        area += np.where(lone, before * after / 2, 0.0)
+        lone = corner & ((mixed == 1) | ((mixed == 2) & opposite))
+        total += float((before * after)[lone].sum()) / 2
         # One corner out: what is missing is a triangle.
-        area += np.where(~corner & (count == 3), 1 - (1 - before) * (1 - after) / 2, 0.0)
+        missing = ~corner & (mixed == 3)
+        total += float((1 - (1 - before) * (1 - after) / 2)[missing].sum())
         # A side in: a trapezium between the crossings of the two edges that leave it.
-        area += np.where(corner & following & (count == 2), (before + beyond) / 2, 0.0)
-    return area
+        side = corner & following & (mixed == 2)
+        total += float((before + beyond)[side].sum()) / 2
+    return total
 
 
 def _extent(contact: NDArray[np.bool_], crossings: NDArray[np.float64]) -> float:

@@ -247,7 +247,8 @@ def _refuse_outside(
             name = "xy"[axis]
             raise ValueError(
                 f"load.eccentricity_{name}: the force acts at {eccentricity:.6g} m at "
-                f"t = {time:g} s, outside what can touch ({centres[0]:.6g} m to {centres[-1]:.6g} m along {name}): "
+                f"t = {time:g} s, outside what can touch ({centres[0]:.6g} m to "
+                f"{centres[-1]:.6g} m along {name}): "
                 "no pressure can balance it; move the force in, or enlarge the body or the grid"
             )
     x, y = where
