@@ -40,11 +40,9 @@ class Document:
 
     def place(self, key: KeyPath) -> str:
         """Say where a key stands: ``case.yaml:6:``, or ``--set`` if it came from there."""
-        if any(path[: len(key)] == key for path in self.overridden if key):
+        if any(key and _same_branch(key, path) for path in self.overridden):
             return "--set"
-        for length in range(len(key), -1, -1):
-            if key[:length] in self.overridden:
-                return "--set"
+        for length in range(len(key), 0, -1):
             if key[:length] in self.lines:
                 return f"{self.path}:{self.lines[key[:length]]}:"
         return f"{self.path}:"
@@ -52,6 +50,10 @@ class Document:
     def problem(self, key: KeyPath, why: str) -> str:
         """Write one problem as one line: where, which key, and what is wrong with it."""
         return " ".join(filter(None, (self.place(key), f"{dotted(key)}:" if key else "", why)))
+
+
+def _same_branch(one: KeyPath, other: KeyPath) -> bool:
+    return all(a == b for a, b in zip(one, other, strict=False))
 
 
 def read_document(path: Path) -> Document:

@@ -17,7 +17,7 @@ from viscontact.case.quantities import (
     Fluidity,
     Modulus,
     ModulusOrZero,
-    Ratio,
+    PoissonRatio,
     Section,
     Viscosity,
 )
@@ -28,7 +28,7 @@ from viscontact.material import Material
 class Medium(Section):
     """A creep law in shear, and how the body gives in volume."""
 
-    poisson_ratio: Ratio | None = Field(default=None, description="constant in time")
+    poisson_ratio: PoissonRatio | None = Field(default=None, description="constant in time")
     bulk_modulus: Modulus | None = Field(
         default=None, description="elastic; Poisson's ratio then varies in time"
     )

@@ -108,7 +108,7 @@ Viscosity = Annotated[float, Quantity("viscosity", POSITIVE)]
 Fluidity = Annotated[float, Quantity("fluidity", NOT_NEGATIVE)]
 Instant = Annotated[float, Quantity("time", NOT_NEGATIVE)]
 Duration = Annotated[float, Quantity("time", POSITIVE)]
-Ratio = Annotated[float, Field(allow_inf_nan=False)]
+PoissonRatio = Annotated[float, Field(gt=-1, le=0.5)]
 WholeNumber = Annotated[int, Field(ge=1)]
 
 

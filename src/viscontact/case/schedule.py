@@ -119,7 +119,7 @@ def kept_fields(output: Output, times: NDArray[np.float64]) -> str | tuple[float
         raise ValueError(
             f"the instant {late[0]:g} s lies after the end of the run, {times[-1]:g} s"
         )
-    return tuple(sorted({_on_the_list(instant, times) for instant in output.fields}))
+    return tuple(sorted({min(instant, float(times[-1])) for instant in output.fields}))
 
 
 def with_instants(
@@ -144,11 +144,10 @@ def with_instants(
     >>> with_instants(np.array([0.0, 1.0]), (0.0, 0.5)).tolist()
     [0.0, 0.5, 1.0]
     """
-    # A field asked for at 30 s is the field at 30 s, not that of a step nearby.
-    return times if isinstance(fields, str) else np.union1d(times, fields)
-
-
-def _on_the_list(instant: float, times: NDArray[np.float64]) -> float:
-    """Return the run's own instant where it differs by rounding only."""
-    nearest = float(times[np.argmin(np.abs(times - instant))])
-    return nearest if abs(nearest - instant) <= 1e-9 * times[-1] else instant
+    if isinstance(fields, str):
+        return times
+    # A field asked for at 30 s is the field at 30 s, not that of a step nearby; it takes the
+    # place of a step that differs by rounding only.
+    asked = np.asarray(fields)
+    doubled = np.isclose(times[:, None], asked[None, :], rtol=1e-6, atol=0.0).any(axis=1)
+    return np.union1d(times[~doubled], asked)

@@ -117,12 +117,13 @@ def noun_problem(document: Document, section: KeyPath, why: str) -> str:
 
 def _named_key(data: Any, section: KeyPath, why: str) -> KeyPath:
     """The key that a message speaks of first, if it is one that stands in the file."""
-    words = re.findall(r"\w+(?:\.\w+)*", why)
-    for word in words:
-        path = (*section, *word.split("."))
-        if len(path) > len(section) and _holds(data, path):
-            return path
-    return section
+    lead = re.match(r"[\w.]+(?=:)", why)
+    named = tuple(lead[0].split(".")) if lead else ()
+    for length in range(len(named), 0, -1):
+        if _holds(data, named[:length]):
+            return named[:length]
+    words = re.findall(r"\w+", why) if section else ()
+    return next(((*section, word) for word in words if _holds(data, (*section, word))), section)
 
 
 def _holds(data: Any, path: KeyPath) -> bool:
