@@ -45,7 +45,7 @@ def rim_polygons(snapshot: Snapshot) -> list[NDArray[np.float64]]:
     0.04
     """
     contact = snapshot.pressure > 0
-    feet = _feet(contact, snapshot.gap)
+    offsets = offsets_from_rim(contact, snapshot.gap)
     tracer = contour_generator(
         z=contact.T.astype(np.float64), line_type=LineType.Separate, name="serial"
     )
@@ -53,8 +53,34 @@ def rim_polygons(snapshot: Snapshot) -> list[NDArray[np.float64]]:
     cell = np.array([snapshot.x[1], snapshot.y[1]]) - first
     # The contour of 1 inside and 0 outside runs half-way between the cells, in order.
     return [
-        first + cell * _moved(np.asarray(corners), contact, feet) for corners in tracer.lines(0.5)
+        first + cell * _moved(np.asarray(corners), contact, offsets)
+        for corners in tracer.lines(0.5)
     ]
+
+
+def offsets_from_rim(contact: NDArray[np.bool_], gap: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Find the way to each open cell from the rim, as its gap and its neighbours' tell.
+
+    Parameters
+    ----------
+    contact : ndarray of bool
+        Cells in contact, shape (nx, ny).
+    gap : ndarray
+        Distance between the bodies, shape (nx, ny) [m].
+
+    Returns
+    -------
+    ndarray
+        Shape (nx, ny, 2) [cells]: from where gap^(2/3), taken as linear around the cell, is
+        zero, to the cell's centre; NaN in contact and where the gap tells nothing.
+    """
+    usable = ~contact & np.isfinite(gap)
+    opening = np.where(usable, np.cbrt(np.maximum(np.where(usable, gap, 0.0), 0.0)) ** 2, np.nan)
+    slopes = np.stack([_slope(opening), _slope(opening.T).T], axis=-1)
+    steepness = np.square(slopes).sum(axis=-1, keepdims=True)
+    steepness[steepness == 0] = np.nan
+    offsets: NDArray[np.float64] = opening[..., None] * slopes / steepness
+    return offsets
 
 
 def rim_path(polygons: Iterable[NDArray[np.float64]]) -> Path:
@@ -73,18 +99,6 @@ def rim_path(polygons: Iterable[NDArray[np.float64]]) -> Path:
     return Path.make_compound_path(*(Path(polygon, closed=True) for polygon in polygons))
 
 
-def _feet(contact: NDArray[np.bool_], gap: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Where gap^(2/3), taken as linear at each open cell, is zero; shape (nx, ny, 2) [cells]."""
-    usable = ~contact & np.isfinite(gap)
-    opening = np.where(usable, np.cbrt(np.maximum(np.where(usable, gap, 0.0), 0.0)) ** 2, np.nan)
-    slopes = np.stack([_slope(opening), _slope(opening.T).T], axis=-1)
-    steepness = np.square(slopes).sum(axis=-1, keepdims=True)
-    steepness[steepness == 0] = np.nan
-    centres = np.moveaxis(np.indices(gap.shape), 0, -1)
-    feet: NDArray[np.float64] = centres - opening[..., None] * slopes / steepness
-    return feet
-
-
 def _slope(opening: NDArray[np.float64]) -> NDArray[np.float64]:
     """Mean of the forward and backward differences that exist along the first axis."""
     outside = np.full((1, opening.shape[1]), np.nan)
@@ -96,19 +110,16 @@ def _slope(opening: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _moved(
-    corners: NDArray[np.float64], contact: NDArray[np.bool_], feet: NDArray[np.float64]
+    corners: NDArray[np.float64], contact: NDArray[np.bool_], offsets: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Corners half-way between cells moved to the feet of the open ones, closed [cells]."""
+    """Corners half-way between cells moved onto the rim, once for each open cell [cells]."""
     before, after = np.floor(corners).astype(int), np.ceil(corners).astype(int)
     opens = np.where(contact[tuple(before.T)][:, None], after, before)
-    foot = feet[tuple(opens.T)]
-    # A foot more than a cell and a half away is no rim but a gap that does not open steadily.
-    trusted = np.linalg.norm(foot - opens, axis=1) <= 1.5
-    moved = np.where(trusted[:, None], foot, corners)
-    repeated = np.append(False, np.all(moved[1:] == moved[:-1], axis=1))
-    polygon = moved[~repeated]
-    if np.array_equal(polygon[0], polygon[-1]):
-        polygon = polygon[:-1]
+    offset = offsets[tuple(opens.T)]
+    # More than a cell and a half away is no rim but a gap that does not open steadily.
+    trusted = np.linalg.norm(offset, axis=1) <= 1.5
+    moved = np.where(trusted[:, None], opens - offset, corners)
+    polygon = moved[np.any(moved != np.roll(moved, 1, axis=0), axis=1)]
     # What is left of the staircase, under a tenth of a cell, is spread over the neighbours.
     smooth = (np.roll(polygon, 1, axis=0) + 2 * polygon + np.roll(polygon, -1, axis=0)) / 4
     return np.vstack([smooth, smooth[:1]])

@@ -5,9 +5,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.grid import Grid
+from viscontact.plot.rim_polygons import offsets_from_rim
 from viscontact.plot.snapshots import Snapshot
-from viscontact.rim import trace_rim
+
+# Least distance of a pressed cell's centre from the rim [cells]: a line through the pressure
+# there would otherwise fall without end.
+_LEAST_DEPTH = 0.1
 
 
 def squared_pressure(snapshot: Snapshot) -> NDArray[np.float64]:
@@ -28,30 +31,33 @@ def squared_pressure(snapshot: Snapshot) -> NDArray[np.float64]:
     At a smooth rim the pressure starts as the square root of the distance to it, so its square
     is linear there: interpolated between cells it gives smooth contours where the pressure
     itself, which ends between two cells, would draw the staircase of the grid.
+
+    Examples
+    --------
+    A straight rim at x = 0, pressure sqrt(-x), gap x^1.5: the square is -x on both sides.
+
+    >>> x, y = np.arange(-3.5, 4.0), np.arange(4.0)
+    >>> distance = x[:, None] + 0 * y
+    >>> pressure, gap = np.sqrt(np.maximum(-distance, 0)), np.maximum(distance, 0) ** 1.5
+    >>> squared = squared_pressure(Snapshot(0.0, x, y, pressure, gap))
+    >>> squared[2:5, 1].round(6).tolist()
+    [1.5, 0.5, -0.5]
     """
-    x, y = snapshot.x, snapshot.y
-    size = (float(x[1] - x[0]) * x.size, float(y[1] - y[0]) * y.size)
-    rim = trace_rim(Grid((x.size, y.size), size), snapshot.pressure > 0, snapshot.gap)
-    squared = np.where(rim.contact, snapshot.pressure, 0.0) ** 2
-    total, count = np.zeros_like(squared), np.zeros_like(squared)
-    # The second pass works on transposed views of the same arrays.
-    _continue_outward(squared, rim.contact, rim.along_x, total, count)
-    _continue_outward(squared.T, rim.contact.T, rim.along_y.T, total.T, count.T)
-    return np.where(rim.contact, squared, total / np.maximum(count, 1))
-
-
-def _continue_outward(
-    squared: NDArray[np.float64],
-    contact: NDArray[np.bool_],
-    crossings: NDArray[np.float64],
-    total: NDArray[np.float64],
-    count: NDArray[np.float64],
-) -> None:
-    """Add to each cell next to the rim what the line through its inner neighbour gives there."""
-    i, j = np.nonzero(contact[:-1] != contact[1:])
-    inner = np.where(contact[i, j], i, i + 1)
-    outer = np.where(contact[i, j], i + 1, i)
-    # A rim almost at the inner cell's centre would send the line to infinity.
-    share = np.clip(crossings[i, j], 0.1, 1.0)
-    np.add.at(total, (outer, j), squared[inner, j] * (1 - 1 / share))
-    np.add.at(count, (outer, j), 1)
+    squared = np.square(snapshot.pressure)
+    contact = snapshot.pressure > 0
+    offsets = offsets_from_rim(contact, snapshot.gap)
+    distance = np.linalg.norm(offsets, axis=-1)
+    normal = offsets / np.where(distance > 0, distance, np.nan)[..., None]
+    total, weight, beside = (np.zeros_like(squared) for _ in range(3))
+    for axis in (0, 1):
+        for step in (1, -1):
+            inner = np.where(contact, 0.0, np.roll(squared, step, axis))
+            outward = step * normal[..., axis]
+            known = (inner > 0) & (outward > 0)
+            depth = np.maximum(outward - distance, _LEAST_DEPTH)
+            total += np.where(known, outward * inner * distance / depth, 0.0)
+            weight += np.where(known, outward, 0.0)
+            beside = np.maximum(beside, inner)
+    # Where the gap tells nothing, half-way between the cells.
+    outside = np.where(weight > 0, total / np.where(weight > 0, weight, 1.0), beside)
+    return np.where(contact, squared, -outside)
