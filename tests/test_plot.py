@@ -239,6 +239,20 @@ def test_outline_where_the_body_ends_stays_between_the_cells() -> None:
     assert np.abs(np.hypot(*outline.T) - 4).max() < 1.0
 
 
+def test_outline_of_a_flat_punch_is_its_own() -> None:
+    punched = maxwell_sphere([0.0], cells=32)
+    x = punched["x"].values
+    radius = 0.8 * x[-1]
+    pressed = np.hypot(x[:, None], x) <= radius
+    punched["pressure"][0] = 1e6 * pressed
+    punched["gap"][0] = np.where(pressed, 0.0, np.inf)
+    case = punched.attrs["case"].replace(
+        '"Sphere", "radius": 0.01', f'"FlatPunch", "radius": {radius}'
+    )
+    (outline,) = rim_polygons(take_snapshots(punched.assign_attrs(case=case), None, "figure")[0])
+    assert np.abs(np.hypot(*outline.T) - radius).max() < 0.1 * (x[1] - x[0])
+
+
 def test_outlines_are_drawn_in_millimetres(long_contact: xr.Dataset) -> None:
     axes = FIGURES["contact-outline"](long_contact, times=[0.0]).axes[0]
     (patch,) = (patch for patch in axes.patches if isinstance(patch, PathPatch))
@@ -361,6 +375,8 @@ def test_creep_curve_refuses_times_it_cannot_draw(times: list[float]) -> None:
         ("m", 167e-6, "µm"),
         ("m", 0.055, "mm"),
         ("m2", 94.5e-6, "mm²"),
+        ("m2", 0.7e-6, "mm²"),
+        ("m2", 2e-12, "µm²"),
         ("rad", 9.5e-4, "µrad"),
         ("1/Pa", 7e-10, "1/GPa"),
         ("1/Pa", 2e-6, "1/MPa"),

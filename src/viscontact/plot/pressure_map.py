@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
@@ -21,6 +23,10 @@ from viscontact.plot.squared_pressure import squared_pressure
 from viscontact.plot.window import Window, window_around
 
 _NAME = "pressure-map"
+# A rough contact of more spots and holes than this has no room for labels.
+_SPOTS_AT_MOST = 6
+# Percentiles of pressure over the contact between which contours have room for labels.
+_LABELLED = (20.0, 97.0)
 
 
 def pressure_map(results: xr.Dataset, *, times: ArrayLike | None = None) -> Figure:
@@ -99,7 +105,8 @@ def _draw_contours(
 ) -> None:
     if not snapshot.touching:
         return
-    outline = rim_path(window.unit(polygon) for polygon in rim_polygons(snapshot))
+    polygons = rim_polygons(snapshot)
+    outline = rim_path(window.unit(polygon) for polygon in polygons)
     x, y = window.unit(snapshot.x), window.unit(snapshot.y)
     # Contours of the square are the same lines, and smooth up to the rim.
     squared, heights = squared_pressure(snapshot).T, levels**2
@@ -109,16 +116,20 @@ def _draw_contours(
     lines = axes.contour(x, y, squared, levels=heights[1:-1], colors=style.INK, linewidths=0.5)
     for contours in (fill, lines):
         contours.set_clip_path(outline, axes.transData)
-    _label_contours(axes, lines, float(snapshot.pressure.max()), unit)
+    if len(polygons) <= _SPOTS_AT_MOST:
+        _label_contours(axes, lines, snapshot.pressure, unit)
     axes.add_patch(PathPatch(outline, facecolor="none", edgecolor=style.INK, linewidth=1.1))
 
 
-def _label_contours(axes: Axes, lines: QuadContourSet, peak: float, unit: DisplayUnit) -> None:
-    """Write the pressure on the contours, but for those crowded at the steep rim."""
+def _label_contours(
+    axes: Axes, lines: QuadContourSet, pressure: NDArray[np.float64], unit: DisplayUnit
+) -> None:
+    """Write the pressure on the contours, but for those crowded at a rim or a tip."""
+    lowest, highest = np.percentile(pressure[pressure > 0], _LABELLED) ** 2
     texts = {
-        square: display_number(float(unit(np.sqrt(square))))
+        square: display_number(float(unit(math.sqrt(square))))
         for square in lines.levels
-        if np.sqrt(square) > 0.45 * peak
+        if lowest < square < highest
     }
     axes.clabel(lines, list(texts), fmt=texts, fontsize=6.5, inline_spacing=2)
 

@@ -63,6 +63,8 @@ def pressure_radial(results: xr.Dataset, *, times: ArrayLike | None = None) -> F
             _draw_exact(axes, exact, snapshot, colour, length, pressure)
             _draw_difference(below, exact, snapshot, colour, marker, length)
         r, p = _near_x_axis(snapshot)
+        if exact is None:  # something to guide the eye from marker to marker
+            axes.plot(length(r), pressure(p), color=colour, linewidth=style.THIN_LINE)
         axes.plot(length(r), pressure(p), **_markers_only(colour, marker, r.size))
     lowest = axes if below is None else below
     lowest.set_xlabel(length.label("Distance from the axis"))

@@ -10,6 +10,7 @@ from matplotlib.path import Path
 from numpy.typing import NDArray
 
 from viscontact.plot.snapshots import Snapshot
+from viscontact.rim import Outline
 
 
 def rim_polygons(snapshot: Snapshot) -> list[NDArray[np.float64]]:
@@ -30,8 +31,8 @@ def rim_polygons(snapshot: Snapshot) -> list[NDArray[np.float64]]:
     Just outside a smooth rim the gap opens as distance^(3/2), whatever the law, so gap^(2/3)
     is linear there and points back at the rim. Every open cell next to the contact gives one
     corner: the foot of its steepest descent to zero. Following the gradient keeps the polygon
-    smooth where the rim runs almost along a grid line. Where the body ends, the gap says
-    nothing, and the corner lies half-way between the cells.
+    smooth where the rim runs almost along a grid line. Where the body ends, the corner is where
+    it does, or half-way between the cells if that is not known.
 
     Examples
     --------
@@ -46,6 +47,7 @@ def rim_polygons(snapshot: Snapshot) -> list[NDArray[np.float64]]:
     """
     contact = snapshot.pressure > 0
     offsets = offsets_from_rim(contact, snapshot.gap)
+    end = snapshot.body_end
     tracer = contour_generator(
         z=contact.T.astype(np.float64), line_type=LineType.Separate, name="serial"
     )
@@ -53,7 +55,7 @@ def rim_polygons(snapshot: Snapshot) -> list[NDArray[np.float64]]:
     cell = np.array([snapshot.x[1], snapshot.y[1]]) - first
     # The contour of 1 inside and 0 outside runs half-way between the cells, in order.
     return [
-        first + cell * _moved(np.asarray(corners), contact, offsets)
+        first + cell * _moved(np.asarray(corners), contact, offsets, end)
         for corners in tracer.lines(0.5)
     ]
 
@@ -110,16 +112,33 @@ def _slope(opening: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _moved(
-    corners: NDArray[np.float64], contact: NDArray[np.bool_], offsets: NDArray[np.float64]
+    corners: NDArray[np.float64],
+    contact: NDArray[np.bool_],
+    offsets: NDArray[np.float64],
+    body_end: Outline | None,
 ) -> NDArray[np.float64]:
     """Corners half-way between cells moved onto the rim, once for each open cell [cells]."""
     before, after = np.floor(corners).astype(int), np.ceil(corners).astype(int)
-    opens = np.where(contact[tuple(before.T)][:, None], after, before)
-    offset = offsets[tuple(opens.T)]
+    starts_inside = contact[tuple(before.T)][:, None]
+    inner, outer = np.where(starts_inside, before, after), np.where(starts_inside, after, before)
+    offset = offsets[tuple(outer.T)]
     # More than a cell and a half away is no rim but a gap that does not open steadily.
     trusted = np.linalg.norm(offset, axis=1) <= 1.5
-    moved = np.where(trusted[:, None], opens - offset, corners)
+    on_line = inner + _share_to_end(before, after, body_end)[:, None] * (outer - inner)
+    moved = np.where(trusted[:, None], outer - offset, on_line)
     polygon = moved[np.any(moved != np.roll(moved, 1, axis=0), axis=1)]
     # What is left of the staircase, under a tenth of a cell, is spread over the neighbours.
     smooth = (np.roll(polygon, 1, axis=0) + 2 * polygon + np.roll(polygon, -1, axis=0)) / 4
     return np.vstack([smooth, smooth[:1]])
+
+
+def _share_to_end(
+    before: NDArray[np.int_], after: NDArray[np.int_], body_end: Outline | None
+) -> NDArray[np.float64]:
+    """How far from the inner to the outer cell the body reaches, a half if not known."""
+    share = np.full(len(before), 0.5)
+    if body_end is not None:
+        along_x = after[:, 0] > before[:, 0]
+        share[along_x] = body_end.along_x[tuple(before[along_x].T)]
+        share[~along_x] = body_end.along_y[tuple(before[~along_x].T)]
+    return np.where(np.isfinite(share), share, 0.5)

@@ -10,6 +10,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
+from viscontact.grid import Grid
+from viscontact.plot.recorded import recorded_noun
+from viscontact.rim import Outline, trace_outline
+
 
 @dataclass(frozen=True)
 class Snapshot:
@@ -25,6 +29,8 @@ class Snapshot:
         Contact pressure, shape (nx, ny), positive in compression [Pa].
     gap : ndarray
         Distance between the bodies, shape (nx, ny), positive when open [m].
+    body_end : Outline, optional
+        Where the indenter ends between the cells, if it does and is known.
     """
 
     time: float
@@ -32,6 +38,7 @@ class Snapshot:
     y: NDArray[np.float64]
     pressure: NDArray[np.float64]
     gap: NDArray[np.float64]
+    body_end: Outline | None = None
 
     @property
     def touching(self) -> bool:
@@ -156,7 +163,8 @@ def take_snapshots(
         chosen = _spread(stored, _in_contact(results, stored), count)
     else:
         chosen = _nearest(stored, times, figure)
-    snapshots = [_snapshot(results, index) for index in chosen]
+    body_end = _body_end(results)
+    snapshots = [_snapshot(results, index, body_end) for index in chosen]
     if not any(snapshot.touching for snapshot in snapshots):
         raise ValueError(
             f"{figure}: the bodies do not touch at t = "
@@ -176,16 +184,29 @@ def _in_contact(results: xr.Dataset, instants: NDArray[np.float64]) -> NDArray[n
     return np.asarray(peak.values > 0, dtype=np.bool_)
 
 
-def _snapshot(results: xr.Dataset, index: int) -> Snapshot:
+def _body_end(results: xr.Dataset) -> Outline | None:
+    # Only a body that ends has an infinite gap beside it.
+    first = results["gap"].isel({_time_dimension(results): 0}).values
+    if np.isfinite(first).all() or "case" not in results.attrs:
+        return None
+    try:
+        indenter = recorded_noun(results, "indenter", "snapshot")
+    except ValueError:  # a measured surface is not kept with the result
+        return None
+    x, y = results["x"].values, results["y"].values
+    size = (float(x[1] - x[0]) * x.size, float(y[1] - y[0]) * y.size)
+    return trace_outline(indenter, Grid((x.size, y.size), size))
+
+
+def _snapshot(results: xr.Dataset, index: int, body_end: Outline | None) -> Snapshot:
     dimension = _time_dimension(results)
     fields = results[["pressure", "gap"]].isel({dimension: index})
     pressure, gap = (
         np.asarray(fields[name].transpose("x", "y").values, dtype=np.float64)
         for name in ("pressure", "gap")
     )
-    return Snapshot(
-        float(fields[dimension]), results["x"].values, results["y"].values, pressure, gap
-    )
+    x, y = results["x"].values, results["y"].values
+    return Snapshot(float(fields[dimension]), x, y, pressure, gap, body_end)
 
 
 def _nearest(stored: NDArray[np.float64], times: ArrayLike, figure: str) -> Sequence[int]:
