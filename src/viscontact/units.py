@@ -309,6 +309,8 @@ def in_words(value: float, unit: str, digits: int = 4) -> str:
     """
     readable = readable_unit(value, unit)
     number = in_digits(value / readable.factor, digits)
+    if "." in number and "e" not in number:  # alone, no column asks for idle zeros
+        number = number.rstrip("0").rstrip(".")
     return f"{number} {readable.symbol}".rstrip()
 
 

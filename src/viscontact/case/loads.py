@@ -31,6 +31,11 @@ class Load(Section):
         """Return the history that is described."""
 
     @property
+    def table(self) -> Path | None:
+        """The file that the history is read from, if there is one."""
+        return None
+
+    @property
     def _tail(self) -> dict[str, Any]:
         return {name: getattr(self, name) for name in Load.model_fields}
 
@@ -94,6 +99,11 @@ class History(Load):
     @classmethod
     def _beside_the_case(cls, name: str | None, info: ValidationInfo) -> str | None:
         return name if name is None else str(Path((info.context or {}).get("folder", "."), name))
+
+    @property
+    def table(self) -> Path | None:
+        """The file that the history is read from, if there is one."""
+        return None if self.file is None else Path(self.file)
 
     def noun(self) -> ForceHistory:
         """Return the history, from its points or from its file."""

@@ -19,6 +19,7 @@ from viscontact.case.problems import CaseError
 from viscontact.case.schedule import kept_fields, with_instants
 from viscontact.case.sections import CaseFile
 from viscontact.case.wording import corrected, noun_problem, problem
+from viscontact.case.yaml_source import with_overrides
 from viscontact.grid import Grid
 from viscontact.indenters import Indenter
 from viscontact.load import ForceHistory
@@ -49,6 +50,8 @@ class Case:
         ``"all"``, ``"none"``, or the instants whose fields are kept [s].
     tolerance : float
         Relative error of pressure and balances.
+    load_file : Path or None
+        The CSV of the load history, if it has one.
     document : Document
         The file it is from.
     """
@@ -62,12 +65,15 @@ class Case:
     grid: Grid | None
     fields: str | tuple[float, ...]
     tolerance: float
+    load_file: Path | None
     document: Document
 
     @property
     def text(self) -> str:
-        """The case as YAML, with all that was set on the command line."""
-        return self.document.text
+        """The case as YAML as it is run: with what was set, its load file beside it."""
+        if self.load_file is None:
+            return self.document.text
+        return with_overrides(self.document.text, {("load", "file"): self.load_file.name})
 
     def error(self, why: str) -> CaseError:
         """Return what the run refused as an error at the key it speaks of.
@@ -145,5 +151,6 @@ def _case(document: Document, found: CaseFile) -> Case:
         grid=found.grid.noun() if found.grid else None,
         fields=fields,
         tolerance=found.tolerance,
+        load_file=found.load.table,
         document=document,
     )

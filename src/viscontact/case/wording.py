@@ -111,7 +111,7 @@ def noun_problem(document: Document, section: KeyPath, why: str) -> str:
     why = re.sub(r"^[A-Z]\w+[:.] ?", "", why)
     last = ".".join(str(part) for part in key)
     for name in (last, *(str(part) for part in key[-1:])):
-        why = re.sub(rf"^{re.escape(name)}(: | (?=must|has|is|stands|does))", "", why)
+        why = re.sub(rf"^{re.escape(name)}(: |, | (?=must|has|is|stands|does))", "", why)
     return document.problem(key, why)
 
 
@@ -128,9 +128,8 @@ def _named_key(data: Any, section: KeyPath, why: str) -> KeyPath:
 
 def _holds(data: Any, path: KeyPath) -> bool:
     for step in path:
-        if isinstance(data, list) and len(data) == 1 and isinstance(step, str):
-            data = data[0]
-        if not isinstance(data, dict) or step not in data:
+        known = isinstance(data, dict) and step in data
+        if not (known or (isinstance(data, list) and isinstance(step, int) and step < len(data))):
             return False
         data = data[step]
     return True

@@ -1,0 +1,101 @@
+"""`schema`, `example` and `demo`."""
+
+from __future__ import annotations
+
+import difflib
+import re
+from importlib.resources import as_file, files
+from importlib.resources.abc import Traversable
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from viscontact.cli.messages import refuse
+
+DEMO, DEMO_DIRECTORY = "roller-dogbone-e05", Path("viscontact-demo")
+DEMO_FIGURES = ("pressure-map", "pressure-profile", "contact-outline", "history")
+SCHEMA_NAME = "viscontact.schema.json"
+
+
+def schema() -> None:
+    """Print the JSON schema of case files, for completion in editors."""
+    print(_schema_text())
+
+
+def example(
+    name: Annotated[str | None, typer.Argument(help="Which one; lists them if left out.")] = None,
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", metavar="FILE", help="Where to; stdout if left out."),
+    ] = None,
+    overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace FILE.")] = False,
+) -> None:
+    """Copy a shipped case, to run and to change."""
+    if name is None:
+        _list_examples()
+        return
+    text = _example_text(name)
+    if output is None:
+        print(text, end="")
+        return
+    _write_example(output, text, overwrite=overwrite)
+
+
+def demo(
+    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Only errors.")] = False,
+) -> None:
+    """Press a crowned roller on PMMA for 1000 s and draw what happens, in ./viscontact-demo."""
+    from viscontact.cli.execution import execute
+    from viscontact.cli.figures import draw
+
+    with as_file(_examples()[DEMO]) as case:
+        execute(case, DEMO_DIRECTORY, overwrite=True, quiet=quiet)
+    for figure in DEMO_FIGURES:
+        draw(DEMO_DIRECTORY, figure, [], None)
+    if not quiet:
+        print(f"The same case to change: viscontact example {DEMO} -o my.yaml")
+
+
+def _schema_text() -> str:
+    import json
+
+    from viscontact.case import case_schema
+
+    return json.dumps(case_schema(), indent=2)
+
+
+def _examples() -> dict[str, Traversable]:
+    """Shipped case files by name."""
+    found = {Path(entry.name): entry for entry in files("viscontact.examples").iterdir()}
+    return {path.stem: found[path] for path in sorted(found) if path.suffix == ".yaml"}
+
+
+def _list_examples() -> None:
+    examples = _examples()
+    width = max(map(len, examples))
+    for name, file in examples.items():
+        title = re.search(r"^title: *(.*)$", file.read_text(encoding="utf-8"), re.MULTILINE)
+        print(f"{name:{width}}  {title[1] if title else ''}".rstrip())
+
+
+def _example_text(name: str) -> str:
+    examples = _examples()
+    if name not in examples:
+        near = difflib.get_close_matches(name, examples, n=1)
+        hint = f"; did you mean {near[0]}?" if near else "."
+        refuse(f"no example is called {name!r}{hint} There are {', '.join(examples)}")
+    return examples[name].read_text(encoding="utf-8")
+
+
+def _write_example(output: Path, text: str, *, overwrite: bool) -> None:
+    """Write the case, and beside it the schema that its first line names to editors."""
+    if output.exists() and not overwrite:
+        refuse(f"{output}: is there already; choose another name, or --overwrite")
+    try:
+        output.write_text(text, encoding="utf-8")
+        (output.parent / SCHEMA_NAME).write_text(_schema_text() + "\n", encoding="utf-8")
+    except OSError as error:
+        refuse(f"{output}: cannot be written: {error}")
+    print(f"{output}, and {SCHEMA_NAME} for completion in editors")
+    print(f"Next: viscontact run {output}")

@@ -1,0 +1,110 @@
+"""The history of a run, for the eye and as CSV."""
+
+from __future__ import annotations
+
+import csv
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import IO
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+from rich.box import SIMPLE_HEAD
+from rich.console import Console
+from rich.table import Table
+
+from viscontact.cli.messages import refuse
+from viscontact.dataset import SCALARS
+from viscontact.state import Outcome
+from viscontact.units import in_digits, readable_unit
+
+_COLUMNS = (
+    *("force", "approach", "tilt_x", "tilt_y", "contact_area", "contact_length"),
+    *("contact_width", "peak_pressure"),
+)
+_ROWS = 20
+
+
+def print_history(ds: xr.Dataset, *, everything: bool = False) -> None:
+    """Print scalars over time in readable units.
+
+    Parameters
+    ----------
+    ds : xarray.Dataset
+        A result.
+    everything : bool
+        Every instant; else as many as fit on a page, first and last among them.
+    """
+    console = Console()
+    count = ds.sizes["time"]
+    rows = np.arange(count) if everything else _spread(count)
+    console.print(_table(ds, rows))
+    if len(rows) < count:
+        console.print(f"{len(rows)} of {count} instants; --all shows every one")
+    for line in str(ds.attrs.get("warnings", "")).splitlines():
+        console.print(f"[yellow]warning:[/] {line}")
+
+
+def write_csv(ds: xr.Dataset, output: Path | None) -> None:
+    """Write all scalars in SI units, a row an instant.
+
+    Parameters
+    ----------
+    ds : xarray.Dataset
+        A result.
+    output : Path or None
+        The file; None for stdout.
+    """
+    if output is None:
+        _write_rows(ds, sys.stdout)
+        return
+    try:
+        with output.open("w", encoding="utf-8", newline="") as file:
+            _write_rows(ds, file)
+    except OSError as error:
+        refuse(f"{output}: cannot be written: {error}")
+
+
+def _spread(count: int) -> NDArray[np.int_]:
+    return np.unique(np.linspace(0, count - 1, min(_ROWS, count)).round().astype(int))
+
+
+def _table(ds: xr.Dataset, rows: NDArray[np.int_]) -> Table:
+    # Narrow enough for nine columns on eighty characters.
+    table = Table(box=SIMPLE_HEAD, padding=(0, 1, 0, 0), title=ds.attrs.get("title") or None)
+    cells = []
+    for name in ("time", *_COLUMNS):
+        values = ds[name].values
+        largest = float(np.nanmax(np.abs(values), initial=0.0))
+        if largest < 1e-12:  # an exactly centred load leaves tilts of rounding size
+            continue
+        unit = readable_unit(largest, ds[name].attrs["units"])
+        heading = rf"{name.replace('_', ' ')} \[{unit.symbol}]"
+        table.add_column(heading, justify="right", vertical="bottom")
+        cells.append([in_digits(float(value) / unit.factor) for value in values[rows]])
+    for row in zip(*cells, strict=True):
+        table.add_row(*row)
+    return table
+
+
+def _write_rows(ds: xr.Dataset, file: IO[str]) -> None:
+    writer = csv.writer(file, lineterminator="\n")
+    writer.writerow(_header())
+    writer.writerows(_rows(ds))
+
+
+def _header() -> Iterator[str]:
+    yield "time [s]"
+    for name, variable in SCALARS.items():
+        unit = {"m2": "m^2"}.get(variable.units, variable.units)
+        yield name if unit == "1" else f"{name} [{unit}]"
+
+
+def _rows(ds: xr.Dataset) -> Iterator[list[object]]:
+    columns = [ds["time"].values, *(ds[name].values for name in SCALARS if name != "outcome")]
+    assert list(SCALARS)[-1] == "outcome"  # the one column of words
+    for *numbers, outcome in zip(*columns, ds["outcome"].values, strict=True):
+        # repr: every digit, so that the numbers are those of the result
+        yield [*(number.item() for number in numbers), Outcome(int(outcome)).name.lower()]

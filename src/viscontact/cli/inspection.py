@@ -1,0 +1,98 @@
+"""What `check` prints."""
+
+from __future__ import annotations
+
+from rich.console import Console
+from rich.table import Table
+
+from viscontact.cli.messages import refuse
+from viscontact.cli.preparation import Prepared
+from viscontact.extent import ContactEstimate
+from viscontact.forecast import Forecast, forecast
+from viscontact.plausibility import DOUBTFUL_CELLS
+from viscontact.units import in_digits, in_words
+
+
+def print_forecast(prepared: Prepared) -> None:
+    """Print what a run will need and what it may find.
+
+    Parameters
+    ----------
+    prepared : Prepared
+        A case, checked.
+    """
+    try:
+        expected = forecast(prepared.run)
+    except ValueError as error:
+        refuse(*prepared.case.error(str(error)).problems)
+    console = Console()
+    console.print(f"{prepared.case.document.path}: no problems found", highlight=False)
+    console.print(_listed(_needs(prepared, expected)))
+    if expected.estimate is not None:
+        console.print(
+            "Under the largest force, with the end's compliance (a coarse elastic solve):"
+        )
+        console.print(_listed(_expectations(expected, expected.estimate)))
+    for line in _doubts(expected):
+        console.print(f"[yellow]warning:[/] {line}")
+
+
+def _listed(rows: list[tuple[str, str]]) -> Table:
+    table = Table(show_header=False, box=None, padding=(0, 2))
+    for row in rows:
+        table.add_row(*row)
+    return table
+
+
+def _needs(prepared: Prepared, expected: Forecast) -> list[tuple[str, str]]:
+    run = prepared.run
+    (nx, ny), (lx, ly), (dx, dy) = run.grid.shape, run.grid.size, run.grid.cell_size
+    chosen = " (automatic)" if prepared.case.grid is None else ""
+    kept = prepared.case.fields
+    return [
+        ("grid", f"{nx} x {ny} cells on {in_words(lx, 'm')} x {in_words(ly, 'm')}{chosen}"),
+        ("cell", f"{in_words(dx, 'm', 3)} x {in_words(dy, 'm', 3)}"),
+        ("steps", f"{len(run.times) - 1} to t = {in_words(float(run.times[-1]), 's')}"),
+        ("fields kept", kept if isinstance(kept, str) else f"at {len(kept)} instants"),
+        (
+            "memory",
+            f"about {_bytes(expected.memory)}, {_bytes(expected.available)} are free",
+        ),
+        ("time", f"{_duration(expected.seconds)} on this machine"),
+    ]
+
+
+def _expectations(expected: Forecast, found: ContactEstimate) -> list[tuple[str, str]]:
+    return [
+        ("contact", f"{in_words(found.length, 'm', 3)} long, {in_words(found.width, 'm', 3)} wide"),
+        ("cells in it", f"{expected.cells_along:.0f} along, {expected.cells_across:.0f} across"),
+        ("peak pressure", in_words(found.peak_pressure, "Pa", 3)),
+        ("approach", in_words(found.approach, "m", 3)),
+    ]
+
+
+def _doubts(expected: Forecast) -> list[str]:
+    if expected.estimate is None:
+        return []
+    doubts = []
+    if not expected.fits:
+        reach = " and ".join(in_words(far, "m", 3) for far in expected.estimate.reach)
+        doubts.append(
+            f"the contact will probably overrun the grid: it reaches {reach} from the middle "
+            "along x and y; enlarge grid.size"
+        )
+    if min(expected.cells_along, expected.cells_across) < DOUBTFUL_CELLS:
+        doubts.append(
+            f"fewer than {DOUBTFUL_CELLS} cells across the contact; use more cells or a smaller "
+            "grid.size"
+        )
+    return doubts
+
+
+def _duration(seconds: float) -> str:
+    return f"about {in_words(seconds, 's', 1)}" if seconds > 1 else "about a second"
+
+
+def _bytes(count: float) -> str:
+    megabytes = count / 1e6
+    return f"{in_digits(megabytes / 1e3, 3)} GB" if megabytes > 1e3 else f"{megabytes:.0f} MB"

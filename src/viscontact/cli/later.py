@@ -1,0 +1,32 @@
+"""Commands that are promised and not built yet: refused by name."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from viscontact.cli.messages import refuse
+
+
+def material(
+    name: Annotated[str | None, typer.Argument(help="A shipped material, or a file.")] = None,
+) -> None:
+    """Creep and relaxation of a law (not built yet)."""
+    refuse("material is not built yet; `viscontact plot DIR creep` draws the law of a run")
+
+
+def report(
+    directory: Annotated[Path | None, typer.Argument(metavar="DIR", help="A run.")] = None,
+    output: Annotated[Path | None, typer.Option("-o", "--output", help="HTML file.")] = None,
+) -> None:
+    """One self-contained page of a run (not built yet)."""
+    refuse("report is not built yet; `viscontact show` and `viscontact plot` show a run")
+
+
+def verify(
+    fast: Annotated[bool, typer.Option("--fast", help="Coarse meshes only.")] = False,
+) -> None:
+    """Compare with exact solutions (not built yet)."""
+    refuse("verify is not built yet; the exact solutions are in viscontact.reference")

@@ -1,0 +1,82 @@
+"""From a case file to a run that has been checked, or a refusal."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from viscontact.case import Case, CaseError, read_case
+from viscontact.cli.messages import refuse
+from viscontact.forecast import available_memory, needed_memory
+from viscontact.run import Run, prepare_run
+from viscontact.units import in_digits
+
+
+@dataclass(frozen=True, eq=False)
+class Prepared:
+    """A case, and the run it makes."""
+
+    case: Case
+    run: Run
+
+
+def prepare(path: Path, settings: Sequence[str], threads: int = 1) -> Prepared:
+    """Read and check everything that can be checked before the first step.
+
+    Parameters
+    ----------
+    path : Path
+        The case file.
+    settings : sequence of str
+        The values of ``--set``.
+    threads : int
+        Threads of one Fourier transform.
+
+    Returns
+    -------
+    Prepared
+        Ready to run.
+
+    Raises
+    ------
+    typer.Exit
+        With code 2, after all problems have been printed.
+    """
+    try:
+        case = read_case(path, settings)
+        _refuse_beyond_memory(case)
+        return Prepared(case, _prepared_run(case, threads))
+    except CaseError as error:
+        refuse(*error.problems)
+
+
+def _prepared_run(case: Case, threads: int) -> Run:
+    try:
+        return prepare_run(
+            case.indenter,
+            case.material,
+            case.load,
+            case.grid,
+            case.times,
+            indenter_material=case.indenter_material,
+            tolerance=case.tolerance,
+            fields=case.fields,
+            threads=threads,
+        )
+    except ValueError as error:
+        raise case.error(str(error)) from error
+
+
+def _refuse_beyond_memory(case: Case) -> None:
+    """Refuse the grid before anything of its size is allocated."""
+    if case.grid is None:
+        return
+    needed = needed_memory(case.grid, len(case.material.contact_compliance().times))
+    available = available_memory()
+    if needed > available:
+        nx, ny = case.grid.shape
+        raise case.error(
+            f"grid.shape: {nx} x {ny} cells need about {in_digits(needed / 1e9, 3)} GB of memory, "
+            f"{in_digits(available / 1e9, 3)} GB are free; use fewer cells"
+        )

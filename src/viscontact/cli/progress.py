@@ -1,0 +1,81 @@
+"""Progress of a run: a bar on a terminal, plain lines elsewhere."""
+
+from __future__ import annotations
+
+import sys
+import time as clock
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+from viscontact.cli.messages import say
+from viscontact.marching import Progress as Report
+from viscontact.state import ContactState
+from viscontact.units import in_words
+
+#: Plain lines come at this part of the run, or after so many seconds.
+_LINE_PART, _LINE_SECONDS = 0.1, 30.0
+
+
+@contextmanager
+def shown_progress(total: int, *, quiet: bool) -> Iterator[Report]:
+    """Show how a run goes on.
+
+    Parameters
+    ----------
+    total : int
+        Number of instants.
+    quiet : bool
+        Show nothing.
+
+    Yields
+    ------
+    callable
+        To be called with (state, done, total) after each instant.
+    """
+    if quiet:
+        yield lambda state, done, total: None
+    elif sys.stderr.isatty():
+        with _bar() as bar:
+            task = bar.add_task("", total=total, details="")
+            yield lambda state, done, total: bar.update(
+                task, completed=done, details=_details(state)
+            )
+    else:
+        yield _PlainLines()
+
+
+def _bar() -> Progress:
+    return Progress(
+        TextColumn("step"),
+        MofNCompleteColumn(),
+        BarColumn(),
+        TimeRemainingColumn(),
+        TextColumn("left, {task.fields[details]}"),
+        console=Console(stderr=True),
+    )
+
+
+class _PlainLines:
+    """A line now and then."""
+
+    def __init__(self) -> None:
+        self._started = self._said_at = clock.perf_counter()
+        self._next = 1
+
+    def __call__(self, state: ContactState, done: int, total: int) -> None:
+        now = clock.perf_counter()
+        if done < self._next and done < total and now - self._said_at < _LINE_SECONDS:
+            return
+        self._next, self._said_at = done + max(1, round(total * _LINE_PART)), now
+        left = (now - self._started) / done * (total - done)
+        say(f"step {done}/{total}, about {left:.0f} s left, {_details(state)}")
+
+
+def _details(state: ContactState) -> str:
+    return (
+        f"t = {in_words(state.time, 's')}, {state.iterations} iterations, "
+        f"contact {in_words(state.contact_area, 'm2')}"
+    )

@@ -1,0 +1,41 @@
+"""`show` and `export`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+RunDirectory = Annotated[
+    Path, typer.Argument(metavar="DIR", help="A run's directory, or its .nc file.")
+]
+
+
+def show(
+    directory: RunDirectory,
+    everything: Annotated[
+        bool, typer.Option("--all", help="Every instant, not only as many as fit.")
+    ] = False,
+) -> None:
+    """Print the history of a run as a table."""
+    from viscontact.cli.history_table import print_history
+    from viscontact.cli.stored import opened
+
+    with opened(directory) as ds:
+        print_history(ds, everything=everything)
+
+
+def export(
+    directory: RunDirectory,
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", metavar="FILE.csv", help="Where to; stdout if left out."),
+    ] = None,
+) -> None:
+    """Write the history of a run as CSV, in SI units."""
+    from viscontact.cli.history_table import write_csv
+    from viscontact.cli.stored import opened
+
+    with opened(directory) as ds:
+        write_csv(ds, output)

@@ -1,0 +1,205 @@
+"""What a run will need and what it may find, before it is started."""
+
+from __future__ import annotations
+
+import ctypes
+import math
+import os
+import sys
+import time as clock
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from scipy import fft
+
+from viscontact.extent import ContactEstimate, estimate_contact
+from viscontact.grid import Grid
+from viscontact.load import LoadPoint
+from viscontact.run import Run
+
+#: Arrays of the grid's size that a run holds at a time, measured; two more for each term.
+WORK_ARRAYS, ARRAYS_PER_TERM = 40, 2
+
+#: Plain convolutions' time that a step takes at tolerance 1e-6, measured on rollers and spheres.
+CONVOLUTIONS_PER_STEP = 4.0
+
+#: A larger grid is not timed but extrapolated.
+_TIMED_CELLS = 2**18
+
+
+@dataclass(frozen=True)
+class Forecast:
+    """What a run will need and what it may find.
+
+    Parameters
+    ----------
+    memory : float
+        Bytes that the run will hold.
+    available : float
+        Bytes that are free.
+    seconds : float
+        How long it will take on this machine, within a factor of two or three [s].
+    estimate : ContactEstimate or None
+        The contact at the largest compliance and the largest force, by a coarse elastic solve;
+        None without a force.
+    cells_along, cells_across : float
+        Cells over the estimated length and width.
+    fits : bool
+        Whether the grid holds the estimated contact.
+    """
+
+    memory: float
+    available: float
+    seconds: float
+    estimate: ContactEstimate | None
+    cells_along: float
+    cells_across: float
+    fits: bool
+
+
+def forecast(run: Run) -> Forecast:
+    """Foresee a run.
+
+    Parameters
+    ----------
+    run : Run
+        A run that has been checked.
+
+    Returns
+    -------
+    Forecast
+        What it will need and what it may find.
+
+    Raises
+    ------
+    ValueError
+        If the coarse solve finds no contact that can carry the load.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> from viscontact.run import prepare_run
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> run = prepare_run(vc.Sphere(0.01), rubber, vc.step(0.1), vc.Grid((64, 64), (2e-3, 2e-3)))
+    >>> round(forecast(run).estimate.length / 2 * 1e3, 1)  # Hertz: (3 W R / (16 G))**(1/3) mm
+    0.6
+    """
+    point = _largest_load(run)
+    if point.force > 0:
+        estimate = estimate_contact(run.indenter, float(run.compliance(run.times[-1])), point)
+        extents, reach = (estimate.length, estimate.width), estimate.reach
+    else:
+        estimate, extents, reach = None, (0.0, 0.0), (0.0, 0.0)
+    along, across = (
+        extent / cell for extent, cell in zip(extents, run.grid.cell_size, strict=True)
+    )
+    return Forecast(
+        memory=needed_memory(run.grid, len(run.compliance.times)),
+        available=available_memory(),
+        seconds=_convolution_time(run.grid) * CONVOLUTIONS_PER_STEP * len(run.times),
+        estimate=estimate,
+        cells_along=along,
+        cells_across=across,
+        fits=all(r < size / 2 for r, size in zip(reach, run.grid.size, strict=True)),
+    )
+
+
+def needed_memory(grid: Grid, terms: int) -> float:
+    """Return how many bytes a run holds.
+
+    Parameters
+    ----------
+    grid : Grid
+        Its grid; nothing of its size is allocated here.
+    terms : int
+        Number of exponential terms of the contact compliance.
+
+    Returns
+    -------
+    float
+        Bytes.
+
+    Examples
+    --------
+    >>> needed_memory(Grid((1024, 1024), (1.0, 1.0)), terms=2) / 2**20
+    352.0
+    """
+    nx, ny = grid.shape
+    return 8.0 * float(nx) * float(ny) * (WORK_ARRAYS + ARRAYS_PER_TERM * terms)
+
+
+def available_memory() -> float:
+    """Return how many bytes of memory a program may still take.
+
+    Returns
+    -------
+    float
+        Bytes; infinity where the system does not say.
+
+    Examples
+    --------
+    >>> available_memory() > 1e6
+    True
+    """
+    readers = {"linux": _linux_memory, "win32": _windows_memory}
+    try:
+        return readers.get(sys.platform, _physical_memory)()
+    except (OSError, ValueError, AttributeError, StopIteration):
+        return float("inf")
+
+
+def _linux_memory() -> float:
+    lines = Path("/proc/meminfo").read_text(encoding="ascii").splitlines()
+    free = next(1024.0 * int(line.split()[1]) for line in lines if line.startswith("MemAvailable"))
+    return min(free, _container_memory())
+
+
+def _container_memory() -> float:
+    """What a control group leaves, where one limits the process."""
+    group = Path("/sys/fs/cgroup")
+    try:
+        limit = (group / "memory.max").read_text(encoding="ascii").strip()
+        used = int((group / "memory.current").read_text(encoding="ascii"))
+    except (OSError, ValueError):
+        return float("inf")
+    return float("inf") if limit == "max" else float(int(limit) - used)
+
+
+def _physical_memory() -> float:
+    return float(os.sysconf("SC_PAGE_SIZE")) * float(os.sysconf("SC_PHYS_PAGES"))
+
+
+def _windows_memory() -> float:
+    class Status(ctypes.Structure):
+        _fields_ = (
+            ("length", ctypes.c_ulong),
+            ("load", ctypes.c_ulong),
+            *((name, ctypes.c_ulonglong) for name in ("total", "free", "t", "f", "v", "a", "x")),
+        )
+
+    status = Status(length=ctypes.sizeof(Status))
+    # Only there on Windows.
+    kernel = getattr(ctypes, "windll").kernel32  # noqa: B009
+    if not kernel.GlobalMemoryStatusEx(ctypes.byref(status)):
+        raise OSError("the system does not say how much memory is free")
+    return float(status.free)
+
+
+def _largest_load(run: Run) -> LoadPoint:
+    end = float(run.times[-1])
+    instants = [*(float(kink) for kink in run.load.kinks if kink <= end), end]
+    points = [run.load.at(time, side=side) for time in instants for side in ("left", "right")]
+    return max(points, key=lambda point: point.force)
+
+
+def _convolution_time(grid: Grid) -> float:
+    """Seconds for a plain zero-padded convolution, the measure of all work in a run."""
+    cells = grid.shape[0] * grid.shape[1]
+    shrink = max(1.0, math.sqrt(cells / _TIMED_CELLS))
+    shape = [fft.next_fast_len(max(4, int(2 * n / shrink)), real=True) for n in grid.shape]
+    field = np.ones(shape)
+    fft.rfft2(field)  # plans and pages
+    started = clock.perf_counter()
+    fft.irfft2(fft.rfft2(field), s=shape)
+    return (clock.perf_counter() - started) * shrink**2
