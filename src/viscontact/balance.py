@@ -52,6 +52,18 @@ class Support:
             (0.0, point.tilt_x or 0.0, point.tilt_y or 0.0),
         )
 
+    def halved(self) -> Support:
+        """Support of one half of a body that is even across y = 0: it does not tilt along y."""
+        force, moment_x, _ = self.resultants
+        return Support(
+            (
+                None if force is None else force / 2,
+                None if moment_x is None else moment_x / 2,
+                None,
+            ),
+            (self.motions[0], self.motions[1], 0.0),
+        )
+
     @property
     def free(self) -> NDArray[np.bool_]:
         """Which of the three motions the balances determine."""
@@ -117,12 +129,6 @@ class RigidPlane:
         sums = np.array([rows[:, 0].sum(), columns[1] @ rows[:, 0], rows[:, 1].sum()])
         return np.asarray(sums / self._unit)
 
-    def arm(self, contact: NDArray[np.bool_]) -> float:
-        """Larger edge of the box around the contact, at least one cell [m]."""
-        spans = [np.flatnonzero(contact.any(axis)) for axis in (1, 0)]
-        cells = [span[-1] - span[0] + 1 if len(span) else 1 for span in spans]
-        return float(np.max(cells / self._unit[1:]))
-
     def inverse_gram(
         self, weight: NDArray[np.float64], free: NDArray[np.bool_]
     ) -> NDArray[np.float64]:
@@ -171,7 +177,11 @@ def _pseudo_inverse(matrix: NDArray[np.float64], threshold: float) -> NDArray[np
 
 
 def restore_balance(
-    pressure: NDArray[np.float64], support: Support, plane: RigidPlane, cell_area: float
+    pressure: NDArray[np.float64],
+    support: Support,
+    plane: RigidPlane,
+    cell_area: float,
+    arm: float,
 ) -> NDArray[np.float64] | None:
     """A pressure times a plane, so that force and moments are as wanted again.
 
@@ -185,6 +195,8 @@ def restore_balance(
         The planes of these cells.
     cell_area : float
         Area of a cell [m²].
+    arm : float
+        Length that turns a moment's error into a force's [m].
 
     Returns
     -------
@@ -196,7 +208,7 @@ def restore_balance(
         factor = plane.inverse_gram(pressure, support.free) @ target
         scaled = pressure * plane.field(factor)
         if float(scaled.min()) >= 0:
-            off = support.imbalance(plane.sums(scaled) * cell_area, plane.arm(scaled > 0))
+            off = support.imbalance(plane.sums(scaled) * cell_area, arm)
             return scaled if off < 1e-9 else None
         pressure = np.maximum(scaled, 0.0)
     return None

@@ -153,7 +153,7 @@ def solve_contact(
         iterations += search.iterations
         convolutions += search.convolutions + 1
         # Certify what is returned, by a fresh convolution: not what the recurrence believes.
-        pressure = patch.embed(search.now.pressure, half_space.grid.shape)
+        pressure = patch.embed(search.now.pressure, half_space.shape)
         start = replace(search.now, pressure=pressure, deflection=whole.convolution.apply(pressure))
         checked = measure(problem, whole, start)
         start = replace(start, motion=checked.motion)
@@ -222,7 +222,7 @@ def measure(problem: ContactProblem, patch: Patch, now: Guess) -> Measure:
     gap -= plane.field(correction)
     violation = np.where(contact, np.abs(gap), -gap)
     scale = max(problem.displacement_scale, problem.compliance * float(now.deflection.max()))
-    imbalance = support.imbalance(plane.sums(now.pressure) * patch.cell_area, plane.arm(contact))
+    imbalance = support.imbalance(plane.sums(now.pressure) * patch.cell_area, patch.arm)
     error = max(float(violation.max()), 0.0) / scale
     return Measure(contact, now.motion + correction, gap, error, imbalance)
 
@@ -324,7 +324,9 @@ class Search:
         if float(pressure.min()) >= 0 and self._is_balanced(pressure):
             return
         pressure = np.where(np.isfinite(problem.open_gap), np.maximum(pressure, 0.0), 0.0)
-        restored = restore_balance(pressure, problem.support, patch.plane, patch.cell_area)
+        restored = restore_balance(
+            pressure, problem.support, patch.plane, patch.cell_area, patch.arm
+        )
         if restored is None:
             self.now = replace(_bedding(problem, patch), motion=self.now.motion)
         else:
@@ -333,9 +335,8 @@ class Search:
         self.convolutions += 1
 
     def _is_balanced(self, pressure: NDArray[np.float64]) -> bool:
-        plane = self.patch.plane
-        sums = plane.sums(pressure) * self.patch.cell_area
-        return self.problem.support.imbalance(sums, plane.arm(pressure > 0)) < BALANCED
+        sums = self.patch.plane.sums(pressure) * self.patch.cell_area
+        return self.problem.support.imbalance(sums, self.patch.arm) < BALANCED
 
 
 def _bedding(problem: ContactProblem, patch: Patch) -> Guess:

@@ -6,6 +6,10 @@ here and nowhere else.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy import fft
@@ -72,10 +76,80 @@ class Convolution:
         )
 
 
-class Preconditioner:
-    """A cheap rough inverse of `Convolution`: |q|/2, the half-space's exact inverse symbol.
+class MirroredConvolution:
+    """The same operator on one half of a problem that is even across y = 0.
 
-    It works on the unpadded grid and in single precision. Neither spoils the solution, for a
+    Cosine transforms along y take the place of Fourier transforms of twice the length, so
+    transforms and fields are half as large.
+
+    Parameters
+    ----------
+    coefficients : ndarray, shape (nx, 2 my)
+        Influence coefficients of the whole block, both halves [m].
+    threads : int
+        Threads of one transform.
+
+    Notes
+    -----
+    A half-sample even sequence convolved with an even kernel is a product of its DCT-II with the
+    kernel's discrete Fourier transform (Martucci 1994, IEEE Trans. Signal Process. 42, 1038).
+
+    Examples
+    --------
+    Two loaded unit cells side by side, of which only the one at y > 0 is given:
+
+    >>> import numpy as np
+    >>> from viscontact.influence import influence_table
+    >>> operator = MirroredConvolution(influence_table((4, 4), (1.0, 1.0)))
+    >>> pressure = np.zeros((4, 2))
+    >>> pressure[1, 0] = 1.0
+    >>> round(float(operator.apply(pressure)[1, 0]), 6)  # 1.1222 of itself, 0.3301 of its image
+    1.452228
+    """
+
+    def __init__(self, coefficients: NDArray[np.float64], threads: int = 1) -> None:
+        nx, ny = coefficients.shape
+        self.shape = (nx, ny // 2)
+        self.threads = threads
+        self._padded = (
+            fft.next_fast_len(2 * nx - 1, real=True),
+            fft.next_fast_len(ny, real=True),
+        )
+        along = _distances(self._padded[0], nx)
+        across = np.minimum(np.arange(self._padded[1] + 1), ny - 1)
+        kernel = coefficients[along[:, None], across[None, :]]
+        symbol = fft.dct(fft.rfft(kernel, axis=0).real, type=1, axis=1)
+        self._symbol = np.ascontiguousarray(symbol[:, :-1])
+
+    def apply(self, pressure: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Displacement of the cells at y > 0 under a pressure and its mirror image.
+
+        Parameters
+        ----------
+        pressure : ndarray, shape (nx, my)
+            Pressure on the cells at y > 0 [Pa], positive in compression.
+
+        Returns
+        -------
+        ndarray, shape (nx, my)
+            Displacement over contact compliance [Pa m], positive into the half-space.
+        """
+        nx, my = self.shape
+        rows = fft.dct(pressure, type=2, n=self._padded[1], axis=1, workers=self.threads)
+        spectrum = fft.rfft(rows, self._padded[0], axis=0, workers=self.threads)
+        spectrum *= self._symbol
+        columns = fft.irfft(
+            spectrum, self._padded[0], axis=0, overwrite_x=True, workers=self.threads
+        )
+        return np.asarray(
+            fft.idct(columns[:nx], type=2, axis=1, overwrite_x=True, workers=self.threads)[:, :my]
+        )
+
+
+class Preconditioner:
+    """A cheap rough inverse of the convolution: |q|/2, the half-space's exact inverse symbol.
+
+    It works on the unpadded block and in single precision. Neither spoils the solution, for a
     preconditioner only shapes the search directions.
 
     Parameters
@@ -84,6 +158,8 @@ class Preconditioner:
         Cells (nx, ny).
     cell_size : tuple of float
         Edge lengths (dx, dy) of a cell [m].
+    mirrored : bool
+        Whether the block is one half of a problem that is even across y = 0.
     threads : int
         Threads of one transform.
 
@@ -94,13 +170,23 @@ class Preconditioner:
     """
 
     def __init__(
-        self, shape: tuple[int, int], cell_size: tuple[float, float], threads: int = 1
+        self,
+        shape: tuple[int, int],
+        cell_size: tuple[float, float],
+        *,
+        mirrored: bool = False,
+        threads: int = 1,
     ) -> None:
-        self.shape = shape
-        self.threads = threads
-        wave_x = 2 * np.pi * fft.fftfreq(shape[0], cell_size[0])[:, None]
-        wave_y = 2 * np.pi * fft.rfftfreq(shape[1], cell_size[1])[None, :]
-        self._symbol = (np.hypot(wave_x, wave_y) / 2).astype(np.float32)
+        self._forth, self._back = _even_across(shape) if mirrored else _periodic(shape)
+        self._threads = threads
+        # Along the axis transformed first (x if mirrored, else y) a real transform keeps half.
+        if mirrored:
+            wave_x = fft.rfftfreq(shape[0], cell_size[0])
+            wave_y = np.arange(shape[1]) / (2 * shape[1] * cell_size[1])
+        else:
+            wave_x = fft.fftfreq(shape[0], cell_size[0])
+            wave_y = fft.rfftfreq(shape[1], cell_size[1])
+        self._symbol = np.pi * np.hypot(wave_x[:, None], wave_y[None, :]).astype(np.float32)
 
     def apply(self, displacement: NDArray[np.float64]) -> NDArray[np.float64]:
         """Pressure that would cause about this displacement, per unit contact compliance.
@@ -117,10 +203,9 @@ class Preconditioner:
         """
         # Scaled to order one: single precision has a narrow range of exponents.
         size = float(np.abs(displacement).max()) or 1.0
-        spectrum = fft.rfft2((displacement / size).astype(np.float32), workers=self.threads)
+        spectrum = self._forth((displacement / size).astype(np.float32), workers=self._threads)
         spectrum *= self._symbol
-        pressure = fft.irfft2(spectrum, self.shape, overwrite_x=True, workers=self.threads)
-        return np.asarray(pressure * size, dtype=np.float64)
+        return np.asarray(self._back(spectrum, workers=self._threads) * np.float64(size))
 
 
 def _distances(padded: int, cells: int) -> NDArray[np.intp]:
@@ -130,3 +215,22 @@ def _distances(padded: int, cells: int) -> NDArray[np.intp]:
     """
     index = np.arange(padded)
     return np.minimum(np.minimum(index, padded - index), cells - 1)
+
+
+Transform = Callable[..., NDArray[Any]]
+
+
+def _periodic(shape: tuple[int, int]) -> tuple[Transform, Transform]:
+    return fft.rfft2, partial(fft.irfft2, s=shape)
+
+
+def _even_across(shape: tuple[int, int]) -> tuple[Transform, Transform]:
+    def forth(field: NDArray[Any], workers: int) -> NDArray[Any]:
+        rows = fft.dct(field, type=2, axis=1, workers=workers)
+        return np.asarray(fft.rfft(rows, axis=0, workers=workers))
+
+    def back(spectrum: NDArray[Any], workers: int) -> NDArray[Any]:
+        columns = fft.irfft(spectrum, shape[0], axis=0, workers=workers)
+        return np.asarray(fft.idct(columns, type=2, axis=1, workers=workers))
+
+    return forth, back

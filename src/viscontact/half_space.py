@@ -1,4 +1,4 @@
-"""The half-space under a grid, and under patches of it."""
+"""The half-space under a grid, under one mirrored half of it, and under patches of it."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft
 
-from viscontact.balance import RigidPlane
-from viscontact.convolution import Convolution, Preconditioner
+from viscontact.balance import RigidPlane, Support
+from viscontact.convolution import Convolution, MirroredConvolution, Preconditioner
 from viscontact.grid import Grid
 from viscontact.influence import influence_table
 
@@ -22,15 +22,17 @@ WORTHWHILE = 0.8
 
 @dataclass(frozen=True, eq=False)
 class Patch:
-    """A rectangular block of the grid's cells with the operators that live on it.
+    """A rectangular block of cells with the operators that live on it.
 
     Attributes
     ----------
     rows, columns : slice
-        Where it lies in the grid.
+        Where it lies in the half-space's fields.
     cell_area : float
         Area of a cell [m²].
-    convolution : Convolution
+    arm : float
+        Its longer edge, the measure of moments against forces [m].
+    convolution : Convolution or MirroredConvolution
         Deflection of the patch under pressure on the patch.
     preconditioner : Preconditioner
         Rough inverse of it.
@@ -41,16 +43,17 @@ class Patch:
     rows: slice
     columns: slice
     cell_area: float
-    convolution: Convolution
+    arm: float
+    convolution: Convolution | MirroredConvolution
     preconditioner: Preconditioner
     plane: RigidPlane
 
     def cut(self, field: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The patch's part of a field on the grid."""
+        """The patch's part of a field."""
         return field[self.rows, self.columns]
 
     def embed(self, field: NDArray[np.float64], shape: tuple[int, int]) -> NDArray[np.float64]:
-        """A field on the grid that is zero outside the patch."""
+        """A field that is zero outside the patch."""
         whole = np.zeros(shape)
         whole[self.rows, self.columns] = field
         return whole
@@ -65,57 +68,91 @@ class HalfSpace:
 
     Searching for the pressure on the contact's own patch costs a fraction of what the whole grid
     does; what is found is checked on the whole grid. The last patch is kept, for a contact that
-    creeps stays in it for many steps.
+    creeps stays in it for many steps. A problem that is even across y = 0 needs only the cells at
+    y > 0: fields are then `fold`-ed, and supports halved, before they are used here.
 
     Parameters
     ----------
     grid : Grid
         The cells that carry pressure and displacement.
+    mirrored : bool
+        Whether the problem is even across y = 0; the grid must have an even number of columns.
     threads : int
         Threads of one transform.
+
+    Examples
+    --------
+    >>> half_space = HalfSpace(Grid((4, 8), (1.0, 1.0)), mirrored=True)
+    >>> half_space.fold(np.ones((4, 8))).shape
+    (4, 4)
     """
 
-    def __init__(self, grid: Grid, threads: int = 1) -> None:
+    def __init__(self, grid: Grid, *, mirrored: bool = False, threads: int = 1) -> None:
+        if mirrored and grid.shape[1] % 2:
+            raise ValueError(f"a mirrored grid needs an even number of columns, got {grid.shape}")
         self.grid = grid
+        self.mirrored = mirrored
         self._threads = threads
+        self._first_column = grid.shape[1] // 2 if mirrored else 0
+        self.shape = (grid.shape[0], grid.shape[1] - self._first_column)
         self._coefficients = influence_table(grid.shape, grid.cell_size)
-        self.whole = self._patch(slice(0, grid.shape[0]), slice(0, grid.shape[1]))
+        self.whole = self._patch(slice(0, self.shape[0]), slice(0, self.shape[1]))
         self._last = self.whole
+
+    def fold(self, field: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The part of a field on the grid that is worked with."""
+        return np.ascontiguousarray(field[:, self._first_column :])
+
+    def unfold(self, field: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The field on the grid whose part is worked with."""
+        return np.concatenate([field[:, ::-1], field], axis=1) if self.mirrored else field
+
+    def share(self, support: Support) -> Support:
+        """What the part that is worked with has to carry of the whole body's load."""
+        return support.halved() if self.mirrored else support
 
     def patch_around(self, cells: NDArray[np.bool_]) -> Patch:
         """A patch that holds the given cells with some room to grow.
 
         Parameters
         ----------
-        cells : ndarray of bool, shape (nx, ny)
+        cells : ndarray of bool
             Cells that it has to hold.
 
         Returns
         -------
         Patch
-            The last one if it fits well, the whole grid if a patch would save little.
+            The last one if it fits well, the whole if a patch would save little.
         """
-        tight = [_span(np.any(cells, axis=1)), _span(np.any(cells, axis=0))]
-        roomy = [_widened(span, n) for span, n in zip(tight, self.grid.shape, strict=True)]
-        if _size(roomy) > WORTHWHILE * cells.size:
+        rows, columns = _span(np.any(cells, axis=1)), _span(np.any(cells, axis=0))
+        if self.mirrored:
+            columns = slice(0, columns.stop)
+        roomy = (
+            _widened(rows, self.shape[0], one_sided=False),
+            _widened(columns, self.shape[1], one_sided=self.mirrored),
+        )
+        if _size(*roomy) > WORTHWHILE * cells.size:
             return self.whole
-        guarded = [slice(max(span.start - 1, 0), span.stop + 1) for span in tight]
-        if not self._last.holds(guarded[0], guarded[1]) or (
-            _size([self._last.rows, self._last.columns]) > 1.3 * _size(roomy)
-        ):
+        fits = self._last.holds(_guarded(rows), _guarded(columns))
+        if not fits or _size(self._last.rows, self._last.columns) > 1.3 * _size(*roomy):
             self._last = self._patch(*roomy)
         return self._last
 
     def _patch(self, rows: slice, columns: slice) -> Patch:
         grid = self.grid
         shape = (rows.stop - rows.start, columns.stop - columns.start)
+        options = {"threads": self._threads}
+        both_halves = 2 * shape[1] if self.mirrored else shape[1]
+        coefficients = self._coefficients[: shape[0], :both_halves]
+        operator = MirroredConvolution if self.mirrored else Convolution
         return Patch(
             rows,
             columns,
             grid.cell_area,
-            Convolution(self._coefficients[: shape[0], : shape[1]], self._threads),
-            Preconditioner(shape, grid.cell_size, self._threads),
-            RigidPlane(grid.x[rows], grid.y[columns], grid.cell_size),
+            float(max(np.multiply(shape, grid.cell_size))),
+            operator(coefficients, **options),
+            Preconditioner(shape, grid.cell_size, mirrored=self.mirrored, **options),
+            RigidPlane(grid.x[rows], grid.y[self._first_column :][columns], grid.cell_size),
         )
 
 
@@ -124,18 +161,24 @@ def _span(occupied: NDArray[np.bool_] | np.bool_) -> slice:
     return slice(int(index[0]), int(index[-1]) + 1) if len(index) else slice(0, 1)
 
 
-def _widened(span: slice, cells: int) -> slice:
-    """A margin on both sides, then up to a length that is good to transform, within the grid."""
+def _widened(span: slice, cells: int, *, one_sided: bool) -> slice:
+    """A margin at the free ends, then up to a length that is good to transform, in the grid."""
     extent = span.stop - span.start
-    wanted = extent + 2 * max(3, int(np.ceil(PATCH_MARGIN * extent)))
-    length = min(fft.next_fast_len(wanted, real=True), cells)
-    start = min(max((span.start + span.stop - length) // 2, 0), cells - length)
+    margin = max(3, int(np.ceil(PATCH_MARGIN * extent)))
+    wanted = extent + (1 if one_sided else 2) * margin
+    length = min(int(fft.next_fast_len(wanted, real=True)), cells)
+    start = 0 if one_sided else (span.start + span.stop - length) // 2
+    start = min(max(start, 0), cells - length)
     return slice(start, start + length)
+
+
+def _guarded(span: slice) -> slice:
+    return slice(max(span.start - 1, 0), span.stop + 1)
 
 
 def _within(inner: slice, outer: slice) -> bool:
     return bool(outer.start <= inner.start and inner.stop <= outer.stop)
 
 
-def _size(spans: list[slice]) -> int:
-    return int(np.prod([span.stop - span.start for span in spans]))
+def _size(rows: slice, columns: slice) -> int:
+    return int((rows.stop - rows.start) * (columns.stop - columns.start))

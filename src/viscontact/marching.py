@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.balance import Support
-from viscontact.contact import ContactProblem, Guess, solve_contact
+from viscontact.contact import ContactProblem, ContactSolution, Guess, solve_contact
 from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
 from viscontact.grid import Grid
 from viscontact.half_space import HalfSpace
@@ -151,73 +151,73 @@ def march_run(run: Run, progress: Progress | None = None) -> Iterator[ContactSta
 
 def _instants(run: Run) -> Iterator[tuple[Step, Instant]]:
     """Solve step after step; the memory is the only thing that is carried along besides."""
-    half_space = HalfSpace(run.grid, run.threads)
-    memory = Memory(run.compliance, run.grid.shape)
+    half_space = HalfSpace(run.grid, mirrored=run.is_mirrored, threads=run.threads)
+    shape = half_space.fold(run.open_gap)
+    memory = Memory(run.compliance, half_space.shape)
     scale = 1e-12 * max(run.grid.cell_size)
     motion = np.zeros(3)
     past: list[Found] = []
     for step in schedule(run.times, run.load):
         response = memory.jump() if step.is_jump else memory.ramp(step.duration)
         point = run.load.at(step.time, side=step.side)
+        support = half_space.share(Support.of(point))
+        problem = ContactProblem(shape + response.history, response.compliance, support, scale)
         past = past if step.smooth else past[-1:]
         if point.force > 0:
-            problem = ContactProblem(
-                run.open_gap + response.history, response.compliance, Support.of(point), scale
-            )
-            guess = predict(past, step.time) if not step.is_jump else _last(past)
-            instant = _in_contact(run, step, half_space, problem, guess, response)
+            guess = _last(past) if step.is_jump else predict(past, step.time)
+            solution = solve_contact(problem, half_space, guess, tolerance=run.tolerance)
+            outcome = Outcome.CONVERGED if solution.converged else Outcome.NOT_CONVERGED
         else:
-            tilts = Support.of(point).with_prescribed(motion) * np.array([0.0, 1.0, 1.0])
-            instant = _apart(run.open_gap + response.history, response, tilts, half_space)
-        memory.accept(instant.found.deflection)
-        motion = instant.found.motion
+            solution, outcome = _apart(problem, half_space, motion), Outcome.NO_CONTACT
+        memory.accept(solution.found.deflection)
+        motion = solution.found.motion
+        past = _remember(past, step, solution.found, outcome)
+        instant = _whole(half_space, problem, response, solution, outcome)
         scale = max(scale, float(instant.displacement.max()))
-        past = _remember(past, step, instant)
+        _refuse_rim(run, step, instant)
         yield step, instant
 
 
-def _in_contact(
-    run: Run,
-    step: Step,
+def _apart(
+    problem: ContactProblem, half_space: HalfSpace, motion: NDArray[np.float64]
+) -> ContactSolution:
+    """No force: the body is where it just touches the (dented) surface, tilts as they were."""
+    tilts = problem.support.with_prescribed(motion) * np.array([0.0, 1.0, 1.0])
+    distance = problem.open_gap - half_space.whole.plane.field(tilts)
+    approach = float(distance.min())
+    nothing = np.zeros(half_space.shape)
+    found = Guess(nothing, nothing, tilts + np.array([approach, 0.0, 0.0]))
+    return ContactSolution(found, distance - approach, 0.0, 0, 0, converged=True)
+
+
+def _whole(
     half_space: HalfSpace,
     problem: ContactProblem,
-    guess: Guess | None,
     response: Response,
+    solution: ContactSolution,
+    outcome: Outcome,
 ) -> Instant:
-    solution = solve_contact(problem, half_space, guess, tolerance=run.tolerance)
+    """The instant on the whole grid."""
     found = solution.found
-    if found.pressure[[0, -1]].any() or found.pressure[:, [0, -1]].any():
-        raise DomainError(
-            f"grid: the contact reaches the grid's rim at t = {step.time:.6g} s; "
-            f"enlarge grid.size, now {run.grid.size[0]:.4g} m x {run.grid.size[1]:.4g} m"
-        )
+    pressure, deflection = half_space.unfold(found.pressure), half_space.unfold(found.deflection)
+    displacement = response.history + problem.compliance * found.deflection
     return Instant(
-        found,
-        solution.gap,
-        response.history + problem.compliance * found.deflection,
+        Guess(pressure, deflection, found.motion),
+        half_space.unfold(solution.gap),
+        half_space.unfold(displacement),
         solution.residual,
         solution.iterations,
-        Outcome.CONVERGED if solution.converged else Outcome.NOT_CONVERGED,
+        outcome,
     )
 
 
-def _apart(
-    open_gap: NDArray[np.float64],
-    response: Response,
-    tilts: NDArray[np.float64],
-    half_space: HalfSpace,
-) -> Instant:
-    """No force: the body is where it just touches the (dented) surface, tilts as they were."""
-    distance = open_gap - half_space.whole.plane.field(tilts)
-    approach = float(distance.min())
-    nothing = np.zeros_like(open_gap)
-    return Instant(
-        Guess(nothing, nothing, tilts + np.array([approach, 0.0, 0.0])),
-        distance - approach,
-        response.history,
-        residual=0.0,
-        iterations=0,
-        outcome=Outcome.NO_CONTACT,
+def _refuse_rim(run: Run, step: Step, instant: Instant) -> None:
+    pressure = instant.found.pressure
+    if not (pressure[[0, -1]].any() or pressure[:, [0, -1]].any()):
+        return
+    raise DomainError(
+        f"grid: the contact reaches the grid's rim at t = {step.time:.6g} s; "
+        f"enlarge grid.size, now {run.grid.size[0]:.4g} m x {run.grid.size[1]:.4g} m"
     )
 
 
@@ -225,12 +225,12 @@ def _last(past: list[Found]) -> Guess | None:
     return past[-1].guess if past else None
 
 
-def _remember(past: list[Found], step: Step, instant: Instant) -> list[Found]:
+def _remember(past: list[Found], step: Step, found: Guess, outcome: Outcome) -> list[Found]:
     """Only contact predicts contact, and only instants on this side of a jump."""
-    if instant.outcome is Outcome.NO_CONTACT:
+    if outcome is Outcome.NO_CONTACT:
         return []
     earlier = [] if step.is_jump else past[-2:]
-    return [*earlier, Found(step.time, instant.found)]
+    return [*earlier, Found(step.time, found)]
 
 
 def _not_converged(run: Run, step: Step, instant: Instant) -> str:

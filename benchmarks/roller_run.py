@@ -1,0 +1,103 @@
+"""Cost of the whole roller run, in reference convolutions.
+
+A reference convolution is one plain zero-padded scipy.fft rfft2, multiply, irfft2 on the same
+grid. One is timed after every step of the run, so that both see the same machine in the same
+mood. Ratios travel from machine to machine; seconds do not.
+
+    python benchmarks/roller_run.py [--tolerance 1e-6] [--repeat 3]
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+
+# Threads are set here, before NumPy reads them, so that a ratio means one core.
+for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
+    os.environ[name] = "1"
+
+import time
+from collections.abc import Callable
+
+import numpy as np
+import viscontact as vc
+from scipy import fft
+
+CELLS = (256, 256)
+STEPS = 120
+
+
+def reference_convolution(cells: tuple[int, int]) -> Callable[[], np.ndarray]:
+    nx, ny = cells
+    generator = np.random.default_rng(1)
+    pressure = generator.random(cells)
+    spectrum = fft.rfft2(generator.random((2 * nx, 2 * ny)))
+
+    def convolve() -> np.ndarray:
+        transformed = fft.rfft2(pressure, (2 * nx, 2 * ny))
+        return fft.irfft2(transformed * spectrum, (2 * nx, 2 * ny))[:nx, :ny]
+
+    return convolve
+
+
+def seconds_of(act: Callable[[], object]) -> float:
+    started = time.process_time()
+    act()
+    return time.process_time() - started
+
+
+def cost_of_run(
+    crown_radius: float, eccentricity: float, tolerance: float
+) -> tuple[float, float, float]:
+    """CPU time of a run without output and of a reference convolution, and iterations a step."""
+    law = vc.CreepSeries(5.545e-10, [6.17e-11, 8.38e-11], [10.0, 133.87])
+    size = (60e-3, 3e-3) if crown_radius < 1 else (170e-3, 1.6e-3)
+    convolve = reference_convolution(CELLS)
+    convolve()
+    references, iterations = [], []
+
+    def observe(state: vc.ContactState, done: int, total: int) -> None:
+        iterations.append(state.iterations)
+        references.append(seconds_of(convolve))
+
+    def run() -> None:
+        states = vc.march(
+            vc.Roller(5e-3, 9.565e-3, crown_radius),
+            vc.Material(law, 0.38),
+            vc.step(1e4, eccentricity_x=eccentricity * 9.565e-3),
+            vc.Grid(CELLS, size),
+            vc.uniform_times(1000.0, STEPS),
+            tolerance=tolerance,
+            progress=observe,
+        )
+        for _ in states:
+            pass
+
+    seconds = seconds_of(run) - sum(references)
+    return seconds, float(np.mean(references)), float(np.mean(iterations[1:]))
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--tolerance", type=float, nargs="+", default=[1e-5, 1e-6, 1e-8])
+    parser.add_argument("--repeat", type=int, default=3)
+    options = parser.parse_args()
+    print(f"{CELLS[0]} x {CELLS[1]} cells, {STEPS} steps, one thread; best of {options.repeat}")
+    print("crown mm   e/L  tolerance  its/step  run s  reference ms  reference convolutions")
+    for tolerance in options.tolerance:
+        for crown_radius in (75e-3, 7500e-3):
+            for eccentricity in (0.0, 0.5, 1.0):
+                costs = [
+                    cost_of_run(crown_radius, eccentricity, tolerance)
+                    for _ in range(options.repeat)
+                ]
+                seconds, reference, iterations = min(costs, key=lambda cost: cost[0] / cost[1])
+                print(
+                    f"{crown_radius * 1e3:8g} {eccentricity:5g} {tolerance:10g} {iterations:9.2f}"
+                    f" {seconds:6.2f} {reference * 1e3:13.2f} {seconds / reference:23.0f}",
+                    flush=True,
+                )
+
+
+if __name__ == "__main__":
+    main()
