@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import NullFormatter
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.plot import style
@@ -173,7 +174,13 @@ def _set_log_time(axes: Axes, first: float, end: float) -> None:
     # Linear up to the first step, so that the instant of loading is on the axis too, over a
     # fifth of its length, so that the tick labels there keep apart.
     share = 0.2 * math.log10(end / first)
-    axes.set_xscale("symlog", linthresh=first, linscale=share, subs=range(2, 10))
+    axes.set_xscale("symlog", linthresh=first, linscale=share)
+    decades = 10.0 ** np.arange(math.floor(math.log10(first)), math.ceil(math.log10(end)) + 1)
+    between = np.outer(decades, range(2, 10)).ravel()
+    # matplotlib would mark decades below the first step too, on top of the zero.
+    axes.set_xticks([0.0, *decades[(decades >= first) & (decades <= end)]])
+    axes.set_xticks(between[(between >= first) & (between <= end)], minor=True)
+    axes.xaxis.set_minor_formatter(NullFormatter())
 
 
 def _steps_grow(instants: NDArray[np.float64]) -> bool:

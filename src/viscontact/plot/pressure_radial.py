@@ -43,7 +43,8 @@ def pressure_radial(results: xr.Dataset, *, times: ArrayLike | None = None) -> F
     matplotlib.figure.Figure
         Markers for the computed cells next to the x axis. For a sphere or round paraboloid
         under a step or a ramp also lines for Lee and Radok's hereditary integral, and below
-        the difference in percent of the exact peak at that instant.
+        the difference in percent of the exact peak at that instant, but for cells less
+        than a cell from the rim, over which the pressure is far from linear.
 
     Raises
     ------
@@ -116,6 +117,7 @@ def _panels(*, with_difference: bool) -> tuple[Figure, Axes, Axes | None]:
         style.dress(panel)
     below.axhline(0.0, color=style.INK, linewidth=style.THIN_LINE)
     below.set_ylabel("Difference\n[% of peak]")
+    style.add_heading(below, "cells at the rim left out", aside=True)
     return figure, axes, below
 
 
@@ -143,8 +145,10 @@ def _draw_difference(
     length: DisplayUnit,
 ) -> None:
     r, ours = _near_x_axis(snapshot)
-    if r.size == 0:
+    inner = r < float(exact.contact_radius(snapshot.time)) - snapshot.cell_size[0]
+    if not inner.any():
         return
+    r, ours = r[inner], ours[inner]
     theirs = np.asarray(exact.pressure(r, snapshot.time))
     look = _markers_only(colour, marker, r.size)
     axes.plot(length(r), 100 * (ours - theirs) / theirs.max(), **look)

@@ -45,11 +45,16 @@ class Snapshot:
         """Whether the bodies are in contact at this instant."""
         return bool(np.any(self.pressure > 0))
 
+    @property
+    def cell_size(self) -> tuple[float, float]:
+        """Edge lengths (dx, dy) of a cell [m]."""
+        return float(self.x[1] - self.x[0]), float(self.y[1] - self.y[0])
+
     def extent(self) -> tuple[float, float, float, float]:
         """Box (x_min, x_max, y_min, y_max) around the cells in contact [m]."""
         inside = self.pressure > 0
         x, y = self.x[inside.any(axis=1)], self.y[inside.any(axis=0)]
-        dx, dy = self.x[1] - self.x[0], self.y[1] - self.y[0]
+        dx, dy = self.cell_size
         return (
             float(x[0] - dx / 2),
             float(x[-1] + dx / 2),
