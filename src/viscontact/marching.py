@@ -18,7 +18,7 @@ from viscontact.load import ForceHistory
 from viscontact.material import Material
 from viscontact.memory import Memory, Response
 from viscontact.observation import Instant, Observer
-from viscontact.prediction import Found, predict
+from viscontact.prediction import POINTS, Twin, predict
 from viscontact.run import Run, prepare_run
 from viscontact.schedule import Step, schedule
 from viscontact.state import ContactState, Outcome
@@ -150,32 +150,51 @@ def march_run(run: Run, progress: Progress | None = None) -> Iterator[ContactSta
 
 
 def _instants(run: Run) -> Iterator[tuple[Step, Instant]]:
-    """Solve step after step; the memory is the only thing that is carried along besides."""
+    """Solve step after step; what the body remembers is all in the two memories."""
     half_space = HalfSpace(run.grid, mirrored=run.is_mirrored, threads=run.threads)
     shape = half_space.fold(run.open_gap)
-    memory = Memory(run.compliance, half_space.shape)
+    memory = Memory(run.compliance, (2, *half_space.shape))  # of pressure and of deflection
+    force_memory = Memory(run.compliance, (1,))
     scale = 1e-12 * max(run.grid.cell_size)
     motion = np.zeros(3)
-    past: list[Found] = []
+    past: list[Twin] = []
     for step in schedule(run.times, run.load):
-        response = memory.jump() if step.is_jump else memory.ramp(step.duration)
+        response, force_response = (
+            each.jump() if step.is_jump else each.ramp(step.duration)
+            for each in (memory, force_memory)
+        )
         point = run.load.at(step.time, side=step.side)
+        twin_force = float(force_response.of(np.array([point.force]))[0])
         support = half_space.share(Support.of(point))
-        problem = ContactProblem(shape + response.history, response.compliance, support, scale)
-        past = past if step.smooth else past[-1:]
+        problem = ContactProblem(shape + response.history[1], response.compliance, support, scale)
         if point.force > 0:
-            guess = _last(past) if step.is_jump else predict(past, step.time)
-            solution = solve_contact(problem, half_space, guess, tolerance=run.tolerance)
+            past = past[-POINTS:] if step.smooth else past[-1:]
+            twin = predict(past, step.time, twin_force)
+            solution = solve_contact(
+                problem, half_space, _guess(twin, response), tolerance=run.tolerance
+            )
             outcome = Outcome.CONVERGED if solution.converged else Outcome.NOT_CONVERGED
         else:
             solution, outcome = _apart(problem, half_space, motion), Outcome.NO_CONTACT
-        memory.accept(solution.found.deflection)
-        motion = solution.found.motion
-        past = _remember(past, step, solution.found, outcome)
-        instant = _whole(half_space, problem, response, solution, outcome)
+        found = solution.found
+        motion = found.motion
+        values = np.stack([found.pressure, found.deflection])
+        twin = Twin(step.time, twin_force, response.of(values), motion)
+        memory.accept(values)
+        force_memory.accept(np.array([point.force]))
+        past = [*([] if step.is_jump else past), twin]
+        instant = _whole(half_space, solution, twin, outcome)
         scale = max(scale, float(instant.displacement.max()))
         _refuse_rim(run, step, instant)
         yield step, instant
+
+
+def _guess(twin: Twin | None, response: Response) -> Guess | None:
+    """From a predicted twin back to the pressure and the deflection that would bring it about."""
+    if twin is None or not twin.fields[0].any():
+        return None
+    pressure, deflection = (twin.fields - response.history) / response.compliance
+    return Guess(pressure, deflection, twin.motion)
 
 
 def _apart(
@@ -191,20 +210,15 @@ def _apart(
 
 
 def _whole(
-    half_space: HalfSpace,
-    problem: ContactProblem,
-    response: Response,
-    solution: ContactSolution,
-    outcome: Outcome,
+    half_space: HalfSpace, solution: ContactSolution, twin: Twin, outcome: Outcome
 ) -> Instant:
     """The instant on the whole grid."""
     found = solution.found
     pressure, deflection = half_space.unfold(found.pressure), half_space.unfold(found.deflection)
-    displacement = response.history + problem.compliance * found.deflection
     return Instant(
         Guess(pressure, deflection, found.motion),
         half_space.unfold(solution.gap),
-        half_space.unfold(displacement),
+        half_space.unfold(twin.fields[1]),
         solution.residual,
         solution.iterations,
         outcome,
@@ -219,18 +233,6 @@ def _refuse_rim(run: Run, step: Step, instant: Instant) -> None:
         f"grid: the contact reaches the grid's rim at t = {step.time:.6g} s; "
         f"enlarge grid.size, now {run.grid.size[0]:.4g} m x {run.grid.size[1]:.4g} m"
     )
-
-
-def _last(past: list[Found]) -> Guess | None:
-    return past[-1].guess if past else None
-
-
-def _remember(past: list[Found], step: Step, found: Guess, outcome: Outcome) -> list[Found]:
-    """Only contact predicts contact, and only instants on this side of a jump."""
-    if outcome is Outcome.NO_CONTACT:
-        return []
-    earlier = [] if step.is_jump else past[-2:]
-    return [*earlier, Found(step.time, found)]
 
 
 def _not_converged(run: Run, step: Step, instant: Instant) -> str:

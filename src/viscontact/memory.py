@@ -33,6 +33,10 @@ class Response:
     history: NDArray[np.float64]
     compliance: float
 
+    def of(self, value: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The displacement if the field ends the step at a value."""
+        return self.history + self.compliance * value
+
 
 class Memory:
     """The running Boltzmann integral of one field.

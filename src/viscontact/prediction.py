@@ -1,4 +1,11 @@
-"""A guess at the next instant from the last ones."""
+"""A guess at the next instant from the last ones, by way of the elastic twin.
+
+The twin of a creeping contact is the elastic contact, of unit compliance, with the same
+displacement: its pressure is P = ∫ J dp. While a contact grows, the twin is an ordinary elastic
+contact under the twin force S = ∫ J dW, so that it changes smoothly and slowly with S, where the
+pressure itself relaxes. Extrapolating the twin in S and returning to p is worth several
+iterations a step, and the memory provides the way back.
+"""
 
 from __future__ import annotations
 
@@ -8,64 +15,75 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.contact import Guess
-
 #: Points of the extrapolating polynomial. Four and more follow noise, not physics.
 POINTS = 3
 
+#: Neighbouring steps of the twin force may differ by this factor, else time is extrapolated in.
+UNEVEN = 20.0
 
-@dataclass(frozen=True)
-class Found:
-    """What was found at an instant, as far as the next guess needs it.
+
+@dataclass(frozen=True, eq=False)
+class Twin:
+    """The elastic twin of an instant.
 
     Attributes
     ----------
     time : float
         The instant [s].
-    guess : Guess
-        Pressure, deflection and motion found.
+    force : float
+        Twin force ∫ J dW [m²].
+    fields : ndarray, shape (2, nx, ny)
+        Twin pressure ∫ J dp [1], and displacement ∫ J dq [m], which belong to each other.
+    motion : ndarray, shape (3,)
+        Approach [m] and tilts [rad].
     """
 
     time: float
-    guess: Guess
+    force: float
+    fields: NDArray[np.float64]
+    motion: NDArray[np.float64]
 
 
-def predict(past: Sequence[Found], time: float) -> Guess | None:
-    """Extrapolate pressure, deflection and rigid motion together.
-
-    The deflection is linear in the pressure, so the same combination of both stays exact: a
-    good start without a convolution. Under a held load the combination is balanced, too.
+def predict(past: Sequence[Twin], time: float, force: float) -> Twin | None:
+    """Extrapolate the twin.
 
     Parameters
     ----------
-    past : sequence of Found
+    past : sequence of Twin
         Instants since the load's last kink or jump, oldest first; the last three are used.
     time : float
         The instant to guess [s].
+    force : float
+        Its twin force [m²], which the load's history gives beforehand.
 
     Returns
     -------
-    Guess or None
-        Polynomial of degree up to two in time; None without a past.
+    Twin or None
+        Polynomial of degree up to two, in the twin force where that moves steadily, else in
+        time; None without a past.
     """
-    known = past[-POINTS:]
-    if not known:
+    if not past:
         return None
-    weights = np.array(lagrange_weights([found.time for found in known], time))
-    return Guess(
-        pressure=_combined(weights, [found.guess.pressure for found in known]),
-        deflection=_combined(weights, [found.guess.deflection for found in known]),
-        motion=_combined(weights, [found.guess.motion for found in known]),
+    known = past[-POINTS:]
+    forces = [twin.force for twin in known]
+    if _is_steady([*forces, force]):
+        weights = lagrange_weights(forces, force)
+    else:
+        weights = lagrange_weights([twin.time for twin in known], time)
+    fields = weights[0] * known[0].fields
+    for weight, twin in zip(weights[1:], known[1:], strict=True):
+        fields += weight * twin.fields
+    motion = np.tensordot(weights, [twin.motion for twin in known], axes=1)
+    return Twin(time, force, fields, motion)
+
+
+def _is_steady(forces: Sequence[float]) -> bool:
+    steps = np.diff(forces)
+    sizes = np.abs(steps)
+    same_sign = bool((steps > 0).all() or (steps < 0).all())
+    return same_sign and bool(
+        sizes.min() > 1e-9 * np.abs(forces).max() and sizes.max() < UNEVEN * sizes.min()
     )
-
-
-def _combined(
-    weights: NDArray[np.float64], arrays: Sequence[NDArray[np.float64]]
-) -> NDArray[np.float64]:
-    total = np.asarray(weights[0] * arrays[0])
-    for weight, array in zip(weights[1:], arrays[1:], strict=True):
-        total += weight * array
-    return total
 
 
 def lagrange_weights(nodes: Sequence[float], at: float) -> list[float]:
