@@ -18,11 +18,13 @@ from viscontact.grid import Grid
 from viscontact.load import LoadPoint
 from viscontact.run import Run
 
-#: Arrays of the grid's size that a run holds at a time, measured; two more for each term.
-WORK_ARRAYS, ARRAYS_PER_TERM = 40, 2
+#: Bytes of the program itself, and arrays of the grid's size that a run holds at a time, both
+#: measured; two arrays more for each term of the law.
+PROGRAM, WORK_ARRAYS, ARRAYS_PER_TERM = 1e8, 40, 2
 
-#: Plain convolutions' time that a step takes at tolerance 1e-6, measured on rollers and spheres.
-CONVOLUTIONS_PER_STEP = 4.0
+#: Plain convolutions' time that the first step and each later one take at tolerance 1e-6, and
+#: what a step takes besides [s]; measured on the shipped rollers and spheres.
+FIRST_STEP, LATER_STEP, BESIDES = 30.0, 3.5, 3e-3
 
 #: A larger grid is not timed but extrapolated.
 _TIMED_CELLS = 2**18
@@ -97,7 +99,7 @@ def forecast(run: Run) -> Forecast:
     return Forecast(
         memory=needed_memory(run.grid, len(run.compliance.times)),
         available=available_memory(),
-        seconds=_convolution_time(run.grid) * CONVOLUTIONS_PER_STEP * len(run.times),
+        seconds=_seconds(run),
         estimate=estimate,
         cells_along=along,
         cells_across=across,
@@ -122,11 +124,11 @@ def needed_memory(grid: Grid, terms: int) -> float:
 
     Examples
     --------
-    >>> needed_memory(Grid((1024, 1024), (1.0, 1.0)), terms=2) / 2**20
-    352.0
+    >>> round(needed_memory(Grid((1000, 1000), (1.0, 1.0)), terms=2) / 1e6)
+    452
     """
     nx, ny = grid.shape
-    return 8.0 * float(nx) * float(ny) * (WORK_ARRAYS + ARRAYS_PER_TERM * terms)
+    return PROGRAM + 8.0 * float(nx) * float(ny) * (WORK_ARRAYS + ARRAYS_PER_TERM * terms)
 
 
 def available_memory() -> float:
@@ -191,6 +193,12 @@ def _largest_load(run: Run) -> LoadPoint:
     instants = [*(float(kink) for kink in run.load.kinks if kink <= end), end]
     points = [run.load.at(time, side=side) for time in instants for side in ("left", "right")]
     return max(points, key=lambda point: point.force)
+
+
+def _seconds(run: Run) -> float:
+    steps = len(run.times)
+    convolutions = FIRST_STEP + LATER_STEP * steps
+    return _convolution_time(run.grid) * convolutions + BESIDES * steps
 
 
 def _convolution_time(grid: Grid) -> float:

@@ -331,12 +331,14 @@ def in_digits(value: float, digits: int = 4) -> str:
 
     Examples
     --------
-    >>> in_digits(152.2349), in_digits(10000.0), in_digits(float("nan"))
-    ('152.2', '10000', '-')
+    >>> in_digits(152.2349), in_digits(9.99999), in_digits(float("nan"))
+    ('152.2', '10.00', '-')
     """
     if math.isnan(value):
         return "-"
     if value == 0.0 or not 1e-4 <= abs(value) < 1e6:
         return f"{value:.{digits}g}"
-    decimals = max(0, digits - 1 - math.floor(math.log10(abs(value))))
+    # Of the rounded number: 9.99999 has two digits in front once it is written 10.00.
+    rounded = abs(float(f"{value:.{digits - 1}e}"))
+    decimals = max(0, digits - 1 - math.floor(math.log10(rounded)))
     return f"{value:.{decimals}f}"

@@ -1,0 +1,127 @@
+"""Quantities in words become SI numbers, SI numbers readable words; what is wrong is explained."""
+
+from __future__ import annotations
+
+import math
+import subprocess
+import sys
+from contextlib import suppress
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from viscontact.units import DIMENSIONS, in_digits, in_words, parse_quantity, readable_unit
+
+
+# Values from the definitions of the units (SI brochure, 9th edition; the inch is 25.4 mm and the
+# pound-force 4.4482216152605 N exactly).
+@pytest.mark.parametrize(
+    ("text", "dimension", "value"),
+    [
+        ("5 mm", "length", 0.005),
+        ("9.565mm", "length", 0.009565),
+        ("-4.78 mm", "length", -0.00478),
+        ("3 µm", "length", 3e-6),
+        ("1 in", "length", 0.0254),
+        ("10kN", "force", 1e4),
+        ("1 lbf", "force", 4.4482216152605),
+        ("2 min", "time", 120.0),
+        ("1.5e3 s", "time", 1500.0),
+        ("1 h", "time", 3600.0),
+        ("180 deg", "angle", math.pi),
+        ("1 mrad", "angle", 1e-3),
+        ("1800 MPa", "pressure", 1.8e9),
+        ("2 N/mm^2", "pressure", 2e6),
+        ("5.545e-4 / MPa", "compliance", 5.545e-10),
+        ("5.545e-4 1/MPa", "compliance", 5.545e-10),
+        ("5.545e-4 MPa^-1", "compliance", 5.545e-10),
+        ("5.545e-4 MPa⁻¹", "compliance", 5.545e-10),
+        ("10 GPa s", "viscosity", 1e10),
+        ("10 GPa·s", "viscosity", 1e10),
+        ("1e-6 / (MPa s)", "fluidity", 1e-12),
+    ],
+)
+def test_quantity_in_words_is_its_si_value(text: str, dimension: str, value: float) -> None:
+    # a few last digits: π and the pound are not exact in binary
+    assert parse_quantity(text, dimension) == pytest.approx(value, rel=4e-16)
+
+
+def test_a_length_in_millimetres_is_exactly_the_number_that_a_script_writes() -> None:
+    assert parse_quantity("9.565 mm", "length") == 0.009565
+    assert parse_quantity("4.7825 mm", "length") == 0.0047825
+
+
+@pytest.mark.parametrize(
+    ("text", "dimension", "said"),
+    [
+        ("10 MPa", "force", "cannot read '10 MPa' as a force (got a pressure); write e.g. '10 kN'"),
+        ("3 kg", "force", "got a mass"),
+        ("20 degC", "length", "got a temperature"),
+        ("5 %", "angle", "got a plain ratio"),
+        ("10", "force", "10 has no unit, a force is wanted; write e.g. '10 kN'"),
+        ("kN", "force", "no number in front"),
+        ("10 Kn", "force", "unknown unit 'Kn' (did you mean 'kN'?)"),
+        ("5 mm!", "length", "unknown unit 'mm!'"),
+        ("1,5 mm", "length", "write a decimal point"),
+        ("nan N", "force", "not a finite number"),
+        ("-inf N", "force", "not a finite number"),
+        ("1e999 N", "force", "not a finite number"),
+        ("1e99999999999 N", "force", "not a finite number"),
+        ("", "time", "no number in front"),
+    ],
+)
+def test_unreadable_quantity_is_explained(text: str, dimension: str, said: str) -> None:
+    with pytest.raises(ValueError, match=r".") as refusal:
+        parse_quantity(text, dimension)
+    assert said in str(refusal.value)
+
+
+@pytest.mark.parametrize("text", ["5 9**9**9", "5 m**9**9**9**9", "5 " + "m*" * 40 + "m"])
+def test_unit_that_would_be_evaluated_for_ever_is_refused_at_once(text: str) -> None:
+    with pytest.raises(ValueError, match="unknown unit"):
+        parse_quantity(text, "length")
+
+
+@given(text=st.text(max_size=30), dimension=st.sampled_from(sorted(DIMENSIONS)))
+def test_any_text_is_a_finite_number_or_a_value_error(text: str, dimension: str) -> None:
+    value = 0.0
+    with suppress(ValueError):
+        value = parse_quantity(text, dimension)
+    assert math.isfinite(value)
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "words"),
+    [
+        (1.672e-4, "m", "167.2 µm"),
+        (0.009565, "m", "9.565 mm"),
+        (1.083e-4, "m2", "108.3 mm²"),
+        (152.2e6, "Pa", "152.2 MPa"),
+        (10e3, "N", "10 kN"),
+        (1000.0, "s", "1000 s"),
+        (7200.0 * 10, "s", "20 h"),
+        (0.949e-3, "rad", "949 µrad"),
+        (0.0, "Pa", "0 Pa"),
+        (7.0, "1", "7"),
+    ],
+)
+def test_si_number_in_words(value: float, unit: str, words: str) -> None:
+    assert in_words(value, unit) == words
+
+
+@given(
+    value=st.floats(min_value=1e-8, max_value=9e9),
+    unit=st.sampled_from(["m", "m2", "N", "Pa", "J", "rad"]),
+)
+def test_readable_unit_and_number_give_the_value_back(value: float, unit: str) -> None:
+    readable = readable_unit(value, unit)
+    printed = float(in_digits(value / readable.factor, 6))
+    # six digits printed: half of the sixth is lost
+    assert printed * readable.factor == pytest.approx(value, rel=5.1e-6)
+
+
+def test_pint_is_imported_only_when_a_quantity_is_parsed() -> None:
+    code = "import sys, viscontact.units as u; u.in_words(1.0, 'm'); print('pint' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "False"
