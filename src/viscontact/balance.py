@@ -159,20 +159,20 @@ def _inverse(gram: NDArray[np.float64], free: NDArray[np.bool_]) -> NDArray[np.f
     mass = gram[0, 0]
     if mass <= 0:
         return result
-    slopes = np.flatnonzero(free[1:]) + 1
-    centre = gram[0, slopes] / mass if free[0] else np.zeros(len(slopes))
-    spread = gram[np.ix_(slopes, slopes)] - mass * np.outer(centre, centre)
-    inner = _pseudo_inverse(spread, NO_EXTENT * mass)
-    result[np.ix_(slopes, slopes)] = inner
+    centre = gram[0, 1:] / mass if free[0] else np.zeros(2)
+    spread = gram[1:, 1:] - mass * np.outer(centre, centre)
+    inner = _pseudo_inverse(spread * np.outer(free[1:], free[1:]), NO_EXTENT * mass)
+    result[1:, 1:] = inner
     if free[0]:
-        result[0, slopes] = result[slopes, 0] = -inner @ centre
+        result[0, 1:] = result[1:, 0] = -inner @ centre
         result[0, 0] = 1 / mass + centre @ inner @ centre
     return result
 
 
 def _pseudo_inverse(matrix: NDArray[np.float64], threshold: float) -> NDArray[np.float64]:
+    """Inverse of a symmetric 2 x 2 matrix over its directions of more than a threshold."""
     values, vectors = np.linalg.eigh(matrix)
-    inverse = np.divide(1.0, values, out=np.zeros_like(values), where=values > threshold)
+    inverse = np.divide(1.0, values, out=np.zeros(2), where=values > threshold)
     return np.asarray((vectors * inverse) @ vectors.T)
 
 

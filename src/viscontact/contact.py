@@ -173,6 +173,8 @@ class Measure:
     ----------
     contact : ndarray of bool
         Cells under pressure.
+    inverse_gram : ndarray, shape (3, 3)
+        Of the planes over these cells.
     motion : ndarray, shape (3,)
         Rigid motion that fits best.
     gap : ndarray
@@ -184,6 +186,7 @@ class Measure:
     """
 
     contact: NDArray[np.bool_]
+    inverse_gram: NDArray[np.float64]
     motion: NDArray[np.float64]
     gap: NDArray[np.float64]
     error: float
@@ -213,10 +216,9 @@ def measure(problem: ContactProblem, patch: Patch, now: Guess) -> Measure:
     """
     plane, support = patch.plane, problem.support
     contact = now.pressure > 0
-    weight = contact.astype(float)
     gap = problem.open_gap + problem.compliance * now.deflection
     gap -= plane.field(now.motion)
-    inverse = plane.inverse_gram(weight, support.free)
+    inverse = plane.inverse_gram(contact.astype(float), support.free)
     # A correction, so that a motion the contact does not determine stays as it was.
     correction = inverse @ plane.sums(np.where(contact, gap, 0.0))
     gap -= plane.field(correction)
@@ -224,7 +226,7 @@ def measure(problem: ContactProblem, patch: Patch, now: Guess) -> Measure:
     scale = max(problem.displacement_scale, problem.compliance * float(now.deflection.max()))
     imbalance = support.imbalance(plane.sums(now.pressure) * patch.cell_area, patch.arm)
     error = max(float(violation.max()), 0.0) / scale
-    return Measure(contact, now.motion + correction, gap, error, imbalance)
+    return Measure(contact, inverse, now.motion + correction, gap, error, imbalance)
 
 
 class Search:
@@ -276,7 +278,9 @@ class Search:
         """Steps 2 to 5: precondition, project, conjugate, step exactly, cut and rebalance."""
         active = checked.contact | (checked.gap < 0)
         weight = active.astype(float)
-        inverse = self.patch.plane.inverse_gram(weight, self.problem.support.free)
+        inverse = checked.inverse_gram
+        if np.count_nonzero(active) > np.count_nonzero(checked.contact):
+            inverse = self.patch.plane.inverse_gram(weight, self.problem.support.free)
         residual = np.where(active, checked.gap, 0.0)
         steepest = self._project(self.patch.preconditioner.apply(residual), weight, inverse)
         direction = -steepest

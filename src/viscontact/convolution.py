@@ -104,7 +104,7 @@ class MirroredConvolution:
     >>> pressure = np.zeros((4, 2))
     >>> pressure[1, 0] = 1.0
     >>> round(float(operator.apply(pressure)[1, 0]), 6)  # 1.1222 of itself, 0.3301 of its image
-    1.452228
+    1.452282
     """
 
     def __init__(self, coefficients: NDArray[np.float64], threads: int = 1) -> None:
@@ -135,15 +135,13 @@ class MirroredConvolution:
             Displacement over contact compliance [Pa m], positive into the half-space.
         """
         nx, my = self.shape
-        rows = fft.dct(pressure, type=2, n=self._padded[1], axis=1, workers=self.threads)
-        spectrum = fft.rfft(rows, self._padded[0], axis=0, workers=self.threads)
+        mx, padded_my = self._padded
+        # Only the columns that hold data are transformed along x, forth and back.
+        columns = fft.rfft(pressure, mx, axis=0, workers=self.threads)
+        spectrum = fft.dct(columns, type=2, n=padded_my, axis=1, workers=self.threads)
         spectrum *= self._symbol
-        columns = fft.irfft(
-            spectrum, self._padded[0], axis=0, overwrite_x=True, workers=self.threads
-        )
-        return np.asarray(
-            fft.idct(columns[:nx], type=2, axis=1, overwrite_x=True, workers=self.threads)[:, :my]
-        )
+        columns = fft.idct(spectrum, type=2, axis=1, overwrite_x=True, workers=self.threads)
+        return np.asarray(fft.irfft(columns[:, :my], mx, axis=0, workers=self.threads)[:nx])
 
 
 class Preconditioner:

@@ -107,6 +107,11 @@ class HalfSpace:
         """The field on the grid whose part is worked with."""
         return np.concatenate([field[:, ::-1], field], axis=1) if self.mirrored else field
 
+    @property
+    def fold_count(self) -> int:
+        """How many times what is worked with makes the whole."""
+        return 2 if self.mirrored else 1
+
     def share(self, support: Support) -> Support:
         """What the part that is worked with has to carry of the whole body's load."""
         return support.halved() if self.mirrored else support

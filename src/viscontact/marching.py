@@ -214,11 +214,13 @@ def _whole(
 ) -> Instant:
     """The instant on the whole grid."""
     found = solution.found
-    pressure, deflection = half_space.unfold(found.pressure), half_space.unfold(found.deflection)
+    energy = half_space.fold_count * float(np.vdot(found.pressure, found.deflection)) / 2
     return Instant(
-        Guess(pressure, deflection, found.motion),
+        half_space.unfold(found.pressure),
         half_space.unfold(solution.gap),
         half_space.unfold(twin.fields[1]),
+        found.motion,
+        energy * half_space.grid.cell_area,
         solution.residual,
         solution.iterations,
         outcome,
@@ -226,7 +228,7 @@ def _whole(
 
 
 def _refuse_rim(run: Run, step: Step, instant: Instant) -> None:
-    pressure = instant.found.pressure
+    pressure = instant.pressure
     if not (pressure[[0, -1]].any() or pressure[:, [0, -1]].any()):
         return
     raise DomainError(

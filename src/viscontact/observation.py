@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.balance import RigidPlane
-from viscontact.contact import Guess
 from viscontact.errors import DomainError
 from viscontact.plausibility import (
     REFUSED_CELLS,
@@ -31,10 +30,14 @@ class Instant:
 
     Attributes
     ----------
-    found : Guess
-        Pressure [Pa], deflection [Pa m] and rigid motion [m, rad, rad].
+    pressure : ndarray, shape (nx, ny)
+        Pressure [Pa].
     gap, displacement : ndarray, shape (nx, ny)
         Gap and total displacement of the surface [m].
+    motion : ndarray, shape (3,)
+        Approach [m] and tilts [rad].
+    energy : float
+        Elastic energy of this pressure in a half-space of unit compliance [J Pa].
     residual : float
         Relative violation of the contact conditions.
     iterations : int
@@ -43,9 +46,11 @@ class Instant:
         How it ended.
     """
 
-    found: Guess
+    pressure: NDArray[np.float64]
     gap: NDArray[np.float64]
     displacement: NDArray[np.float64]
+    motion: NDArray[np.float64]
+    energy: float
     residual: float
     iterations: int
     outcome: Outcome
@@ -86,9 +91,9 @@ class Observer:
         ContactState
             Without warnings yet; see `judge`.
         """
-        contact = instant.found.pressure > 0
+        contact = instant.pressure > 0
         rim = trace_rim(self._run.grid, contact, instant.gap, self._outline)
-        resultants = self._plane.sums(instant.found.pressure) * self._run.grid.cell_area
+        resultants = self._plane.sums(instant.pressure) * self._run.grid.cell_area
         self._work += self._work_of(step, instant, resultants)
         self._collect_doubts(step, instant, rim)
         state = _state(step, instant, rim, resultants, self._work)
@@ -135,9 +140,9 @@ class Observer:
     def _collect_doubts(self, step: Step, instant: Instant, rim: Rim) -> None:
         if instant.outcome is Outcome.NO_CONTACT:
             return
-        self._open = geometry_doubts(self._geometry, rim, instant.found.motion) | self._open
+        self._open = geometry_doubts(self._geometry, rim, instant.motion) | self._open
         if self._before is not None and not step.is_jump:
-            peaks = [float(end.found.pressure.max()) for end in (self._before, instant)]
+            peaks = [float(end.pressure.max()) for end in (self._before, instant)]
             self._open = step_doubts(self._run.compliance, step.duration, *peaks) | self._open
 
     def _work_of(self, step: Step, instant: Instant, resultants: NDArray[np.float64]) -> float:
@@ -147,15 +152,11 @@ class Observer:
         reciprocity makes it independent of the path: half the change of J(0) p·K p.
         """
         if step.is_jump:
-            change = _energy(instant) - (_energy(self._before) if self._before else 0.0)
-            return self._run.compliance.instant * change * self._run.grid.cell_area
+            change = instant.energy - (self._before.energy if self._before else 0.0)
+            return self._run.compliance.instant * change
         assert self._before is not None  # every run starts with a jump
-        travel = instant.found.motion - self._before.found.motion
+        travel = instant.motion - self._before.motion
         return float((self._resultants + resultants) @ travel / 2)
-
-
-def _energy(instant: Instant) -> float:
-    return float(np.vdot(instant.found.pressure, instant.found.deflection)) / 2
 
 
 def _state(
@@ -166,19 +167,19 @@ def _state(
     touching = force > 0
     return ContactState(
         time=step.time,
-        pressure=instant.found.pressure,
+        pressure=instant.pressure,
         gap=instant.gap,
         displacement=instant.displacement,
         force=force,
         eccentricity_x=moment_x / force if touching else math.nan,
         eccentricity_y=moment_y / force if touching else math.nan,
-        approach=float(instant.found.motion[0]),
-        tilt_x=float(instant.found.motion[1]),
-        tilt_y=float(instant.found.motion[2]),
+        approach=float(instant.motion[0]),
+        tilt_x=float(instant.motion[1]),
+        tilt_y=float(instant.motion[2]),
         contact_area=area,
         contact_length=rim.length,
         contact_width=rim.width,
-        peak_pressure=float(instant.found.pressure.max()),
+        peak_pressure=float(instant.pressure.max()),
         mean_pressure=force / area if touching else 0.0,
         work=work,
         iterations=instant.iterations,
