@@ -103,8 +103,8 @@ class MirroredConvolution:
     >>> operator = MirroredConvolution(influence_table((4, 4), (1.0, 1.0)))
     >>> pressure = np.zeros((4, 2))
     >>> pressure[1, 0] = 1.0
-    >>> round(float(operator.apply(pressure)[1, 0]), 6)  # 1.1222 of itself, 0.3301 of its image
-    1.452282
+    >>> round(float(operator.apply(pressure)[1, 0]), 6)  # 1.1222 of itself, 0.3304 of its image
+    1.452621
     """
 
     def __init__(self, coefficients: NDArray[np.float64], threads: int = 1) -> None:
