@@ -1,0 +1,130 @@
+"""The contact's area below the cell size, where counting cells would be off by a per cent.
+
+The exact area follows from eq. 16 of Spinu & Cerlinca (2018), a³ = 3 R W J(t)/4, on circles whose
+centre lies anywhere between the cells. A held soft solid is the hard case: its surface has crept
+far beyond what the pressure of now would cause, so an estimate that takes the gap for elastic
+with the instantaneous modulus misses the rim.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+import viscontact as vc
+from verification.pressing import BALL, ELASTIC, FORCE, RADIUS, Shifted, grid_around, order
+
+RELAXATION_TIME = 1.0
+
+
+@dataclass(frozen=True)
+class AreaErrors:
+    """Relative errors of the area on several meshes."""
+
+    traced: np.ndarray
+    counted: np.ndarray
+
+
+def area_errors(material, times, cells, offsets, *, seed=0):
+    """Errors at the last instant under a step load, for so many random places of the centre."""
+    rng = np.random.default_rng(seed)
+    compliance = float(material.contact_compliance()(times[-1]))
+    radius = math.cbrt(0.75 * RADIUS * FORCE * compliance)
+    areas = np.array([_areas(material, times, cells, radius, rng) for _ in range(offsets)])
+    return AreaErrors(*(areas.T / (math.pi * radius**2) - 1))
+
+
+def _areas(material, times, cells, radius, rng):
+    cells = cells * rng.uniform(0.97, 1.03)
+    grid = grid_around((radius, radius), (cells, cells))
+    shifted = Shifted(BALL, *(rng.uniform(-0.5, 0.5, 2) * radius / cells))
+    load = vc.step(FORCE, tilt_x=0.0, tilt_y=0.0)
+    state = list(vc.march(shifted, material, load, grid, times))[-1]
+    return state.contact_area, np.count_nonzero(state.pressure) * grid.cell_area
+
+
+def soft_solid(ratio):
+    """A Zener solid that relaxes from M(0) to M(0)/ratio in RELAXATION_TIME; nu = 1/2."""
+    stiff = 1e9
+    delayed = stiff / (ratio - 1)
+    viscosity = RELAXATION_TIME * (stiff + delayed)  # relaxation time eta/(G_1 + G_2)
+    return vc.Material(vc.Zener(stiff, delayed, viscosity), poisson_ratio=0.5)
+
+
+def held(ratio, steps):
+    """Instants even in log time, to 100 creep times: a creep time is `ratio` relaxation times."""
+    return vc.log_times(0.01, 100 * RELAXATION_TIME * ratio, steps)
+
+
+def test_traced_area_is_far_better_than_counted_cells():
+    """Measured at 15 cells a radius over 12 places: traced 1e-3, counted 1.5e-2."""
+    errors = area_errors(ELASTIC, [0.0], 15, offsets=12)
+    assert abs(errors.traced).max() < 4e-3
+    assert abs(errors.counted).max() > 3 * abs(errors.traced).max()
+
+
+@pytest.mark.parametrize(
+    ("cells", "bias", "scatter", "worst"),
+    [
+        (15, 2e-3, 1.2e-3, 4e-3),  # measured over 40 places: -1.2e-3, 6.5e-4, 2.7e-3
+        (28, 1.5e-3, 6e-4, 2.5e-3),  # -8.5e-4, 2.7e-4, 1.5e-3
+    ],
+)
+def test_area_of_an_elastic_contact(cells, bias, scatter, worst):
+    errors = area_errors(ELASTIC, [0.0], cells, offsets=24).traced
+    assert abs(errors.mean()) < bias
+    assert errors.std() < scatter
+    assert abs(errors).max() < worst
+
+
+def test_bias_of_the_area_falls_with_the_cell_size():
+    """Measured: order 1.0 to 1.3."""
+    cells = np.array([12, 18, 27, 41])
+    bias = [abs(area_errors(ELASTIC, [0.0], n, offsets=12).traced).mean() for n in cells]
+    assert order(1 / cells, bias) > 0.7
+
+
+@pytest.mark.parametrize("ratio", [10, 100])
+def test_area_of_a_held_soft_solid(ratio):
+    """M(0)/M(inf) = 10 and 100, held until all creep is over.
+
+    Measured at 15 cells a radius over 12 places, for both ratios: bias -1.0e-3, scatter 8e-4,
+    worst 2.7e-3; at 28 cells -7.7e-4, 1.9e-4, 1.1e-3.
+    """
+    errors = area_errors(soft_solid(ratio), held(ratio, 40), 15, offsets=4).traced
+    assert abs(errors).max() < 4e-3
+
+
+@pytest.mark.parametrize("ratio", [10, 100])
+def test_area_of_a_soft_solid_held_for_100_relaxation_times(ratio):
+    """The other reading of a long hold: with M(0)/M(inf) = 100 the contact then still grows.
+
+    Steps of half a relaxation time: fine enough for the pressure at the rim, which newly touched
+    surface enters at the instantaneous stiffness. Measured: 2.7e-3 at most for both.
+    """
+    times = vc.uniform_times(100 * RELAXATION_TIME, 200)
+    errors = area_errors(soft_solid(ratio), times, 15, offsets=2).traced
+    assert abs(errors).max() < 4e-3
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("cells", [15, 28])
+@pytest.mark.parametrize("ratio", [10, 100])
+def test_bias_and_scatter_of_a_held_soft_solid(ratio, cells):
+    """As above over 12 places: bias and scatter."""
+    errors = area_errors(soft_solid(ratio), held(ratio, 40), cells, offsets=12).traced
+    assert abs(errors.mean()) < 2e-3
+    assert errors.std() < 1.5e-3
+    assert abs(errors).max() < 4e-3
+
+
+@pytest.mark.xfail(
+    reason="steps of 20 relaxation times let pressure at the rim ring and open holes: 6 % of area",
+    raises=AssertionError,
+)
+def test_area_does_not_suffer_from_steps_long_against_the_relaxation():
+    """M(0)/M(inf) = 100, 100 relaxation times in 40 steps even in log time; nothing warns."""
+    times = vc.log_times(0.01, 100 * RELAXATION_TIME, 40)
+    errors = area_errors(soft_solid(100), times, 15, offsets=2).traced
+    assert abs(errors).max() < 4e-3
