@@ -1,0 +1,505 @@
+"""The command line end to end: exit codes, messages, files, and nothing left behind."""
+
+from __future__ import annotations
+
+import csv
+import json
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import viscontact as vc
+from viscontact import forecast
+from viscontact.cli import execution, figures, main
+
+SPHERE = """\
+title: Zener sphere
+indenter:
+  shape: sphere
+  radius: 10 mm
+material:
+  law: zener
+  shear_modulus: 10 MPa
+  delayed_modulus: 10 MPa
+  viscosity: 10 MPa s
+  poisson_ratio: 0.5
+load:
+  kind: step
+  force: 4 N
+time:
+  end: 5 s
+  steps: 6
+grid:
+  shape: [32, 32]
+  size: [3 mm, 3 mm]
+"""
+COMMANDS = (
+    *("run", "check", "show", "export", "plot", "compare", "schema", "example", "demo"),
+    *("material", "report", "verify"),
+)
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """An empty working directory whose name has a space, with a case in it."""
+    here = tmp_path / "my runs"
+    here.mkdir()
+    (here / "case.yaml").write_text(SPHERE, encoding="utf-8")
+    monkeypatch.chdir(here)
+    return here
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The directory of a finished run."""
+    here = tmp_path_factory.mktemp("finished")
+    (here / "case.yaml").write_text(SPHERE, encoding="utf-8")
+    assert main(["run", str(here / "case.yaml"), "-q"]) == 0
+    return here / "case"
+
+
+def test_run_writes_a_result_that_is_the_simulation(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["run", "case.yaml"]) == 0
+    assert sorted(path.name for path in Path("case").iterdir()) == ["case.yaml", "result.nc"]
+    assert Path("case/case.yaml").read_text(encoding="utf-8") == SPHERE
+    material = vc.Material(vc.Zener(10e6, 10e6, 10e6), 0.5)
+    grid, times = vc.Grid((32, 32), (3e-3, 3e-3)), vc.uniform_times(5.0, 6)
+    expected = vc.simulate(vc.Sphere(0.01), material, vc.step(4.0), grid, times)
+    with vc.open_results("case") as ds:
+        np.testing.assert_array_equal(ds.time, times)
+        # the same numbers: both march the same nouns on one thread
+        np.testing.assert_array_equal(ds.approach, expected.approach)
+        np.testing.assert_array_equal(ds.pressure[-1], expected.pressure[-1])
+        assert ds.attrs["title"] == "Zener sphere"
+        assert json.loads(ds.attrs["case"])["indenter"]["type"] == "Sphere"
+    printed = capsys.readouterr()
+    assert "peak pressure [MPa]" in printed.out
+    assert "step 7/7" in printed.err  # plain lines: no terminal here
+    assert "\x1b" not in printed.err + printed.out
+
+
+def test_settings_change_the_run_and_are_kept_with_it(folder: Path) -> None:
+    settings = ["--set", "load.force=2N", "--set", "output.fields=[0 s, 5 s]"]
+    assert main(["run", "case.yaml", "-o", "other dir", "-q", *settings]) == 0
+    assert "force: 2N" in Path("other dir/case.yaml").read_text(encoding="utf-8")
+    with vc.open_results("other dir") as ds:
+        # balanced to the case's default tolerance
+        np.testing.assert_allclose(ds.force, 2.0, rtol=1e-6)
+        assert ds.field_time.values.tolist() == [0.0, 5.0]
+
+
+def test_result_is_replaced_only_when_asked(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["run", "case.yaml", "-q"]) == 0
+    before = Path("case/result.nc").read_bytes()
+    assert main(["run", "case.yaml", "-q", "--set", "load.force=3 N"]) == 2
+    message = capsys.readouterr().err
+    assert "--resume" in message
+    assert "--overwrite" in message
+    assert Path("case/result.nc").read_bytes() == before
+    assert main(["run", "case.yaml", "-q", "--overwrite", "--set", "load.force=3 N"]) == 0
+    with vc.open_results("case") as ds:
+        np.testing.assert_allclose(ds.force, 3.0, rtol=1e-6)
+
+
+def test_run_does_not_write_over_the_users_own_files(folder: Path) -> None:
+    assert main(["run", "case.yaml", "-o", ".", "--set", "load.force=3 N"]) == 2
+    assert main(["run", "case.yaml", "-o", ".", "--overwrite"]) == 2
+    assert Path("case.yaml").read_text(encoding="utf-8") == SPHERE
+    Path("notes").mkdir()
+    Path("notes/case.yaml").write_text("mine", encoding="utf-8")
+    assert main(["run", "case.yaml", "-o", "notes"]) == 2
+    assert Path("notes/case.yaml").read_text(encoding="utf-8") == "mine"
+    assert main(["run", "case.yaml", "-o", "case.yaml"]) == 2
+    assert [path.name for path in sorted(folder.iterdir())] == ["case.yaml", "notes"]
+
+
+@pytest.mark.parametrize(
+    ("settings", "said"),
+    [
+        (["indenter.raduis=5 mm"], "indenter.raduis: unknown key; did you mean 'radius'?"),
+        (["indenter.radius=5"], "indenter.radius: 5 has no unit"),
+        (["load.force=10 MPa"], "load.force: cannot read '10 MPa' as a force"),
+        (["indenter.radius=-5 mm"], "indenter.radius: must be more than zero"),
+        (["load.eccentricity_x=20 mm"], "load.eccentricity_x: the force acts at 0.02 m"),
+        (["load.force=-1 N"], "load.force: must be zero or more"),
+        (["load.force=nan N"], "load.force: 'nan N' is not a finite number"),
+        (["material.viscosity=0 Pa s"], "material.viscosity: must be more than zero"),
+        (["time.steps=0"], "time.steps: must be greater than or equal to 1"),
+        (["time.steps=1.5"], "time.steps: must be a whole number"),
+        (["grid.shape=[1000000, 1000000]"], "grid.shape: 1000000 x 1000000 cells need about"),
+        (
+            [
+                "material={law: creep-series, instant: 0 / MPa, amplitudes: [1 / MPa], "
+                "times: [1 s], data: deviatoric, poisson_ratio: 0.5}"
+            ],
+            "load: the load jumps at t = 0 s",
+        ),
+        (["load.approach=1 mm"], "load.approach: is not built yet"),
+        (["grid.size=[1 nm, 1 nm]", "output.fields=[9 s]"], "output.fields: the instant 9 s"),
+    ],
+)
+@pytest.mark.parametrize("command", ["run", "check"])
+def test_bad_case_is_refused_and_nothing_is_created(
+    command: str,
+    settings: list[str],
+    said: str,
+    folder: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    options = [word for setting in settings for word in ("--set", setting)]
+    assert main([command, "case.yaml", *options]) == 2
+    printed = capsys.readouterr()
+    assert said in printed.err
+    assert len(printed.err.splitlines()) == 1
+    assert printed.out == ""
+    assert [path.name for path in folder.iterdir()] == ["case.yaml"]
+
+
+@pytest.mark.parametrize("content", [b"", b"\x89PNG\r\n\x1a\n\x00\xff", b"load: [1", b"- 1\n"])
+def test_broken_file_is_refused_and_nothing_is_created(
+    content: bytes, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    Path("case.yaml").write_bytes(content)
+    assert main(["run", "case.yaml"]) == 2
+    message = capsys.readouterr().err
+    assert message.startswith("case.yaml:")
+    assert len(message.splitlines()) == 1
+    assert [path.name for path in folder.iterdir()] == ["case.yaml"]
+
+
+def test_line_of_the_file_stands_in_front(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("case.yaml").write_text(SPHERE.replace("4 N", "10 MPa"), encoding="utf-8")
+    assert main(["run", "case.yaml"]) == 2
+    assert capsys.readouterr().err == (
+        "case.yaml:13: load.force: cannot read '10 MPa' as a force (got a pressure); "
+        "write e.g. '10 kN'\n"
+    )
+
+
+def test_contact_that_overruns_the_grid_stops_the_run_and_keeps_its_steps(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    # 0.91 mm at the start fit into half of 2.1 mm, 1.14 mm at the end do not.
+    assert main(["run", "case.yaml", "-q", "--set", "grid.size=[2.1 mm, 2.1 mm]"]) == 1
+    message = capsys.readouterr().err
+    assert "case.yaml" in message or "--set grid" in message
+    assert "rim" in message
+    assert "keeps" in message
+    with vc.open_results("case") as ds:
+        assert 1 <= ds.sizes["time"] < 7
+        assert np.isfinite(ds.pressure).all()
+
+
+def test_run_without_contact_is_a_result(folder: Path) -> None:
+    load = "load={kind: triangle, force: 4 N, rise: 1 s}"
+    assert main(["run", "case.yaml", "-q", "--set", load]) == 0
+    with vc.open_results("case") as ds:
+        assert ds.contact_area[0] == 0.0
+        assert ds.outcome[0] == vc.Outcome.NO_CONTACT
+
+
+def test_run_without_grid_chooses_one(folder: Path) -> None:
+    Path("case.yaml").write_text(SPHERE[: SPHERE.index("grid:")], encoding="utf-8")
+    assert main(["run", "case.yaml", "-q"]) == 0
+    with vc.open_results("case") as ds:
+        assert ds.cells_across.max() >= 20
+
+
+def _interrupting(march: Any, times: int) -> Any:
+    def marching(*arguments: Any) -> Iterator[vc.ContactState]:
+        for count, state in enumerate(march(*arguments), start=1):
+            if count == 3:
+                for _ in range(times):
+                    signal.raise_signal(signal.SIGINT)
+            yield state
+
+    return marching
+
+
+@pytest.mark.parametrize(("presses", "kept"), [(1, 3), (2, 2)])
+def test_interruption_keeps_the_completed_steps(
+    presses: int,
+    kept: int,
+    folder: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    # Once during the third step: it is finished. Twice: it is given up.
+    marching = _interrupting(execution.march_run, presses)
+    monkeypatch.setattr(execution, "march_run", marching)
+    handler = signal.getsignal(signal.SIGINT)
+    assert main(["run", "case.yaml", "-q"]) == 130
+    assert signal.getsignal(signal.SIGINT) is handler
+    message = capsys.readouterr().err
+    assert f"keeps {kept} of 7 instants" in message
+    assert "--resume" in message
+    with vc.open_results("case") as ds:
+        assert ds.sizes["time"] == kept
+
+
+def test_full_disk_stops_the_run_in_one_message(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def full(*arguments: Any) -> Iterator[vc.ContactState]:
+        raise OSError(28, "No space left on device")
+        yield
+
+    monkeypatch.setattr(execution, "march_run", full)
+    assert main(["run", "case.yaml", "-q"]) == 1
+    assert "No space left on device" in capsys.readouterr().err
+
+
+def test_fault_of_ours_is_a_line_and_not_a_traceback(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def faulty(*arguments: Any) -> None:
+        raise ZeroDivisionError("so it goes")
+
+    monkeypatch.setattr(execution, "march_run", faulty)
+    assert main(["run", "case.yaml", "-q"]) == 1
+    message = capsys.readouterr().err
+    assert "unexpected ZeroDivisionError: so it goes" in message
+    assert "Traceback" not in message
+
+
+def test_load_file_travels_with_the_run(folder: Path) -> None:
+    Path("tables").mkdir()
+    Path("tables/load.csv").write_text("time [s], force [N]\n0, 4\n", encoding="utf-8")
+    load = "load={kind: history, file: tables/load.csv}"
+    assert main(["run", "case.yaml", "-q", "-o", "first", "--set", load]) == 0
+    # the run's own case runs again from where it lies
+    assert main(["run", "first/case.yaml", "-q", "-o", "second"]) == 0
+    with vc.open_results("first") as first, vc.open_results("second") as second:
+        np.testing.assert_array_equal(first.approach, second.approach)
+
+
+def test_check_foresees_grid_steps_memory_time_and_contact(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["check", "case.yaml"]) == 0
+    printed = capsys.readouterr().out
+    for expected in ("32 x 32 cells on 3 mm x 3 mm", "6 to t = 5 s", "memory", "are free", "time"):
+        assert expected in printed
+    # Hertz with Phi(5 s): a^3 = 3 R W Phi / 8 (eq. 16 of Spinu & Cerlinca 2018), a = 1.143 mm,
+    # peak pressure 3 W / (2 pi a^2) = 1.46 MPa; the estimate is good to a few per cent.
+    assert "2.29 mm long, 2.29 mm wide" in printed
+    assert "1.46 MPa" in printed
+    assert [path.name for path in folder.iterdir()] == ["case.yaml"]
+
+
+def test_check_warns_of_a_grid_that_the_contact_will_overrun(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["check", "case.yaml", "--set", "grid.size=[2.1 mm, 2.1 mm]"]) == 0
+    assert "will probably overrun the grid" in capsys.readouterr().out
+    assert main(["check", "case.yaml", "--set", "grid.size=[30 mm, 30 mm]"]) == 0
+    assert "fewer than 10 cells across" in capsys.readouterr().out
+
+
+def test_grid_is_measured_against_the_memory_that_is_free(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    needed = forecast.needed_memory(vc.Grid((32, 32), (1.0, 1.0)), terms=1)
+    monkeypatch.setattr("viscontact.cli.preparation.available_memory", lambda: needed + 1)
+    assert main(["run", "case.yaml", "-q", "-o", "fits"]) == 0
+    monkeypatch.setattr("viscontact.cli.preparation.available_memory", lambda: needed - 1)
+    assert main(["run", "case.yaml", "-q", "-o", "too large"]) == 2
+    assert "GB are free; use fewer cells" in capsys.readouterr().err
+    assert not Path("too large").exists()
+
+
+def test_show_prints_the_history_thinned_or_whole(
+    finished: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["show", str(finished)]) == 0
+    printed = capsys.readouterr().out
+    assert "approach" in printed
+    assert "[µm]" in printed
+    assert main(["show", str(finished / "result.nc"), "--all"]) == 0
+    assert capsys.readouterr().out == printed  # seven instants fit anyway
+
+
+def test_export_holds_every_scalar_to_the_last_digit(finished: Path, tmp_path: Path) -> None:
+    file = tmp_path / "history.csv"
+    assert main(["export", str(finished), "-o", str(file)]) == 0
+    with file.open(encoding="utf-8", newline="") as lines:
+        rows = list(csv.DictReader(lines))
+    with vc.open_results(finished) as ds:
+        assert [float(row["contact_area [m^2]"]) for row in rows] == ds.contact_area.values.tolist()
+        assert [float(row["time [s]"]) for row in rows] == ds.time.values.tolist()
+        scalars = {name for name in ds.data_vars if ds[name].dims == ("time",)}
+        assert len(rows[0]) == len(scalars) + 1
+    assert {row["outcome"] for row in rows} == {"converged"}
+
+
+def test_plot_draws_a_figure_into_the_run_or_where_it_is_told(
+    finished: Path, tmp_path: Path
+) -> None:
+    assert main(["plot", str(finished), "history"]) == 0
+    assert (finished / "history.png").read_bytes().startswith(b"\x89PNG")
+    file = tmp_path / "map.svg"
+    times = ["--time", "0 s", "--time", "5 s"]
+    assert main(["plot", str(finished / "result.nc"), "pressure-map", *times, "-o", str(file)]) == 0
+    assert "<svg" in file.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["presure-map"], "did you mean pressure-map?"),
+        (["animation"], "animation is not built yet; built: pressure-map"),
+        (["history", "--time", "3"], "--time: 3 has no unit"),
+        (["history", "-o", "figure.xyz"], "figure.xyz"),
+        (["history", "-o", "nowhere/figure.png"], "figure.png"),
+    ],
+)
+def test_figure_that_cannot_be_drawn_is_refused_in_one_line(
+    words: list[str], said: str, finished: Path, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["plot", str(finished), *words]) == 2
+    message = capsys.readouterr().err
+    assert said in message
+    assert len(message.splitlines()) == 1
+
+
+def test_without_matplotlib_a_line_says_what_to_install(
+    finished: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name in [name for name in sys.modules if name.startswith("viscontact.plot")]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.delattr("viscontact.plot", raising=False)
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
+    assert main(["plot", str(finished), "history"]) == 2
+    message = capsys.readouterr().err
+    assert "pip install 'viscontact[plot]'" in message
+    assert len(message.splitlines()) == 1
+
+
+def test_compare_overlays_runs_and_refuses_a_single_one(
+    finished: Path, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["run", "case.yaml", "-q", "-o", "heavier", "--set", "load.force=5 N"]) == 0
+    assert main(["compare", str(finished), "heavier", "-o", "runs.png"]) == 0
+    assert Path("runs.png").read_bytes().startswith(b"\x89PNG")
+    assert main(["compare", "heavier"]) == 2
+    assert main(["compare", "heavier", str(finished), "--figure", "histroy"]) == 2
+    assert "did you mean history?" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("words", [["show"], ["export"], ["plot", "history"]])
+def test_directory_without_a_result_is_refused_in_one_line(
+    words: list[str], folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    command, *rest = words
+    assert main([command, "nothing", *rest]) == 2
+    assert "nothing: no result there" in capsys.readouterr().err
+    assert main([command, "case.yaml", *rest]) == 2
+    assert len(capsys.readouterr().err.splitlines()) == 1
+
+
+def test_schema_is_json_schema(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["schema"]) == 0
+    schema = json.loads(capsys.readouterr().out)
+    assert schema["$schema"].startswith("https://json-schema.org/")
+
+
+def test_example_is_copied_with_the_schema_that_editors_need(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["example"]) == 0
+    names = [line.split()[0] for line in capsys.readouterr().out.splitlines()]
+    assert {"roller-as-printed", "roller-dogbone", "sphere-maxwell", "sphere-zener"} <= set(names)
+    assert main(["example", "sphere-zener", "-o", "my.yaml"]) == 0
+    assert main(["example", "sphere-zener"]) == 0
+    assert Path("my.yaml").read_text(encoding="utf-8") in capsys.readouterr().out
+    assert json.loads(Path("viscontact.schema.json").read_text(encoding="utf-8"))
+    assert main(["check", "my.yaml"]) == 0
+    assert main(["example", "sphere-zener", "-o", "my.yaml"]) == 2
+    assert main(["example", "sphere-zenr", "-o", "new.yaml"]) == 2
+    assert "did you mean sphere-zener?" in capsys.readouterr().err
+
+
+def test_demo_runs_the_shipped_case_to_pictures(folder: Path) -> None:
+    # as a process of its own, where NumPy is told to leave short inner products to one thread
+    demo = [sys.executable, "-m", "viscontact", "demo", "-q"]
+    done = subprocess.run(demo, capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, "")
+    kept = {path.name for path in Path("viscontact-demo").iterdir()}
+    assert {"result.nc", "case.yaml", "pressure-map.png", "history.png"} <= kept
+    with vc.open_results("viscontact-demo") as ds:
+        assert ds.sizes["time"] == 121
+        assert ds.sizes["x"] * ds.sizes["y"] == 2**16
+        assert (ds.residual <= 1e-6).all()
+    assert main(["example", "roller-dogbone-e05", "-o", "my.yaml"]) == 0
+    copied = Path("my.yaml").read_bytes()
+    assert copied == Path("viscontact-demo/case.yaml").read_bytes()
+
+
+def test_second_demo_replaces_the_first(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("viscontact.cli.cases.DEMO", "sphere-zener")
+    monkeypatch.setattr("viscontact.cli.cases.DEMO_FIGURES", ())
+    assert [main(["demo", "-q"]), main(["demo", "-q"])] == [0, 0]
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["material", "pmma-paper"], "material is not built yet"),
+        (["report", "case"], "report is not built yet"),
+        (["verify", "--fast"], "verify is not built yet"),
+        (["run", "case.yaml", "--resume"], "--resume is not built yet"),
+    ],
+)
+def test_what_is_not_built_is_refused_by_name(
+    words: list[str], said: str, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(words) == 2
+    assert said in capsys.readouterr().err
+    assert [path.name for path in folder.iterdir()] == ["case.yaml"]
+
+
+@pytest.mark.parametrize("words", [["rnu"], ["run"], ["run", "case.yaml", "--threads", "0"]])
+def test_wrong_use_exits_with_2(words: list[str], folder: Path) -> None:
+    assert main(words) == 2
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_help_of_every_command_ends_with_an_example(
+    command: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([command, "--help"]) == 0
+    lines = capsys.readouterr().out.strip().splitlines()
+    assert "Example:" in " ".join(lines[-3:])
+    assert f"viscontact {command}" in " ".join(lines[-3:])
+
+
+def test_help_imports_no_numpy() -> None:
+    code = (
+        "import sys; from viscontact.cli import main; main(['run', '--help']); "
+        "sys.exit(any(name in sys.modules for name in ('numpy', 'pint', 'xarray')))"
+    )
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True).returncode == 0
+
+
+def test_command_is_installed_and_works_as_a_module() -> None:
+    done = subprocess.run(
+        [sys.executable, "-m", "viscontact", "--version"], capture_output=True, text=True
+    )
+    assert (done.returncode, done.stdout) == (0, f"viscontact {vc.__version__}\n")
+
+
+def test_two_runs_of_one_name_are_told_apart() -> None:
+    same = [Path("a/case"), Path("b/case")]
+    assert figures._labels(same) == [str(path) for path in same]
+    assert figures._labels([Path("a"), Path("b")]) == ["a", "b"]
