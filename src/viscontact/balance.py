@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -115,8 +116,7 @@ class RigidPlane:
         self._x, self._y = x, y
         # In units of cells, so that "no extent along x" means the same on every grid.
         self._unit = np.array([1.0, 1 / cell_size[0], 1 / cell_size[1]])
-        self._powers_x = (x * self._unit[1]) ** np.arange(3)[:, None]
-        self._powers_y = (y * self._unit[2]) ** np.arange(3)[:, None]
+        self._column, self._row = x * self._unit[1], y * self._unit[2]
 
     def field(self, coefficients: NDArray[np.float64]) -> NDArray[np.float64]:
         """The plane c0 + c1 x + c2 y on every cell."""
@@ -125,9 +125,9 @@ class RigidPlane:
 
     def sums(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
         """Sums of a field against 1, x and y."""
-        rows, columns = values @ self._powers_y[:2].T, self._powers_x[:2]
-        sums = np.array([rows[:, 0].sum(), columns[1] @ rows[:, 0], rows[:, 1].sum()])
-        return np.asarray(sums / self._unit)
+        # Not as matrix products: BLAS would put threads to work, which cost more than they bring.
+        along_x, along_y = values.sum(axis=1), values.sum(axis=0)
+        return np.array([along_x.sum(), along_x @ self._x, along_y @ self._y])
 
     def inverse_gram(
         self, weight: NDArray[np.float64], free: NDArray[np.bool_]
@@ -148,32 +148,52 @@ class RigidPlane:
             only some coefficients (one cell, or a line of cells) the others are of least norm
             about the cells' centre.
         """
-        (n, y, yy), (x, xy, _), (xx, _, _) = self._powers_x @ weight @ self._powers_y.T
-        gram = np.array([[n, x, y], [x, xx, xy], [y, xy, yy]])
-        return _inverse(gram, free) * np.outer(self._unit, self._unit)
+        column, row = self._column, self._row
+        along_x, along_y = weight.sum(axis=1), weight.sum(axis=0)
+        mixed = float(column @ np.einsum("ij,j->i", weight, row))
+        first = float(along_x.sum()), float(along_x @ column), float(along_y @ row)
+        second = float(along_x @ column**2), mixed, float(along_y @ row**2)
+        return _inverse(first, second, free) * np.outer(self._unit, self._unit)
 
 
-def _inverse(gram: NDArray[np.float64], free: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """Rank-revealing inverse: the mean is eliminated first, if it is free, then the slopes."""
-    result = np.zeros((3, 3))
-    mass = gram[0, 0]
-    if mass <= 0:
-        return result
-    centre = gram[0, 1:] / mass if free[0] else np.zeros(2)
-    spread = gram[1:, 1:] - mass * np.outer(centre, centre)
-    inner = _pseudo_inverse(spread * np.outer(free[1:], free[1:]), NO_EXTENT * mass)
-    result[1:, 1:] = inner
-    if free[0]:
-        result[0, 1:] = result[1:, 0] = -inner @ centre
-        result[0, 0] = 1 / mass + centre @ inner @ centre
-    return result
+def _inverse(
+    first: tuple[float, float, float],
+    second: tuple[float, float, float],
+    free: NDArray[np.bool_],
+) -> NDArray[np.float64]:
+    """Rank-revealing inverse: the mean is eliminated first, if it is free, then the slopes.
+
+    In plain numbers: it is called for every iteration, and arrays of three are slow.
+    """
+    (n, x, y), (xx, xy, yy) = first, second
+    if n <= 0:
+        return np.zeros((3, 3))
+    mean, along_x, along_y = (float(is_free) for is_free in free)
+    mx, my = mean * x / n, mean * y / n
+    a, b, c = _pseudo_inverse(
+        along_x * (xx - n * mx * mx),
+        along_x * along_y * (xy - n * mx * my),
+        along_y * (yy - n * my * my),
+        NO_EXTENT * n,
+    )
+    to_x, to_y = -(a * mx + b * my), -(b * mx + c * my)
+    head = mean / n - (mx * to_x + my * to_y)
+    return np.array([[head, to_x, to_y], [to_x, a, b], [to_y, b, c]])
 
 
-def _pseudo_inverse(matrix: NDArray[np.float64], threshold: float) -> NDArray[np.float64]:
-    """Inverse of a symmetric 2 x 2 matrix over its directions of more than a threshold."""
-    values, vectors = np.linalg.eigh(matrix)
-    inverse = np.divide(1.0, values, out=np.zeros(2), where=values > threshold)
-    return np.asarray((vectors * inverse) @ vectors.T)
+def _pseudo_inverse(
+    xx: float, xy: float, yy: float, threshold: float
+) -> tuple[float, float, float]:
+    """Entries of the inverse of a symmetric 2 x 2 matrix, on its directions above a threshold."""
+    middle, radius = (xx + yy) / 2, math.hypot((xx - yy) / 2, xy)
+    if middle - radius > threshold:
+        determinant = xx * yy - xy * xy
+        return yy / determinant, -xy / determinant, xx / determinant
+    if middle + radius > threshold:
+        # Of rank one: the matrix is its only eigenvalue times a projector.
+        square = (middle + radius) ** 2
+        return xx / square, xy / square, yy / square
+    return 0.0, 0.0, 0.0
 
 
 def restore_balance(

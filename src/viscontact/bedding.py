@@ -76,4 +76,4 @@ def _energy(
     plane: RigidPlane,
 ) -> tuple[float, NDArray[np.float64]]:
     overlap = np.maximum(plane.field(motion) - gap, 0.0)
-    return float(np.vdot(overlap, overlap) / 2 - target @ motion), overlap
+    return float(np.square(overlap).sum() / 2 - target @ motion), overlap

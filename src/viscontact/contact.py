@@ -285,11 +285,11 @@ class Search:
         steepest = self._project(self.patch.preconditioner.apply(residual), weight, inverse)
         direction = -steepest
         if self._slope > 0:
-            change = float(np.vdot(steepest, residual)) - float(np.vdot(steepest, self._residual))
+            change = _inner(steepest, residual) - _inner(steepest, self._residual)
             conjugacy = max(change / self._slope, 0.0)
             direction += conjugacy * self._project(self._direction, weight, inverse)
         self._residual, self._direction = residual, direction
-        self._slope = float(np.vdot(steepest, residual))
+        self._slope = _inner(steepest, residual)
         self.iterations += 1
         self._step()
 
@@ -309,11 +309,11 @@ class Search:
         direction = self._direction
         change = self.patch.convolution.apply(direction)
         self.convolutions += 1
-        curvature = self.problem.compliance * float(np.vdot(direction, change))
+        curvature = self.problem.compliance * _inner(direction, change)
         if curvature <= 0:
             self._slope = 0.0
             return
-        length = -float(np.vdot(self._residual, direction)) / curvature
+        length = -_inner(self._residual, direction) / curvature
         self.now = replace(
             self.now,
             pressure=self.now.pressure + length * direction,
@@ -341,6 +341,11 @@ class Search:
     def _is_balanced(self, pressure: NDArray[np.float64]) -> bool:
         sums = self.patch.plane.sums(pressure) * self.patch.cell_area
         return self.problem.support.imbalance(sums, self.patch.arm) < BALANCED
+
+
+def _inner(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
+    # Not a dot product of BLAS, which would put threads to work.
+    return float(np.einsum("ij,ij->", a, b))
 
 
 def _bedding(problem: ContactProblem, patch: Patch) -> Guess:

@@ -214,7 +214,7 @@ def _whole(
 ) -> Instant:
     """The instant on the whole grid."""
     found = solution.found
-    energy = half_space.fold_count * float(np.vdot(found.pressure, found.deflection)) / 2
+    energy = half_space.fold_count * float((found.pressure * found.deflection).sum()) / 2
     return Instant(
         half_space.unfold(found.pressure),
         half_space.unfold(solution.gap),
