@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import os
 import signal
 import subprocess
 import sys
@@ -447,7 +448,12 @@ def test_demo_runs_the_shipped_case_to_pictures(folder: Path) -> None:
 
 
 def test_second_demo_replaces_the_first(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("viscontact.cli.cases.DEMO", "sphere-zener")
+    whole = execution.execute
+
+    def coarse(case: Path, output: Path, **options: Any) -> Path:
+        return whole(case, output, settings=["grid.shape=[64, 32]", "time.steps=2"], **options)
+
+    monkeypatch.setattr(execution, "execute", coarse)
     monkeypatch.setattr("viscontact.cli.cases.DEMO_FIGURES", ())
     assert [main(["demo", "-q"]), main(["demo", "-q"])] == [0, 0]
 
@@ -490,6 +496,14 @@ def test_help_imports_no_numpy() -> None:
         "sys.exit(any(name in sys.modules for name in ('numpy', 'pint', 'xarray')))"
     )
     assert subprocess.run([sys.executable, "-c", code], capture_output=True).returncode == 0
+
+
+def test_terminal_without_superscripts_still_gets_its_table(finished: Path) -> None:
+    environment = {**os.environ, "PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0"}
+    show = [sys.executable, "-m", "viscontact", "show", str(finished)]
+    done = subprocess.run(show, capture_output=True, env=environment)
+    assert done.returncode == 0
+    assert b"approach" in done.stdout
 
 
 def test_command_is_installed_and_works_as_a_module() -> None:

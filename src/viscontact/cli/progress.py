@@ -51,7 +51,7 @@ def _bar() -> Progress:
     return Progress(
         TextColumn("step"),
         MofNCompleteColumn(),
-        BarColumn(),
+        BarColumn(bar_width=16),  # fixed, so that the rest does not jump
         TimeRemainingColumn(),
         TextColumn("left, {task.fields[details]}"),
         console=Console(stderr=True),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 import sys
 from collections.abc import Sequence
@@ -83,10 +84,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     viscontact 0.1.0
     0
     """
-    # Inner products over a contact are too short for the threads of a BLAS, which then wait for
-    # one another: ten times slower on a busy machine. NumPy reads this when it is first imported.
-    for library in ("OPENBLAS", "MKL", "OMP", "BLIS"):
-        os.environ.setdefault(f"{library}_NUM_THREADS", "1")
+    _prepare_process()
     try:
         typed = None if arguments is None else list(arguments)
         return int(app(typed, prog_name="viscontact", standalone_mode=False) or 0)
@@ -96,6 +94,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _closed_pipe()
     except Exception as error:
         return _usage_or_fault(error)
+
+
+def _prepare_process() -> None:
+    # Inner products over a contact are too short for the threads of a BLAS, which then wait for
+    # one another: ten times slower on a busy machine. NumPy reads this when it is first imported.
+    for library in ("OPENBLAS", "MKL", "OMP", "BLIS"):
+        os.environ.setdefault(f"{library}_NUM_THREADS", "1")
+    # A terminal that cannot write "mm²" gets "mm?", not an error.
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")
 
 
 def _usage_or_fault(error: Exception) -> int:

@@ -1,0 +1,19 @@
+"""Units: quantities in words become SI numbers, SI numbers become readable words.
+
+Case files and the command line take ``"5 mm"``; everything behind them is SI. Tables and
+figures turn SI numbers back into units a person reads.
+"""
+
+from viscontact.units.quantities import DIMENSIONS, Dimension, parse_quantity, parse_unit
+from viscontact.units.readable import ReadableUnit, in_digits, in_words, readable_unit
+
+__all__ = [
+    "DIMENSIONS",
+    "Dimension",
+    "ReadableUnit",
+    "in_digits",
+    "in_words",
+    "parse_quantity",
+    "parse_unit",
+    "readable_unit",
+]
