@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-# Both describe one PMMA: E(t) = 1428.57 + 184.15 exp(-t/8.989 s) + 190.71 exp(-t/117.97 s) MPa,
-# measured in tension (Kumar & Narasimhan 2004), whose exact inverse is the compliance of
-# Spinu & Cerlinca 2018, eq. 15. The paper puts that tensile compliance where its theory has
-# Phi = 1/(2G); `pmma-paper` does so too, `pmma-kumar-2004` converts it.
+# Both describe one PMMA, whose uniaxial relaxation modulus Spinu & Cerlinca (2018) take from
+# Kumar & Narasimhan (2004): E(t) = 1428.57 + 184.15 exp(-t/8.989 s) + 190.71 exp(-t/117.97 s) MPa.
+# Its exact inverse is the compliance of their eq. 15, which they use as it stands where the theory
+# has Phi = 1/(2G). `pmma-paper` does so too; `pmma-kumar-2004` converts, Phi = (1 + nu) D.
 MATERIALS: dict[str, dict[str, Any]] = {
     "pmma-paper": {
         "law": "creep-series",
