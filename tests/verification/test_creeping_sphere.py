@@ -1,0 +1,201 @@
+"""Creeping spheres under growing loads against Lee & Radok, J. Appl. Mech. 27 (1960) 438.
+
+The hereditary integral is `reference`'s quadrature, which knows no time steps and no cells; J and
+M are written by hand in `creeping_bodies`.
+"""
+
+import math
+
+import numpy as np
+import pytest
+
+import viscontact as vc
+from verification.creeping_bodies import BODIES
+from verification.pressing import (
+    BALL,
+    FORCE,
+    RADIUS,
+    central_pressure,
+    grid_around,
+    order,
+    over_time,
+)
+from viscontact import reference
+
+STEPS = 120
+TABLE_1 = ["maxwell", "zener"]
+
+
+def spread(body, load, times, *, cells=38.0, tolerance=1e-7):
+    """Grid with so many cells on the last radius, and the states."""
+    force, compliance = load.at(times[-1]).force, body.creep(times[-1:])[0]
+    radius = math.cbrt(0.75 * RADIUS * force * compliance)
+    grid = grid_around((radius, radius), (cells, cells), margin=1.22)
+    return grid, list(vc.march(BALL, body.material, load, grid, times, tolerance=tolerance))
+
+
+def errors(body, load, exact, times):
+    """Relative errors of radius, approach and central pressure while the contact is fine enough."""
+    grid, states = spread(body, load, times)
+    radius = exact.contact_radius(times)
+    fine = radius > 12 * grid.cell_size[0]
+    assert np.count_nonzero(fine) > 90
+    expected = {
+        "radius": (np.sqrt(over_time(states, "contact_area") / math.pi), radius),
+        "approach": (over_time(states, "approach"), radius**2 / RADIUS),
+        "pressure": (central_pressure(grid, states), exact.pressure(0.0, times)),
+    }
+    return {
+        name: np.abs(found[fine] / truth[fine] - 1).max()
+        for name, (found, truth) in expected.items()
+    }
+
+
+@pytest.mark.parametrize("name", TABLE_1)
+def test_step_loaded_sphere_in_120_uniform_steps(name):
+    """Eq. 16 and Table 1 of Spinu & Cerlinca (2018), re-derived as Lee & Radok's integral.
+
+    24 to 38 (Maxwell), 30 to 38 (Zener) cells a radius. Measured: pressure 1.2e-4 and 5e-5,
+    approach 9e-5 and 6e-5, radius from the traced area 1.0e-3 and 8e-4.
+    """
+    body = BODIES[name]
+    exact = reference.lee_radok_step(FORCE, RADIUS, body.creep, body.relaxation)
+    found = errors(body, vc.step(FORCE), exact, vc.uniform_times(body.end, STEPS))
+    assert found["pressure"] < 3e-4
+    assert found["approach"] < 2e-4
+    assert found["radius"] < 2e-3
+
+
+@pytest.mark.parametrize("name", [name for name in BODIES if name != "maxwell"])
+def test_step_loaded_sphere_in_120_logarithmic_steps_for_every_kind_of_law(name):
+    """Lee & Radok (1960). Measured, worst of all: pressure 2.2e-4, approach 1e-4, radius 1.2e-3."""
+    body = BODIES[name]
+    exact = reference.lee_radok_step(FORCE, RADIUS, body.creep, body.relaxation)
+    times = vc.log_times(body.first, body.end, STEPS)
+    found = errors(body, vc.step(FORCE), exact, times)
+    assert found["pressure"] < 4e-4
+    assert found["approach"] < 2e-4
+    assert found["radius"] < 2e-3
+
+
+@pytest.mark.parametrize("name", ["maxwell", "zener", "creep_series"])
+def test_ramp_loaded_sphere_in_steps_that_grow_from_the_first_touch(name):
+    """Lee & Radok (1960) under a ramp that ends between two instants, then held.
+
+    Pressure starts as the cube root of time, so steps grow as the square of their number.
+    Measured: pressure 4.2e-4 where the contact is smallest, 12 cells, approach 3.3e-4, radius
+    2.3e-3.
+    """
+    body = BODIES[name]
+    duration, end = 0.95, 3.0
+    exact = reference.lee_radok_ramp(FORCE, duration * 100, RADIUS, body.creep, body.relaxation)
+    times = 100 * end * np.linspace(0, 1, STEPS + 1) ** 2
+    found = errors(body, vc.ramp(FORCE, duration * 100), exact, times)
+    assert found["pressure"] < 1e-3
+    assert found["approach"] < 8e-4
+    assert found["radius"] < 3e-3
+
+
+@pytest.mark.xfail(
+    reason="the first steps of a ramp are of order 4/3: central pressure 4e-3 off at 120 steps",
+    raises=AssertionError,
+)
+def test_ramp_loaded_sphere_in_uniform_steps():
+    """Lee & Radok (1960). A straight line stands for a cube root in the step of first touch.
+
+    Measured, over the largest pressure: 7.5e-3, 3.2e-3, 1.5e-3 early in the ramp at 60, 120, 240
+    steps; 1.8e-4 at the end of 120.
+    """
+    body = BODIES["maxwell"]
+    exact = reference.lee_radok_ramp(FORCE, 95.0, RADIUS, body.creep, body.relaxation)
+    found = errors(body, vc.ramp(FORCE, 95.0), exact, vc.uniform_times(300.0, STEPS))
+    assert found["approach"] < 8e-4
+    assert found["pressure"] < 1e-3
+
+
+@pytest.mark.parametrize("name", TABLE_1)
+def test_radial_pressure_follows_table_1(name):
+    """Table 1 of Spinu & Cerlinca (2018), their Figs. 6 and 7: inside 0.9 of the radius.
+
+    At 120 uniform steps, 38 cells on the last radius. Measured: 1.6e-3 (Maxwell, whose pressure
+    flows to the rim) and 4e-4 (Zener) of the instant's peak.
+    """
+    body = BODIES[name]
+    exact = reference.lee_radok_step(FORCE, RADIUS, body.creep, body.relaxation)
+    times = vc.uniform_times(body.end, STEPS)
+    grid, states = spread(body, vc.step(FORCE), times)
+    middle, x = grid.shape[0] // 2, grid.x[grid.shape[0] // 2 :]
+    for k in (0, 24, 60, 120):
+        inside = x < 0.9 * exact.contact_radius(times[k])
+        truth = exact.pressure(x[inside], times[k])
+        found = states[k].pressure[middle:, middle][inside]
+        assert np.abs(found - truth).max() < 3e-3 * truth.max()
+
+
+# The error of the time steps alone, against the same grid's solution in 960 steps.
+
+
+@pytest.mark.parametrize("name", TABLE_1)
+def test_time_error_of_the_pressure_falls_with_the_square_of_the_step(name):
+    """Pressure linear in time, jumps exact; piecewise constant (eq. 12) would be of order one.
+
+    Measured at 120 steps: 2.6e-5 (Maxwell), 4.4e-5 (Zener) of the instant's peak at the centre,
+    orders 2.02 and 2.03. Over the whole contact, where surface just touched enters at once:
+    7e-5 and 1.4e-4 in the root of the squares, orders 2.00 and 1.98.
+    """
+    body = BODIES[name]
+    steps = np.array([30, 60, 120, 240])
+    centre, overall = np.array([_time_errors(body, n) for n in steps]).T
+    assert centre[2] < 1e-4
+    assert overall[2] < 3e-4
+    assert order(1 / steps, centre) == pytest.approx(2.0, abs=0.15)
+    assert order(1 / steps, overall) == pytest.approx(2.0, abs=0.25)
+
+
+FINEST = 960
+FINE_SOLUTIONS = {}
+
+
+def _time_errors(body, steps):
+    if id(body) not in FINE_SOLUTIONS:
+        FINE_SOLUTIONS[id(body)] = _coarse_mesh(body, FINEST)
+    fine = FINE_SOLUTIONS[id(body)][:: FINEST // steps]
+    error = _coarse_mesh(body, steps) - fine
+    middle = fine.shape[1] // 2
+    at_centre = np.abs(error[:, middle, middle]) / fine.max(axis=(1, 2))
+    overall = np.linalg.norm(error, axis=(1, 2)) / np.linalg.norm(fine, axis=(1, 2))
+    return at_centre.max(), overall.max()
+
+
+def _coarse_mesh(body, steps):
+    times = vc.uniform_times(body.end, steps)
+    _, states = spread(body, vc.step(FORCE), times, cells=19.3, tolerance=1e-8)
+    return np.array([state.pressure for state in states])
+
+
+@pytest.mark.parametrize("name", TABLE_1)
+def test_approach_under_a_sudden_load_has_no_time_error(name):
+    """Spinu & Cerlinca (2018), eq. 16: while the contact grows it depends on J(t) only.
+
+    So 3 steps give what 96 do. Measured: 3e-10, the solver's tolerance being 1e-8.
+    """
+    body = BODIES[name]
+    ends = [
+        spread(body, vc.step(FORCE), vc.uniform_times(body.end, n), cells=19.3, tolerance=1e-8)
+        for n in (3, 96)
+    ]
+    few, many = (states[-1].approach for _, states in ends)
+    assert few == pytest.approx(many, rel=1e-7)
+
+
+def test_work_of_a_sudden_load_goes_on_as_the_body_sinks():
+    """The elastic (2/5) F approach of the jump, then F times the way: Johnson (1985), eq. 4.23.
+
+    Measured: 9e-5 at first, then 3e-5: the mesh.
+    """
+    body = BODIES["maxwell"]
+    times = vc.uniform_times(body.end, 12)
+    _, states = spread(body, vc.step(FORCE), times)
+    approach = np.cbrt(0.75 * RADIUS * FORCE * body.creep(times)) ** 2 / RADIUS
+    work = FORCE * (approach - 0.6 * approach[0])
+    np.testing.assert_allclose(over_time(states, "work"), work, rtol=2e-4)
