@@ -1,0 +1,180 @@
+"""The physics once more, by another route: what results are checked against.
+
+Nothing here uses the package's numerics. Coefficients are Love's logarithms in extended
+precision, sums over cells are `scipy.signal.fftconvolve`, and the past is summed as the paper
+does it, step by step over the whole history (Spinu & Cerlinca 2018, eqs. 7 to 12, with pressure
+linear in time instead of constant).
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from scipy.signal import fftconvolve
+
+import viscontact as vc
+
+
+def love(x, y, dx, dy):
+    """Mean of 1/r over a cell times its area over pi: Johnson (1985), eq. 3.25, as printed."""
+    a, b = np.longdouble(dx) / 2, np.longdouble(dy) / 2
+    x, y = np.broadcast_arrays(np.asarray(x, np.longdouble), np.asarray(y, np.longdouble))
+
+    def term(first, second, other):
+        return first * np.log((second + np.hypot(second, first)) / (other + np.hypot(other, first)))
+
+    # Offsets are taken positive: the logarithms cancel for negative ones.
+    x, y = np.abs(x), np.abs(y)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        terms = [
+            term(x + a, y + b, y - b),
+            term(y + b, x + a, x - a),
+            -term(x - a, y + b, y - b),
+            -term(y - b, x + a, x - a),
+        ]
+    # On the line of an edge the factor in front is zero, and so is the term.
+    total = sum(np.where(np.isfinite(part), part, 0) for part in terms)
+    return np.asarray(total / np.pi, dtype=float)
+
+
+def deflection(pressure, cell_size):
+    """Surface displacement per unit compliance: the sum over all cells of love() p."""
+    # Scaled to order one, so that no unit leaves the transforms' range.
+    size = max(cell_size)
+    kernel = _kernel(pressure.shape, (cell_size[0] / size, cell_size[1] / size))
+    return fftconvolve(kernel, pressure, mode="valid") * size
+
+
+@lru_cache(maxsize=2)
+def _kernel(shape, cell_size):
+    x, y = (
+        np.arange(1 - cells, cells) * edge for cells, edge in zip(shape, cell_size, strict=True)
+    )
+    return love(x[:, None], y[None, :], *cell_size)
+
+
+def integral_of_creep(compliance, t):
+    """Integral of J from 0 to t; J a series."""
+    t = np.asarray(t, dtype=float)[..., None]
+    amplitudes, times = compliance.amplitudes, compliance.times
+    delayed = amplitudes * (t + times * np.expm1(-t / times))
+    t = t[..., 0]
+    return compliance.instant * t + delayed.sum(axis=-1) + compliance.fluidity * t**2 / 2
+
+
+def superposed(compliance, times, fields):
+    """Boltzmann's integral at the last instant: a jump at times[0] and at doubled instants."""
+    end = times[-1]
+    total = compliance(end - times[0]) * fields[0]
+    for i in range(1, len(times)):
+        total = total + _mean_creep(compliance, end, *times[i - 1 : i + 1]) * (
+            fields[i] - fields[i - 1]
+        )
+    return total
+
+
+def _mean_creep(compliance, end, start, stop):
+    """Mean of J(end - t) over a step; of no length at a jump."""
+    if stop == start:
+        return compliance(end - start)
+    early, late = (integral_of_creep(compliance, end - t) for t in (start, stop))
+    return (early - late) / (stop - start)
+
+
+@dataclass(frozen=True)
+class Violations:
+    """Relative violations of what a contact has to satisfy."""
+
+    tension: float
+    gap_under_pressure: float
+    penetration: float
+    force: float
+    moment_x: float
+    moment_y: float
+
+    @property
+    def worst(self):
+        return max(vars(self).values())
+
+
+def violations(grid, open_gap, state, displacement, point, scale=0.0):
+    """Check eqs. 1 to 5 of a state, given the displacement found by another route."""
+    x, y = grid.x[:, None], grid.y[None, :]
+    plane = state.approach + state.tilt_x * x + state.tilt_y * y
+    gap = open_gap + displacement - plane
+    touching = state.pressure > 0
+    scale = max(scale, float(displacement.max()))
+    sums = [float((state.pressure * arm).sum()) * grid.cell_area for arm in (1.0, x, y)]
+    force = max(point.force, np.finfo(float).tiny)
+    # The contact's longer extent turns a moment's error into a force's.
+    rows, columns = np.nonzero(touching)
+    reach = max((np.ptp(rows) + 1) * grid.cell_size[0], (np.ptp(columns) + 1) * grid.cell_size[1])
+    free_x, free_y = point.tilt_x is None, point.tilt_y is None
+    return Violations(
+        tension=max(-float(state.pressure.min()), 0.0),
+        gap_under_pressure=float(np.abs(gap[touching]).max()) / scale,
+        penetration=max(-float(gap.min()), 0.0) / scale,
+        force=abs(sums[0] - point.force) / force,
+        moment_x=abs(sums[1] / force - point.eccentricity_x) / reach * free_x,
+        moment_y=abs(sums[2] / force - point.eccentricity_y) / reach * free_y,
+    )
+
+
+@dataclass(frozen=True)
+class Audit:
+    """What an audited run did, and the violations at its instants with contact."""
+
+    states: list
+    violations: list
+
+    @property
+    def worst(self):
+        return max((found.worst for found in self.violations), default=0.0)
+
+
+def audit(indenter, material, load, grid, times, tolerance=1e-6, indenter_material=None):
+    """March, and check every instant against eqs. 1 to 5 with a displacement of our own."""
+    bodies = [body for body in (material, indenter_material) if body is not None]
+    compliance = sum(
+        (body.contact_compliance() for body in bodies[1:]), bodies[0].contact_compliance()
+    )
+    times = np.unique(np.concatenate([times, [kink for kink in load.kinks if kink <= times[-1]]]))
+    options = {"tolerance": tolerance, "indenter_material": indenter_material}
+    states = list(vc.march(indenter, material, load, grid, times, **options))
+    open_gap = indenter.gap(grid.x[:, None], grid.y[None, :])
+    instants, fields, found, scale = [], [], [], 0.0
+    for state in states:
+        if state.time > 0 and state.time in load.jumps:
+            instants.append(state.time)
+            fields.append(_before_jump(indenter, material, load, grid, times, state.time, options))
+            scale = max(scale, float(superposed(compliance, instants, fields).max()))
+        instants.append(state.time)
+        fields.append(deflection(state.pressure, grid.cell_size))
+        displacement = superposed(compliance, instants, fields)
+        scale = max(scale, float(displacement.max()))
+        point = load.at(state.time)
+        if point.force > 0:
+            found.append(violations(grid, open_gap, state, displacement, point, scale))
+        else:
+            _check_apart(state, open_gap, displacement, grid, scale)
+    return Audit(states, found)
+
+
+def _before_jump(indenter, material, load, grid, times, instant, options):
+    """Deflection just before a jump, from a run whose load does not jump there."""
+    names = ("eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y")
+    aside = {name: getattr(load, name) for name in names}
+    before = int(np.searchsorted(load.times, instant))
+    held = vc.ForceHistory(load.times[: before + 1], load.force[: before + 1], **aside)
+    *_, last = vc.march(indenter, material, held, grid, times[times <= instant], **options)
+    return deflection(last.pressure, grid.cell_size)
+
+
+def _check_apart(state, open_gap, displacement, grid, scale):
+    """Without force: no pressure, and the body where it just touches the dented surface."""
+    x, y = grid.x[:, None], grid.y[None, :]
+    plane = state.approach + state.tilt_x * x + state.tilt_y * y
+    assert state.outcome == vc.Outcome.NO_CONTACT
+    assert not state.pressure.any()
+    assert state.force == state.contact_area == state.peak_pressure == state.mean_pressure == 0.0
+    assert abs(float((open_gap + displacement - plane).min())) <= 1e-9 * max(scale, 1e-12)
