@@ -36,8 +36,8 @@ FLOORS = (
         "marching",
     ),
     ("description", "dataset", "results"),  # 5 labels and files
-    ("examples", "units", "case", "plot"),  # 6 people
-    ("cli",),  # 7 shell
+    ("examples", "units", "forecast", "case", "plot"),  # 6 people
+    ("cli", "__main__"),  # 7 shell
 )
 # Neighbours on a floor of which the first needs the second; the second stands to the left above.
 NEIGHBOURS = {
@@ -58,6 +58,7 @@ NEIGHBOURS = {
     ("results", "dataset"),  # the file is laid out as the dataset is
     ("case", "units"),
     ("plot", "units"),
+    ("__main__", "cli"),  # python -m viscontact
 }
 # The exact solutions stand aside: they rest on the lower floors, and the product computes nothing
 # with what it is checked against, so only people's floors may show them.

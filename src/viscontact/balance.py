@@ -148,24 +148,23 @@ class RigidPlane:
             only some coefficients (one cell, or a line of cells) the others are of least norm
             about the cells' centre.
         """
+        return _inverse(self._moments(weight), free) * np.outer(self._unit, self._unit)
+
+    def _moments(self, weight: NDArray[np.float64]) -> tuple[float, ...]:
+        """Sums of weight times 1, x, y, x², xy, y², in units of cells."""
         column, row = self._column, self._row
         along_x, along_y = weight.sum(axis=1), weight.sum(axis=0)
-        mixed = float(column @ np.einsum("ij,j->i", weight, row))
-        first = float(along_x.sum()), float(along_x @ column), float(along_y @ row)
-        second = float(along_x @ column**2), mixed, float(along_y @ row**2)
-        return _inverse(first, second, free) * np.outer(self._unit, self._unit)
+        mixed = column @ np.einsum("ij,j->i", weight, row)
+        sums = (along_x.sum(), along_x @ column, along_y @ row)
+        return tuple(map(float, (*sums, along_x @ column**2, mixed, along_y @ row**2)))
 
 
-def _inverse(
-    first: tuple[float, float, float],
-    second: tuple[float, float, float],
-    free: NDArray[np.bool_],
-) -> NDArray[np.float64]:
+def _inverse(moments: tuple[float, ...], free: NDArray[np.bool_]) -> NDArray[np.float64]:
     """Rank-revealing inverse: the mean is eliminated first, if it is free, then the slopes.
 
     In plain numbers: it is called for every iteration, and arrays of three are slow.
     """
-    (n, x, y), (xx, xy, yy) = first, second
+    n, x, y, xx, xy, yy = moments
     if n <= 0:
         return np.zeros((3, 3))
     mean, along_x, along_y = (float(is_free) for is_free in free)

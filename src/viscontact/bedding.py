@@ -7,6 +7,14 @@ from numpy.typing import NDArray
 
 from viscontact.balance import RigidPlane, Support
 
+#: Beddings softer than the wanted one by these factors are settled on first.
+SOFTENINGS = tuple(4.0**power for power in range(8, -1, -1))
+
+#: Part of their stiffness that the last bedding's cells lend to the next.
+LENT = 0.01
+
+MAX_NEWTON = 40
+
 
 def bedding_pressure(
     open_gap: NDArray[np.float64],
@@ -40,7 +48,7 @@ def bedding_pressure(
     gap = open_gap - plane.field(support.with_prescribed(np.zeros(3)))
     cells = 100
     pressure = np.zeros_like(open_gap)
-    for _ in range(4):
+    for _ in range(2):
         stiffness = 1 / (compliance * np.sqrt(cell_area * cells))
         pressure = stiffness * _overlap(gap, stiffness * cell_area, support, plane)
         cells = max(int((pressure > 0).sum()), 1)
@@ -50,23 +58,50 @@ def bedding_pressure(
 def _overlap(
     gap: NDArray[np.float64], spring: float, support: Support, plane: RigidPlane
 ) -> NDArray[np.float64]:
-    """Overlap of a balanced body with a bedding: damped Newton on a convex energy."""
+    """Overlap of a balanced body with a bedding, from a soft one to the wanted one by steps.
+
+    A few cells under a stiff bedding cannot say which way the body has to tilt; the many cells of
+    a softer one can.
+    """
     target = support.targets / spring
-    # Deep enough that one cell alone would carry the force: Newton comes down from there.
-    motion = np.array([float(gap.min()) + target[0], 0.0, 0.0])
+    bearing = np.isfinite(gap).astype(float)
+    overlap = bearing
+    motion = np.array([float(gap.min()), 0.0, 0.0])
+    for softening in SOFTENINGS:
+        # At first deep enough that one cell alone would carry the force: Newton comes down.
+        motion[0] += target[0] * softening if overlap is bearing else 0.0
+        motion, overlap = _settled(gap, motion, target * softening, plane, support.free, bearing)
+        bearing = (overlap > 0).astype(float)
+    return overlap
+
+
+def _settled(
+    gap: NDArray[np.float64],
+    motion: NDArray[np.float64],
+    target: NDArray[np.float64],
+    plane: RigidPlane,
+    free: NDArray[np.bool_],
+    bearing: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Motion of least energy and its overlap: damped Newton on a convex function.
+
+    The cells that bore the body on a softer bedding lend a little stiffness, so that no motion is
+    ever without any.
+    """
     energy, overlap = _energy(gap, motion, target, plane)
-    for _ in range(60):
-        inverse = plane.inverse_gram((overlap > 0).astype(float), support.free)
+    for _ in range(MAX_NEWTON):
+        inverse = plane.inverse_gram((overlap > 0) + LENT * bearing, free)
         newton = inverse @ (target - plane.sums(overlap))
         before = energy
         for halving in range(20):
-            energy, overlap = _energy(gap, motion + newton / 2**halving, target, plane)
+            moved = motion + newton / 2**halving
+            energy, overlap = _energy(gap, moved, target, plane)
             if energy <= before:
                 break
-        motion = motion + newton / 2**halving
-        if before - energy <= 1e-14 * abs(before):
+        motion = moved
+        if before - energy <= 1e-13 * abs(before):
             break
-    return overlap
+    return motion, overlap
 
 
 def _energy(

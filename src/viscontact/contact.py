@@ -22,6 +22,9 @@ PATIENCE = 40
 
 MAX_ITERATIONS = 400
 
+#: A contact that outgrows its patch this often is not found by growing patches.
+MAX_PATCHES = 20
+
 #: Moments and force of a guess within this are as good as balanced.
 BALANCED = 1e-12
 
@@ -142,11 +145,28 @@ def solve_contact(
     ----------
     I. A. Polonsky, L. M. Keer, Wear 231 (1999) 206.
     """
+    starts = (guess, None) if guess is not None else (None,)
+    for start in starts:
+        # A guess can be worse than none, after a load has changed beyond recognition.
+        first = _bedding(problem, half_space.whole) if start is None else start
+        solution = _solve_from(first, problem, half_space, tolerance, max_iterations)
+        if solution.converged:
+            break
+    return solution
+
+
+def _solve_from(
+    start: Guess,
+    problem: ContactProblem,
+    half_space: HalfSpace,
+    tolerance: float,
+    max_iterations: int,
+) -> ContactSolution:
+    """Search on patches until the whole grid agrees."""
     whole = half_space.whole
-    start = _bedding(problem, whole) if guess is None else guess
     cells = start.pressure > 0
     iterations = convolutions = 0
-    while True:
+    for _ in range(MAX_PATCHES):
         patch = half_space.patch_around(cells)
         search = Search(problem.within(patch), patch, start.within(patch))
         search.run(tolerance, max_iterations - iterations)
@@ -157,12 +177,12 @@ def solve_contact(
         start = replace(search.now, pressure=pressure, deflection=whole.convolution.apply(pressure))
         checked = measure(problem, whole, start)
         start = replace(start, motion=checked.motion)
-        converged = checked.within(tolerance)
-        if converged or search.gave_up or iterations >= max_iterations:
-            return ContactSolution(
-                start, checked.gap, checked.error, iterations, convolutions, converged
-            )
+        if checked.within(tolerance) or search.gave_up:
+            break
         cells = (pressure > 0) | (checked.gap < 0)
+    return ContactSolution(
+        start, checked.gap, checked.error, iterations, convolutions, checked.within(tolerance)
+    )
 
 
 @dataclass(frozen=True, eq=False)

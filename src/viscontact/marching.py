@@ -182,7 +182,7 @@ def _instants(run: Run) -> Iterator[tuple[Step, Instant]]:
         twin = Twin(step.time, twin_force, response.of(values), motion)
         memory.accept(values)
         force_memory.accept(np.array([point.force]))
-        past = [*([] if step.is_jump else past), twin]
+        past = [] if outcome is Outcome.NO_CONTACT else [*([] if step.is_jump else past), twin]
         instant = _whole(half_space, solution, twin, outcome)
         scale = max(scale, float(instant.displacement.max()))
         _refuse_rim(run, step, instant)
@@ -191,7 +191,7 @@ def _instants(run: Run) -> Iterator[tuple[Step, Instant]]:
 
 def _guess(twin: Twin | None, response: Response) -> Guess | None:
     """From a predicted twin back to the pressure and the deflection that would bring it about."""
-    if twin is None or not twin.fields[0].any():
+    if twin is None:
         return None
     pressure, deflection = (twin.fields - response.history) / response.compliance
     return Guess(pressure, deflection, twin.motion)

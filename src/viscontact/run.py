@@ -65,7 +65,9 @@ class Run:
     def is_mirrored(self) -> bool:
         """Whether shape and load are even across y = 0, so that one half tells all."""
         even_grid = self.grid.shape[1] % 2 == 0
-        even_load = not np.any(self.load.eccentricity_y) and not np.any(self.load.tilt_y or 0.0)
+        even_load = not np.any(self.load.eccentricity_y) and (
+            self.load.tilt_y is None or not np.any(self.load.tilt_y)
+        )
         return bool(
             even_grid and even_load and np.array_equal(self.open_gap, self.open_gap[:, ::-1])
         )
