@@ -16,14 +16,14 @@ LENT = 0.01
 MAX_NEWTON = 40
 
 
-def bedding_pressure(
+def settle_on_bedding(
     open_gap: NDArray[np.float64],
     compliance: float,
     support: Support,
     plane: RigidPlane,
     cell_area: float,
-) -> NDArray[np.float64]:
-    """Balanced pressure of a body pressed on independent springs.
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Balanced pressure and rigid motion of a body pressed on independent springs.
 
     The springs' stiffness is matched to the half-space by the contact's own size.
 
@@ -42,37 +42,40 @@ def bedding_pressure(
 
     Returns
     -------
-    ndarray, shape (nx, ny)
+    pressure : ndarray, shape (nx, ny)
         Non-negative pressure [Pa], balanced wherever the resultants can be.
+    motion : ndarray, shape (3,)
+        Approach [m] and tilts [rad] with which nothing overlaps but what is pressed.
     """
-    gap = open_gap - plane.field(support.with_prescribed(np.zeros(3)))
+    given = support.with_prescribed(np.zeros(3))
+    gap = open_gap - plane.field(given)
     cells = 100
-    pressure = np.zeros_like(open_gap)
     for _ in range(2):
         stiffness = 1 / (compliance * np.sqrt(cell_area * cells))
-        pressure = stiffness * _overlap(gap, stiffness * cell_area, support, plane)
-        cells = max(int((pressure > 0).sum()), 1)
-    return pressure
+        target = support.targets / (stiffness * cell_area)
+        motion, overlap = _balanced(gap, target, plane, support.free)
+        cells = max(int((overlap > 0).sum()), 1)
+    return stiffness * overlap, given + motion
 
 
-def _overlap(
-    gap: NDArray[np.float64], spring: float, support: Support, plane: RigidPlane
-) -> NDArray[np.float64]:
-    """Overlap of a balanced body with a bedding, from a soft one to the wanted one by steps.
+def _balanced(
+    gap: NDArray[np.float64],
+    target: NDArray[np.float64],
+    plane: RigidPlane,
+    free: NDArray[np.bool_],
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Motion and overlap on a bedding, from a soft one to the wanted one by steps.
 
     A few cells under a stiff bedding cannot say which way the body has to tilt; the many cells of
     a softer one can.
     """
-    target = support.targets / spring
     bearing = np.isfinite(gap).astype(float)
-    overlap = bearing
-    motion = np.array([float(gap.min()), 0.0, 0.0])
+    # At first deep enough that one cell alone would carry the force: Newton comes down.
+    motion = np.array([float(gap.min()) + target[0] * SOFTENINGS[0], 0.0, 0.0])
     for softening in SOFTENINGS:
-        # At first deep enough that one cell alone would carry the force: Newton comes down.
-        motion[0] += target[0] * softening if overlap is bearing else 0.0
-        motion, overlap = _settled(gap, motion, target * softening, plane, support.free, bearing)
+        motion, overlap = _settled(gap, motion, target * softening, plane, free, bearing)
         bearing = (overlap > 0).astype(float)
-    return overlap
+    return motion, overlap
 
 
 def _settled(

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.balance import Support, restore_balance
-from viscontact.bedding import bedding_pressure
+from viscontact.bedding import settle_on_bedding
 from viscontact.half_space import HalfSpace, Patch
 
 #: Iterations without a new best error after which a search is called stagnant.
@@ -352,7 +352,7 @@ class Search:
             pressure, problem.support, patch.plane, patch.cell_area, patch.arm
         )
         if restored is None:
-            self.now = replace(_bedding(problem, patch), motion=self.now.motion)
+            self.now = _bedding(problem, patch)
         else:
             deflection = patch.convolution.apply(restored)
             self.now = replace(self.now, pressure=restored, deflection=deflection)
@@ -369,8 +369,7 @@ def _inner(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
 
 
 def _bedding(problem: ContactProblem, patch: Patch) -> Guess:
-    pressure = bedding_pressure(
+    pressure, motion = settle_on_bedding(
         problem.open_gap, problem.compliance, problem.support, patch.plane, patch.cell_area
     )
-    motion = problem.support.with_prescribed(np.zeros(3))
     return Guess(pressure, patch.convolution.apply(pressure), motion)
