@@ -137,3 +137,26 @@ def test_slow_contact_is_largest_after_the_peak_of_the_force():
     radius = np.cbrt(0.75 * RADIUS * FORCE / (MODULUS * rise) * (force + passed / TIME))
     grown = (times <= 2 * rise - TIME) & (radius > 12 * grid.cell_size[0])
     np.testing.assert_allclose(np.sqrt(area[grown] / math.pi), radius[grown], rtol=4e-3)
+
+
+@pytest.mark.parametrize("left", [0.4, 0.1], ids=["within what crept", "within the first contact"])
+def test_sudden_unloading_of_a_crept_contact(left):
+    """Ting (1966) across a jump, at once: a step F, held for 1.5 tau, drops to a part of it.
+
+    For a Maxwell body F(t) = F exp(-(t - t1)/tau) while t1 >= 0; smaller circles than that of
+    time 0 lie in the pressure of then, relaxed: a³ = (3 R/4) F(t)/M(t).
+    Measured: radius 7e-4 and 2e-4, at 32 and 21 cells a radius.
+    """
+    held = 1.5 * TIME
+    body = BODIES["maxwell"]
+    earlier = held + TIME * math.log(left)
+    crept = body.creep(earlier) if earlier >= 0 else left / body.relaxation(held)
+    radius, widest = (
+        math.cbrt(0.75 * RADIUS * FORCE * value) for value in (crept, body.creep(held))
+    )
+    grid = grid_around((widest, widest), (37.2, 37.2))
+    load = vc.ForceHistory([0.0, held, held, 2 * held], np.array([1, 1, left, left]) * FORCE)
+    times = vc.uniform_times(held, 60)  # the state at a jump is the one just after it
+    state = list(vc.march(BALL, body.material, load, grid, times, tolerance=1e-7))[-1]
+    assert state.force == pytest.approx(left * FORCE, rel=1e-6)
+    assert math.sqrt(state.contact_area / math.pi) == pytest.approx(radius, rel=2.5e-3)
