@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from viscontact.balance import RigidPlane, Support
 
-#: Beddings softer than the wanted one by these factors are settled on first.
-SOFTENINGS = tuple(4.0**power for power in range(8, -1, -1))
+#: From one bedding to the next it stiffens by this factor.
+STIFFENING = 4.0
 
 #: Part of their stiffness that the last bedding's cells lend to the next.
 LENT = 0.01
@@ -69,13 +69,18 @@ def _balanced(
     A few cells under a stiff bedding cannot say which way the body has to tilt; the many cells of
     a softer one can.
     """
-    bearing = np.isfinite(gap).astype(float)
-    # At first deep enough that one cell alone would carry the force: Newton comes down.
-    motion = np.array([float(gap.min()) + target[0] * SOFTENINGS[0], 0.0, 0.0])
-    for softening in SOFTENINGS:
+    solid = np.isfinite(gap)
+    bearing = solid.astype(float)
+    # The first bedding is so soft that about half of the body would bear.
+    depth = float(np.median(gap[solid]))
+    softening = max(float(np.maximum(depth - gap, 0.0).sum() / target[0]), 1.0)
+    motion = np.array([depth, 0.0, 0.0])
+    while True:
         motion, overlap = _settled(gap, motion, target * softening, plane, free, bearing)
+        if softening == 1:
+            return motion, overlap
         bearing = (overlap > 0).astype(float)
-    return motion, overlap
+        softening = max(softening / STIFFENING, 1.0)
 
 
 def _settled(
@@ -94,15 +99,14 @@ def _settled(
     energy, overlap = _energy(gap, motion, target, plane)
     for _ in range(MAX_NEWTON):
         inverse = plane.inverse_gram((overlap > 0) + LENT * bearing, free)
-        newton = inverse @ (target - plane.sums(overlap))
-        before = energy
+        newton, before = inverse @ (target - plane.sums(overlap)), energy
         for halving in range(20):
             moved = motion + newton / 2**halving
             energy, overlap = _energy(gap, moved, target, plane)
             if energy <= before:
                 break
         motion = moved
-        if before - energy <= 1e-13 * abs(before):
+        if before - energy <= 1e-16 * abs(before):
             break
     return motion, overlap
 

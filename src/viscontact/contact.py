@@ -265,11 +265,10 @@ class Search:
     def __init__(self, problem: ContactProblem, patch: Patch, start: Guess) -> None:
         self.problem, self.patch = problem, patch
         self.iterations = self.convolutions = 0
-        self.gave_up = False
         self.now = replace(start, motion=problem.support.with_prescribed(start.motion))
         self._residual = self._direction = np.zeros(0)
         self._slope = 0.0
-        self._keep_admissible()
+        self.gave_up = not self._keep_admissible()
 
     def run(self, tolerance: float, max_iterations: int) -> None:
         """Iterate until the tolerance is met, or no progress is made.
@@ -282,7 +281,7 @@ class Search:
             Most search directions.
         """
         best, since_best = np.inf, 0
-        while True:
+        while not self.gave_up:
             checked = measure(self.problem, self.patch, self.now)
             self.now = replace(self.now, motion=checked.motion)
             if checked.within(tolerance):
@@ -290,9 +289,8 @@ class Search:
             since_best = 0 if checked.error < best else since_best + 1
             best = min(best, checked.error)
             self.gave_up = self.iterations >= max_iterations or since_best > PATIENCE
-            if self.gave_up:
-                return
-            self._advance(checked)
+            if not self.gave_up:
+                self._advance(checked)
 
     def _advance(self, checked: Measure) -> None:
         """Steps 2 to 5: precondition, project, conjugate, step exactly, cut and rebalance."""
@@ -326,7 +324,8 @@ class Search:
         return vector
 
     def _step(self) -> None:
-        direction = self._direction
+        """Step 4 and 5: to the least energy along the direction, then cut and rebalance."""
+        direction, before = self._direction, self.now
         change = self.patch.convolution.apply(direction)
         self.convolutions += 1
         curvature = self.problem.compliance * _inner(direction, change)
@@ -334,33 +333,44 @@ class Search:
             self._slope = 0.0
             return
         length = -_inner(self._residual, direction) / curvature
-        self.now = replace(
-            self.now,
-            pressure=self.now.pressure + length * direction,
-            deflection=self.now.deflection + length * change,
-        )
-        self._keep_admissible()
+        self.now = _moved(before, length, direction, change)
+        if not self._keep_admissible():
+            # What is left after the cut cannot be balanced: go only as far as nothing is cut.
+            falling = length * direction < 0
+            room = before.pressure[falling] / -(length * direction[falling])
+            self.now = _moved(before, length * float(room.min()), direction, change)
+            self._slope = 0.0
 
-    def _keep_admissible(self) -> None:
-        """No tension, balances kept; convolve again only if that changed anything."""
+    def _keep_admissible(self) -> bool:
+        """No tension, balances kept, convolved again only if that changed anything; if possible."""
         problem, patch = self.problem, self.patch
         pressure = self.now.pressure
         if float(pressure.min()) >= 0 and self._is_balanced(pressure):
-            return
+            return True
         pressure = np.where(np.isfinite(problem.open_gap), np.maximum(pressure, 0.0), 0.0)
         restored = restore_balance(
             pressure, problem.support, patch.plane, patch.cell_area, patch.arm
         )
         if restored is None:
-            self.now = _bedding(problem, patch)
-        else:
-            deflection = patch.convolution.apply(restored)
-            self.now = replace(self.now, pressure=restored, deflection=deflection)
+            return False
+        deflection = patch.convolution.apply(restored)
+        self.now = replace(self.now, pressure=restored, deflection=deflection)
         self.convolutions += 1
+        return True
 
     def _is_balanced(self, pressure: NDArray[np.float64]) -> bool:
         sums = self.patch.plane.sums(pressure) * self.patch.cell_area
         return self.problem.support.imbalance(sums, self.patch.arm) < BALANCED
+
+
+def _moved(
+    now: Guess, length: float, direction: NDArray[np.float64], change: NDArray[np.float64]
+) -> Guess:
+    return replace(
+        now,
+        pressure=now.pressure + length * direction,
+        deflection=now.deflection + length * change,
+    )
 
 
 def _inner(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:

@@ -129,6 +129,8 @@ class HalfSpace:
         Patch
             The last one if it fits well, the whole if a patch would save little.
         """
+        if not cells.any():
+            return self.whole
         rows, columns = _span(np.any(cells, axis=1)), _span(np.any(cells, axis=0))
         if self.mirrored:
             columns = slice(0, columns.stop)
@@ -163,7 +165,7 @@ class HalfSpace:
 
 def _span(occupied: NDArray[np.bool_] | np.bool_) -> slice:
     index = np.flatnonzero(occupied)
-    return slice(int(index[0]), int(index[-1]) + 1) if len(index) else slice(0, 1)
+    return slice(int(index[0]), int(index[-1]) + 1)
 
 
 def _widened(span: slice, cells: int, *, one_sided: bool) -> slice:
