@@ -183,7 +183,7 @@ def _instants(run: Run) -> Iterator[tuple[Step, Instant]]:
         memory.accept(values)
         force_memory.accept(np.array([point.force]))
         past = [] if outcome is Outcome.NO_CONTACT else [*([] if step.is_jump else past), twin]
-        instant = _whole(half_space, solution, twin, outcome)
+        instant = _whole(half_space, solution, twin, outcome, response.resolved)
         scale = max(scale, float(instant.displacement.max()))
         _refuse_rim(run, step, instant)
         yield step, instant
@@ -210,7 +210,11 @@ def _apart(
 
 
 def _whole(
-    half_space: HalfSpace, solution: ContactSolution, twin: Twin, outcome: Outcome
+    half_space: HalfSpace,
+    solution: ContactSolution,
+    twin: Twin,
+    outcome: Outcome,
+    resolved: bool,
 ) -> Instant:
     """The instant on the whole grid."""
     found = solution.found
@@ -224,6 +228,7 @@ def _whole(
         solution.residual,
         solution.iterations,
         outcome,
+        resolved,
     )
 
 

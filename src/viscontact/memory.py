@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import brentq
 
 from viscontact.material import ContactCompliance
 
@@ -28,10 +29,13 @@ class Response:
     compliance : float
         Compliance that meets the new value q itself: the mean of J over a ramp of the step's
         length, or J(0) for a jump [1/Pa].
+    resolved : bool
+        Whether the step is short enough for the law to be taken as linear throughout.
     """
 
     history: NDArray[np.float64]
     compliance: float
+    resolved: bool
 
     def of(self, value: NDArray[np.float64]) -> NDArray[np.float64]:
         """The displacement if the field ends the step at a value."""
@@ -89,10 +93,15 @@ class Memory:
         self._decay = np.ones(len(self._fields))
         self._old_weight = np.zeros(len(self._fields))
         self._new_weight = np.zeros(len(self._fields))
-        return self._response()
+        return self._response(resolved=True)
 
     def ramp(self, duration: float) -> Response:
-        """Response to a change that is linear over the given time.
+        """Response to a change over a step of the given time.
+
+        The field rises linearly, over the whole step wherever the step is short enough for the
+        law, and so with an error of second order. Over a step long against the relaxation times a
+        line through the whole step would make the field ring about its true value, step after
+        step: there it rises over the first part of the step, and is held over the rest.
 
         Parameters
         ----------
@@ -103,15 +112,42 @@ class Memory:
         -------
         Response
             History at the end of the step and the compliance of the new value.
+
+        Notes
+        -----
+        An error in the old value returns in the new one, reversed, by the ratio of old to J(0) +
+        new weight. The rise is the longest whose old weight is within J(0), which halves it at
+        least. With J(0) = 0 (a first-kind equation, where the trapezoidal rule is known not to
+        damp: Linz 1985, Analytical and Numerical Methods for Volterra Equations) the
+        rise is a jump.
         """
-        ratio = duration / self._times
-        new = _share_of_new(ratio)
-        old = -np.expm1(-ratio) - new
-        flow = [self._fluidity * duration / 2] if self._fluidity > 0 else []
-        self._decay = np.append(np.exp(-ratio), np.ones(len(flow)))
-        self._old_weight = np.append(self._amplitudes * old, flow)
-        self._new_weight = np.append(self._amplitudes * new, flow)
-        return self._response()
+        rise = self._longest_smooth_rise(duration)
+        decays = np.exp(-duration / self._times)
+        self._decay = np.append(decays, np.ones(len(self._fields) - len(decays)))
+        self._old_weight, self._new_weight = self._weights(duration, rise)
+        return self._response(resolved=rise == duration)
+
+    def _longest_smooth_rise(self, duration: float) -> float:
+        def excess(rise: float) -> float:
+            return float(self._weights(duration, rise)[0].sum()) - self._instant
+
+        if excess(duration) <= 0:
+            return duration
+        return float(brentq(excess, 0.0, duration, rtol=1e-6)) if self._instant > 0 else 0.0
+
+    def _weights(
+        self, duration: float, rise: float
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Parts of the old and the new value in each term after a rise and a hold."""
+        ratio = rise / self._times
+        rest = np.exp((rise - duration) / self._times)
+        share = _share_of_new(ratio)
+        old = self._amplitudes * (-np.expm1(-ratio) - share) * rest
+        new = self._amplitudes * (share * rest - np.expm1((rise - duration) / self._times))
+        if self._fluidity > 0:
+            old = np.append(old, self._fluidity * rise / 2)
+            new = np.append(new, self._fluidity * (duration - rise / 2))
+        return old, new
 
     def accept(self, value: NDArray[np.float64]) -> None:
         """Take the new value of the field into the memory and close the step.
@@ -129,11 +165,11 @@ class Memory:
             field += new * value
         self._value = value.copy()
 
-    def _response(self) -> Response:
+    def _response(self, *, resolved: bool) -> Response:
         history = self._old_weight.sum() * self._value
         for field, decay in zip(self._fields, self._decay, strict=True):
             history += decay * field
-        return Response(history, self._instant + float(self._new_weight.sum()))
+        return Response(history, self._instant + float(self._new_weight.sum()), resolved)
 
 
 def _share_of_new(ratio: NDArray[np.float64]) -> NDArray[np.float64]:

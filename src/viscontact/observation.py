@@ -16,6 +16,7 @@ from viscontact.plausibility import (
     Geometry,
     geometry_doubts,
     mesh_doubts,
+    relative_change,
     step_doubts,
 )
 from viscontact.rim import Rim, trace_outline, trace_rim
@@ -44,6 +45,8 @@ class Instant:
         Search directions of the solver.
     outcome : Outcome
         How it ended.
+    resolved : bool
+        Whether the step was short enough for the law.
     """
 
     pressure: NDArray[np.float64]
@@ -54,6 +57,7 @@ class Instant:
     residual: float
     iterations: int
     outcome: Outcome
+    resolved: bool
 
 
 class Observer:
@@ -141,9 +145,12 @@ class Observer:
         if instant.outcome is Outcome.NO_CONTACT:
             return
         self._open = geometry_doubts(self._geometry, rim, instant.motion) | self._open
-        if self._before is not None and not step.is_jump:
-            peaks = [float(end.pressure.max()) for end in (self._before, instant)]
-            self._open = step_doubts(self._run.compliance, step.duration, *peaks) | self._open
+        if self._before is None or instant.resolved:
+            return
+        peaks = [float(end.pressure.max()) for end in (self._before, instant)]
+        forces = [float(end.pressure.sum()) for end in (self._before, instant)]
+        change = max(relative_change(*peaks), relative_change(*forces))
+        self._open = step_doubts(step.duration, change) | self._open
 
     def _work_of(self, step: Step, instant: Instant, resultants: NDArray[np.float64]) -> float:
         """Work over a step: trapezium rule on the motion; across a jump exact.
