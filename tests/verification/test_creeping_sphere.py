@@ -4,6 +4,7 @@ The hereditary integral is `reference`'s quadrature, which knows no time steps a
 M are written by hand in `creeping_bodies`.
 """
 
+import itertools
 import math
 
 import numpy as np
@@ -39,7 +40,7 @@ def errors(body, load, exact, times):
     grid, states = spread(body, load, times)
     radius = exact.contact_radius(times)
     fine = radius > 12 * grid.cell_size[0]
-    assert np.count_nonzero(fine) > 90
+    assert np.mean(fine) > 0.75
     expected = {
         "radius": (np.sqrt(over_time(states, "contact_area") / math.pi), radius),
         "approach": (over_time(states, "approach"), radius**2 / RADIUS),
@@ -96,27 +97,25 @@ def test_ramp_loaded_sphere_in_steps_that_grow_from_the_first_touch(name):
     assert found["radius"] < 3e-3
 
 
-@pytest.mark.xfail(
-    reason="the first steps of a ramp are of order 4/3: central pressure 4e-3 off at 120 steps",
-    raises=AssertionError,
-)
-def test_ramp_loaded_sphere_in_uniform_steps():
+def test_ramp_loaded_sphere_in_uniform_steps_is_of_order_four_thirds():
     """Lee & Radok (1960). A straight line stands for a cube root in the step of first touch.
 
-    Measured, over the largest pressure: 7.5e-3, 3.2e-3, 1.5e-3 early in the ramp at 60, 120, 240
-    steps; 1.8e-4 at the end of 120.
+    So uniform steps from first touch fall short of second order; steps that grow, as above, do
+    not. Measured, over the largest pressure: 7.5e-3, 3.2e-3, 1.5e-3 early in the ramp at 60, 120,
+    240 steps, which are orders 1.2 and 1.1; 1.8e-4 at the end of 120.
     """
     body = BODIES["maxwell"]
     exact = reference.lee_radok_ramp(FORCE, 95.0, RADIUS, body.creep, body.relaxation)
-    found = errors(body, vc.ramp(FORCE, 95.0), exact, vc.uniform_times(300.0, STEPS))
-    assert found["approach"] < 8e-4
-    assert found["pressure"] < 1e-3
+    found = [
+        errors(body, vc.ramp(FORCE, 95.0), exact, vc.uniform_times(300.0, steps))
+        for steps in (60, 120, 240)
+    ]
+    assert found[1]["approach"] < 8e-4
+    assert found[1]["pressure"] < 4e-3
+    orders = np.log2([a["pressure"] / b["pressure"] for a, b in itertools.pairwise(found)])
+    assert (orders > 0.9).all()
 
 
-@pytest.mark.xfail(
-    reason="with J(0) = 0 the pressure alternates from step to step by 50 % and does not settle",
-    raises=AssertionError,
-)
 @pytest.mark.parametrize("steps", [20, 80])
 def test_kelvin_voigt_body_under_a_ramp(steps):
     """Lee & Radok (1960) with M = E* (1 + tau delta): p(0) = 2 E*/(pi R) (a + tau da/dt).
@@ -133,7 +132,8 @@ def test_kelvin_voigt_body_under_a_ramp(steps):
     radius = np.cbrt(0.75 * RADIUS * crept)[late]
     rate = 0.25 * RADIUS * FORCE / (modulus * end) * delayed[late] / radius**2
     grid = grid_around((radius[-1],) * 2, (25.3, 25.3))
-    states = list(vc.march(BALL, material, vc.ramp(FORCE, end), grid, times))
+    with pytest.warns(vc.AccuracyWarning, match="long against the law"):
+        states = list(vc.march(BALL, material, vc.ramp(FORCE, end), grid, times))
     pressure = 2 * modulus / (math.pi * RADIUS) * (radius + tau * rate)
     np.testing.assert_allclose(central_pressure(grid, states)[late], pressure, rtol=1e-2)
     traced = np.sqrt(over_time(states, "contact_area") / math.pi)[late]

@@ -86,6 +86,7 @@ def test_bias_of_the_area_falls_with_the_cell_size():
 
 
 @pytest.mark.parametrize("ratio", [10, 100])
+@pytest.mark.filterwarnings("ignore:a time step:viscontact.AccuracyWarning")  # of pressure
 def test_area_of_a_held_soft_solid(ratio):
     """M(0)/M(inf) = 10 and 100, held until all creep is over.
 
@@ -119,12 +120,11 @@ def test_bias_and_scatter_of_a_held_soft_solid(ratio, cells):
     assert abs(errors).max() < 4e-3
 
 
-@pytest.mark.xfail(
-    reason="steps of 20 relaxation times let pressure at the rim ring and open holes: 6 % of area",
-    raises=AssertionError,
-)
 def test_area_does_not_suffer_from_steps_long_against_the_relaxation():
-    """M(0)/M(inf) = 100, 100 relaxation times in 40 steps even in log time; nothing warns."""
+    """M(0)/M(inf) = 100, 100 relaxation times in 40 steps even in log time.
+
+    A pressure linear over such steps rings at the rim and opens holes: 3 % of area.
+    """
     times = vc.log_times(0.01, 100 * RELAXATION_TIME, 40)
     errors = area_errors(soft_solid(100), times, 15, offsets=2).traced
     assert abs(errors).max() < 4e-3
