@@ -1,0 +1,123 @@
+"""The solver by itself: what it promises of its answer, and of bad starts and short budgets."""
+
+import numpy as np
+import pytest
+
+import viscontact as vc
+from verification.independent import deflection, love
+from viscontact.balance import Support
+from viscontact.contact import ContactProblem, Guess, solve_contact
+from viscontact.half_space import HalfSpace
+
+GRID = vc.Grid((40, 36), (0.5, 0.5))
+SPHERE = vc.Paraboloid(1.0, 0.6).gap(GRID.x[:, None], GRID.y[None, :])
+COMPLIANCE = 2.5e-7
+LOAD = Support((1e3, 20.0, -10.0))
+
+
+def problem(support=LOAD, open_gap=SPHERE):
+    return ContactProblem(open_gap, COMPLIANCE, support, 1e-15)
+
+
+@pytest.fixture(scope="module")
+def half_space():
+    return HalfSpace(GRID)
+
+
+@pytest.fixture(scope="module")
+def solution(half_space):
+    return solve_contact(problem(), half_space, tolerance=1e-10)
+
+
+def test_the_certificate_is_that_of_the_returned_pressure(half_space):
+    for tolerance in (1e-2, 1e-4, 1e-8, 1e-11):
+        found = solve_contact(problem(), half_space, tolerance=tolerance)
+        assert found.converged
+        assert found.residual <= tolerance
+        pressure, (approach, tilt_x, tilt_y) = found.found.pressure, found.found.motion
+        displacement = COMPLIANCE * deflection(pressure, GRID.cell_size)
+        plane = approach + tilt_x * GRID.x[:, None] + tilt_y * GRID.y[None, :]
+        gap = SPHERE + displacement - plane
+        touching = pressure > 0
+        violation = max(np.abs(gap[touching]).max(), -gap.min()) / displacement.max()
+        # Rounding of two routes to the gap; measured 1e-15.
+        assert violation == pytest.approx(found.residual, abs=1e-13)
+        assert np.abs(found.gap - gap).max() < 1e-13 * displacement.max()
+
+
+def test_the_answer_as_a_start_is_the_answer(half_space, solution):
+    again = solve_contact(problem(), half_space, solution.found, tolerance=1e-9)
+    assert again.iterations == 0
+    assert (again.found.pressure == solution.found.pressure).all()
+
+
+def nonsense(kind):
+    rng = np.random.default_rng(4)
+    pressure = {
+        "nothing": np.zeros(GRID.shape),
+        "negative": -np.ones(GRID.shape),
+        "noise": rng.standard_normal(GRID.shape) * 1e4,
+        "one cell aside": np.eye(40, 36, 20) * 1e5,
+        "far too much": np.full(GRID.shape, 1e12),
+        "hardly anything": np.full(GRID.shape, 1e-9),
+    }[kind]
+    return Guess(pressure, deflection(pressure, GRID.cell_size), np.zeros(3))
+
+
+@pytest.mark.parametrize(
+    "kind", ["nothing", "negative", "noise", "one cell aside", "far too much", "hardly anything"]
+)
+def test_any_start_leads_to_the_same_answer(kind, half_space, solution):
+    found = solve_contact(problem(), half_space, nonsense(kind), tolerance=1e-10)
+    assert found.converged
+    peak = solution.found.pressure.max()
+    # Both within 1e-10; measured 1e-9 of the peak.
+    assert np.abs(found.found.pressure - solution.found.pressure).max() < 1e-8 * peak
+
+
+def test_a_budget_too_small_is_owned_up_to(half_space):
+    found = solve_contact(problem(), half_space, tolerance=1e-10, max_iterations=2)
+    assert not found.converged
+    assert found.residual > 1e-10
+
+
+def test_a_tolerance_beyond_rounding_ends_and_says_so(half_space):
+    found = solve_contact(problem(), half_space, tolerance=1e-18)
+    assert not found.converged
+    assert found.residual < 1e-11
+
+
+def test_prescribed_tilts_are_kept_and_their_moments_not_balanced(half_space):
+    support = Support((1e3, None, None), (0.0, 0.02, -0.01))
+    found = solve_contact(problem(support), half_space, tolerance=1e-8)
+    assert found.converged
+    assert found.found.motion[1:].tolist() == [0.02, -0.01]
+
+
+def test_cells_without_a_surface_carry_nothing(half_space):
+    hole = SPHERE.copy()
+    hole[18:22, 16:20] = np.inf
+    found = solve_contact(problem(open_gap=hole), half_space, tolerance=1e-8)
+    assert found.converged
+    assert not found.found.pressure[np.isinf(hole)].any()
+    assert (found.gap[np.isinf(hole)] == np.inf).all()
+
+
+def test_two_peaks_share_a_force_between_them_by_the_lever():
+    # Statics: a force at a third of the way puts two thirds on the nearer peak, however unequal
+    # their heights; the body tilts until both touch.
+    grid, open_gap = vc.Grid((40, 9), (4.0, 0.9)), np.full((40, 9), np.inf)
+    open_gap[4, 4], open_gap[34, 4] = 0.0, 0.1
+    near, far = grid.x[4], grid.x[34]
+    where = near + (far - near) / 3
+    support = Support((9.0, 9.0 * where, 0.0))
+    case = ContactProblem(open_gap, 1e-6, support, 1e-15)
+    found = solve_contact(case, HalfSpace(grid), tolerance=1e-9)
+    assert found.converged
+    shares = found.found.pressure[[4, 34], 4] * grid.cell_area
+    assert shares == pytest.approx([6.0, 3.0], rel=1e-8)
+    # Two gaps, two displacements of their own and of each other: closed form.
+    own, other = (float(love(d, 0.0, *grid.cell_size)) for d in (0.0, far - near))
+    sinks = 1e-6 * (np.array([[own, other], [other, own]]) @ found.found.pressure[[4, 34], 4])
+    tilt = (sinks[1] + 0.1 - sinks[0]) / (far - near)
+    assert found.found.motion[1] == pytest.approx(tilt, rel=1e-8)

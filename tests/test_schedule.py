@@ -1,0 +1,65 @@
+"""Every instant asked for is met once, and no kink or jump of the load is stepped over."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from viscontact.load import ForceHistory, ramp, step
+from viscontact.schedule import schedule
+
+moments = st.lists(st.integers(0, 40), min_size=1, max_size=8, unique=True).map(
+    lambda found: np.sort(np.array(found, dtype=float))
+)
+forces = st.lists(st.integers(0, 3), min_size=2, max_size=8)
+
+
+@given(moments, forces, st.data())
+def test_steps_tile_the_run_and_give_each_instant_asked_for_once(times, force, data):
+    count = len(force)
+    pool = st.integers(0, 40)
+    knots = sorted(data.draw(st.lists(pool, min_size=count, max_size=count).filter(_two_at_most)))
+    load = ForceHistory(np.array(knots, dtype=float), np.array(force, dtype=float) + 1.0)
+    steps = schedule(times, load)
+    assert steps[0].time == 0.0
+    assert steps[0].is_jump
+    assert sum(each.duration for each in steps) == pytest.approx(times[-1])
+    assert [each.time for each in steps if each.wanted] == times.tolist()
+    for before, after in pairwise(steps):
+        assert after.time - before.time == after.duration >= 0
+        # No kink inside a step, and the last step at an instant is the one that is shown.
+        assert not ((load.kinks > before.time) & (load.kinks < after.time)).any()
+        assert not (before.wanted and after.is_jump)
+
+
+def _two_at_most(knots):
+    return max(knots.count(knot) for knot in knots) <= 2
+
+
+def test_a_jump_is_approached_and_then_taken():
+    load = ForceHistory([0, 2, 2], [1.0, 1.0, 5.0])
+    steps = schedule(np.array([0.0, 2.0, 3.0]), load)
+    assert [(each.time, each.duration, each.wanted) for each in steps] == [
+        (0.0, 0.0, True),
+        (2.0, 2.0, False),
+        (2.0, 0.0, True),
+        (3.0, 1.0, True),
+    ]
+    assert [float(load.force_at(each.time, side=each.side)) for each in steps] == [1, 1, 5, 5]
+
+
+def test_what_happens_after_the_last_instant_is_not_stepped():
+    assert [each.time for each in schedule(np.array([1.0]), ramp(1.0, 5.0))] == [0.0, 1.0]
+
+
+def test_a_step_after_a_kink_is_not_predicted_from_before_it():
+    smooth = {each.time: each.smooth for each in schedule(np.arange(6.0), ramp(1.0, 2.0))}
+    assert smooth == {0.0: False, 1.0: False, 2.0: True, 3.0: False, 4.0: True, 5.0: True}
+
+
+def test_a_step_load_starts_with_its_jump():
+    (only,) = schedule(np.array([0.0]), step(3.0))
+    assert only.is_jump
+    assert only.side == "right"
