@@ -67,8 +67,8 @@ def test_applying_does_not_touch_its_argument_nor_what_it_returned_before():
 
 
 def test_threads_change_nothing():
-    (pressure,) = fields((40, 33))
-    one, two = (Convolution(influence_table((40, 33), CELL), n).apply(pressure) for n in (1, 2))
+    (pressure,), table = fields((40, 33)), influence_table((40, 33), CELL)
+    one, two = (Convolution(table, threads=n).apply(pressure) for n in (1, 2))
     assert (one == two).all()
 
 
