@@ -22,8 +22,9 @@ PATIENCE = 40
 
 MAX_ITERATIONS = 400
 
-#: A contact that outgrows its patch this often is not found by growing patches.
-MAX_PATCHES = 20
+#: Rounds of search and check. A second one is due where a contact outgrows its patch, or where the
+#: tolerance asks for more than single precision gives in one.
+MAX_ROUNDS = 20
 
 #: Moments and force of a guess within this are as good as balanced.
 BALANCED = 1e-12
@@ -148,7 +149,7 @@ def solve_contact(
     starts = (guess, None) if guess is not None else (None,)
     for start in starts:
         # A guess can be worse than none, after a load has changed beyond recognition.
-        first = _bedding(problem, half_space.whole) if start is None else start
+        first = _bedding(problem, half_space) if start is None else start
         solution = _solve_from(first, problem, half_space, tolerance, max_iterations)
         if solution.converged:
             break
@@ -163,10 +164,9 @@ def _solve_from(
     max_iterations: int,
 ) -> ContactSolution:
     """Search on patches until the whole grid agrees."""
-    whole = half_space.whole
     cells = start.pressure > 0
     iterations = convolutions = 0
-    for _ in range(MAX_PATCHES):
+    for _ in range(MAX_ROUNDS):
         patch = half_space.patch_around(cells)
         search = Search(problem.within(patch), patch, start.within(patch))
         search.run(tolerance, max_iterations - iterations)
@@ -174,15 +174,29 @@ def _solve_from(
         convolutions += search.convolutions + 1
         # Certify what is returned, by a fresh convolution: not what the recurrence believes.
         pressure = patch.embed(search.now.pressure, half_space.shape)
-        start = replace(search.now, pressure=pressure, deflection=whole.convolution.apply(pressure))
-        checked = measure(problem, whole, start)
+        start = replace(
+            search.now, pressure=pressure, deflection=half_space.convolution.apply(pressure)
+        )
+        checked = measure(problem, half_space.whole, start)
         start = replace(start, motion=checked.motion)
-        if checked.within(tolerance) or search.gave_up:
+        converged = checked.error <= tolerance and _is_balanced(
+            problem, half_space, pressure, tolerance
+        )
+        if converged or search.gave_up:
             break
         cells = (pressure > 0) | (checked.gap < 0)
-    return ContactSolution(
-        start, checked.gap, checked.error, iterations, convolutions, checked.within(tolerance)
-    )
+    return ContactSolution(start, checked.gap, checked.error, iterations, convolutions, converged)
+
+
+def _is_balanced(
+    problem: ContactProblem,
+    half_space: HalfSpace,
+    pressure: NDArray[np.float64],
+    tolerance: float,
+) -> bool:
+    whole = half_space.whole
+    off = problem.support.imbalance(whole.plane.sums(pressure) * whole.cell_area, whole.arm)
+    return off <= tolerance
 
 
 @dataclass(frozen=True, eq=False)
@@ -199,22 +213,18 @@ class Measure:
         Rigid motion that fits best.
     gap : ndarray
         Gap with that motion [m].
+    gap_in_contact : ndarray
+        The same under pressure, zero elsewhere [m].
     error : float
         Largest gap under pressure or penetration elsewhere, over the largest displacement.
-    imbalance : float
-        Largest relative error of the balances.
     """
 
     contact: NDArray[np.bool_]
     inverse_gram: NDArray[np.float64]
     motion: NDArray[np.float64]
     gap: NDArray[np.float64]
+    gap_in_contact: NDArray[np.float64]
     error: float
-    imbalance: float
-
-    def within(self, tolerance: float) -> bool:
-        """Whether both are small enough."""
-        return self.error <= tolerance and self.imbalance <= tolerance
 
 
 def measure(problem: ContactProblem, patch: Patch, now: Guess) -> Measure:
@@ -232,21 +242,23 @@ def measure(problem: ContactProblem, patch: Patch, now: Guess) -> Measure:
     Returns
     -------
     Measure
-        Gap and errors.
+        Gap and error.
     """
-    plane, support = patch.plane, problem.support
     contact = now.pressure > 0
-    gap = problem.open_gap + problem.compliance * now.deflection
-    gap -= plane.field(now.motion)
-    inverse = plane.inverse_gram(contact.astype(float), support.free)
+    gap = problem.compliance * now.deflection
+    scale = max(problem.displacement_scale, float(gap.max()))
+    gap += problem.open_gap
+    gap -= patch.plane.field(now.motion)
+    gap_in_contact = np.where(contact, gap, 0.0)
+    weight = contact.astype(float)
+    inverse = patch.plane.inverse_gram(weight, problem.support.free)
     # A correction, so that a motion the contact does not determine stays as it was.
-    correction = inverse @ plane.sums(np.where(contact, gap, 0.0))
-    gap -= plane.field(correction)
-    violation = np.where(contact, np.abs(gap), -gap)
-    scale = max(problem.displacement_scale, problem.compliance * float(now.deflection.max()))
-    imbalance = support.imbalance(plane.sums(now.pressure) * patch.cell_area, patch.arm)
-    error = max(float(violation.max()), 0.0) / scale
-    return Measure(contact, inverse, now.motion + correction, gap, error, imbalance)
+    correction = inverse @ patch.plane.sums(gap_in_contact)
+    plane = patch.plane.field(correction)
+    gap -= plane
+    gap_in_contact -= np.multiply(plane, weight, out=plane)
+    error = max(float(gap_in_contact.max()), -float(gap.min()), 0.0) / scale
+    return Measure(contact, inverse, now.motion + correction, gap, gap_in_contact, error)
 
 
 class Search:
@@ -266,9 +278,10 @@ class Search:
         self.problem, self.patch = problem, patch
         self.iterations = self.convolutions = 0
         self.now = replace(start, motion=problem.support.with_prescribed(start.motion))
+        self._active = np.zeros(0, dtype=bool)
         self._residual = self._direction = np.zeros(0)
         self._slope = 0.0
-        self.gave_up = not self._keep_admissible()
+        self.gave_up = not (self._is_admissible() or self._make_admissible())
 
     def run(self, tolerance: float, max_iterations: int) -> None:
         """Iterate until the tolerance is met, or no progress is made.
@@ -276,7 +289,7 @@ class Search:
         Parameters
         ----------
         tolerance : float
-            Bound on the relative residual and the imbalance.
+            Bound on the relative residual.
         max_iterations : int
             Most search directions.
         """
@@ -284,7 +297,7 @@ class Search:
         while not self.gave_up:
             checked = measure(self.problem, self.patch, self.now)
             self.now = replace(self.now, motion=checked.motion)
-            if checked.within(tolerance):
+            if checked.error <= tolerance:
                 return
             since_best = 0 if checked.error < best else since_best + 1
             best = min(best, checked.error)
@@ -294,33 +307,35 @@ class Search:
 
     def _advance(self, checked: Measure) -> None:
         """Steps 2 to 5: precondition, project, conjugate, step exactly, cut and rebalance."""
-        active = checked.contact | (checked.gap < 0)
-        weight = active.astype(float)
-        inverse = checked.inverse_gram
-        if np.count_nonzero(active) > np.count_nonzero(checked.contact):
-            inverse = self.patch.plane.inverse_gram(weight, self.problem.support.free)
-        residual = np.where(active, checked.gap, 0.0)
-        steepest = self._project(self.patch.preconditioner.apply(residual), weight, inverse)
-        direction = -steepest
+        released = checked.gap < 0
+        released &= ~checked.contact
+        active, residual, inverse = checked.contact, checked.gap_in_contact, checked.inverse_gram
+        if released.any():
+            active = active | released
+            residual = np.where(active, checked.gap, 0.0)
+            inverse = self.patch.plane.inverse_gram(active.astype(float), self.problem.support.free)
+        direction = self._project(self.patch.preconditioner.apply(residual), active, inverse)
+        slope = _inner(direction, residual)
         if self._slope > 0:
-            change = _inner(steepest, residual) - _inner(steepest, self._residual)
-            conjugacy = max(change / self._slope, 0.0)
-            direction += conjugacy * self._project(self._direction, weight, inverse)
-        self._residual, self._direction = residual, direction
-        self._slope = _inner(steepest, residual)
+            change = slope - _inner(direction, self._residual)
+            before = self._direction
+            if not np.array_equal(active, self._active):
+                before = self._project(before, active, inverse)
+            # The sign: directions lead downhill, the preconditioned residual uphill.
+            direction -= max(change / self._slope, 0.0) * before
+        self._active, self._residual, self._slope = active, residual, slope
+        self._direction = np.negative(direction, out=direction)
         self.iterations += 1
         self._step()
 
     def _project(
-        self,
-        vector: NDArray[np.float64],
-        weight: NDArray[np.float64],
-        inverse: NDArray[np.float64],
+        self, vector: NDArray[np.float64], active: NDArray[np.bool_], inverse: NDArray[np.float64]
     ) -> NDArray[np.float64]:
         """Remove from a direction what lies outside the active cells or changes resultants."""
         plane = self.patch.plane
-        vector = weight * vector
-        vector -= weight * plane.field(inverse @ plane.sums(vector))
+        vector = np.where(active, vector, 0.0)
+        rigid = plane.field(inverse @ plane.sums(vector))
+        vector -= np.multiply(rigid, active, out=rigid)
         return vector
 
     def _step(self) -> None:
@@ -334,33 +349,32 @@ class Search:
             return
         length = -_inner(self._residual, direction) / curvature
         self.now = _moved(before, length, direction, change)
-        if not self._keep_admissible():
-            # What is left after the cut cannot be balanced: go only as far as nothing is cut.
-            falling = length * direction < 0
-            room = before.pressure[falling] / -(length * direction[falling])
-            self.now = _moved(before, length * float(room.min()), direction, change)
-            self._slope = 0.0
+        if float(self.now.pressure.min()) >= 0 or self._make_admissible():
+            return
+        # What is left after the cut cannot be balanced: go only as far as nothing is cut.
+        falling = length * direction < 0
+        room = before.pressure[falling] / -(length * direction[falling])
+        self.now = _moved(before, length * float(room.min()), direction, change)
+        self._slope = 0.0
 
-    def _keep_admissible(self) -> bool:
-        """No tension, balances kept, convolved again only if that changed anything; if possible."""
+    def _is_admissible(self) -> bool:
+        sums = self.patch.plane.sums(self.now.pressure) * self.patch.cell_area
+        off = self.problem.support.imbalance(sums, self.patch.arm)
+        return float(self.now.pressure.min()) >= 0 and off < BALANCED
+
+    def _make_admissible(self) -> bool:
+        """Cut off tension and restore the balances; whether that could be done."""
         problem, patch = self.problem, self.patch
-        pressure = self.now.pressure
-        if float(pressure.min()) >= 0 and self._is_balanced(pressure):
-            return True
-        pressure = np.where(np.isfinite(problem.open_gap), np.maximum(pressure, 0.0), 0.0)
+        pressure = np.where(np.isfinite(problem.open_gap), self.now.pressure, 0.0)
         restored = restore_balance(
-            pressure, problem.support, patch.plane, patch.cell_area, patch.arm
+            np.maximum(pressure, 0.0), problem.support, patch.plane, patch.cell_area, patch.arm
         )
         if restored is None:
             return False
-        deflection = patch.convolution.apply(restored)
-        self.now = replace(self.now, pressure=restored, deflection=deflection)
+        change = patch.convolution.apply(restored - self.now.pressure)
+        self.now = replace(self.now, pressure=restored, deflection=self.now.deflection + change)
         self.convolutions += 1
         return True
-
-    def _is_balanced(self, pressure: NDArray[np.float64]) -> bool:
-        sums = self.patch.plane.sums(pressure) * self.patch.cell_area
-        return self.problem.support.imbalance(sums, self.patch.arm) < BALANCED
 
 
 def _moved(
@@ -378,8 +392,9 @@ def _inner(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
     return float(np.einsum("ij,ij->", a, b))
 
 
-def _bedding(problem: ContactProblem, patch: Patch) -> Guess:
+def _bedding(problem: ContactProblem, half_space: HalfSpace) -> Guess:
+    whole = half_space.whole
     pressure, motion = settle_on_bedding(
-        problem.open_gap, problem.compliance, problem.support, patch.plane, patch.cell_area
+        problem.open_gap, problem.compliance, problem.support, whole.plane, whole.cell_area
     )
-    return Guess(pressure, patch.convolution.apply(pressure), motion)
+    return Guess(pressure, half_space.convolution.apply(pressure), motion)

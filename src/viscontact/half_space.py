@@ -33,7 +33,7 @@ class Patch:
     arm : float
         Its longer edge, the measure of moments against forces [m].
     convolution : Convolution or MirroredConvolution
-        Deflection of the patch under pressure on the patch.
+        Deflection of the patch under a change of pressure on the patch, in single precision.
     preconditioner : Preconditioner
         Rough inverse of it.
     plane : RigidPlane
@@ -66,8 +66,9 @@ class Patch:
 class HalfSpace:
     """A grid on the half-space: the patch of all its cells, and smaller ones around contacts.
 
-    Searching for the pressure on the contact's own patch costs a fraction of what the whole grid
-    does; what is found is checked on the whole grid. The last patch is kept, for a contact that
+    Searching for the pressure on the contact's own patch, by changes convolved in single
+    precision, costs a fraction of what the whole grid does; what is found is convolved on the
+    whole grid in double precision and checked there. The last patch is kept, for a contact that
     creeps stays in it for many steps. A problem that is even across y = 0 needs only the cells at
     y > 0: fields are then `fold`-ed, and supports halved, before they are used here.
 
@@ -80,12 +81,22 @@ class HalfSpace:
     threads : int
         Threads of one transform.
 
+    Attributes
+    ----------
+    whole : Patch
+        The patch of all cells that are worked with.
+    convolution : Convolution or MirroredConvolution
+        Deflection of all of them under a pressure, in double precision.
+
     Examples
     --------
     >>> half_space = HalfSpace(Grid((4, 8), (1.0, 1.0)), mirrored=True)
     >>> half_space.fold(np.ones((4, 8))).shape
     (4, 4)
     """
+
+    convolution: Convolution | MirroredConvolution
+    _operator: type[Convolution] | type[MirroredConvolution]
 
     def __init__(self, grid: Grid, *, mirrored: bool = False, threads: int = 1) -> None:
         if mirrored and grid.shape[1] % 2:
@@ -96,6 +107,8 @@ class HalfSpace:
         self._first_column = grid.shape[1] // 2 if mirrored else 0
         self.shape = (grid.shape[0], grid.shape[1] - self._first_column)
         self._coefficients = influence_table(grid.shape, grid.cell_size)
+        self._operator = MirroredConvolution if mirrored else Convolution
+        self.convolution = self._operator(self._coefficients, threads=threads)
         self.whole = self._patch(slice(0, self.shape[0]), slice(0, self.shape[1]))
         self._last = self.whole
 
@@ -148,17 +161,15 @@ class HalfSpace:
     def _patch(self, rows: slice, columns: slice) -> Patch:
         grid = self.grid
         shape = (rows.stop - rows.start, columns.stop - columns.start)
-        options = {"threads": self._threads}
         both_halves = 2 * shape[1] if self.mirrored else shape[1]
         coefficients = self._coefficients[: shape[0], :both_halves]
-        operator = MirroredConvolution if self.mirrored else Convolution
         return Patch(
             rows,
             columns,
             grid.cell_area,
             float(max(np.multiply(shape, grid.cell_size))),
-            operator(coefficients, **options),
-            Preconditioner(shape, grid.cell_size, mirrored=self.mirrored, **options),
+            self._operator(coefficients, single=True, threads=self._threads),
+            Preconditioner(shape, grid.cell_size, mirrored=self.mirrored, threads=self._threads),
             RigidPlane(grid.x[rows], grid.y[self._first_column :][columns], grid.cell_size),
         )
 

@@ -125,7 +125,10 @@ class Memory:
         decays = np.exp(-duration / self._times)
         self._decay = np.append(decays, np.ones(len(self._fields) - len(decays)))
         self._old_weight, self._new_weight = self._weights(duration, rise)
-        return self._response(resolved=rise == duration)
+        # What creeps within the step, by a line through it, must not outweigh J(0).
+        crept = self._amplitudes @ np.minimum(duration / self._times / 2, 1.0)
+        crept += self._fluidity * duration / 2
+        return self._response(resolved=bool(crept <= self._instant))
 
     def _longest_smooth_rise(self, duration: float) -> float:
         def excess(rise: float) -> float:

@@ -9,6 +9,7 @@ the contact. Where the body ends inside that cell, the rim is its outline.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -69,12 +70,12 @@ class Rim:
         cells = int(self.contact.sum())
         return self.grid.cell_area * (_enclosed_squares(self) if cells >= 9 else cells)
 
-    @property
+    @cached_property
     def length(self) -> float:
         """Extent of the contact along x [m]."""
         return _extent(self.contact, self.along_x) * self.grid.cell_size[0]
 
-    @property
+    @cached_property
     def width(self) -> float:
         """Extent of the contact along y [m]."""
         return _extent(self.contact.T, self.along_y.T) * self.grid.cell_size[1]
