@@ -84,8 +84,8 @@ def test_a_budget_too_small_is_owned_up_to(half_space):
 def test_a_tolerance_beyond_rounding_ends_and_says_so(half_space):
     found = solve_contact(problem(), half_space, tolerance=1e-18)
     assert not found.converged
-    # What it stopped at is still good; how good depends on where the search stalled.
-    assert found.residual < 1e-6
+    # What it stopped at is as good as rounding lets it be.
+    assert found.residual < 1e-11
 
 
 def test_prescribed_tilts_are_kept_and_their_moments_not_balanced(half_space):

@@ -166,6 +166,7 @@ def _solve_from(
     """Search on patches until the whole grid agrees."""
     cells = start.pressure > 0
     iterations = convolutions = 0
+    error = np.inf
     for _ in range(MAX_ROUNDS):
         patch = half_space.patch_around(cells)
         search = Search(problem.within(patch), patch, start.within(patch))
@@ -182,8 +183,10 @@ def _solve_from(
         converged = checked.error <= tolerance and _is_balanced(
             problem, half_space, pressure, tolerance
         )
-        if converged or search.gave_up:
+        stagnant = search.gave_up and checked.error > error / 2
+        if converged or stagnant or iterations >= max_iterations:
             break
+        error = checked.error
         cells = (pressure > 0) | (checked.gap < 0)
     return ContactSolution(start, checked.gap, checked.error, iterations, convolutions, converged)
 

@@ -131,12 +131,14 @@ class Memory:
         return self._response(resolved=bool(crept <= self._instant))
 
     def _longest_smooth_rise(self, duration: float) -> float:
-        def excess(rise: float) -> float:
-            return float(self._weights(duration, rise)[0].sum()) - self._instant
+        def excess(part: float) -> float:
+            return float(self._weights(duration, part * duration)[0].sum()) - self._instant
 
-        if excess(duration) <= 0:
+        if excess(1.0) <= 0:
             return duration
-        return float(brentq(excess, 0.0, duration, rtol=1e-6)) if self._instant > 0 else 0.0
+        if self._instant == 0:
+            return 0.0
+        return duration * float(brentq(excess, 0.0, 1.0, xtol=1e-15))
 
     def _weights(
         self, duration: float, rise: float

@@ -170,8 +170,10 @@ def _state(
     step: Step, instant: Instant, rim: Rim, resultants: NDArray[np.float64], work: float
 ) -> ContactState:
     force, moment_x, moment_y = (float(resultant) for resultant in resultants)
-    area = rim.area
     touching = force > 0
+    peak = float(instant.pressure.max())
+    # A few cells enclose next to nothing; but no mean pressure exceeds the peak.
+    area = max(rim.area, force / peak) if touching else 0.0
     return ContactState(
         time=step.time,
         pressure=instant.pressure,
@@ -186,7 +188,7 @@ def _state(
         contact_area=area,
         contact_length=rim.length,
         contact_width=rim.width,
-        peak_pressure=float(instant.pressure.max()),
+        peak_pressure=peak,
         mean_pressure=force / area if touching else 0.0,
         work=work,
         iterations=instant.iterations,

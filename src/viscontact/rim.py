@@ -63,12 +63,8 @@ class Rim:
 
     @property
     def area(self) -> float:
-        """Area enclosed by the polygons through the crossings [m²].
-
-        Fewer than nine cells enclose next to nothing: they are counted.
-        """
-        cells = int(self.contact.sum())
-        return self.grid.cell_area * (_enclosed_squares(self) if cells >= 9 else cells)
+        """Area enclosed by the polygons through the crossings [m²]."""
+        return self.grid.cell_area * _enclosed_squares(self)
 
     @cached_property
     def length(self) -> float:

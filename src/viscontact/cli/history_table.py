@@ -78,7 +78,8 @@ def _table(ds: xr.Dataset, rows: NDArray[np.int_]) -> Table:
     for name in ("time", *_COLUMNS):
         values = ds[name].values
         largest = float(np.nanmax(np.abs(values), initial=0.0))
-        if largest < 1e-12:  # an exactly centred load leaves tilts of rounding size
+        # An exactly centred load leaves tilts of rounding size.
+        if largest <= (1e-9 if name.startswith("tilt") else 0.0):
             continue
         unit = readable_unit(largest, ds[name].attrs["units"])
         heading = rf"{name.replace('_', ' ')} \[{unit.symbol}]"

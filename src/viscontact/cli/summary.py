@@ -18,7 +18,7 @@ _ROWS = (
     *("contact_area", "contact_length", "contact_width", "peak_pressure", "mean_pressure", "work"),
 )
 # Exactly centred loads leave tilts of rounding size.
-_NEGLIGIBLE = {"m": 1e-12, "rad": 1e-12}
+_NEGLIGIBLE = {"m": 1e-12, "rad": 1e-9}
 
 
 def print_summary(states: Sequence[ContactState], directory: Path, seconds: float) -> None:
