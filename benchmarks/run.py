@@ -11,19 +11,14 @@ the hardest yardstick. Ratios travel from machine to machine; seconds do not.
 from __future__ import annotations
 
 import argparse
-import os
-
-# Threads are set here, before NumPy reads them, so that a ratio means one core.
-for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
-    os.environ[name] = "1"
-
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-import viscontact as vc
 from scipy import fft
+
+import viscontact as vc
 
 CELLS = (256, 256)
 STEPS = 120

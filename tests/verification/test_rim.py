@@ -112,6 +112,7 @@ def test_area_of_a_soft_solid_held_for_100_relaxation_times(ratio):
 @pytest.mark.slow
 @pytest.mark.parametrize("cells", [15, 28])
 @pytest.mark.parametrize("ratio", [10, 100])
+@pytest.mark.filterwarnings("ignore:a time step:viscontact.AccuracyWarning")  # of pressure
 def test_bias_and_scatter_of_a_held_soft_solid(ratio, cells):
     """As above over 12 places: bias and scatter."""
     errors = area_errors(soft_solid(ratio), held(ratio, 40), cells, offsets=12).traced
