@@ -23,7 +23,7 @@ FLOORS = (
     ("errors", "grid", "load", "indenters", "laws"),  # 0 words: they do not know each other
     ("material", "influence", "memory", "state", "rim"),  # 1 single ideas
     ("convolution", "balance", "bedding", "half_space"),  # 2 operators on fields
-    ("contact",),  # 3 equilibrium at one instant
+    ("contact_problem", "search", "contact"),  # 3 equilibrium at one instant
     # 4 time
     (
         "stepping",
@@ -45,6 +45,9 @@ NEIGHBOURS = {
     ("bedding", "balance"),  # which resultants the first guess carries
     ("half_space", "balance"),  # the rigid planes and the operators over one grid
     ("half_space", "convolution"),
+    ("search", "contact_problem"),
+    ("contact", "contact_problem"),
+    ("contact", "search"),  # which finds the pressure
     ("run", "stepping"),  # the instants when none are given
     ("run", "extent"),  # the grid when none is given
     ("observation", "run"),  # which instants are kept

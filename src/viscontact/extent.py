@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from scipy import fft
 
 from viscontact.balance import Support
-from viscontact.contact import ContactProblem, solve_contact
+from viscontact.contact import solve_contact
+from viscontact.contact_problem import ContactProblem
 from viscontact.grid import Grid
 from viscontact.half_space import HalfSpace
 from viscontact.indenters import Indenter

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.balance import Support
-from viscontact.contact import ContactProblem, ContactSolution, Guess, solve_contact
+from viscontact.contact import ContactSolution, solve_contact
+from viscontact.contact_problem import ContactProblem, Guess
 from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
 from viscontact.grid import Grid
 from viscontact.half_space import HalfSpace
