@@ -177,7 +177,7 @@ def _reach_of_history(
     if not points:
         raise ValueError("load: the force is zero throughout; there is no contact to resolve")
     found = [estimate_contact(indenter, compliance, point) for point in points]
-    reach = np.max([estimate.reach for estimate in found], axis=0)
+    reach = np.array([estimate.reach for estimate in found], dtype=np.float64).max(axis=0)
     largest = found[int(np.argmax([point.force for point in points]))]
     return reach, np.array([largest.length, largest.width])
 
