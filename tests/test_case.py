@@ -174,6 +174,9 @@ def test_one_long_list_of_everything_that_is_wrong(tmp_path: Path) -> None:
         ("tolerance=1", "tolerance: must be less than or equal to 0.01"),
         ("loda.force=3 N", "loda: unknown key; did you mean 'load'?"),
         ("title.x=3", "without keys"),
+        ("indenter[1].radius=5 mm", "indenter is not a list; leave [1] out"),
+        ("[1]=5", "the case file is not a list"),
+        ("grid.shape[3]=5", "grid.shape is a list, its entries are [1] to [2]"),
         ("load.force", "write KEY=VALUE"),
     ],
 )

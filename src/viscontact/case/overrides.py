@@ -61,16 +61,28 @@ def _setting(text: str) -> tuple[KeyPath, Any]:
 
 def _put(data: Any, path: KeyPath, value: Any) -> str | None:
     """Put the value in its place; return why that is impossible, if it is."""
-    for position, step in enumerate(path[:-1]):
-        if isinstance(data, dict):
+    for position, step in enumerate(path):
+        if not (_takes_keys(data, step) or _has(data, step)):
+            return f"--set {dotted(path)}: {_why_not(data, step, path[:position])}"
+        if position == len(path) - 1:
+            data[step] = value
+        elif isinstance(data, dict):
             data.setdefault(step, {})
-        if not _has(data, step):
-            return f"--set {dotted(path)}: there is no {dotted(path[: position + 1])} to set it in"
         data = data[step]
-    if not (isinstance(data, dict) or _has(data, path[-1])):
-        return f"--set {dotted(path)}: {dotted(path[:-1])} is {str(data)[:40]!r}, without keys"
-    data[path[-1]] = value
     return None
+
+
+def _takes_keys(data: Any, step: str | int) -> bool:
+    return isinstance(data, dict) and isinstance(step, str)
+
+
+def _why_not(data: Any, step: str | int, path: KeyPath) -> str:
+    where = dotted(path) or "the case file"
+    if isinstance(data, list):
+        return f"{where} is a list, its entries are [1] to [{len(data)}]"
+    if isinstance(step, int):
+        return f"{where} is not a list; leave [{step + 1}] out"
+    return f"{where} is {str(data)[:40]!r}, without keys"
 
 
 def _has(data: Any, step: str | int) -> bool:
