@@ -11,6 +11,13 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from viscontact.units import DIMENSIONS, parse_quantity
 
+# Squares and products of these are still numbers.
+_SMALLEST, _LARGEST = 1e-100, 1e100
+
+# More cells along an axis than any machine holds, and more steps than anyone waits for: without
+# these bounds the arrays would be made before they could be refused.
+_MOST_CELLS, _MOST_STEPS = 10**9, 10**6
+
 ANY, NOT_NEGATIVE, POSITIVE = "any", "zero or more", "more than zero"
 
 
@@ -59,6 +66,10 @@ class Quantity:
             value = parse_quantity(given, self.dimension)
         except ValueError as error:
             raise _problem(str(error)) from error
+        if value != 0.0 and not _SMALLEST <= abs(value) <= _LARGEST:
+            raise _problem(
+                f"{given!r} is beyond what can be computed with; write e.g. {wanted.example!r}"
+            )
         refused = {ANY: False, NOT_NEGATIVE: value < 0, POSITIVE: value <= 0}[self.sign]
         if refused:
             raise _problem(f"must be {self.sign}, got {given!r}; write e.g. {wanted.example!r}")
@@ -109,7 +120,8 @@ Fluidity = Annotated[float, Quantity("fluidity", NOT_NEGATIVE)]
 Instant = Annotated[float, Quantity("time", NOT_NEGATIVE)]
 Duration = Annotated[float, Quantity("time", POSITIVE)]
 PoissonRatio = Annotated[float, Field(gt=-1, le=0.5)]
-WholeNumber = Annotated[int, Field(ge=1)]
+CellCount = Annotated[int, Field(ge=1, le=_MOST_CELLS)]
+StepCount = Annotated[int, Field(ge=1, le=_MOST_STEPS)]
 
 
 class Section(BaseModel):

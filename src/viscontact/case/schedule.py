@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from pydantic import Discriminator, Field, Tag, model_validator
 
 from viscontact import grid
-from viscontact.case.quantities import Duration, Instant, Length, Section, WholeNumber
+from viscontact.case.quantities import CellCount, Duration, Instant, Length, Section, StepCount
 from viscontact.stepping import log_times, uniform_times
 
 #: Without `first`, steps in log time begin at this part of the end.
@@ -23,7 +23,7 @@ class Time(Section):
     """The instants at which the state is computed."""
 
     end: Duration
-    steps: WholeNumber
+    steps: StepCount
     spacing: Literal["uniform", "log"] = "uniform"
     first: Duration | None = Field(
         default=None, description="with log spacing: the first instant after 0; end/1000 if not"
@@ -47,7 +47,7 @@ class Time(Section):
 class Cells(Section):
     """The grid of pressure cells, centred on the origin."""
 
-    shape: Annotated[tuple[WholeNumber, WholeNumber], Field(strict=False)] = Field(
+    shape: Annotated[tuple[CellCount, CellCount], Field(strict=False)] = Field(
         description="numbers of cells along x and y", examples=[[256, 128]]
     )
     size: Annotated[tuple[Length, Length], Field(strict=False)] = Field(

@@ -206,6 +206,8 @@ def _scaled(number: str, factor: float) -> float:
     # digit; 9.565 * 0.001 is not.
     if not math.isfinite(float(number)):
         return math.inf
+    if float(number) == 0.0:  # or too small for a float, and its exponent perhaps for a decimal
+        return 0.0
     return float(Decimal(number) * Decimal(repr(factor)))
 
 
