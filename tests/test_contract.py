@@ -445,6 +445,8 @@ def test_fields_are_kept_at_all_instants_at_none_or_at_those_asked_for(ds: xr.Da
     for name in FIELDS:
         assert some[name].dims == ("field_time", "x", "y")
         np.testing.assert_array_equal(some[name], ds[name].sel(time=[0.0, 5.0]))
+    by_array = vc.simulate(BALL, RUBBER, LOAD, GRID, np.array(TIMES), fields=np.array([0.0, 5.0]))
+    np.testing.assert_array_equal(by_array.pressure, some.pressure)
     none = vc.simulate(BALL, RUBBER, LOAD, GRID, TIMES, fields="none")
     assert set(none.data_vars) == set(SCALARS)
     np.testing.assert_array_equal(none.approach, ds.approach)
@@ -564,15 +566,46 @@ def test_law_without_instant_compliance_is_accepted_and_refused_only_where_the_l
 
 
 @pytest.mark.parametrize(
+    ("shape", "size", "said"),
+    [
+        (64, (1, 1), "grid.shape needs two entries, along x and y, got 64"),
+        ((64, 64, 64), (1, 1), "grid.shape needs two entries"),
+        ((64, 64), 1.0, "grid.size needs two entries, along x and y, got 1.0"),
+        *(
+            ((64, count), (1, 1), "ny must be a whole number >= 4")
+            for count in (3, 64.5, math.nan, math.inf, "64", None, True, [64], 10**400)
+        ),
+        *(
+            ((64, 64), (1, extent), "ly must be a positive length")
+            for extent in (0, -1, math.nan, math.inf, "1", None, True, [1], 10**400)
+        ),
+    ],
+)
+def test_bad_grid_is_refused_with_what_was_got(shape: Any, size: Any, said: str) -> None:
+    with pytest.raises(ValueError, match=said):
+        vc.Grid(shape, size)
+
+
+@pytest.mark.parametrize(
     ("changed", "said"),
     [
         ({"times": [1.0, 0.0]}, "times must be strictly increasing, got 1 s, then 0 s"),
         ({"times": [-1.0]}, "times must not be before 0"),
         ({"times": []}, "times must be one or more"),
         ({"times": [0.0, math.nan]}, "times must be one or more finite"),
+        ({"times": [[0.0, 1.0]]}, "times must be one or more"),
+        ({"times": [[0.0], [1.0, 2.0]]}, "times must be instants in s"),
+        ({"times": "soon"}, "times must be instants in s, got 'soon'"),
+        ({"times": [False, True]}, "times must be instants in s"),
         ({"tolerance": -1e-6}, "tolerance must lie between"),
         ({"tolerance": math.nan}, "tolerance must lie between"),
-        ({"threads": 0}, "threads must be a whole number >= 1, got 0"),
+        ({"threads": 0}, "threads must be a whole number >= 1, .* got 0"),
+        ({"threads": 2**70}, "threads must be a whole number"),
+        ({"fields": ["all"]}, "fields must be instants in s, got \\['all'\\]"),
+        ({"fields": None}, "fields must be instants in s, got None"),
+        ({"load": vc.step(1e300)}, "load.force: .* is beyond what can be computed with"),
+        ({"grid": vc.Grid((8, 8), (1e-200, 1.0))}, "grid.size: .* is beyond what can be"),
+        ({"material": vc.Material(vc.Elastic(1e-200), 0.5)}, "material: .* is beyond what"),
         ({"fields": "some"}, "fields must be 'all', 'none' or instants"),
         ({"grid": (32, 32)}, "grid must be of kind Grid"),
         ({"load": 0.1}, "load must be of kind ForceHistory, got 0.1"),

@@ -21,7 +21,7 @@ PACKAGE = Path(viscontact.__file__).parent
 # The floors from the ground up. A new module gets its place here; think twice before it is high.
 FLOORS = (
     ("errors", "grid", "load", "indenters", "laws"),  # 0 words: they do not know each other
-    ("material", "influence", "memory", "state", "rim"),  # 1 single ideas
+    ("material", "influence", "memory", "state", "rim", "hull"),  # 1 single ideas
     ("convolution", "balance", "bedding", "half_space"),  # 2 operators on fields
     ("contact_problem", "search", "contact"),  # 3 equilibrium at one instant
     # 4 time

@@ -213,10 +213,27 @@ def to_dataset(
     dataset = xr.Dataset(scalars, coords=_coordinates(run.grid, times))
     dataset["outcome"].attrs.update(OUTCOME_FLAGS)
     kept = [state for state in states if state.pressure.size]
-    if fields != "none" and kept:
-        dataset = dataset.assign(_field_arrays(kept, "time" if fields == "all" else "field_time"))
+    if kept:
+        dataset = dataset.assign(_field_arrays(kept, field_axis(fields)))
     said = [text for state in states for text in state.warnings]
     return dataset.assign_attrs(run_attributes(run), wall_time=wall_time, warnings="\n".join(said))
+
+
+def field_axis(fields: str | Sequence[float]) -> str:
+    """Return the dimension on which fields are kept: ``time``, or ``field_time`` for some.
+
+    Parameters
+    ----------
+    fields : str or sequence of float
+        As in `simulate`.
+
+    Examples
+    --------
+    >>> field_axis("all"), field_axis([0.0, 2.0])
+    ('time', 'field_time')
+    """
+    # An array is not to be compared with a word.
+    return "time" if isinstance(fields, str) and fields == "all" else "field_time"
 
 
 def run_attributes(run: Run) -> dict[str, Any]:

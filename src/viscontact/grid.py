@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
+from numbers import Real
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+#: Larger whole numbers are no floats.
+_LARGEST = 1e300
 
 
 @dataclass(frozen=True)
@@ -39,18 +43,15 @@ class Grid:
     size: tuple[float, float]
 
     def __post_init__(self) -> None:
-        if len(tuple(self.shape)) != 2 or len(tuple(self.size)) != 2:
-            raise ValueError(
-                f"grid: shape and size need two entries each, got {self.shape!r} and {self.size!r}"
-            )
-        for name, cells in zip(("nx", "ny"), self.shape, strict=True):
-            if int(cells) != cells or cells < 4:
-                raise ValueError(f"grid.shape: {name} must be a whole number >= 4, got {cells!r}")
-        for name, extent in zip(("lx", "ly"), self.size, strict=True):
-            if not (math.isfinite(extent) and extent > 0):
+        cells, extents = _pair("shape", self.shape), _pair("size", self.size)
+        for name, count in zip(("nx", "ny"), cells, strict=True):
+            if not (_is_number(count) and count >= 4 and float(count).is_integer()):
+                raise ValueError(f"grid.shape: {name} must be a whole number >= 4, got {count!r}")
+        for name, extent in zip(("lx", "ly"), extents, strict=True):
+            if not (_is_number(extent) and extent > 0):
                 raise ValueError(f"grid.size: {name} must be a positive length, got {extent!r} m")
-        object.__setattr__(self, "shape", (int(self.shape[0]), int(self.shape[1])))
-        object.__setattr__(self, "size", (float(self.size[0]), float(self.size[1])))
+        object.__setattr__(self, "shape", (int(cells[0]), int(cells[1])))
+        object.__setattr__(self, "size", (float(extents[0]), float(extents[1])))
 
     @property
     def cell_size(self) -> tuple[float, float]:
@@ -72,6 +73,19 @@ class Grid:
     def y(self) -> NDArray[np.float64]:
         """Cell centres along y, shape (ny,) [m]."""
         return _centres(self.shape[1], self.size[1])
+
+
+def _pair(name: str, given: Any) -> tuple[Any, Any]:
+    try:
+        along_x, along_y = given
+    except (TypeError, ValueError):
+        raise ValueError(f"grid.{name} needs two entries, along x and y, got {given!r}") from None
+    return along_x, along_y
+
+
+def _is_number(value: Any) -> bool:
+    plain = isinstance(value, Real) and not isinstance(value, bool)
+    return plain and bool(abs(value) <= _LARGEST)
 
 
 def _centres(cells: int, extent: float) -> NDArray[np.float64]:

@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from viscontact.dataset import COORDINATES, FIELDS, OUTCOME_FLAGS, SCALARS, Variable
+from viscontact.dataset import COORDINATES, FIELDS, OUTCOME_FLAGS, SCALARS, Variable, field_axis
 from viscontact.grid import Grid
 from viscontact.run import field_instants
 from viscontact.state import ContactState
@@ -54,7 +54,7 @@ class ResultWriter:
         self._started = clock.perf_counter()
         self._said: list[str] = []
         self._kept = set(field_instants(fields, times).tolist())
-        self._axis = "time" if fields == "all" else "field_time"
+        self._axis = field_axis(fields)
         self._file = netCDF4.Dataset(str(path), "w", format="NETCDF4")
         self._file.setncatts({**(attributes or {}), "warnings": "", "wall_time": 0.0})
         self._lay_out(grid)

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from numbers import Integral, Real
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.spatial import ConvexHull, QhullError
 
 from viscontact.extent import auto_grid
 from viscontact.grid import Grid
+from viscontact.hull import refuse_outside
 from viscontact.indenters import Indenter
 from viscontact.load import ForceHistory
 from viscontact.material import ContactCompliance, Material
@@ -109,6 +108,7 @@ def prepare_run(
         compliance = compliance + indenter_material.contact_compliance()
     instants = _default_times(load, compliance) if times is None else _checked_times(times)
     field_instants(fields, instants)
+    _check_magnitudes(compliance, load, grid, float(instants[-1]))
     _check_jumps(compliance, load, float(instants[-1]))
     if grid is None:
         grid = auto_grid(
@@ -161,7 +161,7 @@ def field_instants(
         if fields not in ("all", "none"):
             raise ValueError(f"fields must be 'all', 'none' or instants in s, got {fields!r}")
         return times if fields == "all" else times[:0]
-    wanted = np.unique(np.asarray(fields, dtype=float))
+    wanted = np.unique(_instants("fields", fields))
     index = np.clip(np.searchsorted(times, wanted), 0, len(times) - 1)
     index -= (index > 0) & (np.abs(times[index - 1] - wanted) < np.abs(times[index] - wanted))
     strange = ~np.isclose(times[index], wanted, rtol=1e-9, atol=0.0)
@@ -191,12 +191,33 @@ def _check_kinds(
 def _check_numbers(tolerance: object, threads: object) -> None:
     if not (isinstance(tolerance, Real) and 1e-13 <= float(tolerance) <= 1e-2):
         raise ValueError(f"tolerance must lie between 1e-13 and 1e-2, got {tolerance!r}")
-    if not (isinstance(threads, Integral) and int(threads) >= 1):
-        raise ValueError(f"threads must be a whole number >= 1, got {threads!r}")
+    if not (isinstance(threads, Integral) and 1 <= int(threads) <= 1024):
+        raise ValueError(f"threads must be a whole number >= 1, and at most 1024, got {threads!r}")
+
+
+def _check_magnitudes(
+    compliance: ContactCompliance, load: ForceHistory, grid: Grid | None, end: float
+) -> None:
+    """Beyond these, squares and quotients are no numbers, and a search might never end."""
+    sizes = () if grid is None else grid.size
+    magnitudes = [("load.force", load.largest_force), ("material", compliance(end))]
+    for name, value in [*magnitudes, *(("grid.size", size) for size in sizes)]:
+        if value and not 1e-30 <= value <= 1e30:
+            raise ValueError(f"{name}: {value:.3g} in SI units is beyond what can be computed with")
+
+
+def _instants(name: str, given: object) -> NDArray[np.float64]:
+    try:
+        array = np.asarray(given)
+    except ValueError:  # rows of unequal length
+        array = np.asarray(None)
+    if array.dtype.kind not in "iuf":
+        raise ValueError(f"{name} must be instants in s, got {given!r}")
+    return array.astype(np.float64)
 
 
 def _checked_times(times: ArrayLike) -> NDArray[np.float64]:
-    instants = np.atleast_1d(np.array(times, dtype=float))
+    instants = np.atleast_1d(_instants("times", times))
     if instants.ndim != 1 or instants.size == 0 or not np.isfinite(instants).all():
         raise ValueError(f"times must be one or more finite instants in s, got {times!r}")
     if instants[0] < 0:
@@ -244,40 +265,4 @@ def _check_balance(
                 None if point.tilt_x is not None else point.eccentricity_x,
                 None if point.tilt_y is not None else point.eccentricity_y,
             )
-            _refuse_outside(solid, grid, where, time)
-
-
-def _refuse_outside(
-    solid: NDArray[np.bool_], grid: Grid, where: tuple[float | None, float | None], time: float
-) -> None:
-    for axis, eccentricity in enumerate(where):
-        if eccentricity is None:
-            continue
-        centres = (grid.x, grid.y)[axis][solid.any(axis=1 - axis)]
-        if not centres[0] <= eccentricity <= centres[-1]:
-            name = "xy"[axis]
-            raise ValueError(
-                f"load.eccentricity_{name}: the force acts at {eccentricity:.6g} m at "
-                f"t = {time:g} s, outside what can touch ({centres[0]:.6g} m to "
-                f"{centres[-1]:.6g} m along {name}): "
-                "no pressure can balance it; move the force in, or enlarge the body or the grid"
-            )
-    x, y = where
-    if x is not None and y is not None and (x or y) and not _in_hull(solid, grid, x, y):
-        raise ValueError(
-            f"load.eccentricity_x: the force acts at ({x:.6g} m, {y:.6g} m) at t = {time:g} s, "
-            "outside the hull of what can touch: no pressure can balance it; move the force in"
-        )
-
-
-def _in_hull(solid: NDArray[np.bool_], grid: Grid, x: float, y: float) -> bool:
-    rows = np.flatnonzero(solid.any(axis=1))
-    first = solid[rows].argmax(axis=1)
-    last = solid.shape[1] - 1 - solid[rows, ::-1].argmax(axis=1)
-    along_x, along_y = np.tile(grid.x[rows], 2), grid.y[np.concatenate([first, last])]
-    try:
-        hull = ConvexHull(np.column_stack([along_x, along_y]) / np.array(grid.size))
-    except QhullError:
-        return True  # a line of cells: the check along each axis has been made
-    offset = hull.equations[:, :2] @ (np.array([x, y]) / np.array(grid.size)) + hull.equations[:, 2]
-    return bool((offset <= 1e-12).all()) and math.isfinite(x + y)
+            refuse_outside(solid, grid, where, time)
