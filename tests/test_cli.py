@@ -517,3 +517,35 @@ def test_two_runs_of_one_name_are_told_apart() -> None:
     same = [Path("a/case"), Path("b/case")]
     assert figures._labels(same) == [str(path) for path in same]
     assert figures._labels([Path("a"), Path("b")]) == ["a", "b"]
+
+
+def test_result_is_not_overwritten_by_its_own_export(
+    finished: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    before = (finished / "result.nc").read_bytes()
+    assert main(["export", str(finished), "-o", str(finished / "result.nc")]) == 2
+    assert "name a CSV file" in capsys.readouterr().err
+    assert (finished / "result.nc").read_bytes() == before
+
+
+def test_directory_that_no_system_can_name_is_refused_in_one_line(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["run", "case.yaml", "-q", "-o", "a" * 300]) == 2
+    assert len(capsys.readouterr().err.splitlines()) == 1
+
+
+@pytest.mark.parametrize("words", [["show"], ["export"], ["plot", "history"]])
+def test_netcdf_of_something_else_is_refused_in_one_line(
+    words: list[str], finished: Path, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with vc.open_results(finished) as ds:
+        ds = ds.drop_encoding()
+        ds[["force"]].to_netcdf("less.nc")
+        ds.isel(time=0, drop=True).assign(time=0.0).to_netcdf("still.nc")
+    command, *rest = words
+    for name in ("less.nc", "still.nc"):
+        assert main([command, name, *rest]) == 2
+        message = capsys.readouterr().err
+        assert "not a result of viscontact" in message
+        assert len(message.splitlines()) == 1

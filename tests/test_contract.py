@@ -228,6 +228,18 @@ def test_every_law_is_made_from_shear_and_from_uniaxial_data(name: str) -> None:
     assert uniaxial[:-2] == [{"shear_modulus": "youngs_modulus"}.get(a, a) for a in arguments]
 
 
+@pytest.mark.parametrize("value", [True, "1e9", None, [1e9], 1j, math.nan, math.inf, -1.0, 10**400])
+def test_law_and_material_refuse_what_is_no_positive_number(value: Any) -> None:
+    for make in (
+        lambda: vc.Elastic(value),
+        lambda: vc.CreepSeries(1e-9, [value], [1.0]),
+        lambda: vc.RelaxationSeries(1e9, [1e9], [value]),
+        lambda: vc.Material(vc.Elastic(1e9), bulk_modulus=value),
+    ):
+        with pytest.raises(ValueError, match=r"modulus|amplitudes|times"):
+            make()
+
+
 def test_material_takes_one_of_poissons_ratio_and_bulk_modulus() -> None:
     law = vc.Elastic(3e9)
     by_ratio = vc.Material(law, 0.25).contact_compliance()(0.0)

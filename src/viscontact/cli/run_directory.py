@@ -46,6 +46,10 @@ def refuse_occupied(directory: Path, case: Case, *, overwrite: bool) -> None:
     typer.Exit
         With code 2.
     """
+    try:
+        directory.exists()
+    except OSError as error:  # such as a name that is too long
+        refuse(f"{directory}: cannot be a directory: {error}")
     kept = directory / CASE_NAME
     if directory.exists() and not directory.is_dir():
         refuse(f"{directory}: is a file, not a directory; choose another one with -o DIR")

@@ -35,7 +35,10 @@ def export(
 ) -> None:
     """Write the history of a run as CSV, in SI units."""
     from viscontact.cli.history_table import write_csv
+    from viscontact.cli.messages import refuse
     from viscontact.cli.stored import opened
 
+    if output is not None and output.suffix == ".nc":
+        refuse(f"{output}: is where a result belongs; name a CSV file, e.g. -o history.csv")
     with opened(directory) as ds:
         write_csv(ds, output)

@@ -37,6 +37,9 @@ def opened(path: Path) -> Iterator[xr.Dataset]:
         missing = [name for name in ("time", *SCALARS) if name not in ds]
         if missing:
             refuse(f"{path}: not a result of viscontact: it has no {missing[0]}")
+        strange = [name for name in ("time", *SCALARS) if ds[name].dims != ("time",)]
+        if strange:
+            refuse(f"{path}: not a result of viscontact: its {strange[0]} is not over time")
         if not ds.sizes["time"]:
             refuse(f"{path}: the run was stopped before its first instant was complete")
         yield ds

@@ -77,8 +77,10 @@ def compressibility(
 
 def _number(name: str, value: float, unit: str) -> float:
     try:
+        if isinstance(value, bool | str | bytes):  # True is not 1 Pa, "1e9" is no number
+            raise TypeError
         return float(value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         wanted = f"one number in {unit}" if unit else "one number"
         raise ValueError(f"{name}: must be {wanted}, got {value!r}") from None
 
