@@ -288,6 +288,20 @@ def test_instants_begin_at_0_and_end_at_the_end() -> None:
     np.testing.assert_allclose(vc.log_times(1.0, 1000.0, 4), [0, 1, 10, 100, 1000], rtol=1e-14)
 
 
+@pytest.mark.parametrize("value", [True, "1", None, [1.0], 1j, math.nan, math.inf, -1.0, 10**400])
+def test_lengths_forces_and_times_refuse_what_is_no_positive_number(value: Any) -> None:
+    for make in (
+        lambda: vc.Sphere(value),
+        lambda: vc.Cone(value),
+        lambda: vc.step(value),
+        lambda: vc.ramp(1.0, value),
+        lambda: vc.uniform_times(value, 2),
+        lambda: vc.uniform_times(1.0, value),
+    ):
+        with pytest.raises(ValueError, match="must|missing"):
+            make()
+
+
 def test_auto_grid_holds_the_contact_and_follows_its_tolerance() -> None:
     coarse, fine = (vc.auto_grid(BALL, RUBBER, vc.step(0.1), tolerance=t) for t in (0.04, 0.01))
     # Hertz with Phi(inf) = 1/G: a^3 = 3 R W Phi / 8 (eq. 16 of Spinu & Cerlinca 2018)

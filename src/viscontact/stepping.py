@@ -92,4 +92,7 @@ def _number(value: object) -> float:
     """Return the value as a float, NaN where it is not a plain number."""
     if isinstance(value, bool) or not isinstance(value, Real):
         return math.nan
-    return float(value)
+    try:
+        return float(value)
+    except OverflowError:  # a whole number beyond all floats
+        return math.inf

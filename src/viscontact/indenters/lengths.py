@@ -30,7 +30,10 @@ def real_number(name: str, value: object, unit: str) -> float:
     """
     if isinstance(value, bool) or not isinstance(value, Real):
         raise ValueError(f"{name} must be a number in {unit}, got {value!r}")
-    return float(value)
+    try:
+        return float(value)
+    except OverflowError:  # a whole number beyond all floats
+        return math.inf
 
 
 def positive_length(name: str, value: object) -> float:

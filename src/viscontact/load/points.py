@@ -41,9 +41,12 @@ def finite_number(name: str, value: object, unit: str) -> float:
     >>> finite_number("time", 1, "s")
     1.0
     """
-    if isinstance(value, bool) or not isinstance(value, Real) or not math.isfinite(value):
-        raise ValueError(f"{name} must be a finite number in {unit}, got {value!r}")
-    return float(value)
+    try:
+        if not isinstance(value, bool) and isinstance(value, Real) and math.isfinite(value):
+            return float(value)
+    except OverflowError:  # a whole number beyond all floats
+        pass
+    raise ValueError(f"{name} must be a finite number in {unit}, got {value!r}")
 
 
 def side_of_jump(side: str) -> Literal["left", "right"]:
