@@ -20,7 +20,7 @@ import viscontact as vc
 from viscontact.case import read_case
 from viscontact.cli import main
 
-RUBBER = vc.Material(vc.Zener(1e6, 1e6, 1e6), 0.5)
+RUBBER = vc.Material(vc.Zener(1e6, 1e6, 4e6), 0.5)  # retarded by 4 s: steps of 1 s are short
 BALL = vc.Sphere(0.01)
 GRID = vc.Grid((32, 32), (2.4e-3, 2.4e-3))
 TIMES = [0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 5.0]
@@ -298,7 +298,7 @@ def test_lengths_forces_and_times_refuse_what_is_no_positive_number(value: Any) 
         lambda: vc.uniform_times(value, 2),
         lambda: vc.uniform_times(1.0, value),
     ):
-        with pytest.raises(ValueError, match="must|missing"):
+        with pytest.raises(ValueError, match=r"must|missing"):
             make()
 
 
@@ -435,10 +435,9 @@ def test_eccentric_force_has_its_moments_about_both_axes() -> None:
 def test_times_that_begin_later_see_the_whole_history(ds: xr.Dataset) -> None:
     late = vc.simulate(BALL, RUBBER, LOAD, GRID, [1.5, 4.0], fields="none")
     whole = ds.sel(time=[1.5, 4.0])
-    # other steps, so only as close as the steps' own error: a few per mille at half a relaxation
-    # time a step; without its past the ball at 1.5 s would stand 30 % higher
-    np.testing.assert_allclose(late.approach, whole.approach, rtol=1e-2)
-    np.testing.assert_allclose(late.work, whole.work, rtol=0.05)
+    # Other steps, so only as close as the steps' own error, 2e-4 at 1.5 s; without its past the
+    # ball would stand a third higher there.
+    np.testing.assert_allclose(late.approach, whole.approach, rtol=1e-3)
 
 
 def test_kinks_are_stepped_and_not_added() -> None:
@@ -520,7 +519,7 @@ def test_tolerance_bounds_the_residual() -> None:
 def test_contact_at_the_rim_is_a_domain_error_that_keeps_the_completed_steps() -> None:
     small = vc.Grid((32, 32), (1.35e-3, 1.35e-3))  # 1.1 mm at first, 1.4 mm in the end
     with pytest.raises(vc.DomainError, match=r"reaches the grid's rim at t = .*grid\.size") as stop:
-        vc.simulate(BALL, RUBBER, vc.step(0.1), small, vc.uniform_times(5.0, 20))
+        vc.simulate(BALL, RUBBER, vc.step(0.1), small, vc.uniform_times(20.0, 20))
     partial = stop.value.partial
     assert 1 <= partial.sizes["time"] < 21
     _check_variables(partial)
@@ -683,7 +682,7 @@ CASE: dict[str, Any] = {
     "indenter": {"shape": "sphere", "radius": "10 mm"},
     "material": {
         **{"law": "zener", "shear_modulus": "1 MPa", "delayed_modulus": "1 MPa"},
-        **{"viscosity": "1 MPa s", "poisson_ratio": 0.5},
+        **{"viscosity": "4 MPa s", "poisson_ratio": 0.5},
     },
     "load": {"kind": "step", "force": "100 mN"},
     "time": {"end": "1 s", "steps": 2},
@@ -919,7 +918,7 @@ def test_exit_codes(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert not Path("ball").exists()
     assert "load.force: cannot read '10 MPa' as a force" in capsys.readouterr().err
     # 1: stopped during the run, and the completed steps kept
-    small = ["--set", "grid.size=[1.3 mm, 1.3 mm]", "--set", "time.steps=50"]
+    small = ["--set", "grid.size=[1.3 mm, 1.3 mm]", "--set", "time={end: 9 s, steps: 50}"]
     assert main(["run", "ball.yaml", "-q", *small]) == 1
     with vc.open_results("ball") as ds:
         assert 1 <= ds.sizes["time"] < 51
