@@ -20,10 +20,16 @@ import viscontact as vc
 from viscontact.case import read_case
 from viscontact.cli import main
 
+# A handful of steps is enough here; that they are few is warned about, and tested elsewhere.
+pytestmark = [
+    pytest.mark.filterwarnings("ignore:the load grows from nothing:viscontact.AccuracyWarning"),
+    pytest.mark.filterwarnings("ignore:a time step:viscontact.AccuracyWarning"),
+]
+
 RUBBER = vc.Material(vc.Zener(1e6, 1e6, 4e6), 0.5)  # retarded by 4 s: steps of 1 s are short
 BALL = vc.Sphere(0.01)
 GRID = vc.Grid((32, 32), (2.4e-3, 2.4e-3))
-TIMES = [0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 5.0]
+TIMES = [0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.1, 3.5, 4.0, 5.0]
 #: A jump up at 0 s, one down at 1 s, off from 2 s to 3 s, on again.
 LOAD = vc.ForceHistory([0, 1, 1, 2, 3, 4, 5], [0.1, 0.1, 0.05, 0, 0, 0.1, 0.1])
 
@@ -390,7 +396,7 @@ def test_without_contact_everything_is_exactly_zero_and_the_march_goes_on(ds: xr
     assert np.isnan(apart.eccentricity_x).all()
     assert np.isnan(apart.eccentricity_y).all()
     assert (apart.work == apart.work[0]).all()
-    again = ds.sel(time=[3.5, 4.0, 5.0])
+    again = ds.sel(time=[3.1, 3.5, 4.0, 5.0])
     assert (again.outcome == vc.Outcome.CONVERGED).all()
     assert (again.contact_area > 0).all()
 
@@ -433,15 +439,15 @@ def test_eccentric_force_has_its_moments_about_both_axes() -> None:
 
 
 def test_times_that_begin_later_see_the_whole_history(ds: xr.Dataset) -> None:
-    late = vc.simulate(BALL, RUBBER, LOAD, GRID, [1.5, 4.0], fields="none")
-    whole = ds.sel(time=[1.5, 4.0])
-    # Other steps, so only as close as the steps' own error, 2e-4 at 1.5 s; without its past the
-    # ball would stand a third higher there.
-    np.testing.assert_allclose(late.approach, whole.approach, rtol=1e-3)
+    late = vc.simulate(BALL, RUBBER, LOAD, GRID, [1.5, 2.5], fields="none")
+    whole = ds.sel(time=[1.5, 2.5])
+    # Other steps, so only as close as the steps' own error, up to 1e-3; without its past the
+    # ball would stand a third higher at 1.5 s.
+    np.testing.assert_allclose(late.approach, whole.approach, rtol=3e-3)
 
 
 def test_kinks_are_stepped_and_not_added() -> None:
-    load = vc.ForceHistory([0, 1, 2], [0, 0.1, 0.05])
+    load = vc.ForceHistory([0, 1, 2], [0.05, 0.1, 0.05])
     one, two = (vc.simulate(BALL, RUBBER, load, GRID, t) for t in ([2.0], [1.0, 2.0]))
     assert one.time.values.tolist() == [2.0]
     np.testing.assert_allclose(one.approach[-1], two.approach[-1], rtol=1e-12)
