@@ -65,6 +65,7 @@ def finished(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return here / "case"
 
 
+@pytest.mark.filterwarnings("ignore:a time step:viscontact.AccuracyWarning")
 def test_run_writes_a_result_that_is_the_simulation(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -26,12 +26,12 @@ def test_steps_tile_the_run_and_give_each_instant_asked_for_once(times, force, d
     assert steps[0].time == 0.0
     assert steps[0].is_jump
     assert sum(each.duration for each in steps) == pytest.approx(times[-1])
-    assert [each.time for each in steps if each.wanted] == times.tolist()
+    assert [each.asked for each in steps if each.asked is not None] == times.tolist()
     for before, after in pairwise(steps):
         assert after.time - before.time == after.duration >= 0
         # No kink inside a step, and the last step at an instant is the one that is shown.
         assert not ((load.kinks > before.time) & (load.kinks < after.time)).any()
-        assert not (before.wanted and after.is_jump)
+        assert not (before.asked is not None and after.is_jump)
 
 
 def _two_at_most(knots):
@@ -41,13 +41,21 @@ def _two_at_most(knots):
 def test_a_jump_is_approached_and_then_taken():
     load = ForceHistory([0, 2, 2], [1.0, 1.0, 5.0])
     steps = schedule(np.array([0.0, 2.0, 3.0]), load)
-    assert [(each.time, each.duration, each.wanted) for each in steps] == [
-        (0.0, 0.0, True),
-        (2.0, 2.0, False),
-        (2.0, 0.0, True),
-        (3.0, 1.0, True),
+    assert [(each.time, each.duration, each.asked) for each in steps] == [
+        (0.0, 0.0, 0.0),
+        (2.0, 2.0, None),
+        (2.0, 0.0, 2.0),
+        (3.0, 1.0, 3.0),
     ]
     assert [float(load.force_at(each.time, side=each.side)) for each in steps] == [1, 1, 5, 5]
+
+
+def test_an_instant_that_misses_a_jump_by_rounding_is_just_after_it():
+    """0.1 * 3 is 0.30000000000000004: a history typed one way, instants made another."""
+    load = ForceHistory([0.0, 0.1 * 3, 0.1 * 3], [1.0, 1.0, 5.0])
+    last = schedule(np.array([0.0, 0.3]), load)[-1]
+    assert last.asked == 0.3
+    assert float(load.force_at(last.time, side=last.side)) == 5.0
 
 
 def test_what_happens_after_the_last_instant_is_not_stepped():

@@ -90,14 +90,23 @@ def solve_contact(
     ----------
     I. A. Polonsky, L. M. Keer, Wear 231 (1999) 206.
     """
-    starts = (guess, None) if guess is not None else (None,)
-    for start in starts:
-        # A guess can be worse than none, after a load has changed beyond recognition.
-        first = _bedding(problem, half_space) if start is None else start
-        solution = _solve_from(first, problem, half_space, tolerance, max_iterations)
-        if solution.converged:
-            break
-    return solution
+    found = None
+    if guess is not None:
+        found = _solve_from(guess, problem, half_space, tolerance, max_iterations)
+        if found.converged:
+            return found
+    # A guess can be worse than none, after a load has changed beyond recognition.
+    cold = _solve_from(
+        _bedding(problem, half_space), problem, half_space, tolerance, max_iterations
+    )
+    if found is None:
+        return cold
+    better = cold if cold.converged or cold.residual < found.residual else found
+    return replace(
+        better,
+        iterations=found.iterations + cold.iterations,
+        convolutions=found.convolutions + cold.convolutions,
+    )
 
 
 def _solve_from(

@@ -32,7 +32,7 @@ NOUNS = {
     )
 }
 
-#: Larger arrays (a measured surface) are named by shape and fingerprint, not written out.
+#: Larger maps (measured surfaces) are named by shape and fingerprint, not written out.
 LARGEST_ARRAY = 4096
 
 
@@ -58,12 +58,15 @@ def describe(noun: Any) -> Any:
         arguments = {item.name: describe(getattr(noun, item.name)) for item in fields(noun)}
         return {"type": type(noun).__name__, **arguments}
     if isinstance(noun, np.ndarray):
-        return noun.tolist() if noun.size <= LARGEST_ARRAY else _fingerprint(noun)
+        is_map = noun.ndim > 1 and noun.size > LARGEST_ARRAY
+        return _fingerprint(noun) if is_map else noun.tolist()
     if isinstance(noun, np.generic):
         return noun.item()
     if isinstance(noun, tuple | list):
         return [describe(item) for item in noun]
-    return noun
+    if noun is None or isinstance(noun, str | int | float):
+        return noun
+    return {"type": type(noun).__name__, "repr": repr(noun)}
 
 
 def rebuild(description: Any) -> Any:

@@ -15,7 +15,8 @@ class RunError(RuntimeError):
     Attributes
     ----------
     partial : xarray.Dataset or None
-        The steps completed before the run stopped, or None if there are none to give.
+        The steps completed before the run stopped, or None if there are none to give. After a
+        ConvergenceError the last one may be the failed one; its outcome says so.
     """
 
     def __init__(self, message: str, partial: Any = None) -> None:

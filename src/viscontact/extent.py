@@ -175,7 +175,9 @@ def _reach_of_history(
     """Farthest reach over the history, and the extents of the contact under the largest force."""
     points = _corners(load, end)
     if not points:
-        raise ValueError("load: the force is zero throughout; there is no contact to resolve")
+        raise ValueError(
+            "load: the force is zero throughout, so no grid can be fitted to a contact; give a grid"
+        )
     found = [estimate_contact(indenter, compliance, point) for point in points]
     reach = np.array([estimate.reach for estimate in found], dtype=np.float64).max(axis=0)
     largest = found[int(np.argmax([point.force for point in points]))]
@@ -183,10 +185,10 @@ def _reach_of_history(
 
 
 def _corners(load: ForceHistory, end: float | None) -> list[LoadPoint]:
-    """Distinct loads at the history's points; between them the contact lies between theirs."""
-    instants = [float(kink) for kink in load.kinks if end is None or kink <= end]
-    if end is not None:
-        instants.append(end)
+    """Distinct loads at the history's points, and within its pieces: there the force may move."""
+    corners = load.kinks if end is None else np.append(load.kinks[load.kinks < end], end)
+    within = [corners[:-1] + part * np.diff(corners) for part in (0.25, 0.5, 0.75)]
+    instants = np.unique(np.concatenate([corners, *within])).tolist()
     points = [load.at(time, side=side) for time in instants for side in ("left", "right")]
     return list(dict.fromkeys(point for point in points if point.force > 0))
 
@@ -225,8 +227,8 @@ def _coarse_contact(
     rim = trace_rim(grid, contact, solution.gap)
     rows, columns = np.flatnonzero(contact.any(axis=1)), np.flatnonzero(contact.any(axis=0))
     return ContactEstimate(
-        rim.length,
-        rim.width,
+        max(rim.length, grid.cell_size[0]),
+        max(rim.width, grid.cell_size[1]),
         float(solution.found.motion[0]),
         float(solution.found.pressure.max()),
         float(grid.x[rows[[0, -1]]].mean()),

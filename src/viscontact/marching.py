@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,7 +16,7 @@ from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
 from viscontact.grid import Grid
 from viscontact.half_space import HalfSpace
 from viscontact.indenters import Indenter
-from viscontact.load import ForceHistory
+from viscontact.load import ForceHistory, LoadPoint
 from viscontact.material import Material
 from viscontact.memory import Memory, Response
 from viscontact.observation import Instant, Observer
@@ -23,6 +24,14 @@ from viscontact.prediction import POINTS, Twin, predict
 from viscontact.run import Run, prepare_run
 from viscontact.schedule import Step, schedule
 from viscontact.state import ContactState, Outcome
+
+#: Errors are measured against the displacement that the pressure causes, but never against less
+#: than this part of the largest displacement of the past: below it rounding would have a say.
+HISTORY_COUNTS = 1e-3
+
+#: Samples each way within a cell when the body's lowest point is looked for; even, so that a
+#: point on a cell's edge or corner is among them.
+TOUCH_SAMPLES = 16
 
 #: Called after each instant asked for: the state, how many are done, how many there are.
 Progress = Callable[[ContactState, int, int], None]
@@ -86,7 +95,9 @@ def march(
     -----
     Steps also end at the load's kinks and jumps. Within a step the pressure is linear in time,
     so the error falls with the square of the step; the paper's piecewise-constant rule (Spinu &
-    Cerlinca 2018, eq. 12) is of first order.
+    Cerlinca 2018, eq. 12) is of first order. Over steps long against the law (always, if it has
+    no instant compliance) the pressure rises over a part of the step only, lest it ring, and the
+    error is of first order; an `AccuracyWarning` says so where it matters.
 
     Examples
     --------
@@ -137,7 +148,7 @@ def march_run(run: Run, progress: Progress | None = None) -> Iterator[ContactSta
     total, done = len(run.times), 0
     for step, instant in _instants(run):
         state = observer.observe(step, instant)
-        if step.wanted:
+        if step.asked is not None:
             done += 1
             state = observer.judge(state, last=done == total)
             for text in state.warnings:
@@ -157,37 +168,42 @@ def _instants(run: Run) -> Iterator[tuple[Step, Instant]]:
     memory = Memory(run.compliance, (2, *half_space.shape))  # of pressure and of deflection
     force_memory = Memory(run.compliance, (1,))
     scale = 1e-12 * max(run.grid.cell_size)
-    motion = np.zeros(3)
     past: list[Twin] = []
+    motion = np.zeros(3)
     for step in schedule(run.times, run.load):
         response, force_response = (
             each.jump() if step.is_jump else each.ramp(step.duration)
             for each in (memory, force_memory)
         )
         point = run.load.at(step.time, side=step.side)
-        twin_force = float(force_response.of(np.array([point.force]))[0])
+        force = np.array([point.force])
+        twin_force = float(force_response.of(force)[0])
         support = half_space.share(Support.of(point))
         problem = ContactProblem(shape + response.history[1], response.compliance, support, scale)
+        past = past[-POINTS:] if step.smooth else past[-1:]
         if point.force > 0:
-            past = past[-POINTS:] if step.smooth else past[-1:]
-            twin = predict(past, step.time, twin_force)
-            solution = solve_contact(
-                problem, half_space, _guess(twin, response), tolerance=run.tolerance
-            )
-            outcome = Outcome.CONVERGED if solution.converged else Outcome.NOT_CONVERGED
+            guess = _guess(predict(past, step.time, twin_force), response)
+            solution = solve_contact(problem, half_space, guess, tolerance=run.tolerance)
         else:
-            solution, outcome = _apart(problem, half_space, motion), Outcome.NO_CONTACT
-        found = solution.found
-        motion = found.motion
-        values = np.stack([found.pressure, found.deflection])
+            solution = _apart(problem, half_space, motion)
+            if not response.history[1].any():
+                solution = _before_first_touch(run, solution)
+        values = np.stack([solution.found.pressure, solution.found.deflection])
+        motion = solution.found.motion
         twin = Twin(step.time, twin_force, response.of(values), motion)
+        past = [*([] if step.is_jump else past), twin] if point.force > 0 else []
         memory.accept(values)
-        force_memory.accept(np.array([point.force]))
-        past = [] if outcome is Outcome.NO_CONTACT else [*([] if step.is_jump else past), twin]
-        instant = _whole(half_space, solution, twin, outcome, response.resolved)
-        scale = max(scale, float(instant.displacement.max()))
+        force_memory.accept(force)
+        instant = _whole(half_space, solution, twin, _outcome(point, solution), response.resolved)
+        scale = max(scale, HISTORY_COUNTS * float(instant.displacement.max()))
         _refuse_rim(run, step, instant)
         yield step, instant
+
+
+def _outcome(point: LoadPoint, solution: ContactSolution) -> Outcome:
+    if point.force == 0:
+        return Outcome.NO_CONTACT
+    return Outcome.CONVERGED if solution.converged else Outcome.NOT_CONVERGED
 
 
 def _guess(twin: Twin | None, response: Response) -> Guess | None:
@@ -210,6 +226,20 @@ def _apart(
     return ContactSolution(found, distance - approach, 0.0, 0, 0, converged=True)
 
 
+def _before_first_touch(run: Run, apart: ContactSolution) -> ContactSolution:
+    """A flat surface is touched by the body's lowest point, not by the nearest cell centre."""
+    tilts = apart.found.motion[1:]
+    cells = run.open_gap - np.add.outer(tilts[0] * run.grid.x, tilts[1] * run.grid.y)
+    i, j = np.unravel_index(int(cells.argmin()), cells.shape)
+    part = np.linspace(-1.0, 1.0, 2 * TOUCH_SAMPLES + 1)
+    x = run.grid.x[i] + part[:, None] * run.grid.cell_size[0]
+    y = run.grid.y[j] + part[None, :] * run.grid.cell_size[1]
+    lowest = float((run.indenter.gap(x, y) - tilts[0] * x - tilts[1] * y).min())
+    below = apart.found.motion[0] - lowest
+    motion = apart.found.motion - np.array([below, 0.0, 0.0])
+    return replace(apart, found=replace(apart.found, motion=motion), gap=apart.gap + below)
+
+
 def _whole(
     half_space: HalfSpace,
     solution: ContactSolution,
@@ -219,11 +249,16 @@ def _whole(
 ) -> Instant:
     """The instant on the whole grid."""
     found = solution.found
+    pressure, gap, displacement = (
+        half_space.unfold(field) for field in (found.pressure, solution.gap, twin.fields[1])
+    )
+    for field in (pressure, gap, displacement):
+        field.flags.writeable = False  # the run goes on from them
     energy = half_space.fold_count * float((found.pressure * found.deflection).sum()) / 2
     return Instant(
-        half_space.unfold(found.pressure),
-        half_space.unfold(solution.gap),
-        half_space.unfold(twin.fields[1]),
+        pressure,
+        gap,
+        displacement,
         found.motion,
         energy * half_space.grid.cell_area,
         solution.residual,

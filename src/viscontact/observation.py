@@ -18,6 +18,7 @@ from viscontact.plausibility import (
     mesh_doubts,
     relative_change,
     step_doubts,
+    touch_doubts,
 )
 from viscontact.rim import Rim, trace_outline, trace_rim
 from viscontact.run import Run
@@ -78,6 +79,7 @@ class Observer:
         self._open: dict[str, str] = {}
         self._work = 0.0
         self._before: Instant | None = None
+        self._resultants = np.zeros(3)
         self._largest_area, self._cells_at_largest = 0.0, 0
 
     def observe(self, step: Step, instant: Instant) -> ContactState:
@@ -145,12 +147,21 @@ class Observer:
         if instant.outcome is Outcome.NO_CONTACT:
             return
         self._open = geometry_doubts(self._geometry, rim, instant.motion) | self._open
-        if self._before is None or instant.resolved:
-            return
-        peaks = [float(end.pressure.max()) for end in (self._before, instant)]
-        forces = [float(end.pressure.sum()) for end in (self._before, instant)]
+        if self._before is not None and not step.is_jump:
+            self._open = self._doubts_of_step(step, self._before, instant) | self._open
+
+    def _doubts_of_step(self, step: Step, before: Instant, after: Instant) -> dict[str, str]:
+        forces = [float(end.pressure.sum()) * self._run.grid.cell_area for end in (before, after)]
+        compliance = self._run.compliance
+        if before.outcome is Outcome.NO_CONTACT:
+            creeps = compliance.times.size or compliance.fluidity
+            share = forces[1] / self._run.load.largest_force if creeps else 0.0
+            return touch_doubts(step.duration, share)
+        if after.resolved:
+            return {}
+        peaks = [float(end.pressure.max()) for end in (before, after)]
         change = max(relative_change(*peaks), relative_change(*forces))
-        self._open = step_doubts(step.duration, change) | self._open
+        return step_doubts(step.duration, change)
 
     def _work_of(self, step: Step, instant: Instant, resultants: NDArray[np.float64]) -> float:
         """Work over a step: trapezium rule on the motion; across a jump exact.
@@ -175,7 +186,7 @@ def _state(
     # A few cells enclose next to nothing; but no mean pressure exceeds the peak.
     area = max(rim.area, force / peak) if touching else 0.0
     return ContactState(
-        time=step.time,
+        time=step.time if step.asked is None else step.asked,
         pressure=instant.pressure,
         gap=instant.gap,
         displacement=instant.displacement,

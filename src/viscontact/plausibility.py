@@ -113,6 +113,39 @@ def step_doubts(duration: float, change: float) -> dict[str, str]:
     }
 
 
+def touch_doubts(duration: float, share: float) -> dict[str, str]:
+    """Doubt about a load that grows from nothing in one step of a creeping body.
+
+    The contact grows with a root of the force, which a straight line through one step follows
+    badly: the pressure after it is off by a few per cent.
+
+    Parameters
+    ----------
+    duration : float
+        Length of the step [s].
+    share : float
+        Force at its end, over the largest of the history.
+
+    Returns
+    -------
+    dict of str to str
+        Sentences by kind of doubt; empty if there is none.
+
+    Examples
+    --------
+    >>> list(touch_doubts(0.1, share=1.0)), list(touch_doubts(0.1, share=0.1))
+    (['touch'], [])
+    """
+    if share <= NOTABLE_CHANGE:
+        return {}
+    return {
+        "touch": (
+            f"the load grows from nothing to {share:.0%} of its largest in a single step of "
+            f"{duration:.3g} s; use several steps there, as the pressure starts with a root of time"
+        )
+    }
+
+
 def relative_change(before: float, after: float) -> float:
     """Change over the larger of two values; zero if both are."""
     return abs(after - before) / max(abs(after), abs(before), np.finfo(float).tiny)

@@ -171,7 +171,7 @@ def open_results(path: str | Path) -> xr.Dataset:
     FileNotFoundError
         If there is no result.
     ValueError
-        If the file is not a result of viscontact.
+        If the file cannot be read as netCDF.
     """
     file = Path(path)
     file = file / RESULT_NAME if file.is_dir() else file

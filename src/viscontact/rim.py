@@ -204,7 +204,7 @@ def _crossings(
     known = np.isfinite(far) & (far > near) & ~contact[second, j]
     ratio = np.divide(near, far, out=np.full(len(i), 0.5), where=known) ** (2 / 3)
     distance = np.where(known, ratio / (1 - np.where(known, ratio, 0.0)), 0.5)
-    located = np.maximum(1 - distance, -1.0)
+    located = np.maximum(1 - distance, -0.5)
     if outline is not None:
         located = np.where(np.isinf(gap[first, j]), np.nan_to_num(outline[i, j], nan=0.5), located)
     crossings[i, j] = located

@@ -232,12 +232,17 @@ def _checked_times(times: ArrayLike) -> NDArray[np.float64]:
 def _default_times(load: ForceHistory, compliance: ContactCompliance) -> NDArray[np.float64]:
     """The load's kinks, and steps to its end or through the creep under a held load."""
     end = float(load.times[-1])
-    if load.force_at(end) > 0 and compliance.times.size:
-        end += 5 * float(compliance.times.max())
+    creep_times = list(compliance.times)
+    if compliance.fluidity > 0 and compliance.instant > 0:
+        creep_times.append(compliance.instant / compliance.fluidity)
+    if load.force_at(end) > 0 and creep_times:
+        end += 5 * max(creep_times)
     if end == 0:
         return np.zeros(1)
-    kinks = [kink for kink in load.kinks if kink <= end]
-    return np.unique(np.concatenate([uniform_times(end, DEFAULT_STEPS), kinks]))
+    kinks = load.kinks[load.kinks <= end]
+    even = uniform_times(end, DEFAULT_STEPS)
+    apart = np.abs(even[:, None] - kinks).min(axis=1) > 1e-9 * end
+    return np.unique(np.concatenate([even[apart], kinks]))
 
 
 def _check_jumps(compliance: ContactCompliance, load: ForceHistory, end: float) -> None:
@@ -256,11 +261,13 @@ def _check_balance(
     solid = np.isfinite(open_gap)
     if not solid.any():
         raise ValueError("grid: no cell lies under the indenter; use a finer or larger grid")
-    for time in [kink for kink in load.kinks if kink <= end]:
+    # A point without force counts where the force grows from it or falls to it.
+    instants = np.append(load.kinks[load.kinks < end], end)
+    forces = np.maximum(load.force_at(instants, side="left"), load.force_at(instants))
+    before, after = np.append(0.0, forces[:-1]), np.append(forces[1:], 0.0)
+    for time in instants[(before > 0) | (forces > 0) | (after > 0)].tolist():
         for side in ("left", "right"):
             point = load.at(time, side=side)
-            if point.force <= 0:
-                continue
             where = (
                 None if point.tilt_x is not None else point.eccentricity_x,
                 None if point.tilt_y is not None else point.eccentricity_y,

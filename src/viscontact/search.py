@@ -1,7 +1,14 @@
 """The search for the pressure of one contact problem, on one patch of the half-space.
 
 A preconditioned conjugate-gradient iteration that treats the bound p >= 0 and the balances
-together: each pass is `measure` (step 1) and an advance (steps 2 to 5).
+together. Each pass
+
+1. finds approach and tilts by least squares of the gap under pressure, and measures the error;
+2. releases the cells that the body overlaps, and preconditions the gap of the active cells;
+3. projects what would change force or moments out of it and of the last direction;
+4. makes both a Polak-Ribiere+ direction (not reset when cells come or go) and steps along it to the
+   least energy;
+5. cuts off tension and restores the balances by a plane factor, where anything was cut.
 """
 
 from __future__ import annotations
@@ -162,7 +169,7 @@ class Search:
         return vector
 
     def _step(self) -> None:
-        """Step 4 and 5: to the least energy along the direction, then cut and rebalance."""
+        """Steps 4 and 5: to the least energy along the direction, then cut and rebalance."""
         direction, before = self._direction, self.now
         change = self.patch.convolution.apply(direction)
         self.convolutions += 1

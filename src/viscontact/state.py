@@ -46,7 +46,8 @@ class ContactState:
     peak_pressure, mean_pressure : float
         Largest cell pressure, and force over area [Pa].
     work : float
-        Work of the load on the contact since the start [J].
+        Work of the load on the contact since the start, exact across jumps and of second order
+        in the step elsewhere [J].
     iterations : int
         Search directions of the contact solver.
     residual : float

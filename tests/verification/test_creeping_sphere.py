@@ -201,6 +201,7 @@ def _coarse_mesh(body, steps):
 
 
 @pytest.mark.parametrize("name", TABLE_1)
+@pytest.mark.filterwarnings("ignore:a time step:viscontact.AccuracyWarning")  # of pressure
 def test_approach_under_a_sudden_load_has_no_time_error(name):
     """Spinu & Cerlinca (2018), eq. 16: while the contact grows it depends on J(t) only.
 
