@@ -5,8 +5,10 @@ from __future__ import annotations
 #: Values of the key that says what a section is.
 VALUES: dict[str, frozenset[str]] = {
     "shape": frozenset({"height-map"}),
-    "law": frozenset({"power-law", "fractional-maxwell", "fractional-zener", "table"}),
-    "kind": frozenset({"harmonic"}),
+    "law": frozenset(
+        {"power-law", "fractional", "fractional-maxwell", "fractional-zener", "table"}
+    ),
+    "kind": frozenset({"harmonic", "approach"}),
     "spacing": frozenset({"adaptive"}),
 }
 

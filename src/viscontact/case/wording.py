@@ -17,9 +17,11 @@ from viscontact.case.sections import CaseFile
 from viscontact.case.unbuilt import refused_key, refused_value
 from viscontact.units import DIMENSIONS
 
-# The section that a value of shape, law or kind stands for; one without such a key, by its name.
-_MODELS: dict[str | int, type[BaseModel]] = {
+# The sections by name; where a value of shape, law or kind says which, by that.
+_SECTIONS: dict[str | int, type[BaseModel]] = {
     **{"time": schedule.Time, "grid": schedule.Cells, "output": schedule.Output},
+}
+_ALTERNATIVES: dict[str | int, type[BaseModel]] = {
     **{"sphere": indenters.Sphere, "paraboloid": indenters.Paraboloid, "cone": indenters.Cone},
     **{"flat-punch": indenters.FlatPunch, "roller": indenters.Roller},
     **{"elastic": materials.Elastic, "maxwell": materials.Maxwell, "zener": materials.Zener},
@@ -27,6 +29,13 @@ _MODELS: dict[str | int, type[BaseModel]] = {
     "relaxation-series": materials.RelaxationSeries,
     **{"step": loads.Step, "ramp": loads.Ramp, "triangle": loads.Triangle},
     "history": loads.History,
+}
+
+# What others call the same, where the spelling gives no hint.
+_OTHER_NAMES = {
+    **{"cylinder": "roller", "ball": "sphere"},
+    **{"prony": "relaxation-series", "generalized-maxwell": "relaxation-series"},
+    **{"standard-linear-solid": "zener", "sls": "zener", "constant": "step"},
 }
 
 
@@ -76,10 +85,10 @@ def corrected(data: dict[str, Any], errors: list[ErrorDetails]) -> dict[str, Any
     for error in errors:
         if error["type"] != "union_tag_invalid":
             continue
-        near = difflib.get_close_matches(error["ctx"]["tag"], _choices(_union_key(error)), n=1)
-        if near:
+        near = _nearest(error["ctx"]["tag"], _choices(_union_key(error)))
+        if near is not None:
             changed = deepcopy(data) if changed is None else changed
-            _at(changed, _key_path(data, error))[_union_key(error)] = near[0]
+            _at(changed, _key_path(data, error))[_union_key(error)] = near
     return changed
 
 
@@ -150,7 +159,11 @@ def _key_path(data: Any, error: ErrorDetails) -> KeyPath:
 
 
 def _model_at(loc: tuple[str | int, ...]) -> type[BaseModel]:
-    return next((_MODELS[step] for step in reversed(loc) if step in _MODELS), CaseFile)
+    """The section in which the last key of a location stands, or should stand."""
+    # A section's name names it only at the top: `load.time` is a key of the load.
+    section = _SECTIONS.get(loc[0], CaseFile) if len(loc) > 1 else CaseFile
+    within = reversed(loc[1:-1])
+    return next((_ALTERNATIVES[step] for step in within if step in _ALTERNATIVES), section)
 
 
 def _union_key(error: ErrorDetails) -> str:
@@ -177,7 +190,7 @@ def _why(key: KeyPath, model: type[BaseModel], error: ErrorDetails) -> str:
 
 
 def _choices(discriminator: str) -> list[str]:
-    fields = {tag: model.model_fields.get(discriminator) for tag, model in _MODELS.items()}
+    fields = {tag: model.model_fields.get(discriminator) for tag, model in _ALTERNATIVES.items()}
     return [
         str(tag) for tag, field in fields.items() if field and tag in get_args(field.annotation)
     ]
@@ -188,10 +201,17 @@ def _wrong_choice(key: str, value: object, choices: list[str]) -> str:
 
 
 def _unknown(what: str, given: object, allowed: list[str]) -> str:
-    near = difflib.get_close_matches(str(given), allowed, n=1)
+    near = _nearest(given, allowed)
     shown = "" if what == "key" else f" {str(given)[:40]!r}"
-    hint = f"; did you mean {near[0]!r}?" if near else "."
+    hint = f"; did you mean {near!r}?" if near else "."
     return f"unknown {what}{shown}{hint} Allowed: {', '.join(allowed)}"
+
+
+def _nearest(given: object, allowed: list[str]) -> str | None:
+    known = _OTHER_NAMES.get(str(given).lower())
+    if known in allowed:
+        return known
+    return next(iter(difflib.get_close_matches(str(given), allowed, n=1)), None)
 
 
 def _example(model: type[BaseModel], key: str) -> str:
