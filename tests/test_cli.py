@@ -247,6 +247,10 @@ def test_interruption_keeps_the_completed_steps(
     assert "--resume" in message
     with vc.open_results("case") as ds:
         assert ds.sizes["time"] == kept
+    assert main(["show", "case"]) == 0
+    assert f"the run stopped at {kept} of 7 instants" in capsys.readouterr().out
+    assert main(["plot", "case", "history"]) == 0
+    assert f"the run stopped at {kept} of 7 instants" in capsys.readouterr().err
 
 
 def test_full_disk_stops_the_run_in_one_message(
@@ -361,6 +365,8 @@ def test_plot_draws_a_figure_into_the_run_or_where_it_is_told(
         (["presure-map"], "did you mean pressure-map?"),
         (["animation"], "animation is not built yet; built: pressure-map"),
         (["history", "--time", "3"], "--time: 3 has no unit"),
+        (["pressure-map", "--time", "6 s"], "--time: 6 s lies outside the run"),
+        (["history", "--time", "0 s", "--time", "-1 s"], "which goes from 0 s to 5 s"),
         (["history", "-o", "figure.xyz"], "figure.xyz"),
         (["history", "-o", "nowhere/figure.png"], "figure.png"),
     ],
@@ -372,6 +378,18 @@ def test_figure_that_cannot_be_drawn_is_refused_in_one_line(
     message = capsys.readouterr().err
     assert said in message
     assert len(message.splitlines()) == 1
+
+
+def test_instant_that_is_not_stored_is_drawn_nearby_and_said(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    kept = ["--set", "output.fields=[0 s, 5 s]"]
+    assert main(["run", "case.yaml", "-q", *kept]) == 0
+    times = ["--time", "0 s", "--time", "4 s"]
+    assert main(["plot", "case", "pressure-profile", *times]) == 0
+    assert capsys.readouterr().err == "4 s is not stored; drew 5 s\n"
+    assert main(["plot", "case", "history", *times]) == 0  # a span, which has no such instants
+    assert capsys.readouterr().err == ""
 
 
 def test_without_matplotlib_a_line_says_what_to_install(
@@ -407,7 +425,8 @@ def test_directory_without_a_result_is_refused_in_one_line(
     assert main([command, "nothing", *rest]) == 2
     assert "nothing: no result there" in capsys.readouterr().err
     assert main([command, "case.yaml", *rest]) == 2
-    assert len(capsys.readouterr().err.splitlines()) == 1
+    said = "case.yaml is no run directory and no netCDF file\n"
+    assert capsys.readouterr().err == said
 
 
 def test_schema_is_json_schema(capsys: pytest.CaptureFixture[str]) -> None:

@@ -8,12 +8,19 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
-from viscontact.cli.messages import refuse
-from viscontact.cli.stored import opened
-from viscontact.units import parse_quantity
+import numpy as np
+import xarray as xr
+
+from viscontact.cli.messages import refuse, say
+from viscontact.cli.stored import early_end, opened
+from viscontact.units import in_words, parse_quantity
 
 #: Promised, not built yet.
 _LATER = ("animation", "von-mises", "stress-section")
+
+
+#: Figures of the fields at single instants; the others take times as a span.
+_OF_INSTANTS = ("pressure-map", "pressure-profile", "pressure-radial", "contact-outline")
 
 
 def draw(directory: Path, figure: str, times: Sequence[str], output: Path | None) -> Path:
@@ -41,6 +48,9 @@ def draw(directory: Path, figure: str, times: Sequence[str], output: Path | None
     folder = directory if directory.is_dir() else directory.parent
     file = output or folder / f"{figure}.png"
     with opened(directory) as ds:
+        if figure != "creep":  # the law goes on after the run
+            _refuse_outside(instants, ds, directory)
+        _note(early_end(ds), _snapped(instants, ds, figure))
         _save(plot, file, draw_it, ds, times=instants)
     return file
 
@@ -75,6 +85,10 @@ def draw_comparison(
     with ExitStack() as stack:
         runs = [stack.enter_context(opened(directory)) for directory in directories]
         labelled = dict(zip(_labels(directories), runs, strict=True))
+        for directory, (label, ds) in zip(directories, labelled.items(), strict=True):
+            _refuse_outside(instants, ds, directory)
+            notes = (early_end(ds), _snapped(instants, ds, figure))
+            _note(*(f"{label}: {note}" for note in notes if note))
         _save(plot, file, draw_it, labelled, times=instants)
     return file
 
@@ -104,6 +118,36 @@ def _instants(times: Iterable[str]) -> list[float] | None:
         return [parse_quantity(text, "time") for text in times] or None
     except ValueError as error:
         refuse(f"--time: {error}")
+
+
+def _refuse_outside(instants: list[float] | None, ds: xr.Dataset, directory: Path) -> None:
+    start, end = (float(ds["time"][index]) for index in (0, -1))
+    # A last digit of slack: "0.1 min" and the run's own 6 s may differ by it.
+    slack = 1e-9 * end
+    for instant in instants or ():
+        if not start - slack <= instant <= end + slack:
+            refuse(
+                f"--time: {in_words(instant, 's')} lies outside the run {directory}, "
+                f"which goes from {in_words(start, 's')} to {in_words(end, 's')}"
+            )
+
+
+def _snapped(instants: list[float] | None, ds: xr.Dataset, figure: str) -> str:
+    """Say which instants are drawn in place of those that are not stored."""
+    if not instants or figure not in _OF_INSTANTS or "pressure" not in ds:
+        return ""
+    stored = ds[ds["pressure"].dims[0]].values
+    nearest = {wanted: float(stored[np.abs(stored - wanted).argmin()]) for wanted in instants}
+    return "; ".join(
+        f"{in_words(wanted, 's')} is not stored; drew {in_words(drawn, 's')}"
+        for wanted, drawn in nearest.items()
+        if not np.isclose(wanted, drawn, rtol=1e-9, atol=0.0)
+    )
+
+
+def _note(*lines: str) -> None:
+    for line in filter(None, lines):
+        say(line)
 
 
 def _labels(directories: Sequence[Path]) -> list[str]:

@@ -16,6 +16,7 @@ from rich.console import Console
 from rich.table import Table
 
 from viscontact.cli.messages import refuse
+from viscontact.cli.stored import early_end
 from viscontact.dataset import SCALARS
 from viscontact.state import Outcome
 from viscontact.units import in_digits, readable_unit
@@ -43,6 +44,8 @@ def print_history(ds: xr.Dataset, *, everything: bool = False) -> None:
     console.print(_table(ds, rows))
     if len(rows) < count:
         console.print(f"{len(rows)} of {count} instants; --all shows every one")
+    if ended := early_end(ds):
+        console.print(f"[yellow]{ended}[/]", highlight=False)
     for line in str(ds.attrs.get("warnings", "")).splitlines():
         console.print(f"[yellow]warning:[/] {line}")
 
