@@ -18,6 +18,7 @@ import pytest
 import viscontact as vc
 from viscontact import forecast
 from viscontact.cli import execution, figures, main
+from viscontact.errors import ConvergenceError
 
 SPHERE = """\
 title: Zener sphere
@@ -265,6 +266,24 @@ def test_full_disk_stops_the_run_in_one_message(
     assert "No space left on device" in capsys.readouterr().err
 
 
+def test_run_without_a_single_instant_leaves_nothing_behind(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def hopeless(*arguments: Any) -> Iterator[vc.ContactState]:
+        raise ConvergenceError("no equilibrium")
+        yield
+
+    Path("mine").mkdir()
+    Path("mine/notes.txt").write_text("keep", encoding="utf-8")
+    with monkeypatch.context() as patched:
+        patched.setattr(execution, "march_run", hopeless)
+        for directory in ("case", "deep/er", "mine"):
+            assert main(["run", "case.yaml", "-q", "-o", directory]) == 1
+            assert "nothing is kept" in capsys.readouterr().err
+    assert sorted(path.name for path in folder.iterdir()) == ["case.yaml", "mine"]
+    assert [path.name for path in Path("mine").iterdir()] == ["notes.txt"]
+
+
 def test_fault_of_ours_is_a_line_and_not_a_traceback(
     folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -307,9 +326,26 @@ def test_check_warns_of_a_grid_that_the_contact_will_overrun(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["check", "case.yaml", "--set", "grid.size=[2.1 mm, 2.1 mm]"]) == 0
-    assert "will probably overrun the grid" in capsys.readouterr().out
+    printed = capsys.readouterr().out
+    assert printed.startswith("case.yaml: can be read, but:\n")
+    assert "will probably overrun the grid" in printed
     assert main(["check", "case.yaml", "--set", "grid.size=[30 mm, 30 mm]"]) == 0
     assert "fewer than 10 cells across" in capsys.readouterr().out
+
+
+def test_check_doubts_a_contact_too_large_for_small_strains(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    # Hertz with Phi(5 s): a = 1.143 mm of a radius of 10 mm at 4 N, and a grows with W^(1/3):
+    # 4.0 mm at 172 N, of which a sphere's circular section takes 2%. The approach is a^2/R.
+    heavy = ["--set", "load.force=172 N", "--set", "grid.size=[12 mm, 12 mm]"]
+    assert main(["check", "case.yaml"]) == 0
+    assert capsys.readouterr().out.startswith("case.yaml: no problems found\n")
+    assert main(["check", "case.yaml", *heavy]) == 0
+    printed = " ".join(capsys.readouterr().out.split())
+    assert printed.startswith("case.yaml: can be read, but: warning: ")
+    assert "half width will be about 0.39 of the indenter's radius" in printed
+    assert "approach will be about 0.1" in printed
 
 
 def test_grid_is_measured_against_the_memory_that_is_free(

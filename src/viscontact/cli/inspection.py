@@ -9,7 +9,8 @@ from viscontact.cli.messages import refuse
 from viscontact.cli.preparation import Prepared
 from viscontact.extent import ContactEstimate
 from viscontact.forecast import Forecast, forecast
-from viscontact.plausibility import DOUBTFUL_CELLS
+from viscontact.indenters import Indenter
+from viscontact.plausibility import DEEP_APPROACH, DOUBTFUL_CELLS, WIDE_CONTACT
 from viscontact.units import in_digits, in_words
 
 
@@ -25,16 +26,17 @@ def print_forecast(prepared: Prepared) -> None:
         expected = forecast(prepared.run)
     except ValueError as error:
         refuse(*prepared.case.error(str(error)).problems)
-    console = Console()
-    console.print(f"{prepared.case.document.path}: no problems found", highlight=False)
+    console, doubts = Console(), _doubts(expected, prepared.run.indenter)
+    verdict = "can be read, but:" if doubts else "no problems found"
+    console.print(f"{prepared.case.document.path}: {verdict}", highlight=False, soft_wrap=True)
+    for line in doubts:
+        console.print(f"[yellow]warning:[/] {line}")
     console.print(_listed(_needs(prepared, expected)))
     if expected.estimate is not None:
         console.print(
             "Under the largest force, with the end's compliance (a coarse elastic solve):"
         )
         console.print(_listed(_expectations(expected, expected.estimate)))
-    for line in _doubts(expected):
-        console.print(f"[yellow]warning:[/] {line}")
 
 
 def _listed(rows: list[tuple[str, str]]) -> Table:
@@ -71,7 +73,8 @@ def _expectations(expected: Forecast, found: ContactEstimate) -> list[tuple[str,
     ]
 
 
-def _doubts(expected: Forecast) -> list[str]:
+def _doubts(expected: Forecast, indenter: Indenter) -> list[str]:
+    """What a run would warn of, as far as the coarse solve can tell."""
     if expected.estimate is None:
         return []
     doubts = []
@@ -85,6 +88,22 @@ def _doubts(expected: Forecast) -> list[str]:
         doubts.append(
             f"fewer than {DOUBTFUL_CELLS} cells across the contact; use more cells or a smaller "
             "grid.size"
+        )
+    return doubts + _strain_doubts(expected.estimate, indenter)
+
+
+def _strain_doubts(found: ContactEstimate, indenter: Indenter) -> list[str]:
+    radius, half_width = indenter.radius_of_curvature, min(found.length, found.width) / 2
+    doubts = []
+    if half_width > WIDE_CONTACT * radius:
+        doubts.append(
+            f"the contact's half width will be about {half_width / radius:.2g} of the indenter's "
+            f"radius of curvature; half-space theory is meant for less than {WIDE_CONTACT:g}"
+        )
+    if found.approach > DEEP_APPROACH * radius:
+        doubts.append(
+            f"the approach will be about {found.approach / radius:.2g} of the indenter's radius of "
+            f"curvature; small-strain theory is meant for less than {DEEP_APPROACH:g}"
         )
     return doubts
 

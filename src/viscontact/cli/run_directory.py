@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from contextlib import suppress
 from pathlib import Path
 
 from viscontact.case import Case
@@ -96,6 +97,51 @@ def set_up(directory: Path, case: Case) -> Path:
     except OSError as error:
         refuse(f"{directory}: cannot be written: {error}")
     return directory / RESULT_NAME
+
+
+def present(directory: Path, case: Case) -> frozenset[Path]:
+    """Return what is there before a run begins and has to stay.
+
+    Parameters
+    ----------
+    directory : Path
+        Where the run is to go.
+    case : Case
+        The case.
+
+    Returns
+    -------
+    frozenset of Path
+        The directory, those above it and the load's file in it, as far as they exist.
+    """
+    paths = (directory, *directory.parents, *_load_copy(directory, case))
+    return frozenset(path for path in paths if path.exists())
+
+
+def clear(directory: Path, case: Case, before: frozenset[Path]) -> None:
+    """Remove what a run without a single instant has put there, so that it may start again.
+
+    Parameters
+    ----------
+    directory : Path
+        Where the run went.
+    case : Case
+        The case.
+    before : frozenset of Path
+        From `present`; it stays.
+    """
+    # An earlier result went when this one was begun: both of these names are the run's.
+    written = (directory / RESULT_NAME, directory / CASE_NAME, *_load_copy(directory, case))
+    with suppress(OSError):  # there is something worse to report
+        for file in (path for path in written if path not in before):
+            file.unlink(missing_ok=True)
+        for folder in (directory, *directory.parents):
+            if folder not in before:
+                folder.rmdir()
+
+
+def _load_copy(directory: Path, case: Case) -> tuple[Path, ...]:
+    return () if case.load_file is None else (directory / case.load_file.name,)
 
 
 def _is_same(one: Path, other: Path) -> bool:
