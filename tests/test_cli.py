@@ -203,9 +203,10 @@ def test_contact_that_overruns_the_grid_stops_the_run_and_keeps_its_steps(
         assert np.isfinite(ds.pressure).all()
 
 
-def test_run_without_contact_is_a_result(folder: Path) -> None:
+def test_run_without_contact_is_a_result(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     load = "load={kind: triangle, force: 4 N, rise: 1 s}"
-    assert main(["run", "case.yaml", "-q", "--set", load]) == 0
+    assert main(["run", "case.yaml", "--set", load]) == 0
+    assert capsys.readouterr().err.splitlines()[0].endswith("0 iterations, no contact")
     with vc.open_results("case") as ds:
         assert ds.contact_area[0] == 0.0
         assert ds.outcome[0] == vc.Outcome.NO_CONTACT

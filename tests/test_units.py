@@ -7,11 +7,19 @@ import subprocess
 import sys
 from contextlib import suppress
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from viscontact.units import DIMENSIONS, in_digits, in_words, parse_quantity, readable_unit
+from viscontact.units import (
+    DIMENSIONS,
+    in_digits,
+    in_words,
+    is_rounding_tilt,
+    parse_quantity,
+    readable_unit,
+)
 
 
 # Values from the definitions of the units (SI brochure, 9th edition; the inch is 25.4 mm and the
@@ -97,6 +105,12 @@ def test_any_text_is_a_finite_number_or_a_value_error(text: str, dimension: str)
         (1.672e-4, "m", "167.2 µm"),
         (0.009565, "m", "9.565 mm"),
         (1.083e-4, "m2", "108.3 mm²"),
+        (1.2e-14, "m2", "0.012 µm²"),  # from 1e4 nm² on
+        (0.9e-14, "m2", "9000 nm²"),
+        (7e-7, "m2", "0.7 mm²"),
+        (2.596e-17, "J", "25.96 aJ"),  # a tip of 20 nm pressed 10 nm deep
+        (3e-11, "N", "30 pN"),
+        (4e-10, "m", "0.4 nm"),
         (152.2e6, "Pa", "152.2 MPa"),
         (10e3, "N", "10 kN"),
         (1000.0, "s", "1000 s"),
@@ -110,6 +124,12 @@ def test_si_number_in_words(value: float, unit: str, words: str) -> None:
     assert in_words(value, unit) == words
 
 
+def test_values_that_differ_by_rounding_print_alike() -> None:
+    apart = (4.7825 * (1 - 1e-12), 4.7825 * (1 + 1e-12))
+    assert len({f"{value:.4g}" for value in apart}) == 2
+    assert len({in_digits(value) for value in apart}) == 1
+
+
 @given(
     value=st.floats(min_value=1e-8, max_value=9e9),
     unit=st.sampled_from(["m", "m2", "N", "Pa", "J", "rad"]),
@@ -119,6 +139,13 @@ def test_readable_unit_and_number_give_the_value_back(value: float, unit: str) -
     printed = float(in_digits(value / readable.factor, 6))
     # six digits printed: half of the sixth is lost
     assert printed * readable.factor == pytest.approx(value, rel=5.1e-6)
+
+
+def test_tilt_is_rounding_by_what_it_moves_not_by_its_size() -> None:
+    # A tip of a microscope: 1e-8 rad lift the ends of 20 nm by 1e-16 m, of a depth of 1 nm.
+    assert is_rounding_tilt([1e-8], contact_length=[20e-9], approach=[1e-9])
+    # A long roller pressed lightly: 5e-10 rad lift the ends of 1 m by 0.25 nm, of 10 nm.
+    assert not is_rounding_tilt([np.nan, -5e-10], contact_length=[0.0, 1.0], approach=[0, 1e-8])
 
 
 def test_pint_is_imported_only_when_a_quantity_is_parsed() -> None:

@@ -19,7 +19,7 @@ from viscontact.cli.messages import refuse
 from viscontact.cli.stored import early_end
 from viscontact.dataset import SCALARS
 from viscontact.state import Outcome
-from viscontact.units import in_digits, readable_unit
+from viscontact.units import in_digits, is_rounding_tilt, readable_unit
 
 _COLUMNS = (
     *("force", "approach", "tilt_x", "tilt_y", "contact_area", "contact_length"),
@@ -81,8 +81,7 @@ def _table(ds: xr.Dataset, rows: NDArray[np.int_]) -> Table:
     for name in ("time", *_COLUMNS):
         values = ds[name].values
         largest = float(np.nanmax(np.abs(values), initial=0.0))
-        # An exactly centred load leaves tilts of rounding size.
-        if largest <= (1e-9 if name.startswith("tilt") else 0.0):
+        if largest == 0.0 or (name.startswith("tilt") and _is_rounding(ds, name)):
             continue
         unit = readable_unit(largest, ds[name].attrs["units"])
         heading = rf"{name.replace('_', ' ')} \[{unit.symbol}]"
@@ -91,6 +90,10 @@ def _table(ds: xr.Dataset, rows: NDArray[np.int_]) -> Table:
     for row in zip(*cells, strict=True):
         table.add_row(*row)
     return table
+
+
+def _is_rounding(ds: xr.Dataset, tilt: str) -> bool:
+    return is_rounding_tilt(ds[tilt].values, ds["contact_length"].values, ds["approach"].values)
 
 
 def _write_rows(ds: xr.Dataset, file: IO[str]) -> None:

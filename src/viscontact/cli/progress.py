@@ -75,7 +75,6 @@ class _PlainLines:
 
 
 def _details(state: ContactState) -> str:
-    return (
-        f"t = {in_words(state.time, 's')}, {state.iterations} iterations, "
-        f"contact {in_words(state.contact_area, 'm2')}"
-    )
+    area = state.contact_area
+    contact = f"contact {in_words(area, 'm2')}" if area else "no contact"
+    return f"t = {in_words(state.time, 's')}, {state.iterations} iterations, {contact}"

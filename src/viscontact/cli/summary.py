@@ -11,14 +11,14 @@ from rich.table import Table
 
 from viscontact.dataset import SCALARS
 from viscontact.state import ContactState
-from viscontact.units import in_digits, in_words, readable_unit
+from viscontact.units import in_digits, in_words, is_rounding_tilt, readable_unit
 
 _ROWS = (
     *("force", "eccentricity_x", "eccentricity_y", "approach", "tilt_x", "tilt_y"),
     *("contact_area", "contact_length", "contact_width", "peak_pressure", "mean_pressure", "work"),
 )
-# Exactly centred loads leave tilts of rounding size.
-_NEGLIGIBLE = {"m": 1e-12, "rad": 1e-9}
+# Exactly centred loads leave eccentricities of rounding size [m].
+_NEGLIGIBLE = 1e-12
 
 
 def print_summary(states: Sequence[ContactState], directory: Path, seconds: float) -> None:
@@ -55,9 +55,9 @@ def _table(states: Sequence[ContactState]) -> Table:
         table.add_column(heading, justify="right")
     table.add_column("largest", justify="right")
     for name in _ROWS:
-        values = [getattr(state, name) for state in states]
+        values = _values(states, name)
         largest = max((abs(value) for value in values if math.isfinite(value)), default=0.0)
-        if largest > _NEGLIGIBLE.get(SCALARS[name].units, 0.0):
+        if not _is_rounding(states, name, largest):
             unit = readable_unit(largest, SCALARS[name].units)
             table.add_row(
                 f"{name.replace('_', ' ')} [{unit.symbol}]".replace("[", r"\["),
@@ -65,3 +65,14 @@ def _table(states: Sequence[ContactState]) -> Table:
                 in_digits(largest / unit.factor),
             )
     return table
+
+
+def _values(states: Sequence[ContactState], name: str) -> list[float]:
+    return [getattr(state, name) for state in states]
+
+
+def _is_rounding(states: Sequence[ContactState], name: str, largest: float) -> bool:
+    if name.startswith("tilt"):
+        lengths, approaches = _values(states, "contact_length"), _values(states, "approach")
+        return is_rounding_tilt(_values(states, name), lengths, approaches)
+    return largest <= (_NEGLIGIBLE if name.startswith("eccentricity") else 0.0)

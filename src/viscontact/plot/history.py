@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.plot import style
 from viscontact.plot.readable import DisplayUnit, display_unit
+from viscontact.units import is_rounding_tilt
 
 _NAME = "history"
 
@@ -120,11 +121,8 @@ def _worth_a_panel(quantity: _Quantity, runs: Mapping[str, xr.Dataset]) -> bool:
     values = [run[quantity.name].values for run in runs.values()]
     if quantity.name == "force":
         return any(np.ptp(force) > 1e-6 * np.max(force) for force in values)
-    # A tilt that is only rounding is not worth a panel: it moves the ends of the contact
-    # by less than a millionth of the approach.
-    return any(
-        np.nanmax(np.abs(tilt)) * np.nanmax(run["contact_length"].values)
-        > 1e-6 * np.nanmax(np.abs(run["approach"].values))
+    return not all(
+        is_rounding_tilt(tilt, run["contact_length"].values, run["approach"].values)
         for tilt, run in zip(values, runs.values(), strict=True)
     )
 

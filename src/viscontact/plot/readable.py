@@ -68,10 +68,6 @@ def display_unit(si_unit: str, *values: ArrayLike) -> DisplayUnit:
         # The largest prefix that leaves the compliance below a thousand.
         modulus = display_unit("Pa", 999 / largest if largest else 1.0)
         return DisplayUnit(f"1/{modulus.symbol}", 1 / modulus.factor)
-    if si_unit == "m2":
-        # 0.7 mm² reads better than 700000 µm²: down to a hundredth.
-        length = display_unit("m", 10 * np.sqrt(largest))
-        return DisplayUnit(f"{length.symbol}²", length.factor**2)
     unit = units.readable_unit(largest, si_unit)
     return DisplayUnit(unit.symbol, unit.factor)
 

@@ -6,6 +6,7 @@ figures turn SI numbers back into units a person reads.
 
 from viscontact.units.quantities import DIMENSIONS, Dimension, parse_quantity, parse_unit
 from viscontact.units.readable import ReadableUnit, in_digits, in_words, readable_unit
+from viscontact.units.rounding import is_rounding_tilt
 
 __all__ = [
     "DIMENSIONS",
@@ -13,6 +14,7 @@ __all__ = [
     "ReadableUnit",
     "in_digits",
     "in_words",
+    "is_rounding_tilt",
     "parse_quantity",
     "parse_unit",
     "readable_unit",

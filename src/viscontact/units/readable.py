@@ -14,7 +14,10 @@ class ReadableUnit:
     factor: float
 
 
-_PREFIXES = ((1e-9, "n"), (1e-6, "µ"), (1e-3, "m"), (1.0, ""), (1e3, "k"), (1e6, "M"), (1e9, "G"))
+_PREFIXES = (
+    *((1e-18, "a"), (1e-15, "f"), (1e-12, "p"), (1e-9, "n"), (1e-6, "µ"), (1e-3, "m")),
+    *((1.0, ""), (1e3, "k"), (1e6, "M"), (1e9, "G")),
+)
 _LONG_TIMES = ((1e4, 3600.0, "h"), (2.6e5, 86400.0, "d"))
 _SYMBOLS = {"m2": "m²", "m^2": "m²", "m**2": "m²", "1": ""}
 
@@ -40,6 +43,8 @@ def readable_unit(largest: float, unit: str) -> ReadableUnit:
     ReadableUnit(symbol='mm²', factor=1e-06)
     >>> readable_unit(1.5e8, "Pa").symbol
     'MPa'
+    >>> readable_unit(2.6e-17, "J").symbol
+    'aJ'
     """
     symbol = _SYMBOLS.get(unit, unit)
     size = abs(largest)
@@ -53,12 +58,15 @@ def readable_unit(largest: float, unit: str) -> ReadableUnit:
 
 
 def _prefixed(size: float, symbol: str) -> ReadableUnit:
-    power = 2 if symbol == "m²" else 1
-    # Kilometres, kiloseconds and kiloradians are nobody's daily unit.
+    # Kilometres, kiloseconds and kiloradians are nobody's daily unit, nor are picometres; the
+    # forces and works of a sharp tip are small enough for all prefixes.
     top = 1.0 if symbol in ("m", "m²", "s", "rad") else math.inf
-    usable = [(p**power, name) for p, name in _PREFIXES if p <= top]
+    bottom = 0.0 if symbol in ("N", "J") else 1e-9
+    # An area passes for its unit down to a hundredth: 0.7 mm² reads better than 700000 µm².
+    power, least = (2, 0.01) if symbol == "m²" else (1, 1.0)
+    usable = [(p**power, name) for p, name in _PREFIXES if bottom <= p <= top]
     # One in a thousand of slack: 0.9999 mm stays in millimetres.
-    fitting = [entry for entry in usable if entry[0] <= size * 1.001] or usable[:1]
+    fitting = [entry for entry in usable if least * entry[0] <= size * 1.001] or usable[:1]
     factor, prefix = fitting[-1]
     return ReadableUnit(prefix + symbol, factor)
 
@@ -116,6 +124,8 @@ def in_digits(value: float, digits: int = 4) -> str:
     """
     if math.isnan(value):
         return "-"
+    # Two values that differ by rounding only are to print alike: 4.7825 is 4.782 or 4.783.
+    value = float(f"{value:.{max(9, digits + 2) - 1}e}")
     if value == 0.0 or not 1e-4 <= abs(value) < 1e6:
         return f"{value:.{digits}g}"
     # Of the rounded number: 9.99999 has two digits in front once it is written 10.00.
