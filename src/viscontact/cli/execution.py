@@ -96,8 +96,9 @@ def _march_into(result: Path, prepared: Prepared, record: Record, *, quiet: bool
     except KeyboardInterrupt:
         record.interrupted = True
     if record.interrupted:
-        advice = "continuing with --resume is not built yet; start again with --overwrite"
-        stop("interrupted", _kept(result, prepared, record), advice, code=INTERRUPTED)
+        advice = ["continuing with --resume is not built yet; start again with --overwrite"]
+        kept = _kept(result, prepared, record)
+        stop("interrupted", kept, *(advice if record.states else ()), code=INTERRUPTED)
 
 
 def _write_states(result: Path, prepared: Prepared, record: Record, *, quiet: bool) -> None:
