@@ -194,4 +194,8 @@ def _check_apart(state, open_gap, displacement, grid, scale):
     else:
         # A flat surface is touched by the lowest point, which is no cell's centre on most grids.
         tilted = open_gap - (plane - state.approach)
-        assert 0 <= nearest <= max(float(tilted.min()) - state.approach, 0.0) + 1e-12 * scale
+        assert (
+            -1e-12 * scale
+            <= nearest
+            <= max(float(tilted.min()) - state.approach, 0.0) + 1e-12 * scale
+        )
