@@ -12,7 +12,7 @@ from viscontact.cli.interruption import watched_interruption
 from viscontact.cli.messages import INTERRUPTED, stop
 from viscontact.cli.preparation import Prepared, prepare
 from viscontact.cli.progress import shown_progress
-from viscontact.cli.run_directory import chosen_directory, clear, present, refuse_occupied, set_up
+from viscontact.cli.run_directory import chosen_directory, refuse_occupied, set_up
 from viscontact.cli.summary import print_summary
 from viscontact.dataset import run_attributes
 from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
@@ -69,14 +69,9 @@ def execute(
     prepared = prepare(path, settings or [], threads)
     directory = chosen_directory(path, output)
     refuse_occupied(directory, prepared.case, overwrite=overwrite)
-    before = present(directory, prepared.case)
     result = set_up(directory, prepared.case)
     record, started = Record(), clock.perf_counter()
-    try:
-        _march_into(result, prepared, record, quiet=quiet)
-    finally:
-        if not record.states:
-            clear(directory, prepared.case, before)
+    _march_into(result, prepared, record, quiet=quiet)
     if not quiet:
         print_summary(record.states, directory, clock.perf_counter() - started)
     return directory
@@ -124,6 +119,4 @@ def _write_states(result: Path, prepared: Prepared, record: Record, *, quiet: bo
 
 def _kept(result: Path, prepared: Prepared, record: Record) -> str:
     done, total = len(record.states), len(prepared.run.times)
-    if not done:
-        return "no instant was completed; nothing is kept"
     return f"{result.parent} keeps {done} of {total} instants"

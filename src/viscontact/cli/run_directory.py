@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import shutil
-from contextlib import suppress
 from pathlib import Path
+
+import netCDF4
 
 from viscontact.case import Case
 from viscontact.cli.messages import refuse
@@ -51,10 +52,12 @@ def refuse_occupied(directory: Path, case: Case, *, overwrite: bool) -> None:
         directory.exists()
     except OSError as error:  # such as a name that is too long
         refuse(f"{directory}: cannot be a directory: {error}")
-    kept = directory / CASE_NAME
+    kept, result = directory / CASE_NAME, directory / RESULT_NAME
     if directory.exists() and not directory.is_dir():
         refuse(f"{directory}: is a file, not a directory; choose another one with -o DIR")
-    if (directory / RESULT_NAME).exists() and not overwrite:
+    # What a run has left that was stopped in its first step is nothing to lose.
+    overwrite = overwrite or (result.exists() and not _holds_an_instant(result))
+    if result.exists() and not overwrite:
         refuse(
             f"{directory}: holds a result already; replace it with --overwrite, choose another "
             "directory with -o DIR, or continue it with --resume (not built yet)"
@@ -99,50 +102,14 @@ def set_up(directory: Path, case: Case) -> Path:
     return directory / RESULT_NAME
 
 
-def present(directory: Path, case: Case) -> frozenset[Path]:
-    """Return what is there before a run begins and has to stay.
-
-    Parameters
-    ----------
-    directory : Path
-        Where the run is to go.
-    case : Case
-        The case.
-
-    Returns
-    -------
-    frozenset of Path
-        The directory, those above it and the load's file in it, as far as they exist.
-    """
-    paths = (directory, *directory.parents, *_load_copy(directory, case))
-    return frozenset(path for path in paths if path.exists())
-
-
-def clear(directory: Path, case: Case, before: frozenset[Path]) -> None:
-    """Remove what a run without a single instant has put there, so that it may start again.
-
-    Parameters
-    ----------
-    directory : Path
-        Where the run went.
-    case : Case
-        The case.
-    before : frozenset of Path
-        From `present`; it stays.
-    """
-    # An earlier result went when this one was begun: both of these names are the run's.
-    written = (directory / RESULT_NAME, directory / CASE_NAME, *_load_copy(directory, case))
-    with suppress(OSError):  # there is something worse to report
-        for file in (path for path in written if path not in before):
-            file.unlink(missing_ok=True)
-        for folder in (directory, *directory.parents):
-            if folder not in before:
-                folder.rmdir()
-
-
-def _load_copy(directory: Path, case: Case) -> tuple[Path, ...]:
-    return () if case.load_file is None else (directory / case.load_file.name,)
-
-
 def _is_same(one: Path, other: Path) -> bool:
     return one.exists() and other.exists() and one.samefile(other)
+
+
+def _holds_an_instant(result: Path) -> bool:
+    """Whether a result has anything to lose; a file that cannot be read may have."""
+    try:
+        with netCDF4.Dataset(str(result)) as file:
+            return "time" not in file.dimensions or len(file.dimensions["time"]) > 0
+    except OSError:
+        return True
