@@ -20,7 +20,7 @@ PACKAGE = Path(viscontact.__file__).parent
 
 # The floors from the ground up. A new module gets its place here; think twice before it is high.
 FLOORS = (
-    ("errors", "grid", "load", "indenters", "laws"),  # 0 words: they do not know each other
+    ("errors", "real", "grid", "load", "indenters", "laws"),  # 0 words: they do not know each other
     ("material", "influence", "memory", "state", "rim", "hull"),  # 1 single ideas
     ("convolution", "balance", "bedding", "half_space"),  # 2 operators on fields
     ("contact_problem", "search", "contact"),  # 3 equilibrium at one instant
@@ -41,6 +41,8 @@ FLOORS = (
 )
 # Neighbours on a floor of which the first needs the second; the second stands to the left above.
 NEIGHBOURS = {
+    ("load", "real"),  # what counts as a number
+    ("indenters", "real"),
     ("memory", "material"),  # the past is weighted by the contact compliance
     ("bedding", "balance"),  # which resultants the first guess carries
     ("half_space", "balance"),  # the rigid planes and the operators over one grid

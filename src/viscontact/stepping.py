@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from numbers import Real
 
 import numpy as np
 from numpy.typing import NDArray
+
+from viscontact.real import as_real
 
 
 def uniform_times(end: float, n: int) -> NDArray[np.float64]:
@@ -75,24 +76,14 @@ def log_times(first: float, end: float, n: int) -> NDArray[np.float64]:
 
 
 def _instant(name: str, value: object) -> float:
-    instant = _number(value)
-    if not (math.isfinite(instant) and instant > 0):
+    instant = as_real(value)
+    if instant is None or not (math.isfinite(instant) and instant > 0):
         raise ValueError(f"{name} must be a positive, finite time in s, got {value!r}")
     return instant
 
 
 def _steps(n: object) -> int:
-    steps = _number(n)
-    if not (steps.is_integer() and steps >= 1):
+    steps = as_real(n)
+    if steps is None or not (steps.is_integer() and steps >= 1):
         raise ValueError(f"n, the number of steps, must be a whole number >= 1, got {n!r}")
     return int(steps)
-
-
-def _number(value: object) -> float:
-    """Return the value as a float, NaN where it is not a plain number."""
-    if isinstance(value, bool) or not isinstance(value, Real):
-        return math.nan
-    try:
-        return float(value)
-    except OverflowError:  # a whole number beyond all floats
-        return math.inf

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from numbers import Real
+
+from viscontact.real import as_real
 
 
 def real_number(name: str, value: object, unit: str) -> float:
@@ -28,12 +29,10 @@ def real_number(name: str, value: object, unit: str) -> float:
     >>> real_number("Cone: half_angle", 1, "rad")
     1.0
     """
-    if isinstance(value, bool) or not isinstance(value, Real):
+    number = as_real(value)
+    if number is None:
         raise ValueError(f"{name} must be a number in {unit}, got {value!r}")
-    try:
-        return float(value)
-    except OverflowError:  # a whole number beyond all floats
-        return math.inf
+    return number
 
 
 def positive_length(name: str, value: object) -> float:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from numbers import Real
 from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from viscontact.real import as_real
 
 _UNITS = {
     "times": "s",
@@ -41,12 +42,10 @@ def finite_number(name: str, value: object, unit: str) -> float:
     >>> finite_number("time", 1, "s")
     1.0
     """
-    try:
-        if not isinstance(value, bool) and isinstance(value, Real) and math.isfinite(value):
-            return float(value)
-    except OverflowError:  # a whole number beyond all floats
-        pass
-    raise ValueError(f"{name} must be a finite number in {unit}, got {value!r}")
+    number = as_real(value)
+    if number is None or not math.isfinite(number):
+        raise ValueError(f"{name} must be a finite number in {unit}, got {value!r}")
+    return number
 
 
 def side_of_jump(side: str) -> Literal["left", "right"]:
