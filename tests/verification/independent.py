@@ -189,8 +189,7 @@ def _check_apart(state, open_gap, displacement, grid, scale):
     assert state.force == state.contact_area == state.peak_pressure == state.mean_pressure == 0.0
     nearest = float((open_gap + displacement - plane).min())
     if state.displacement.any():
-        # The package finds the rise of a long step to 1e-6 of it. Measured: 3e-8.
-        assert abs(nearest) <= 1e-6 * max(scale, 1e-300)
+        assert abs(nearest) <= 1e-9 * max(scale, 1e-300)
     else:
         # A flat surface is touched by the lowest point, which is no cell's centre on most grids.
         tilted = open_gap - (plane - state.approach)
