@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from viscontact.laws.arguments import make_positive
-from viscontact.laws.law import SeriesLaw
+from viscontact.laws.law import SeriesLaw, slowing
 from viscontact.laws.series import CreepSeries
 from viscontact.laws.uniaxial import uniaxial
 
@@ -121,6 +121,10 @@ class Zener(SeriesLaw):
             (0.5 / self.delayed_modulus,),
             (self.viscosity / self.delayed_modulus,),
         )
+
+    def slowed(self, factor: float) -> Zener:
+        """Return the law with every time multiplied by a factor > 0: a thicker dashpot."""
+        return replace(self, viscosity=slowing(factor) * self.viscosity)
 
 
 @dataclass(frozen=True)
@@ -255,4 +259,13 @@ class Burgers(SeriesLaw):
             (0.5 / self.delayed_modulus,),
             (self.delayed_viscosity / self.delayed_modulus,),
             0.5 / self.viscosity,
+        )
+
+    def slowed(self, factor: float) -> Burgers:
+        """Return the law with every time multiplied by a factor > 0: thicker dashpots."""
+        factor = slowing(factor)
+        return replace(
+            self,
+            viscosity=factor * self.viscosity,
+            delayed_viscosity=factor * self.delayed_viscosity,
         )

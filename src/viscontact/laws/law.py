@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, overload
+from typing import TYPE_CHECKING, Self, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from viscontact.laws.arguments import positive
+from viscontact.laws.interconversion import creep_mean
+from viscontact.laws.oscillation import modulus_of_creep
 
 if TYPE_CHECKING:  # only names for type checkers: the series know laws, not laws the series
     from viscontact.laws.series import CreepSeries, RelaxationSeries
@@ -71,11 +76,121 @@ class Law(ABC):
         """
         return over_times(self._relaxation, t)
 
+    @overload
+    def complex_modulus(self, angular_frequency: float) -> complex: ...
+    @overload
+    def complex_modulus(
+        self, angular_frequency: Sequence[float] | NDArray[np.float64]
+    ) -> NDArray[np.complex128]: ...
+    def complex_modulus(self, angular_frequency: ArrayLike) -> complex | NDArray[np.complex128]:
+        """Return the complex shear modulus G* = G' + i G''.
+
+        Parameters
+        ----------
+        angular_frequency : float or array_like
+            omega > 0 [rad/s]; 2 pi times the frequency in Hz.
+
+        Returns
+        -------
+        complex or ndarray
+            Stress amplitude per amplitude of the shear angle exp(i omega t) [Pa]: the storage
+            modulus G' and the loss modulus G'', both >= 0.
+
+        Raises
+        ------
+        ValueError
+            If a frequency is not positive and finite.
+
+        Notes
+        -----
+        G*(omega) = i omega L[G](i omega) = 1 / (2 i omega L[Phi](i omega)) (Tschoegl 1989,
+        The Phenomenological Theory of Linear Viscoelastic Behavior, section 2.2).
+        """
+        omega = np.asarray(angular_frequency, dtype=np.float64)
+        wrong = ~(np.isfinite(omega) & (omega > 0))
+        if wrong.any():
+            raise ValueError(
+                "angular_frequency: must be positive and finite, got "
+                f"{float(omega[wrong][0])!r} rad/s; the modulus at rest is relaxation(t) at late t"
+            )
+        values = self._complex_modulus(omega)
+        return complex(values) if omega.ndim == 0 else values
+
+    @overload
+    def mean_creep(self, start: float, end: float) -> float: ...
+    @overload
+    def mean_creep(
+        self,
+        start: Sequence[float] | NDArray[np.float64],
+        end: Sequence[float] | NDArray[np.float64],
+    ) -> NDArray[np.float64]: ...
+    def mean_creep(self, start: ArrayLike, end: ArrayLike) -> float | NDArray[np.float64]:
+        """Return the mean of Phi over the times from `start` to `end`.
+
+        It is what a stress that rises linearly over a time `end - start` meets at `start` after
+        its rise.
+
+        Parameters
+        ----------
+        start, end : float or array_like
+            Times since the step, 0 <= start <= end [s], of one shape. Where they are equal the
+            mean is Phi there.
+
+        Returns
+        -------
+        float or ndarray
+            Mean creep compliance [1/Pa], of the shape of `start`.
+
+        Raises
+        ------
+        ValueError
+            If a time is negative, NaN or infinite, or an end comes before its start.
+        """
+        return over_intervals(self._mean_creep, start, end)
+
+    @abstractmethod
+    def slowed(self, factor: float) -> Law:
+        """Return the law with every time multiplied by a factor: Phi(t/factor), G(t/factor).
+
+        Parameters
+        ----------
+        factor : float
+            Time-temperature shift factor a_T > 0 [-]; above 1 the material is slower.
+
+        Returns
+        -------
+        Law
+            The same law, `factor` times slower.
+
+        Raises
+        ------
+        ValueError
+            If the factor is not positive and finite.
+        """
+
+    @property
+    def measured_until(self) -> float:
+        """Last time on which the law rests on data [s]; inf for a formula."""
+        return math.inf
+
+    @property
+    def inversion_error(self) -> float:
+        """Estimated relative error of what is interconverted by numbers [-]; 0 in closed form."""
+        return 0.0
+
     @abstractmethod
     def _creep(self, t: NDArray[np.float64]) -> NDArray[np.float64]: ...
 
     @abstractmethod
     def _relaxation(self, t: NDArray[np.float64]) -> NDArray[np.float64]: ...
+
+    @abstractmethod
+    def _mean_creep(
+        self, start: NDArray[np.float64], end: NDArray[np.float64]
+    ) -> NDArray[np.float64]: ...
+
+    @abstractmethod
+    def _complex_modulus(self, omega: NDArray[np.float64]) -> NDArray[np.complex128]: ...
 
 
 class SeriesLaw(Law):
@@ -89,6 +204,10 @@ class SeriesLaw(Law):
         """Return the same law as a series in G; ValueError without instant compliance."""
         return self._series.relaxation_series()
 
+    @abstractmethod
+    def slowed(self, factor: float) -> Self:
+        """Return the law with every time multiplied by a factor > 0: Phi(t/factor)."""
+
     @cached_property
     def _series(self) -> CreepSeries:
         # Kept, because a series in turn keeps its inverse, which takes a root search.
@@ -99,6 +218,14 @@ class SeriesLaw(Law):
 
     def _relaxation(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
         return self._series._relaxation(t)
+
+    def _mean_creep(
+        self, start: NDArray[np.float64], end: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        return creep_mean(self._series._terms, start, end)
+
+    def _complex_modulus(self, omega: NDArray[np.float64]) -> NDArray[np.complex128]:
+        return modulus_of_creep(self._series._terms, omega)
 
 
 def over_times(
@@ -114,3 +241,27 @@ def over_times(
         )
     values = function(times)
     return float(values) if times.ndim == 0 else values
+
+
+def over_intervals(
+    function: Callable[[NDArray[np.float64], NDArray[np.float64]], NDArray[np.float64]],
+    start: ArrayLike,
+    end: ArrayLike,
+) -> float | NDArray[np.float64]:
+    """Return `function` over checked intervals of time [s]: a float for one, else an array."""
+    starts, ends = np.broadcast_arrays(
+        np.asarray(start, dtype=np.float64), np.asarray(end, dtype=np.float64)
+    )
+    wrong = ~((starts >= 0) & (ends >= starts) & (ends < np.inf))
+    if wrong.any():
+        raise ValueError(
+            "start, end: times since the step must be finite with 0 <= start <= end, got "
+            f"{float(starts[wrong][0])!r} s to {float(ends[wrong][0])!r} s"
+        )
+    values = function(starts, ends)
+    return float(values) if starts.ndim == 0 else values
+
+
+def slowing(factor: float) -> float:
+    """Return the factor of `Law.slowed` as a float; ValueError unless positive and finite."""
+    return positive("slowed: factor", factor, "(a ratio of times)")

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from viscontact.laws.arguments import make_positive
-from viscontact.laws.law import SeriesLaw
+from viscontact.laws.law import SeriesLaw, slowing
 from viscontact.laws.series import CreepSeries
 from viscontact.laws.uniaxial import uniaxial
 
@@ -98,6 +98,11 @@ class Elastic(SeriesLaw):
     def creep_series(self) -> CreepSeries:
         """Return the same law as a series in Phi."""
         return CreepSeries(0.5 / self.shear_modulus, (), ())
+
+    def slowed(self, factor: float) -> Elastic:
+        """Return the law itself, which has no time in it; ValueError unless the factor is > 0."""
+        slowing(factor)
+        return self
 
 
 @dataclass(frozen=True)
@@ -199,3 +204,7 @@ class Maxwell(SeriesLaw):
     def creep_series(self) -> CreepSeries:
         """Return the same law as a series in Phi."""
         return CreepSeries(0.5 / self.shear_modulus, (), (), 0.5 / self.viscosity)
+
+    def slowed(self, factor: float) -> Maxwell:
+        """Return the law with every time multiplied by a factor > 0: a thicker dashpot."""
+        return replace(self, viscosity=slowing(factor) * self.viscosity)

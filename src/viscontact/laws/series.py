@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -19,7 +19,8 @@ from viscontact.laws.interconversion import (
     relaxation_from_creep,
     relaxation_function,
 )
-from viscontact.laws.law import SeriesLaw
+from viscontact.laws.law import SeriesLaw, slowing
+from viscontact.laws.oscillation import modulus_of_relaxation
 from viscontact.laws.uniaxial import uniaxial
 
 
@@ -158,6 +159,12 @@ class CreepSeries(SeriesLaw):
         return RelaxationSeries(
             self._inverse.equilibrium, tuple(self._inverse.moduli), tuple(self._inverse.times)
         )
+
+    def slowed(self, factor: float) -> CreepSeries:
+        """Return the law with every time multiplied by a factor > 0, and flow divided by it."""
+        factor = slowing(factor)
+        times = tuple(factor * time for time in self.times)
+        return replace(self, times=times, fluidity=self.fluidity / factor)
 
     def _scaled(self, factor: float, instant: float) -> CreepSeries:
         amplitudes = tuple(factor * a for a in self.amplitudes)
@@ -307,6 +314,11 @@ class RelaxationSeries(SeriesLaw):
         """Return the law itself."""
         return self
 
+    def slowed(self, factor: float) -> RelaxationSeries:
+        """Return the law with every time multiplied by a factor > 0."""
+        factor = slowing(factor)
+        return replace(self, times=tuple(factor * time for time in self.times))
+
     @cached_property
     def _terms(self) -> RelaxationTerms:
         return RelaxationTerms(self.equilibrium, *merged(self.moduli, self.times))
@@ -322,3 +334,6 @@ class RelaxationSeries(SeriesLaw):
 
     def _relaxation(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
         return relaxation_function(self._terms, t)
+
+    def _complex_modulus(self, omega: NDArray[np.float64]) -> NDArray[np.complex128]:
+        return modulus_of_relaxation(self._terms, omega)
