@@ -31,6 +31,9 @@ _built, __dir__, __all__ = _lazy.attach(
             "Sphere",
         ],
         "laws": [
+            "WLF",
+            "Arrhenius",
+            "TabulatedShift",
             "Burgers",
             "CreepSeries",
             "Elastic",

@@ -4,8 +4,11 @@ from viscontact.laws.kelvin import Burgers, Zener
 from viscontact.laws.law import Law, SeriesLaw
 from viscontact.laws.maxwell import Elastic, Maxwell
 from viscontact.laws.series import CreepSeries, RelaxationSeries
+from viscontact.laws.temperature import WLF, Arrhenius, Shift, TabulatedShift
 
 __all__ = [
+    "WLF",
+    "Arrhenius",
     "Burgers",
     "CreepSeries",
     "Elastic",
@@ -13,5 +16,7 @@ __all__ = [
     "Maxwell",
     "RelaxationSeries",
     "SeriesLaw",
+    "Shift",
+    "TabulatedShift",
     "Zener",
 ]
