@@ -8,12 +8,21 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from viscontact.load import ForceHistory, LoadPoint, ramp, step, triangle
+from viscontact.load import (
+    ApproachHistory,
+    ForceHistory,
+    LoadPoint,
+    harmonic,
+    ramp,
+    step,
+    triangle,
+)
 
 EPS = np.finfo(float).eps
 
 # Up to 10 N in 1 s, held to 3 s, dropped to 4 N at once, taken off by 5 s.
 CYCLE = ForceHistory(times=[0, 1, 3, 3, 5], force=[0, 10, 10, 4, 0])
+SWING = {"amplitude": 5e-5, "period": 2.0, "cycles": 3}
 
 
 @st.composite
@@ -244,9 +253,18 @@ def test_tilt_and_eccentricity_along_one_axis_contradict_each_other(axis):
 
 
 @pytest.mark.parametrize("make", [step, ramp, triangle])
-def test_approach_control_is_refused_by_name(make):
-    with pytest.raises(ValueError, match=r"approach= is not built yet.*give force= in N"):
-        make(approach=1e-4)
+def test_force_and_approach_together_are_refused(make):
+    with pytest.raises(ValueError, match=r"given twice over; give force= in N or approach= in m"):
+        make(1.0, approach=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("make", "arguments"),
+    [(step, {}), (ramp, {"duration": 1.0}), (triangle, {"rise": 1.0}), (harmonic, SWING)],
+)
+def test_an_eccentricity_does_not_go_with_an_approach(make, arguments):
+    with pytest.raises(ValueError, match="eccentricity_y goes with a force"):
+        make(approach=1e-4, eccentricity_y=1e-3, **arguments)
 
 
 @pytest.mark.parametrize("make", [step, ramp, triangle])
@@ -289,3 +307,115 @@ def test_instant_must_be_a_number(time):
         CYCLE.at(time)
     with pytest.raises(ValueError, match="times must be"):
         CYCLE.force_at(time)
+
+
+# -- approach control ------------------------------------------------------------------------
+
+
+def test_an_approach_is_prescribed_and_the_force_left_open():
+    stage = ApproachHistory([0, 1, 1, 3], [0, 2e-6, -1e-6, 3e-6], tilt_y=None)
+    assert stage.at(0.5) == LoadPoint(None, 0.0, 0.0, 0.0, None, approach=1e-6)
+    assert stage.approach_at([1.0], side="left").tolist() == [2e-6]
+    assert stage.approach_at([1.0, 2.0, 9.0]) == pytest.approx([-1e-6, 1e-6, 3e-6])
+    assert stage.largest_level == 3e-6
+    assert (stage.kinks.tolist(), stage.jumps.tolist()) == ([0, 1, 3], [1])
+
+
+def test_before_its_first_point_a_stage_does_not_press():
+    assert ApproachHistory([1.0], [2e-6]).approach_at([0.0, 1.0]).tolist() == [0.0, 2e-6]
+    assert ApproachHistory([1.0], [-2e-6]).approach_at([0.0, 1.0]).tolist() == [-2e-6, -2e-6]
+    assert ApproachHistory([1.0], [2e-6]).jumps.tolist() == [1.0]
+    assert ApproachHistory([1.0], [-2e-6]).jumps.tolist() == []
+
+
+def test_usual_histories_prescribe_an_approach_as_well():
+    assert step(approach=1e-6) == ApproachHistory([0.0], [1e-6], None, None)
+    assert ramp(duration=2.0, approach=1e-6, tilt_x=1e-3).at(1.0) == LoadPoint(
+        None, 0.0, 0.0, 1e-3, None, approach=5e-7
+    )
+    assert triangle(approach=1e-6, rise=1.0).approach_at([0.5, 1.5, 4.0]) == pytest.approx(
+        [5e-7, 5e-7, 0.0]
+    )
+
+
+@given(history=histories(), time=st.floats(0, 40))
+def test_a_stage_that_follows_a_force_history_has_its_values(history, time):
+    stage = ApproachHistory(history.times, history.force)
+    for side in ("left", "right"):
+        reached = float(stage.approach_at(time, side=side))
+        slack = 1e-12 * history.largest_force
+        assert reached == pytest.approx(float(history.force_at(time, side=side)), abs=slack)
+
+
+# -- harmonic loads --------------------------------------------------------------------------
+
+
+@given(
+    time=st.floats(0, 6),
+    phase=st.floats(-7, 7),
+    mean=st.floats(5, 9),
+    amplitude=st.floats(-5, 5),
+)
+def test_harmonic_force_is_the_sine_it_says(time, phase, mean, amplitude):
+    swing = harmonic(mean, amplitude, 2.0, 3, phase)
+    exact = mean + amplitude * math.sin(math.pi * time + phase)
+    assert float(swing.level_at(time)) == pytest.approx(exact, abs=1e-12)
+    assert swing.at(time).force == float(swing.level_at(time))
+
+
+def test_harmonic_load_is_held_after_its_cycles_and_jumps_to_its_first_level():
+    swing = harmonic(10.0, 5.0, 2.0, 3, phase=math.pi / 2)
+    assert swing.level_at([6.0, 99.0]).tolist() == [15.0, 15.0]
+    assert float(swing.level_at(0.0, side="left")) == 0.0
+    assert (swing.kinks.tolist(), swing.jumps.tolist()) == ([0.0, 6.0], [0.0])
+    soft = harmonic(5.0, 5.0, 2.0, 3, phase=-math.pi / 2)
+    assert soft.jumps.tolist() == []
+
+
+def test_lines_between_the_knots_of_a_harmonic_load_miss_it_by_the_chord_of_an_arc():
+    swing = harmonic(10.0, 5.0, 2.0, 3)
+    fine = np.linspace(0, 6, 100_001)
+    line = np.interp(fine, swing.knots, swing.level_at(swing.knots))
+    missed = np.abs(line - swing.level_at(fine)).max()
+    # A chord over an angle h is off by 1 - cos(h/2) at the crest; those beside it by 1.2e-3 less.
+    assert missed == pytest.approx(5 * (1 - math.cos(math.pi / 64)), rel=2e-3)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"mean": 4.0}, "swings between -1.0 N and 9.0 N; give a mean of at least"),
+        ({"cycles": 0}, "cycles must be a whole number from 1"),
+        ({"cycles": 1.5}, "cycles must be a whole number from 1"),
+        ({"period": 0.0}, "period must be a positive time"),
+        ({"amplitude": math.nan}, "amplitude must be a finite number in N"),
+        ({"mean": None}, "mean is missing; give mean= in N or approach= in m"),
+        ({"eccentricity_x": 1.0, "tilt_x": 0.0}, "contradict each other"),
+    ],
+)
+def test_bad_harmonic_loads_are_refused(arguments, message):
+    good = {"mean": 10.0, "amplitude": 5.0, "period": 2.0, "cycles": 3}
+    with pytest.raises(ValueError, match=message):
+        harmonic(**{**good, **arguments})
+
+
+# -- cycles ----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("load", "ends"),
+    [
+        (triangle(5.0, 1.0, 2.0), [(0, "right"), (3, "left")]),
+        (ramp(5.0, 1.0), []),
+        (step(5.0), []),
+        (CYCLE, [(0, "right"), (5, "left")]),  # a fall in two stages is one fall
+        (ForceHistory([0, 2, 2], [5, 5, 0]), [(0, "left"), (2, "right")]),
+        (
+            ForceHistory([1, 2, 3, 4, 5, 6], [0, 5, 0, 0, 5, 1]),
+            [(1, "right"), (3, "left"), (6, "left")],
+        ),
+        (harmonic(5.0, 1.0, 2.0, 2), [(0, "right"), (2, "right"), (4, "right")]),
+    ],
+)
+def test_a_cycle_lasts_from_valley_to_valley(load, ends):
+    assert list(load.cycle_ends) == ends

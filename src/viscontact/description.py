@@ -19,7 +19,7 @@ from viscontact.indenters import (
     Sphere,
 )
 from viscontact.laws import Burgers, CreepSeries, Elastic, Maxwell, RelaxationSeries, Zener
-from viscontact.load import ForceHistory
+from viscontact.load import ApproachHistory, ForceHistory, HarmonicHistory
 from viscontact.material import Material
 from viscontact.run import Run
 
@@ -28,7 +28,7 @@ NOUNS = {
     for noun in (
         *(Sphere, Paraboloid, Cone, FlatPunch, Roller, HeightMap, CombinedIndenter),
         *(Elastic, Maxwell, Zener, Burgers, CreepSeries, RelaxationSeries),
-        *(Material, ForceHistory, Grid),
+        *(Material, ForceHistory, ApproachHistory, HarmonicHistory, Grid),
     )
 }
 

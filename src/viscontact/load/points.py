@@ -13,11 +13,15 @@ from viscontact.real import as_real
 _UNITS = {
     "times": "s",
     "force": "N",
+    "approach": "m",
     "eccentricity_x": "m",
     "eccentricity_y": "m",
     "tilt_x": "rad",
     "tilt_y": "rad",
 }
+
+#: What histories prescribe besides force or approach.
+TAIL = ("eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y")
 
 
 def finite_number(name: str, value: object, unit: str) -> float:
@@ -209,3 +213,44 @@ def numbers(name: str, given: ArrayLike) -> NDArray[np.float64]:
         raise ValueError(f"{name} must be finite, got {copy[~np.isfinite(copy)].flat[0]}")
     copy.flags.writeable = False
     return copy
+
+
+def tail(
+    count: int,
+    eccentricity_x: ArrayLike,
+    eccentricity_y: ArrayLike,
+    tilt_x: ArrayLike | None,
+    tilt_y: ArrayLike | None,
+) -> list[float | NDArray[np.float64] | None]:
+    """Return eccentricities and tilts of a history, each a scalar, a read-only array, or None.
+
+    Parameters
+    ----------
+    count : int
+        Number of points in the history.
+    eccentricity_x, eccentricity_y : float or array_like
+        Where the force acts [m].
+    tilt_x, tilt_y : float or array_like or None
+        Prescribed slopes [rad].
+
+    Raises
+    ------
+    ValueError
+        If a shape does not fit, or an axis has both a tilt and an eccentricity.
+
+    Examples
+    --------
+    >>> tail(2, 1e-3, 0.0, None, None)
+    [0.001, 0.0, None, None]
+    """
+    eccentricities = [
+        values("eccentricity_x", eccentricity_x, count),
+        values("eccentricity_y", eccentricity_y, count),
+    ]
+    tilts = [
+        None if tilt is None else values(name, tilt, count)
+        for name, tilt in (("tilt_x", tilt_x), ("tilt_y", tilt_y))
+    ]
+    for axis, eccentricity, tilt in zip("xy", eccentricities, tilts, strict=True):
+        refuse_both(axis, eccentricity, tilt)
+    return [*eccentricities, *tilts]

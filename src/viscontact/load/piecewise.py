@@ -1,0 +1,111 @@
+"""Histories that are linear in time between points, with jumps."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.load import points
+from viscontact.load.history import LoadHistory
+
+
+class PiecewiseHistory(LoadHistory):
+    """A history by points; a time given twice is a jump, from the first value to the second."""
+
+    times: NDArray[np.float64]
+
+    def _tail_at(self, time: float, side: str) -> dict[str, Any]:
+        """Eccentricities and tilts at an instant."""
+        instant = np.asarray(points.finite_number("time", time, "s"))
+        tail = {name: getattr(self, name) for name in points.TAIL}
+        return {
+            name: None if of is None else float(self._interpolate(of, instant, side))
+            for name, of in tail.items()
+        }
+
+    def _level_of(self, time: float, side: str) -> float:
+        return float(self.level_at(points.finite_number("time", time, "s"), side=side))
+
+    @property
+    def kinks(self) -> NDArray[np.float64]:
+        """All distinct instants of the points, increasing: kinks, jumps, first and last [s]."""
+        return np.unique(self.times)
+
+    @property
+    def jumps(self) -> NDArray[np.float64]:
+        """Instants where, under load, force, approach, eccentricity or tilt jumps [s].
+
+        A history that starts with a force has its first jump there.
+        """
+        kinks = self.kinks
+        before, after = self.level_at(kinks, side="left"), self.level_at(kinks)
+        changed = before != after
+        for name in points.TAIL:
+            of = getattr(self, name)
+            if of is not None:
+                left, right = (self._interpolate(of, kinks, side) for side in ("left", "right"))
+                changed |= left != right
+        loaded = np.array(
+            [not self.at(t, side=s).is_unloaded for t in kinks for s in ("left", "right")]
+        )
+        return np.asarray(kinks[changed & loaded.reshape(-1, 2).any(axis=1)])
+
+    @property
+    def cycle_ends(self) -> tuple[tuple[float, str], ...]:
+        """Valleys of the load: where its first rise begins, and where each fall ends."""
+        plateaus = self._plateaus()
+        levels = [level for level, _, _ in plateaus]
+        rises = [k for k in range(len(levels) - 1) if levels[k + 1] > levels[k]]
+        if not rises:
+            return ()
+        valleys = [
+            first
+            for k, (level, first, _) in enumerate(plateaus)
+            if k > rises[0] and level < levels[k - 1] and (k + 1 == len(levels) or k in rises)
+        ]
+        return (plateaus[rises[0]][2], *valleys) if valleys else ()
+
+    def _plateaus(self) -> list[tuple[float, tuple[float, str], tuple[float, str]]]:
+        """Successive different levels at the points, each with its first and last instant."""
+        plateaus: list[tuple[float, tuple[float, str], tuple[float, str]]] = []
+        for time in self.kinks.tolist():
+            for side in ("left", "right"):
+                level, instant = float(self.level_at(time, side=side)), (time, side)
+                if plateaus and plateaus[-1][0] == level:
+                    plateaus[-1] = (level, plateaus[-1][1], instant)
+                else:
+                    plateaus.append((level, instant, instant))
+        return plateaus
+
+    @property
+    def is_even(self) -> bool:
+        """Whether the load is even across y = 0."""
+        return not any(np.any(getattr(self, name)) for name in ("eccentricity_y", "tilt_y"))
+
+    def _interpolate(
+        self, values: float | NDArray[np.float64], times: NDArray[np.float64], side: str
+    ) -> NDArray[np.float64]:
+        """Values at `times`, held before the first and after the last point."""
+        values = np.broadcast_to(values, self.times.shape)
+        reached = np.searchsorted(self.times, times, side=points.side_of_jump(side))
+        i, j = np.maximum(reached - 1, 0), np.minimum(reached, self.times.size - 1)
+        span = self.times[j] - self.times[i]
+        part = np.divide(times - self.times[i], span, out=np.zeros(times.shape), where=span > 0)
+        # Counted from the nearer point, so that either point's value comes out exactly.
+        first_half = part < 0.5
+        nearer, offset = np.where(first_half, i, j), np.where(first_half, part, part - 1)
+        return np.asarray(values[nearer] + (values[j] - values[i]) * offset)
+
+    def _started(self, times: NDArray[np.float64], side: str) -> NDArray[np.bool_]:
+        return np.asarray(np.searchsorted(self.times, times, side=points.side_of_jump(side)) > 0)
+
+    def __eq__(self, other: object) -> bool:
+        if type(other) is not type(self):
+            return NotImplemented
+        mine, theirs = vars(self), vars(other)
+        return all(np.array_equal(mine[name], theirs[name]) for name in mine)
+
+    def __hash__(self) -> int:
+        return hash((type(self).__name__, self.times.size, float(self.times[-1])))
