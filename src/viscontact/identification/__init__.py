@@ -1,0 +1,25 @@
+"""Laws found in measurements: from creep, relaxation and oscillation, at several temperatures."""
+
+from viscontact.identification.fit import Fit
+from viscontact.identification.master_curve import (
+    Isotherm,
+    MasterCurve,
+    build_master_curve,
+    fit_master_curve,
+)
+from viscontact.identification.prony import fit_creep, fit_dynamic, fit_relaxation
+from viscontact.identification.shift_fit import ShiftFit, fit_arrhenius, fit_wlf
+
+__all__ = [
+    "Fit",
+    "Isotherm",
+    "MasterCurve",
+    "ShiftFit",
+    "build_master_curve",
+    "fit_arrhenius",
+    "fit_creep",
+    "fit_dynamic",
+    "fit_master_curve",
+    "fit_relaxation",
+    "fit_wlf",
+]

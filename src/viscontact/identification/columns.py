@@ -1,0 +1,115 @@
+"""What a fit accepts as measured columns, and how it names the row it refuses."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+
+def positive_column(
+    owner: str, name: str, values: ArrayLike, unit: str, *, zero: bool = False
+) -> NDArray[np.float64]:
+    """Return a measured column as floats.
+
+    Parameters
+    ----------
+    owner, name : str
+        Who asks, and what the column is called, for the message.
+    values : array_like, shape (n,)
+        The column.
+    unit : str
+        Its unit, for the message.
+    zero : bool
+        Whether 0 is accepted.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        The column.
+
+    Raises
+    ------
+    ValueError
+        If it is no column of numbers, or one of them is not finite or not positive.
+
+    Examples
+    --------
+    >>> positive_column("fit_creep", "times", [1.0, -2.0], "s")
+    Traceback (most recent call last):
+    ...
+    ValueError: fit_creep: times, row 2: must be a finite number above 0 s, got -2.0
+    """
+    try:
+        column = np.array(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise ValueError(
+            f"{owner}: {name} must be a column of numbers in {unit}, got {values!r}"
+        ) from None
+    if column.ndim != 1:
+        raise ValueError(f"{owner}: {name} must be one column, got shape {column.shape}")
+    wrong = ~(np.isfinite(column) & (column >= 0 if zero else column > 0))
+    if wrong.any():
+        row = int(np.argmax(wrong))
+        least = f"of at least 0 {unit}" if zero else f"above 0 {unit}"
+        raise ValueError(
+            f"{owner}: {name}, row {row + 1}: must be a finite number {least}, "
+            f"got {float(column[row])!r}"
+        )
+    return column
+
+
+def require_rows(owner: str, least: int, **columns: NDArray[np.float64]) -> None:
+    """Refuse columns of different lengths, or with too few rows.
+
+    Parameters
+    ----------
+    owner : str
+        Who asks, for the message.
+    least : int
+        How many rows are needed.
+    **columns : ndarray
+        The columns by name.
+
+    Raises
+    ------
+    ValueError
+        If the lengths differ or are below `least`.
+    """
+    lengths = {name: column.size for name, column in columns.items()}
+    if len(set(lengths.values())) > 1:
+        found = ", ".join(f"{count} {name}" for name, count in lengths.items())
+        raise ValueError(f"{owner}: all columns must have one value in each row, got {found}")
+    rows = next(iter(lengths.values()))
+    if rows < least:
+        raise ValueError(f"{owner}: needs at least {least} rows, got {rows}")
+
+
+def require_trend(
+    owner: str, name: str, points: NDArray[np.float64], values: NDArray[np.float64], rises: bool
+) -> None:
+    """Refuse a curve that as a whole goes the way no such curve can.
+
+    Parameters
+    ----------
+    owner, name : str
+        Who asks, and what the values are called, for the message.
+    points, values : ndarray, shape (n,)
+        The curve, in any order.
+    rises : bool
+        Whether such a curve rises.
+
+    Raises
+    ------
+    ValueError
+        If the median of its last third lies a tenth or more on the wrong side of that of its
+        first third. Scatter is no reason.
+    """
+    ordered = values[np.argsort(points, kind="stable")]
+    third = max(1, ordered.size // 3)
+    first, last = float(np.median(ordered[:third])), float(np.median(ordered[-third:]))
+    if (last < 0.9 * first) if rises else (last > first / 0.9):
+        way, wanted = ("falls", "rise") if rises else ("rises", "fall")
+        raise ValueError(
+            f"{owner}: {name} {way} from about {first:.4g} to about {last:.4g}, where it can only "
+            f"{wanted}; is this another quantity, or are the columns exchanged?"
+        )

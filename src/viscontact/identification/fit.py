@@ -1,0 +1,124 @@
+"""A law found in measured values, and how well it says them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from viscontact.laws import CreepSeries, RelaxationSeries
+
+Array = NDArray[np.float64]
+
+_SHOWN = 6  # terms that are printed
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Fit:
+    """A series fitted to measured values.
+
+    Made by `fit_creep`, `fit_relaxation` and `fit_dynamic`.
+
+    Attributes
+    ----------
+    law : CreepSeries or RelaxationSeries
+        The law in shear, as everything else in the package takes it.
+    series : CreepSeries or RelaxationSeries
+        The same series in the terms of the data: with ``data="uniaxial"`` its numbers are D or
+        E, with ``data="shear"`` compliances are 1/G.
+    data : str
+        What the values mean: ``"deviatoric"``, ``"shear"`` or ``"uniaxial"``.
+    points : ndarray, shape (n,)
+        Times [s], or angular frequencies [rad/s] of an oscillation.
+    measured : mapping of str to ndarray
+        The measured columns by name: ``compliance`` [1/Pa], ``modulus`` [Pa], or ``storage``
+        and ``loss`` [Pa].
+    """
+
+    law: CreepSeries | RelaxationSeries
+    series: CreepSeries | RelaxationSeries
+    data: str
+    points: Array
+    measured: Mapping[str, Array]
+
+    @property
+    def terms(self) -> int:
+        """How many exponential terms the series has."""
+        return len(self.series.times)
+
+    @property
+    def fitted(self) -> dict[str, Array]:
+        """What the series gives in the place of each measured column."""
+        return self.curve(self.points)
+
+    @property
+    def residuals(self) -> dict[str, Array]:
+        """Fitted over measured values, less 1, for each column [-]."""
+        fitted = self.fitted
+        return {name: fitted[name] / values - 1.0 for name, values in self.measured.items()}
+
+    @property
+    def residual(self) -> float:
+        """Root mean square of all relative residuals [-]."""
+        return float(np.sqrt(np.mean(np.concatenate(list(self.residuals.values())) ** 2)))
+
+    @property
+    def largest_residual(self) -> float:
+        """Largest relative residual in magnitude [-]."""
+        return self._worst()[0]
+
+    def curve(self, points: ArrayLike) -> dict[str, Array]:
+        """Return what the series gives elsewhere, in the terms of the data.
+
+        Parameters
+        ----------
+        points : array_like, shape (m,)
+            Times [s], or angular frequencies [rad/s] of an oscillation.
+
+        Returns
+        -------
+        dict of str to ndarray
+            The columns of `measured`, at these points.
+        """
+        at = np.asarray(points, dtype=np.float64)
+        if "compliance" in self.measured:
+            return {"compliance": self.series(at)}
+        if "modulus" in self.measured:
+            return {"modulus": self.series.relaxation(at)}
+        modulus = np.asarray(self.series.complex_modulus(at))
+        return {"storage": modulus.real, "loss": modulus.imag}
+
+    def __repr__(self) -> str:
+        largest, column, row = self._worst()
+        points, unit = np.sort(self.points), "rad/s" if "storage" in self.measured else "s"
+        count = f"{self.terms} term{'' if self.terms == 1 else 's'}"
+        return (
+            f"Fit: {type(self.law).__name__} of {count} to {points.size} rows of {self.data} data "
+            f"at {points[0]:.4g} to {points[-1]:.4g} {unit}\n"
+            f"     relative residual {self.residual:.2e} (root mean square), "
+            f"largest {largest:.2e} ({column}, row {row + 1})\n"
+            f"     {_in_short(self.law)}"
+        )
+
+    def _worst(self) -> tuple[float, str, int]:
+        worst = (0.0, next(iter(self.measured)), 0)
+        for name, residuals in self.residuals.items():
+            row = int(np.argmax(np.abs(residuals)))
+            worst = max(worst, (float(np.abs(residuals[row])), name, row))
+        return worst
+
+
+def _in_short(law: CreepSeries | RelaxationSeries) -> str:
+    """Write a law with four digits, and no more than six terms of it."""
+    parts = []
+    for field in fields(law):
+        value = getattr(law, field.name)
+        if isinstance(value, tuple):
+            numbers = [f"{number:.4g}" for number in value[:_SHOWN]]
+            more = ["..."] if len(value) > _SHOWN else []
+            parts.append(f"{field.name}=({', '.join(numbers + more)})")
+        else:
+            parts.append(f"{field.name}={value:.4g}")
+    return f"{type(law).__name__}({', '.join(parts)})"

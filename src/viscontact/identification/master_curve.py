@@ -1,0 +1,286 @@
+"""Time-temperature superposition: one long curve from short ones at several temperatures."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.identification.columns import positive_column, require_rows, require_trend
+from viscontact.identification.fit import Fit
+from viscontact.identification.overlap import Curve, log_shift
+from viscontact.identification.prony import fit_creep, fit_dynamic, fit_relaxation
+from viscontact.identification.shift_fit import ShiftFit, fit_arrhenius, fit_wlf
+from viscontact.laws import Shift, TabulatedShift
+
+Array = NDArray[np.float64]
+
+_OWNER = "build_master_curve"
+# Each kind of test: its columns, and whether the first one rises with time.
+_KINDS = ((("compliance",), True), (("modulus",), False), (("storage", "loss"), False))
+# Scatter may put a warmer set a little behind a colder one where the curves are almost level.
+_SCATTER = np.log(10.0) / 3
+
+
+@dataclass(frozen=True, eq=False)
+class Isotherm:
+    """What a test measured at one temperature.
+
+    Parameters
+    ----------
+    temperature : float
+        Absolute temperature > 0 [K]: 20 °C is 293.15 K.
+    points : array_like, shape (n,)
+        Times > 0 [s], or with `storage` and `loss` angular frequencies > 0 [rad/s]. In any
+        order.
+    measured : mapping of str to array_like
+        The columns by name, all > 0: ``compliance`` [1/Pa], or ``modulus`` [Pa], or ``storage``
+        and ``loss`` [Pa].
+
+    Raises
+    ------
+    ValueError
+        If a number is not positive, naming its row; if the columns are others.
+    """
+
+    temperature: float
+    points: Array
+    measured: Mapping[str, Array]
+
+    def __post_init__(self) -> None:
+        [temperature] = positive_column("Isotherm", "temperature", [self.temperature], "K")
+        owner = f"Isotherm at {temperature:.6g} K"
+        names = tuple(self.measured)
+        if set(names) not in [set(columns) for columns, _ in _KINDS]:
+            raise ValueError(
+                f"{owner}: measured must have the column compliance, or modulus, or both storage "
+                f"and loss, got {', '.join(names) or 'none'}"
+            )
+        name, unit = ("angular_frequency", "rad/s") if self.oscillates else ("times", "s")
+        points = positive_column(owner, name, self.points, unit)
+        unit = "1/Pa" if "compliance" in self.measured else "Pa"
+        measured = {
+            name: positive_column(owner, name, values, unit)
+            for name, values in self.measured.items()
+        }
+        require_rows(owner, 2, points=points, **measured)
+        if np.unique(points).size < points.size:
+            raise ValueError(f"{owner}: two rows have the same time or frequency; give one of them")
+        object.__setattr__(self, "temperature", float(temperature))
+        object.__setattr__(self, "points", points)
+        object.__setattr__(self, "measured", measured)
+
+    @property
+    def oscillates(self) -> bool:
+        """Whether the points are angular frequencies."""
+        return "storage" in self.measured
+
+    def curve(self) -> Curve:
+        """Return the set over ln(time), or over -ln(angular frequency)."""
+        log_times = -np.log(self.points) if self.oscillates else np.log(self.points)
+        order = np.argsort(log_times)
+        names = next(columns for columns, _ in _KINDS if set(columns) == set(self.measured))
+        return Curve(log_times[order], np.log([self.measured[name][order] for name in names]))
+
+
+@dataclass(frozen=True, eq=False)
+class MasterCurve:
+    """One curve at a reference temperature, made of sets at several temperatures.
+
+    Made by `build_master_curve`.
+
+    Attributes
+    ----------
+    reference_temperature : float
+        The temperature it holds at [K].
+    isotherms : tuple of Isotherm
+        The sets it is made of, from cold to warm.
+    factors : ndarray, shape (sets,)
+        Shift factor a_T of each set: everything takes a_T times as long as at the reference [-].
+    mismatches : ndarray, shape (sets - 1,) or None
+        Root mean square relative difference of each two neighbours where they overlap, NaN
+        where they do not [-]; None where the factors were given.
+    shift : Shift
+        The rule given, or the table of the factors found.
+    """
+
+    reference_temperature: float
+    isotherms: tuple[Isotherm, ...]
+    factors: Array
+    mismatches: Array | None
+    shift: Shift
+
+    @property
+    def temperatures(self) -> Array:
+        """Temperatures of the sets, increasing [K]."""
+        return np.array([isotherm.temperature for isotherm in self.isotherms])
+
+    @property
+    def reduced_points(self) -> tuple[Array, ...]:
+        """Points of each set as they would lie at the reference temperature.
+
+        Times t/a_T [s], or angular frequencies ω a_T [rad/s].
+        """
+        return tuple(
+            isotherm.points * factor if isotherm.oscillates else isotherm.points / factor
+            for isotherm, factor in zip(self.isotherms, self.factors, strict=True)
+        )
+
+    @property
+    def points(self) -> Array:
+        """All reduced points, increasing."""
+        return np.sort(np.concatenate(self.reduced_points), kind="stable")
+
+    @property
+    def measured(self) -> dict[str, Array]:
+        """All measured values by column, in the order of `points`."""
+        order = np.argsort(np.concatenate(self.reduced_points), kind="stable")
+        return {
+            name: np.concatenate([isotherm.measured[name] for isotherm in self.isotherms])[order]
+            for name in self.isotherms[0].measured
+        }
+
+    def fit_wlf(self) -> ShiftFit:
+        """Return the WLF rule that fits the factors; `fit_wlf` says how."""
+        return fit_wlf(self.temperatures, self.factors, self.reference_temperature)
+
+    def fit_arrhenius(self) -> ShiftFit:
+        """Return the Arrhenius rule that fits the factors; `fit_arrhenius` says how."""
+        return fit_arrhenius(self.temperatures, self.factors, self.reference_temperature)
+
+
+def build_master_curve(
+    isotherms: Sequence[Isotherm], reference_temperature: float, shift: Shift | None = None
+) -> MasterCurve:
+    """Return the curve that sets of several temperatures make at a reference temperature.
+
+    Parameters
+    ----------
+    isotherms : sequence of Isotherm
+        Sets of one kind of test, in any order; two or more unless `shift` is given.
+    reference_temperature : float
+        Where the master curve is to hold [K]; within the temperatures of the sets unless
+        `shift` is given.
+    shift : Shift, optional
+        The rule for the shift factors; found when left out.
+
+    Returns
+    -------
+    MasterCurve
+        The curve and the shift factors.
+
+    Raises
+    ------
+    ValueError
+        If the sets are of different kinds, two have the same temperature, a set goes the wrong
+        way as a whole, neighbours have no value in common, or a warmer set is slower.
+
+    Notes
+    -----
+    Each set is shifted along ln(time) onto its colder neighbour, see
+    `viscontact.identification.overlap`; the sum of the shifts is ln a_T, taken to be straight
+    between two temperatures. Nothing is shifted in value.
+
+    Examples
+    --------
+    >>> from viscontact.laws import WLF, RelaxationSeries
+    >>> law, rule = RelaxationSeries(1e6, [1e9], [10.0]), WLF(293.15, 12.0, 70.0)
+    >>> t = np.geomspace(0.01, 10.0, 16)
+    >>> sets = [
+    ...     Isotherm(T, t, {"modulus": law.slowed(rule.factor(T)).relaxation(t)})
+    ...     for T in (288.15, 293.15, 298.15)
+    ... ]
+    >>> curve = build_master_curve(sets, 293.15)
+    >>> [round(float(a), 2) for a in np.log10(curve.factors)]
+    [0.92, 0.0, -0.8]
+    """
+    [reference] = positive_column(_OWNER, "reference_temperature", [reference_temperature], "K")
+    ordered = _ordered(isotherms, least=2 if shift is None else 1)
+    temperatures = np.array([isotherm.temperature for isotherm in ordered])
+    if shift is not None:
+        factors = shift.factor(temperatures) / shift.factor(float(reference))
+        return MasterCurve(float(reference), ordered, factors, None, shift)
+    if not temperatures[0] <= reference <= temperatures[-1]:
+        raise ValueError(
+            f"{_OWNER}: reference_temperature must lie within those of the sets, "
+            f"{temperatures[0]:.6g} to {temperatures[-1]:.6g} K, got {reference:.6g} K; beyond "
+            "them give shift=WLF(...) or Arrhenius(...)"
+        )
+    steps, mismatches = np.transpose([_step(*pair) for pair in itertools.pairwise(ordered)])
+    logs = -np.concatenate([[0.0], np.cumsum(steps)])
+    factors = np.exp(logs - np.interp(reference, temperatures, logs))
+    found = TabulatedShift(temperatures.tolist(), factors.tolist())
+    return MasterCurve(float(reference), ordered, factors, mismatches, found)
+
+
+def fit_master_curve(curve: MasterCurve, **options: object) -> Fit:
+    """Return the Prony series of a master curve.
+
+    Parameters
+    ----------
+    curve : MasterCurve
+        What `build_master_curve` returned.
+    **options
+        Those of `fit_creep`, `fit_relaxation` or `fit_dynamic`, by the kind of test; `data` is
+        needed.
+
+    Returns
+    -------
+    Fit
+        The law at the reference temperature; ``fit.law.slowed(curve.shift.factor(T))`` is the
+        law at another temperature T.
+    """
+    points, measured = curve.points, curve.measured
+    if "compliance" in measured:
+        return fit_creep(points, measured["compliance"], **options)  # type: ignore[arg-type]
+    if "modulus" in measured:
+        return fit_relaxation(points, measured["modulus"], **options)  # type: ignore[arg-type]
+    return fit_dynamic(
+        points,
+        measured["storage"],
+        measured["loss"],
+        **options,  # type: ignore[arg-type]
+    )
+
+
+def _ordered(isotherms: Sequence[Isotherm], least: int) -> tuple[Isotherm, ...]:
+    if len(isotherms) < least:
+        raise ValueError(f"{_OWNER}: needs at least {least} sets, got {len(isotherms)}")
+    ordered = tuple(sorted(isotherms, key=lambda isotherm: isotherm.temperature))
+    kinds = {tuple(sorted(isotherm.measured)) for isotherm in ordered}
+    if len(kinds) > 1:
+        found = " and ".join(" with ".join(kind) for kind in sorted(kinds))
+        raise ValueError(f"{_OWNER}: all sets must be of one kind of test, got {found}")
+    for one, other in itertools.pairwise(ordered):
+        if one.temperature == other.temperature:
+            raise ValueError(
+                f"{_OWNER}: two sets have the temperature {one.temperature:.6g} K; "
+                "join them into one"
+            )
+    for isotherm in ordered:
+        columns, rises = next(kind for kind in _KINDS if set(kind[0]) == set(isotherm.measured))
+        curve = isotherm.curve()
+        values = np.exp(curve.log_columns[0])
+        where = f"{_OWNER}: set at {isotherm.temperature:.6g} K"
+        require_trend(where, columns[0], curve.log_times, values, rises)
+    return ordered
+
+
+def _step(colder: Isotherm, warmer: Isotherm) -> tuple[float, float]:
+    """Return by how much ln a_T falls from one set to the next, and their mismatch."""
+    between = f"{_OWNER}: sets at {colder.temperature:.6g} K and {warmer.temperature:.6g} K"
+    try:
+        step, mismatch = log_shift(colder.curve(), warmer.curve())
+    except ValueError as error:
+        raise ValueError(
+            f"{between}: {error}; give shift=, or measure at a temperature between them"
+        ) from None
+    if step < -_SCATTER:
+        raise ValueError(
+            f"{between}: the warmer one is slower, by {-step / np.log(10.0):.2g} decades; "
+            "have temperatures been exchanged, or times and frequencies?"
+        )
+    return max(step, 0.0), mismatch

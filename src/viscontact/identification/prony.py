@@ -1,0 +1,313 @@
+"""Prony series from a creep test, a relaxation test or an oscillation."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from viscontact.identification.columns import positive_column, require_rows, require_trend
+from viscontact.identification.fit import Fit
+from viscontact.identification.responses import (
+    CreepResponse,
+    DynamicResponse,
+    RelaxationResponse,
+    Response,
+)
+from viscontact.identification.spectrum import Spectrum, parsimonious_spectrum, spectrum_of
+from viscontact.laws import CreepSeries, RelaxationSeries
+
+_LEAST_ROWS = 3
+_EXCESS, _TOLERANCE = 1.05, 1e-3
+_Series = TypeVar("_Series", CreepSeries, RelaxationSeries)
+_CREEP: dict[str, Callable[..., CreepSeries]] = {
+    "deviatoric": CreepSeries,
+    "shear": CreepSeries.from_shear,
+    "uniaxial": CreepSeries.from_uniaxial,
+}
+_MODULI: dict[str, Callable[..., RelaxationSeries]] = {
+    "shear": RelaxationSeries,
+    "uniaxial": RelaxationSeries.from_uniaxial,
+}
+
+
+def fit_creep(
+    times: ArrayLike,
+    compliance: ArrayLike,
+    *,
+    data: str,
+    poisson_ratio: float | None = None,
+    bulk_modulus: float | None = None,
+    fluid: bool = False,
+    terms: int | None = None,
+    excess: float = _EXCESS,
+    tolerance: float = _TOLERANCE,
+) -> Fit:
+    """Return the creep series of fewest terms that says what a creep test measured.
+
+    Parameters
+    ----------
+    times : array_like, shape (n,)
+        Times since the step in stress, >= 0, in any order [s].
+    compliance : array_like, shape (n,)
+        Measured compliances > 0 [1/Pa].
+    data : str
+        What they are: ``"deviatoric"`` (Phi, strain deviator per stress deviator, 1/(2G) at
+        once), ``"shear"`` (a rheometer's 1/G) or ``"uniaxial"`` (1/E).
+    poisson_ratio : float, optional
+        With uniaxial data, constant Poisson's ratio.
+    bulk_modulus : float, optional
+        With uniaxial data, elastic bulk modulus [Pa]; exactly one of the two.
+    fluid : bool, optional
+        Whether to allow steady flow.
+    terms : int, optional
+        How many terms at most, in place of as few as needed.
+    excess : float, optional
+        The residual accepted, in multiples of the best that any number of terms can reach.
+    tolerance : float, optional
+        A relative residual that is good enough in any case.
+
+    Returns
+    -------
+    Fit
+        The law and how well it fits.
+
+    Raises
+    ------
+    ValueError
+        If a value is no positive number, naming its row; if the compliance falls as a whole; if
+        an option is out of range.
+
+    Notes
+    -----
+    Phi(t) = J_0 + sum J_i (1 - exp(-t/τ_i)) + φ t with J_0, J_i, φ >= 0 minimises the sum of
+    squares of the *relative* residuals. How the number of terms is chosen, and their times:
+    `viscontact.identification.spectrum`.
+
+    Examples
+    --------
+    >>> from viscontact.laws import CreepSeries
+    >>> t = np.geomspace(0.1, 100.0, 40)
+    >>> fit = fit_creep(t, CreepSeries(1e-9, [2e-9], [5.0])(t), data="deviatoric")
+    >>> fit.terms, round(fit.law.times[0], 6)
+    (1, 5.0)
+    """
+    owner = "fit_creep"
+    instants = positive_column(owner, "times", times, "s", zero=True)
+    values = positive_column(owner, "compliance", compliance, "1/Pa")
+    require_rows(owner, _LEAST_ROWS, times=instants, compliance=values)
+    require_trend(owner, "compliance", instants, values, rises=True)
+    _require_span(owner, "times", instants)
+    make = _chosen(owner, _CREEP, data)
+    found = _found(owner, CreepResponse(instants, fluid), values, terms, excess, tolerance)
+    flow = float(found.constants[1]) if fluid else 0.0
+    series = CreepSeries(
+        float(found.constants[0]), found.strengths.tolist(), found.times.tolist(), flow
+    )
+    law = make(
+        series.instant,
+        series.amplitudes,
+        series.times,
+        series.fluidity,
+        **_in_volume(owner, data, poisson_ratio, bulk_modulus),
+    )
+    return Fit(law, series, data, instants, {"compliance": values})
+
+
+def fit_relaxation(
+    times: ArrayLike,
+    modulus: ArrayLike,
+    *,
+    data: str,
+    poisson_ratio: float | None = None,
+    bulk_modulus: float | None = None,
+    fluid: bool = False,
+    terms: int | None = None,
+    excess: float = _EXCESS,
+    tolerance: float = _TOLERANCE,
+) -> Fit:
+    """Return the Prony series of fewest terms that says what a relaxation test measured.
+
+    Parameters
+    ----------
+    times : array_like, shape (n,)
+        Times since the step in strain, >= 0, in any order [s].
+    modulus : array_like, shape (n,)
+        Measured relaxation moduli > 0 [Pa].
+    data : str
+        What they are: ``"shear"`` (G) or ``"uniaxial"`` (E).
+    poisson_ratio, bulk_modulus
+        As in `fit_creep`.
+    fluid : bool, optional
+        Whether everything relaxes, with no modulus left in the end.
+    terms, excess, tolerance
+        As in `fit_creep`.
+
+    Returns
+    -------
+    Fit
+        The law and how well it fits.
+
+    Raises
+    ------
+    ValueError
+        As in `fit_creep`, or if the modulus rises as a whole.
+
+    Notes
+    -----
+    As in `fit_creep`, with G(t) = G_inf + sum G_i exp(-t/τ_i).
+
+    Examples
+    --------
+    >>> from viscontact.laws import RelaxationSeries
+    >>> t = np.geomspace(0.1, 100.0, 40)
+    >>> E = RelaxationSeries(3e9, [6e9], [5.0]).relaxation(t)
+    >>> fit = fit_relaxation(t, E, data="uniaxial", poisson_ratio=0.5)
+    >>> print(f"{fit.law.equilibrium:.4g} Pa, {fit.law.moduli[0]:.4g} Pa")
+    1e+09 Pa, 2e+09 Pa
+    """
+    owner = "fit_relaxation"
+    instants = positive_column(owner, "times", times, "s", zero=True)
+    values = positive_column(owner, "modulus", modulus, "Pa")
+    require_rows(owner, _LEAST_ROWS, times=instants, modulus=values)
+    require_trend(owner, "modulus", instants, values, rises=False)
+    _require_span(owner, "times", instants)
+    make = _chosen(owner, _MODULI, data)
+    found = _found(owner, RelaxationResponse(instants, fluid), values, terms, excess, tolerance)
+    series = _relaxation_series(found)
+    law = make(
+        series.equilibrium,
+        series.moduli,
+        series.times,
+        **_in_volume(owner, data, poisson_ratio, bulk_modulus),
+    )
+    return Fit(law, series, data, instants, {"modulus": values})
+
+
+def fit_dynamic(
+    angular_frequency: ArrayLike,
+    storage: ArrayLike,
+    loss: ArrayLike,
+    *,
+    data: str,
+    poisson_ratio: float | None = None,
+    bulk_modulus: float | None = None,
+    fluid: bool = False,
+    terms: int | None = None,
+    excess: float = _EXCESS,
+    tolerance: float = _TOLERANCE,
+) -> Fit:
+    """Return the Prony series of fewest terms that says what an oscillating test measured.
+
+    Parameters
+    ----------
+    angular_frequency : array_like, shape (n,)
+        Angular frequencies ω > 0, in any order [rad/s]: 2 pi times those in Hz.
+    storage, loss : array_like, shape (n,)
+        Measured moduli in phase, G', and out of phase, G'', each > 0 [Pa].
+    data, poisson_ratio, bulk_modulus, fluid, terms, excess, tolerance
+        As in `fit_relaxation`.
+
+    Returns
+    -------
+    Fit
+        The law and how well it fits.
+
+    Raises
+    ------
+    ValueError
+        As in `fit_creep`, or if the storage modulus falls as a whole with the frequency.
+
+    Notes
+    -----
+    G' = G_inf + sum G_i a²/(1 + a²) and G'' = sum G_i a/(1 + a²) with a = ωτ_i, both at once;
+    each value counts by its relative residual, so that small losses count as much as large ones.
+
+    Examples
+    --------
+    >>> from viscontact.laws import RelaxationSeries
+    >>> frequency = np.geomspace(0.01, 10.0, 30)
+    >>> G = RelaxationSeries(1e6, [2e6], [5.0]).complex_modulus(frequency)
+    >>> fit = fit_dynamic(frequency, G.real, G.imag, data="shear")
+    >>> fit.terms, round(fit.law.times[0], 6)
+    (1, 5.0)
+    """
+    owner = "fit_dynamic"
+    frequencies = positive_column(owner, "angular_frequency", angular_frequency, "rad/s")
+    in_phase = positive_column(owner, "storage", storage, "Pa")
+    out_of_phase = positive_column(owner, "loss", loss, "Pa")
+    require_rows(
+        owner, _LEAST_ROWS, angular_frequency=frequencies, storage=in_phase, loss=out_of_phase
+    )
+    require_trend(owner, "storage", frequencies, in_phase, rises=True)
+    _require_span(owner, "angular_frequency", frequencies)
+    make = _chosen(owner, _MODULI, data)
+    response = DynamicResponse(frequencies, fluid)
+    values = np.concatenate([in_phase, out_of_phase])
+    series = _relaxation_series(_found(owner, response, values, terms, excess, tolerance))
+    law = make(
+        series.equilibrium,
+        series.moduli,
+        series.times,
+        **_in_volume(owner, data, poisson_ratio, bulk_modulus),
+    )
+    return Fit(law, series, data, frequencies, {"storage": in_phase, "loss": out_of_phase})
+
+
+def _found(
+    owner: str,
+    response: Response,
+    values: NDArray[np.float64],
+    terms: int | None,
+    excess: float,
+    tolerance: float,
+) -> Spectrum:
+    if not (excess > 1.0 and tolerance >= 0.0):
+        raise ValueError(
+            f"{owner}: excess must be above 1 and tolerance at least 0, "
+            f"got excess={excess!r} and tolerance={tolerance!r}"
+        )
+    if terms is None:
+        return parsimonious_spectrum(response, values, excess=excess, tolerance=tolerance)
+    if isinstance(terms, bool) or terms != int(terms) or not 0 <= terms <= values.size // 2:
+        raise ValueError(
+            f"{owner}: terms must be a whole number from 0 to {values.size // 2}, half the number "
+            f"of values, got {terms!r}"
+        )
+    return spectrum_of(response, values, int(terms))
+
+
+def _relaxation_series(found: Spectrum) -> RelaxationSeries:
+    return RelaxationSeries(
+        float(found.constants.sum()), found.strengths.tolist(), found.times.tolist()
+    )
+
+
+def _chosen(
+    owner: str, conventions: dict[str, Callable[..., _Series]], data: str
+) -> Callable[..., _Series]:
+    if data not in conventions:
+        raise ValueError(f"{owner}: data must be one of {', '.join(conventions)}, got {data!r}")
+    return conventions[data]
+
+
+def _in_volume(
+    owner: str, data: str, poisson_ratio: float | None, bulk_modulus: float | None
+) -> dict[str, float | None]:
+    """Return what uniaxial data need besides; other data need nothing."""
+    if data == "uniaxial":
+        return {"poisson_ratio": poisson_ratio, "bulk_modulus": bulk_modulus}
+    if poisson_ratio is not None or bulk_modulus is not None:
+        raise ValueError(
+            f"{owner}: poisson_ratio and bulk_modulus go with uniaxial data only, got "
+            f"data={data!r}; leave them out, the Material takes them"
+        )
+    return {}
+
+
+def _require_span(owner: str, name: str, points: NDArray[np.float64]) -> None:
+    positive = points[points > 0]
+    if positive.size < 2 or not positive.max() > positive.min():
+        raise ValueError(f"{owner}: {name} must hold at least two different values above 0")
