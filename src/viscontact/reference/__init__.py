@@ -4,24 +4,44 @@ The elastic ones take the contact modulus E* [Pa], the viscoelastic ones a creep
 J(t) [1/Pa] and its convolution inverse M(t) [Pa] as callables.
 """
 
+from viscontact.reference.axisymmetric_contact import AxisymmetricContact
 from viscontact.reference.hertz import (
     EllipticalContact,
     SphereContact,
     hertz_elliptical,
     hertz_sphere,
 )
+from viscontact.reference.indentation import (
+    ResolutionError,
+    clustered_times,
+    press_axisymmetric,
+    resolution_error,
+)
 from viscontact.reference.lee_radok import lee_radok_ramp, lee_radok_step
 from viscontact.reference.lee_radok_contact import LeeRadokContact
 from viscontact.reference.line import LineContact, hertz_line
+from viscontact.reference.profiles import ConeProfile, PunchProfile, SphereProfile
 from viscontact.reference.punch import ConeContact, FlatPunchContact, cone, flat_punch
+from viscontact.reference.ting import TingHump, ting_hump
+from viscontact.reference.ting_force_triangle import TingForceTriangle, ting_force_triangle
+from viscontact.reference.ting_triangle import TingTriangle, ting_triangle
 
 __all__ = [
+    "AxisymmetricContact",
     "ConeContact",
+    "ConeProfile",
     "EllipticalContact",
     "FlatPunchContact",
     "LeeRadokContact",
     "LineContact",
+    "PunchProfile",
+    "ResolutionError",
     "SphereContact",
+    "SphereProfile",
+    "TingForceTriangle",
+    "TingHump",
+    "TingTriangle",
+    "clustered_times",
     "cone",
     "flat_punch",
     "hertz_elliptical",
@@ -29,4 +49,9 @@ __all__ = [
     "hertz_sphere",
     "lee_radok_ramp",
     "lee_radok_step",
+    "press_axisymmetric",
+    "resolution_error",
+    "ting_force_triangle",
+    "ting_hump",
+    "ting_triangle",
 ]

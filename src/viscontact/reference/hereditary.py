@@ -144,7 +144,32 @@ def averaged(
     >>> print(f"{averaged(np.square, np.array([3.0]), 3.0)[0]:.10f}")
     21.0000000000
     """
-    times = starts[..., None] + length / 2 * (1 + _GAUSS)
+    return averaged_between(function, starts, starts + length)
+
+
+def averaged_between(
+    function: TimeFunction, starts: NDArray[np.float64], ends: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Average a function of time over intervals that begin no earlier than their own length.
+
+    Parameters
+    ----------
+    function : callable
+        A function smooth on a logarithmic scale of time.
+    starts, ends : ndarray
+        The intervals; one without length gives the function itself there [s].
+
+    Returns
+    -------
+    ndarray
+        The averages, in the shape of ``starts``.
+
+    Examples
+    --------
+    >>> print(averaged_between(np.square, np.array([3.0, 3.0]), np.array([6.0, 3.0])).round(10))
+    [21.  9.]
+    """
+    times = starts[..., None] + (ends - starts)[..., None] / 2 * (1 + _GAUSS)
     average: NDArray[np.float64] = evaluate(function, times) @ _WEIGHTS / 2
     return average
 

@@ -1,0 +1,292 @@
+"""The march of an axisymmetric contact through a history of approach or force."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import brentq
+
+from viscontact.reference.lag_means import LagMean
+from viscontact.reference.profiles import Profile
+from viscontact.reference.rod_history import RodHistory
+from viscontact.reference.rods import Rods, Settled, Step, settle, settle_under
+
+Array = NDArray[np.float64]
+
+_NO_FORCE = 1e-12  # of the history's largest: what is less counts as none
+_RING = 1e-6  # of the deepest approach: a rod that is open wider inside the contact is a ring's
+
+
+@dataclass(frozen=True)
+class Course:
+    """A history of approach or force, step by step.
+
+    Attributes
+    ----------
+    times, load : ndarray, shape (n,)
+        Ends of the steps and the approach [m] or force [N] there; equal times are a jump.
+    by_approach : bool
+        Whether the load is an approach.
+    given : ndarray of int
+        Which steps end at the instants of the caller.
+    """
+
+    times: Array
+    load: Array
+    by_approach: bool
+    given: NDArray[np.intp]
+
+
+def course(times: Array, load: Array, *, by_approach: bool, substeps: int) -> Course:
+    """Cut the intervals of a history into steps.
+
+    Parameters
+    ----------
+    times, load : ndarray, shape (n,)
+        The history [s], [m] or [N].
+    by_approach : bool
+        Whether the load is an approach.
+    substeps : int
+        Steps that each interval is cut into; a jump is one step.
+
+    Returns
+    -------
+    Course
+        The steps, the first a jump to the first value.
+
+    Examples
+    --------
+    >>> history = np.array([0.0, 2.0, 2.0]), np.array([1.0, 3.0, 4.0])
+    >>> steps = course(*history, by_approach=False, substeps=2)
+    >>> steps.times.tolist(), steps.load.tolist(), steps.given.tolist()
+    ([0.0, 1.0, 2.0, 2.0], [1.0, 2.0, 3.0, 4.0], [0, 2, 3])
+    """
+    cuts = np.where(np.diff(times) > 0, substeps, 1)
+    given = np.append(0, np.cumsum(cuts))
+    place = np.arange(given[-1] + 1)
+    cut_times, cut_load = np.interp(place, given, times), np.interp(place, given, load)
+    if not by_approach:
+        cut_load[cut_load <= _NO_FORCE * load.max()] = 0.0
+    return Course(cut_times, cut_load, by_approach, given)
+
+
+@dataclass(frozen=True)
+class Law:
+    """A compliance as the march needs it: its means over lags, and J(0) [1/Pa]."""
+
+    mean: LagMean
+    instant: float
+
+
+@dataclass(frozen=True)
+class Moment:
+    """The end of a step.
+
+    Attributes
+    ----------
+    settled : Settled
+        The rods.
+    displacement : ndarray, shape (rods,)
+        Their displacement [m].
+    work : float
+        Work of the load over the step [J].
+    touched, lost : float or None
+        Instant within the step when contact was made, or lost altogether [s].
+    """
+
+    settled: Settled
+    displacement: Array
+    work: float = 0.0
+    touched: float | None = None
+    lost: float | None = None
+
+
+def deepest_approach(profile: Profile, steps: Course, law: Law) -> float:
+    """Bound the approach of a history from above.
+
+    Parameters
+    ----------
+    profile : Profile
+        The indenter.
+    steps : Course
+        The history.
+    law : Law
+        The compliance.
+
+    Returns
+    -------
+    float
+        The largest approach; under force control that of a contact which never shrinks, under
+        a force that never falls, 2 (s g(s) - integral of g) = J * dF [m].
+
+    Examples
+    --------
+    >>> from viscontact.reference.profiles import SphereProfile
+    >>> steps = course(np.zeros(1), np.ones(1), by_approach=False, substeps=1)
+    >>> elastic = Law(lambda start, end: np.full_like(end, 0.75), 0.75)
+    >>> print(f"{deepest_approach(SphereProfile(1.0), steps, elastic):.3f}")  # (9/16 / E*²)^(1/3)
+    0.682
+    """
+    if steps.by_approach or np.isfinite(profile.edge):
+        return max(float(steps.load.max()), 0.0) or 1.0
+    growth = np.diff(np.maximum.accumulate(steps.load), prepend=0.0)
+    now, ends = steps.times[-1], steps.times
+    begins = np.append(steps.times[:1], steps.times[:-1])
+    crept = float(law.mean(now - ends, now - begins) @ growth)
+    if crept == 0:
+        return 1.0
+
+    def missing(logarithm: float) -> float:
+        s = np.exp(logarithm)
+        return float(np.log(2 * (s * profile.depth(s) - profile.depth_integral(s)) / crept))
+
+    s = np.exp(brentq(missing, -70.0, 70.0, xtol=1e-6))
+    return 1.001 * float(profile.depth(s))
+
+
+class OutgrownError(Exception):
+    """The contact has grown over the last rod."""
+
+
+def march(rods: Rods, steps: Course, law: Law) -> Iterator[Moment]:
+    """March through a history.
+
+    Parameters
+    ----------
+    rods : Rods
+        The rods.
+    steps : Course
+        The history.
+    law : Law
+        The compliance.
+
+    Yields
+    ------
+    Moment
+        The end of each step.
+
+    Raises
+    ------
+    OutgrownError
+        If the rods do not reach far enough.
+    ValueError
+        If the load jumps where J(0) = 0, or the contact is no longer a full circle.
+    """
+    history = RodHistory(law.mean, len(rods.places), len(steps.times))
+    none = np.zeros(len(rods.places))
+    now, rate = Moment(Settled(0.0, none, none, 0, 0.0, 0.0), none), 0.0
+    begin = steps.times[0]
+    for end, load in zip(steps.times, steps.load, strict=True):
+        before = now.settled
+        step = _next_step(rods, history, law, now, begin, end)
+        if step.compliance == 0:
+            now = Moment(_unchanged(rods, steps, step, before, load, end), now.displacement)
+        else:
+            guess = before.approach + rate * step.duration
+            after = (
+                settle(rods, step, load)
+                if steps.by_approach
+                else (settle_under(rods, step, load, guess))
+            )
+            _require_circle(rods, steps, step, after, load, end)
+            now = _remember(rods, history, step, before, after, (begin, end))
+        yield now
+        if step.duration > 0:
+            rate = (now.settled.approach - before.approach) / step.duration
+        begin = end
+
+
+def _next_step(
+    rods: Rods, history: RodHistory, law: Law, now: Moment, begin: float, end: float
+) -> Step:
+    """Gather what is known of a step before it is taken."""
+    before, duration = now.settled, end - begin
+    opening = now.displacement + rods.depths - before.approach
+    return Step(
+        duration=float(duration),
+        before=before.chi,
+        open_before=np.maximum(opening, 0.0),
+        crept=history.recall(end),
+        compliance=float(law.mean(np.zeros(1), np.array([duration]))[0]),
+        within=lambda lags: law.mean(np.zeros_like(lags), lags),
+        instant=law.instant,
+    )
+
+
+def _unchanged(
+    rods: Rods, steps: Course, step: Step, before: Settled, load: float, end: float
+) -> Settled:
+    """Take a jump of a body without instant compliance, which may only be none."""
+    approach = load if steps.by_approach else before.approach
+    apart = before.force == 0 and approach <= step.touching(rods.depths)
+    same = load == (before.approach if steps.by_approach else before.force)
+    if not (same or (apart and steps.by_approach)):
+        raise ValueError(
+            f"creep_compliance: J(0) = 0, but the load jumps at t = {end:.6g} s; "
+            "give the load a rise, or the law an instant compliance"
+        )
+    return replace(before, approach=approach)
+
+
+def _require_circle(
+    rods: Rods, steps: Course, step: Step, after: Settled, load: float, end: float
+) -> None:
+    """Refuse what the rods cannot tell: contact beyond the last rod, or in a ring."""
+    single = len(rods.places) == 1
+    if not single and not steps.by_approach and after.force < load * (1 - 1e-9):
+        raise OutgrownError
+    beyond = after.wanted[after.reached :]
+    opening = rods.depths + step.crept - after.approach
+    if np.any(beyond > 0):
+        outermost = after.reached + int(np.flatnonzero(beyond > 0)[-1])
+        widest = float(opening[after.reached : outermost].max())
+        if widest > _RING * float(rods.depths[-1]):
+            raise ValueError(
+                f"times: at t = {end:.6g} s the indenter touches the recovering dent in a ring, "
+                f"open by {widest:.3g} m within; this solution holds for full circles, so end "
+                "the history before"
+            )
+
+
+def _remember(
+    rods: Rods,
+    history: RodHistory,
+    step: Step,
+    before: Settled,
+    after: Settled,
+    span: tuple[float, float],
+) -> Moment:
+    """Add the step's changes of load to the history, and look at what they did."""
+    begin, end = span
+    old, new = before.chi, after.chi
+    change, whole = new - old, after.share == 1
+    history.add_whole(begin, end, np.where(whole, change, 0.0))
+    single = np.flatnonzero(~whole & (change != 0))
+    share = after.share[single] * step.duration
+    met = new[single] > 0
+    starts, ends = np.where(met, end - share, begin), np.where(met, end, begin + share)
+    history.add_single(single, starts, ends, change[single])
+    longest = float(after.share[(old > 0) | (new > 0)].max(initial=0.0)) * step.duration
+    displacement = history.recall(end)
+    inside = new > 0
+    displacement[inside] = after.approach - rods.depths[inside]
+    return Moment(
+        after,
+        displacement,
+        _work(rods, before, after, step.duration),
+        end - longest if not old.any() and new.any() else None,
+        begin + longest if old.any() and not new.any() else None,
+    )
+
+
+def _work(rods: Rods, before: Settled, after: Settled, duration: float) -> float:
+    """Work of the load over a step [J]."""
+    advance = after.approach - before.approach
+    if duration > 0:
+        return (before.force + after.force) / 2 * advance
+    # Under a jump each rod is a spring, which meets the indenter on the way.
+    mean = (before.chi + after.chi) / 2 * after.share
+    return rods.sum(mean) * advance

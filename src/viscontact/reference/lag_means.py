@@ -1,0 +1,90 @@
+"""Means of a compliance over intervals of the lag, in closed form where the caller has one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.reference.hereditary import (
+    TimeFunction,
+    accumulated,
+    averaged_between,
+    evaluate,
+)
+
+LagMean: TypeAlias = Callable[[NDArray[np.float64], NDArray[np.float64]], NDArray[np.float64]]
+"""Mean of J over lags between two arrays of equal shape [s]; J itself where they are equal."""
+
+
+def lag_mean(creep_compliance: TimeFunction) -> LagMean:
+    """Give the mean of a compliance over lags: its own ``mean(start, end)``, else quadrature.
+
+    Parameters
+    ----------
+    creep_compliance : callable
+        J(t), taking an array of times [s], giving [1/Pa]; smooth on a logarithmic scale.
+
+    Returns
+    -------
+    callable
+        The mean of J over the lags ``start`` to ``end``, arrays of equal shape [1/Pa].
+
+    Examples
+    --------
+    >>> mean = lag_mean(lambda t: t**2)
+    >>> print(mean(np.array([0.0, 3.0, 1.0]), np.array([3.0, 3.0, 2.0])).round(12))
+    [3.         9.         2.33333333]
+    """
+    own = getattr(creep_compliance, "mean", None)
+    if own is not None:
+        return lambda start, end: np.asarray(own(start, end), dtype=np.float64)
+
+    def mean(start: NDArray[np.float64], end: NDArray[np.float64]) -> NDArray[np.float64]:
+        length = end - start
+        means = np.empty_like(length)
+        # Near lag 0 the function is anything a power of the lag may be; further away the
+        # difference of two integrals from 0 would lose its digits.
+        late = (start >= length) & (start > 0) | (length == 0)
+        means[late] = averaged_between(creep_compliance, start[late], end[late])
+        early = ~late
+        if early.any():
+            both = accumulated(creep_compliance, np.stack([end[early], start[early]]))
+            means[early] = (both[0] - both[1]) / length[early]
+        return means
+
+    return mean
+
+
+def instant_compliance(creep_compliance: TimeFunction) -> float:
+    """Give J(0) [1/Pa].
+
+    Parameters
+    ----------
+    creep_compliance : callable
+        J(t), taking an array of times [s], giving [1/Pa].
+
+    Returns
+    -------
+    float
+        J(0).
+
+    Raises
+    ------
+    ValueError
+        If it is negative, infinite or not a number.
+
+    Examples
+    --------
+    >>> instant_compliance(lambda t: 1e-9 * (1 + t))
+    1e-09
+    """
+    instant = float(evaluate(creep_compliance, 0.0))
+    if not 0 <= instant < np.inf:
+        raise ValueError(
+            f"creep_compliance: wanted J(0) >= 0 and finite, got {instant!r} 1/Pa; "
+            "give a creep compliance, not a modulus"
+        )
+    return instant

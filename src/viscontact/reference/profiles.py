@@ -1,0 +1,234 @@
+"""Round indenters as the integral transform of their gap, for contacts that are full circles.
+
+A gap f(r) enters the axisymmetric contact problem through g(s) = s times the integral of
+f'(r)/sqrt(s² - r²) over 0 < r < s alone: a rigid indenter pressed in by w displaces the
+elastic surface so that, in the transform of `AxisymmetricContact`, it moves by w - g(s).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.reference.arguments import require_positive
+
+
+class Profile(Protocol):
+    """A round indenter, touching at its axis first."""
+
+    @property
+    def edge(self) -> float:
+        """Radius where the indenter ends; inf for one that goes on [m]."""
+
+    def depth(self, s: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Transform g(s) of the gap: the approach at which an elastic contact reaches s [m]."""
+
+    def reach(self, depth: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Radius s at which g(s) is the depth [m]."""
+
+    def depth_integral(self, s: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Integral of g from 0 to s [m²]."""
+
+    def outer_integral(self, s: NDArray[np.float64], r: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Integral of g'(x)/sqrt(x² - r²) over r < x < s; 0 for s <= r [1]."""
+
+    def inner_integral(self, s: NDArray[np.float64], r: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Integral of g(x)/sqrt(r² - x²) over 0 < x < min(s, r) [m]."""
+
+
+@dataclass(frozen=True)
+class SphereProfile:
+    """A sphere, or paraboloid of revolution: gap r²/(2R), g(s) = s²/R.
+
+    Parameters
+    ----------
+    radius : float
+        Radius R of the sphere, or relative radius of two [m].
+
+    Raises
+    ------
+    ValueError
+        If the radius is not positive and finite.
+
+    Examples
+    --------
+    >>> print(f"{SphereProfile(0.01).depth(np.array(1e-3)) * 1e3:.3f} mm")
+    0.100 mm
+    """
+
+    radius: float
+
+    def __post_init__(self) -> None:
+        require_positive("m", radius=self.radius)
+
+    @property
+    def edge(self) -> float:
+        """Radius where the indenter ends: it does not [m]."""
+        return math.inf
+
+    def depth(self, s: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Transform g(s) = s²/R of the gap [m]."""
+        return s**2 / self.radius
+
+    def reach(self, depth: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Radius s at which g(s) is the depth [m]."""
+        radius: NDArray[np.float64] = np.sqrt(self.radius * depth)
+        return radius
+
+    def depth_integral(self, s: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Integral of g from 0 to s [m²]."""
+        return s**3 / (3 * self.radius)
+
+    def outer_integral(self, s: NDArray[np.float64], r: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Integral of g'(x)/sqrt(x² - r²) over r < x < s: (2/R) sqrt(s² - r²) [1]."""
+        height: NDArray[np.float64] = np.sqrt(np.maximum((s - r) * (s + r), 0.0))
+        return 2 / self.radius * height
+
+    def inner_integral(self, s: NDArray[np.float64], r: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Integral of g(x)/sqrt(r² - x²) over 0 < x < min(s, r) [m]."""
+        x = np.minimum(s, r)
+        angle = arcsine(x, r)
+        whole: NDArray[np.float64] = r**2 * angle - x * np.sqrt((r - x) * (r + x))
+        return whole / (2 * self.radius)
+
+
+@dataclass(frozen=True)
+class ConeProfile:
+    """A cone, point down: gap r cot(half_angle), g(s) = (pi/2) s cot(half_angle).
+
+    Parameters
+    ----------
+    half_angle : float
+        Angle from the axis to the flank, between 0 and pi/2 [rad].
+
+    Raises
+    ------
+    ValueError
+        If the angle is not between 0 and pi/2.
+
+    Examples
+    --------
+    >>> print(f"{ConeProfile(math.radians(70)).depth(np.array(1e-3)) * 1e3:.6f} mm")
+    0.571723 mm
+    """
+
+    half_angle: float
+
+    def __post_init__(self) -> None:
+        if not 0 < self.half_angle < math.pi / 2:
+            raise ValueError(
+                "half_angle: wanted an angle from the axis between 0 and pi/2 rad, "
+                f"got {self.half_angle!r}"
+            )
+
+    @property
+    def edge(self) -> float:
+        """Radius where the indenter ends: it does not [m]."""
+        return math.inf
+
+    @property
+    def _slope(self) -> float:
+        return math.pi / 2 / math.tan(self.half_angle)
+
+    def depth(self, s: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Transform g(s) = (pi/2) s cot(half_angle) of the gap [m]."""
+        return self._slope * s
+
+    def reach(self, depth: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Radius s at which g(s) is the depth [m]."""
+        return depth / self._slope
+
+    def depth_integral(self, s: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Integral of g from 0 to s [m²]."""
+        return self._slope * s**2 / 2
+
+    def outer_integral(self, s: NDArray[np.float64], r: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Integral of g'(x)/sqrt(x² - r²) over r < x < s, infinite on the axis [1]."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            ratio = np.where(s > r, s / r, 1.0)
+        return self._slope * np.arccosh(ratio)
+
+    def inner_integral(self, s: NDArray[np.float64], r: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Integral of g(x)/sqrt(r² - x²) over 0 < x < min(s, r) [m]."""
+        x = np.minimum(s, r)
+        height: NDArray[np.float64] = np.sqrt((r - x) * (r + x))
+        return self._slope * (r - height)
+
+
+@dataclass(frozen=True)
+class PunchProfile:
+    """A round punch with a flat end: no gap, g(s) = 0, up to its radius.
+
+    Parameters
+    ----------
+    radius : float
+        Radius of the punch [m].
+
+    Raises
+    ------
+    ValueError
+        If the radius is not positive and finite.
+
+    Examples
+    --------
+    >>> PunchProfile(0.01).edge
+    0.01
+    """
+
+    radius: float
+
+    def __post_init__(self) -> None:
+        require_positive("m", radius=self.radius)
+
+    @property
+    def edge(self) -> float:
+        """Radius of the punch [m]."""
+        return self.radius
+
+    def depth(self, s: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Transform of the gap: none under the punch [m]."""
+        return np.zeros_like(s)
+
+    def reach(self, depth: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Radius in contact at any depth: that of the punch [m]."""
+        return np.full_like(depth, self.radius)
+
+    def depth_integral(self, s: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Integral of g from 0 to s: none [m²]."""
+        return np.zeros_like(s)
+
+    def outer_integral(self, s: NDArray[np.float64], r: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Integral of g'(x)/sqrt(x² - r²): none [1]."""
+        return np.zeros(np.broadcast_shapes(s.shape, r.shape))
+
+    def inner_integral(self, s: NDArray[np.float64], r: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Integral of g(x)/sqrt(r² - x²): none [m]."""
+        return np.zeros(np.broadcast_shapes(s.shape, r.shape))
+
+
+def arcsine(x: NDArray[np.float64], r: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Angle whose sine is x/r, the integral of 1/sqrt(r² - x²) from 0; pi/2 where r = 0.
+
+    Parameters
+    ----------
+    x, r : ndarray
+        Radii with 0 <= x <= r, broadcast together [m].
+
+    Returns
+    -------
+    ndarray
+        The angle [rad].
+
+    Examples
+    --------
+    >>> print(f"{arcsine(np.array(1.0), np.array(2.0)) * 6:.6f}")
+    3.141593
+    """
+    with np.errstate(divide="ignore", invalid="ignore"):
+        sine = np.where(r > 0, x / r, 1.0)
+    angle: NDArray[np.float64] = np.arcsin(np.minimum(sine, 1.0))
+    return angle

@@ -1,0 +1,208 @@
+"""A force that rises and falls at a constant rate on a Maxwell body: the contact in closed form."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.integrate import quad
+from scipy.special import lambertw
+
+from viscontact.reference.arguments import Values, require_positive
+
+
+@dataclass(frozen=True)
+class TingForceTriangle:
+    """A sphere on a Maxwell body under a force that rises and falls at one rate.
+
+    Made by `ting_force_triangle`.
+
+    Attributes
+    ----------
+    peak : float
+        Largest force [N].
+    rise : float
+        Time of its rise, and of its fall [s].
+    radius : float
+        Radius of the sphere [m].
+    modulus : float
+        M(0) [Pa].
+    relaxation_time : float
+        That of M(t) [s].
+    """
+
+    peak: float
+    rise: float
+    radius: float
+    modulus: float
+    relaxation_time: float
+
+    @property
+    def widest(self) -> float:
+        """Instant of the largest contact: at the peak of the force, or later [s]."""
+        return max(self.rise, 2 * self.rise - self.relaxation_time)
+
+    def force(self, t: ArrayLike) -> Values:
+        """Force on the half-space [N].
+
+        Parameters
+        ----------
+        t : array_like
+            Time, from 0 to twice the rise [s].
+
+        Returns
+        -------
+        float or ndarray
+            The force [N].
+        """
+        times = np.asarray(t, dtype=np.float64)
+        return (self.peak / self.rise * np.minimum(times, 2 * self.rise - times))[()]
+
+    def earlier(self, t: ArrayLike) -> Values:
+        """Instant when the growing contact was as large as now, Ting's t_1 [s].
+
+        Parameters
+        ----------
+        t : array_like
+            Time, from 0 to twice the rise [s].
+
+        Returns
+        -------
+        float or ndarray
+            t_1, t itself while the contact grows [s].
+        """
+        b, tau = self.rise, self.relaxation_time
+        times = np.asarray(t, dtype=np.float64)
+        left = (2 * b - times) / tau
+        on_rise = tau * lambertw(left * np.exp(times / tau)).real
+        with np.errstate(divide="ignore", invalid="ignore"):
+            after_peak = 2 * b + tau * lambertw(-left * np.exp(-left), -1).real
+        shrinking = np.where(on_rise <= b, on_rise, after_peak)
+        return np.where(times <= self.widest, times, shrinking)[()]
+
+    def contact_radius(self, t: ArrayLike) -> Values:
+        """Radius of the contact circle [m].
+
+        Parameters
+        ----------
+        t : array_like
+            Time, from 0 to twice the rise [s].
+
+        Returns
+        -------
+        float or ndarray
+            a, a³ = (3 R/4) J * dF at t_1 [m].
+        """
+        return np.cbrt(self._cube(np.asarray(self.earlier(t))))[()]
+
+    def approach(self, t: ArrayLike) -> Values:
+        """Approach of the bodies [m].
+
+        Parameters
+        ----------
+        t : array_like
+            Time, from 0 to twice the rise [s].
+
+        Returns
+        -------
+        float or ndarray
+            a²/R while the contact grows; then it falls short of its largest value by the integral
+            of exp((t' - t(t'))/tau) dw(t') from t_1 on, t(t') the later instant of equal contact
+            [m].
+        """
+        times = np.asarray(t, dtype=np.float64)
+        earlier = np.asarray(self.earlier(times))
+        found = [
+            self._grown(now) if now <= self.widest else self._shrunk(then)
+            for now, then in zip(times.ravel(), earlier.ravel(), strict=True)
+        ]
+        return np.array(found).reshape(times.shape)[()]
+
+    def _cube(self, times: Values) -> Values:
+        """Cube of the radius of the growing contact [m³]."""
+        tau = self.relaxation_time
+        held = np.maximum(times - self.rise, 0.0)
+        crept = times + times**2 / (2 * tau) - 2 * (held + held**2 / (2 * tau))
+        cube: Values = 0.75 * self.radius * self.peak / self.rise / self.modulus * crept
+        return cube
+
+    def _grown(self, then: float) -> float:
+        return float(np.cbrt(self._cube(np.float64(then)))) ** 2 / self.radius
+
+    def _shrunk(self, then: float) -> float:
+        """Approach when the contact is as large again as it was then [m]."""
+        b, tau, rate = self.rise, self.relaxation_time, self.peak / self.rise
+
+        def slope(instant: float) -> float:
+            """Decay between two instants of equal contact, times dw/dt at the first."""
+            force = float(self.force(instant))
+            left = -lambertw(-force / (rate * tau) * math.exp((instant - 2 * b) / tau)).real
+            decay = math.exp((instant - 2 * b) / tau + left)
+            turned = 2 * (1 + (instant - b) / tau) if instant > b else 0.0
+            cube_rate = 0.75 * self.radius * rate / self.modulus * (1 + instant / tau - turned)
+            a = float(np.cbrt(self._cube(np.float64(instant))))
+            return decay * 2 / (3 * a * self.radius) * cube_rate
+
+        # The cube of a variable takes the root out of the beginning.
+        corners = sorted({max(then, corner) for corner in (then, self.rise, self.widest)})
+        parts = [
+            quad(lambda x: 3 * x**2 * slope(x**3), low ** (1 / 3), high ** (1 / 3), epsrel=1e-12)[0]
+            for low, high in itertools.pairwise(corners)
+        ]
+        return self._grown(self.widest) - float(sum(parts))
+
+
+def ting_force_triangle(
+    peak: float, rise: float, radius: float, modulus: float, relaxation_time: float
+) -> TingForceTriangle:
+    """Contact of a sphere with a Maxwell body under a force that rises and falls at one rate.
+
+    Parameters
+    ----------
+    peak : float
+        Largest force [N].
+    rise : float
+        Time of its rise, and of its fall [s].
+    radius : float
+        Radius of the sphere [m].
+    modulus : float
+        M(0), the contact modulus at once, 1/J(0) [Pa].
+    relaxation_time : float
+        tau of M(t) = M(0) exp(-t/tau) [s].
+
+    Returns
+    -------
+    TingForceTriangle
+        Contact radius and approach by time.
+
+    Raises
+    ------
+    ValueError
+        If an argument is not positive and finite.
+
+    Notes
+    -----
+    While the contact grows, F = integral of M(t - t') d(4 a³/(3 R)) from 0 to t, and afterwards
+    the same up to t_1 (Ting 1966). For a Maxwell body, whose M is one exponential, both together
+    are F(t) exp(t/tau) = F(t_1) exp(t_1/tau): Lambert's W gives t_1. That the rods at the edge
+    are free, integral of M(t - t') dw from t_1 to t = 0, gives dw(t) = exp((t_1 - t)/tau)
+    dw(t_1). The contact grows beyond the peak of the force if that is later than tau.
+
+    References
+    ----------
+    T. C. T. Ting, J. Appl. Mech. 33 (1966) 845-854; the closed form is derived in the Notes.
+
+    Examples
+    --------
+    >>> contact = ting_force_triangle(10.0, 1.0, 0.01, 2e9, 1.0)
+    >>> print(f"{contact.earlier(1.5):.6f} s, dent left {contact.approach(2.0) * 1e6:.5f} um")
+    0.905795 s, dent left 10.46346 um
+    """
+    require_positive("N", peak=peak)
+    require_positive("s", rise=rise, relaxation_time=relaxation_time)
+    require_positive("m", radius=radius)
+    require_positive("Pa", modulus=modulus)
+    return TingForceTriangle(peak, rise, radius, modulus, relaxation_time)

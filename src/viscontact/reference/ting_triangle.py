@@ -1,0 +1,207 @@
+"""In and out at constant speed: Ting's indentation in closed form."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import brentq
+from scipy.special import hyp1f1
+
+from viscontact.reference.arguments import Values, require_positive
+from viscontact.reference.profiles import SphereProfile
+from viscontact.reference.ting import GrowingProfile
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class TingTriangle:
+    """A sphere or cone moved into a viscoelastic solid and out again, at one constant speed.
+
+    Made by `ting_triangle`.
+
+    Attributes
+    ----------
+    profile : SphereProfile or ConeProfile
+        The indenter.
+    peak : float
+        Largest approach [m].
+    rise : float
+        Time of the way in, and of the way out [s].
+    equilibrium : float
+        Equilibrium modulus of M(t) [Pa].
+    moduli, times : tuple of float
+        Terms of M(t) [Pa], [s].
+    """
+
+    profile: GrowingProfile
+    peak: float
+    rise: float
+    equilibrium: float
+    moduli: tuple[float, ...]
+    times: tuple[float, ...]
+
+    def approach(self, t: ArrayLike) -> Values:
+        """Approach at time t [m].
+
+        Parameters
+        ----------
+        t : array_like
+            Time, from 0 to twice the rise [s].
+
+        Returns
+        -------
+        float or ndarray
+            Approach [m].
+        """
+        times = np.asarray(t, dtype=np.float64)
+        return (self.peak / self.rise * np.minimum(times, 2 * self.rise - times))[()]
+
+    def earlier(self, t: ArrayLike) -> Values:
+        """Instant on the way in when the contact was as large as now, Ting's t_1 [s].
+
+        Parameters
+        ----------
+        t : array_like
+            Time, from 0 to twice the rise [s].
+
+        Returns
+        -------
+        float or ndarray
+            t_1, t itself on the way in, 0 after contact is lost [s].
+
+        Notes
+        -----
+        With M the integral of M and b the rise, M(t - t_1) - 2 M(t - b) = 0: for a Maxwell body
+        t_1 = tau ln(2 exp(b/tau) - exp(t/tau)).
+        """
+        times = np.asarray(t, dtype=np.float64)
+        found = [self._earlier(float(now)) for now in times.ravel()]
+        return np.array(found).reshape(times.shape)[()]
+
+    def contact_radius(self, t: ArrayLike) -> Values:
+        """Radius of the contact circle, 0 after contact is lost [m].
+
+        Parameters
+        ----------
+        t : array_like
+            Time, from 0 to twice the rise [s].
+
+        Returns
+        -------
+        float or ndarray
+            That at t_1 [m].
+        """
+        depth = self.peak / self.rise * np.asarray(self.earlier(t))
+        return self.profile.reach(depth)[()]
+
+    def force(self, t: ArrayLike) -> Values:
+        """Force on the half-space [N].
+
+        Parameters
+        ----------
+        t : array_like
+            Time, from 0 to twice the rise [s].
+
+        Returns
+        -------
+        float or ndarray
+            2 integral of M(t - t') a(t') dw(t') from 0 to t_1, a(t') = a(1) t'^p [N].
+
+        Notes
+        -----
+        Integral of exp(-(t - t')/tau) t'^p from 0 to x = exp(-(t - x)/tau) x^(1+p)/(1+p)
+        1F1(1; 2+p; -x/tau) (DLMF 13.4.1 and 13.2.39), p = 1/2 for a sphere and 1 for a cone.
+        """
+        now, x = np.asarray(t, dtype=np.float64), np.asarray(self.earlier(t))
+        p = 0.5 if isinstance(self.profile, SphereProfile) else 1.0
+        weighted = np.full(np.shape(x), self.equilibrium)
+        for modulus, tau in zip(self.moduli, self.times, strict=True):
+            weighted += modulus * np.exp((x - now) / tau) * hyp1f1(1.0, 2 + p, -x / tau)
+        radius = self.profile.reach(self.peak / self.rise * x)
+        force: Values = 2 * self.peak / self.rise * radius * x / (1 + p) * weighted
+        return force
+
+    @property
+    def lost(self) -> float:
+        """Instant when contact is lost [s]."""
+        if not any(self.moduli):
+            return 2 * self.rise
+        return float(brentq(self._load, self.rise, 2 * self.rise, args=(0.0,), xtol=1e-300))
+
+    def _earlier(self, now: float) -> float:
+        if now <= self.rise:
+            return now
+        if self._load(now, 0.0) <= 0:
+            return 0.0
+        return float(brentq(lambda start: self._load(now, start), 0.0, self.rise, xtol=1e-300))
+
+    def _load(self, now: float, start: float) -> float:
+        """Integrate M(now - t') over time from the start, backwards after the peak [Pa s]."""
+        peak = self.rise
+        load = self.equilibrium * (2 * peak - start - now)
+        for modulus, tau in zip(self.moduli, self.times, strict=True):
+            way_in = -np.exp((peak - now) / tau) * np.expm1((start - peak) / tau)
+            load += modulus * tau * (way_in + np.expm1((peak - now) / tau))
+        return float(load)
+
+
+def ting_triangle(
+    profile: GrowingProfile,
+    peak: float,
+    rise: float,
+    equilibrium: float,
+    moduli: ArrayLike = (),
+    times: ArrayLike = (),
+) -> TingTriangle:
+    """Contact of a sphere or cone moved into a solid and out again at one constant speed.
+
+    Parameters
+    ----------
+    profile : SphereProfile or ConeProfile
+        The indenter.
+    peak : float
+        Largest approach [m].
+    rise : float
+        Time of the way in, and of the way out [s].
+    equilibrium : float
+        Equilibrium modulus, 0 for a body that flows [Pa].
+    moduli, times : array_like, optional
+        Terms of M(t) = equilibrium + sum moduli exp(-t/times), the inverse of the contact
+        compliance: one and no equilibrium for a Maxwell body, one for Zener's [Pa], [s].
+
+    Returns
+    -------
+    TingTriangle
+        Force, contact radius and the instant of lost contact.
+
+    Raises
+    ------
+    ValueError
+        If peak or rise is not positive, a modulus negative, a time not positive, or all moduli 0.
+
+    References
+    ----------
+    T. C. T. Ting, J. Appl. Mech. 33 (1966) 845-854.
+
+    Examples
+    --------
+    >>> contact = ting_triangle(SphereProfile(0.01), 1e-5, 1.0, 0.0, [2e9], [1.0])
+    >>> print(f"{contact.force(1.0):.5f} N, contact lost at {contact.lost:.6f} s")
+    5.84288 N, contact lost at 1.489880 s
+    """
+    require_positive("m", peak=peak)
+    require_positive("s", rise=rise)
+    terms = [
+        tuple(np.atleast_1d(np.asarray(a, dtype=np.float64)).tolist()) for a in (moduli, times)
+    ]
+    valid = len(terms[0]) == len(terms[1]) and all(tau > 0 for tau in terms[1])
+    if not (valid and min(equilibrium, *terms[0], 0.0) >= 0 and max(equilibrium, *terms[0]) > 0):
+        raise ValueError(
+            "moduli: wanted a relaxation series with moduli >= 0 Pa, not all 0, and as many "
+            f"positive times, got equilibrium={equilibrium!r}, moduli={terms[0]!r}, "
+            f"times={terms[1]!r}"
+        )
+    return TingTriangle(profile, peak, rise, equilibrium, terms[0], terms[1])
