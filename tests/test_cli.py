@@ -352,7 +352,7 @@ def test_check_doubts_a_contact_too_large_for_small_strains(
 def test_grid_is_measured_against_the_memory_that_is_free(
     folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    needed = forecast.needed_memory(vc.Grid((32, 32), (1.0, 1.0)), terms=1)
+    needed = forecast.needed_memory(vc.Grid((32, 32), (1.0, 1.0)), fields_kept=1)
     monkeypatch.setattr("viscontact.cli.preparation.available_memory", lambda: needed + 1)
     assert main(["run", "case.yaml", "-q", "-o", "fits"]) == 0
     monkeypatch.setattr("viscontact.cli.preparation.available_memory", lambda: needed - 1)
@@ -518,7 +518,6 @@ def test_second_demo_replaces_the_first(folder: Path, monkeypatch: pytest.Monkey
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["material", "pmma-paper"], "material is not built yet"),
         (["report", "case"], "report is not built yet"),
         (["verify", "--fast"], "verify is not built yet"),
         (["run", "case.yaml", "--resume"], "--resume is not built yet"),

@@ -9,8 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from viscontact.compliance import SeriesCompliance
 from viscontact.laws import Burgers, CreepSeries, Elastic, Maxwell, RelaxationSeries, Zener
-from viscontact.material import ContactCompliance, Material
+from viscontact.material import Material
 
 T = np.array([0.0, 0.01, 0.7, 3.0, 40.0, 1e4])
 
@@ -131,7 +132,7 @@ def test_compliances_of_two_creeping_bodies_add():
 
 
 def test_contact_compliance_is_ready_for_time_stepping():
-    J = ContactCompliance(1.0, [2.0, 0.0, 3.0], [5.0, 4.0, 1.0], 0.5)
+    J = SeriesCompliance(1.0, [2.0, 0.0, 3.0], [5.0, 4.0, 1.0], 0.5)
     assert J.amplitudes.dtype == J.times.dtype == np.float64
     assert J.times.tolist() == [1.0, 5.0]
     assert J.amplitudes.tolist() == [3.0, 2.0]
@@ -169,9 +170,9 @@ def test_materials_are_frozen_hashable_and_rebuilt_from_their_fields():
         (lambda: Material(Elastic(1.0), "0,3"), "poisson_ratio: must be one number"),
         (lambda: Material(Elastic(1.0), bulk_modulus=0.0), r"bulk_modulus: .*got 0\.0 Pa"),
         (lambda: Material(1e9, 0.3), r"Material\.law: must be a creep law"),
-        (lambda: ContactCompliance(-1.0, [], []), r"ContactCompliance\.instant"),
-        (lambda: ContactCompliance(1.0, [1.0], []), "equal lengths"),
-        (lambda: ContactCompliance(1.0, [], [])(-1.0), "t: times since the step"),
+        (lambda: SeriesCompliance(-1.0, [], []), r"SeriesCompliance\.instant"),
+        (lambda: SeriesCompliance(1.0, [1.0], []), "equal lengths"),
+        (lambda: SeriesCompliance(1.0, [], [])(-1.0), "t: times since the step"),
     ],
 )
 def test_bad_arguments_are_refused_with_name_and_value(make, message):

@@ -6,18 +6,18 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from verification.independent import superposed
-from viscontact.material import ContactCompliance
-from viscontact.memory import Memory
+from viscontact.compliance import SeriesCompliance
+from viscontact.memory import RecursiveMemory
 
-ELASTIC = ContactCompliance(2.0, (), ())
-KELVIN = ContactCompliance(2.0, [1.5], [3.0])
-FLUID = ContactCompliance(2.0, (), (), 0.7)
-WIDE = ContactCompliance(2.0, [0.3, 0.5, 1.1], [1e-5, 1.0, 1e6], 0.01)
+ELASTIC = SeriesCompliance(2.0, (), ())
+KELVIN = SeriesCompliance(2.0, [1.5], [3.0])
+FLUID = SeriesCompliance(2.0, (), (), 0.7)
+WIDE = SeriesCompliance(2.0, [0.3, 0.5, 1.1], [1e-5, 1.0, 1e6], 0.01)
 
 
 def follow(compliance, times, values, *, jump=True):
     """Displacements at the instants, for a field that takes the values there."""
-    memory, displacements = Memory(compliance, (1,)), []
+    memory, displacements = RecursiveMemory(compliance, (1,)), []
     before = 0.0
     for i, (time, value) in enumerate(zip(times, values, strict=True)):
         response = memory.jump() if (i == 0 and jump) else memory.ramp(time - before)
@@ -66,7 +66,7 @@ def test_every_history_is_the_superposition_of_its_steps():
 
 
 def test_a_jump_meets_the_instant_compliance_only():
-    memory = Memory(KELVIN, (1,))
+    memory = RecursiveMemory(KELVIN, (1,))
     memory.jump()
     memory.accept(np.array([1.0]))
     memory.ramp(5.0)
@@ -107,16 +107,16 @@ def test_smooth_histories_converge_with_the_square_of_the_step():
 def test_a_step_tiny_against_the_law_is_taken_to_rounding(ratio):
     # The mean of J over a ramp of length h: J0 + J1 h/(2 tau) (1 - h/(3 tau) + ...).
     h = 3.0 * ratio
-    response = Memory(KELVIN, (1,)).ramp(h)
+    response = RecursiveMemory(KELVIN, (1,)).ramp(h)
     series = 1.5 * ratio / 2 * (1 - ratio / 3 * (1 - ratio / 4 * (1 - ratio / 5 * (1 - ratio / 6))))
     assert response.compliance - 2.0 == pytest.approx(series, rel=1e-4 * ratio**4, abs=5e-16)
 
 
-@pytest.mark.parametrize("law", [KELVIN, ContactCompliance(0.1, [5.0, 9.0], [1e-6, 1e-3])])
+@pytest.mark.parametrize("law", [KELVIN, SeriesCompliance(0.1, [5.0, 9.0], [1e-6, 1e-3])])
 @pytest.mark.parametrize("length", [1e3, 1e9])
 def test_a_step_huge_against_the_law_neither_overflows_nor_rings(law, length):
     # A constant displacement asked for over long steps, as a contact does.
-    memory, values = Memory(law, (1,)), []
+    memory, values = RecursiveMemory(law, (1,)), []
     for i in range(8):
         response = memory.jump() if i == 0 else memory.ramp(length)
         value = (1.0 - response.history) / response.compliance
@@ -130,7 +130,7 @@ def test_a_step_huge_against_the_law_neither_overflows_nor_rings(law, length):
 
 
 def test_what_is_taken_into_the_memory_is_a_copy():
-    memory, field = Memory(KELVIN, (1,)), np.array([1.0])
+    memory, field = RecursiveMemory(KELVIN, (1,)), np.array([1.0])
     memory.jump()
     memory.accept(field)
     field[0] = 99.0

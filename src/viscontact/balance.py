@@ -32,25 +32,26 @@ class Support:
 
     @classmethod
     def of(cls, point: LoadPoint) -> Support:
-        """Support by a force at an eccentricity, with the tilts that are prescribed.
+        """Support by a force at an eccentricity or a stage, with the tilts that are prescribed.
 
         Parameters
         ----------
         point : LoadPoint
-            Force, eccentricities, and tilts (None where free).
+            Force and eccentricities or approach, and tilts (None where free).
 
         Returns
         -------
         Support
-            A prescribed tilt takes the place of its moment.
+            A prescribed motion takes the place of its balance.
         """
+        force = point.force or 0.0  # none is prescribed under an approach, nor then a moment
         return cls(
             (
                 point.force,
-                point.force * point.eccentricity_x if point.tilt_x is None else None,
-                point.force * point.eccentricity_y if point.tilt_y is None else None,
+                force * point.eccentricity_x if point.tilt_x is None else None,
+                force * point.eccentricity_y if point.tilt_y is None else None,
             ),
-            (0.0, point.tilt_x or 0.0, point.tilt_y or 0.0),
+            (point.approach or 0.0, point.tilt_x or 0.0, point.tilt_y or 0.0),
         )
 
     def halved(self) -> Support:
@@ -222,9 +223,13 @@ def restore_balance(
     ndarray or None
         Non-negative balanced pressure; None if these cells cannot carry the resultants.
     """
+    if not support.free.any():
+        return pressure
     target = support.targets / cell_area
     for _ in range(20):
-        factor = plane.inverse_gram(pressure, support.free) @ target
+        # A correction to 1, so that what no balance asks for stays as it is.
+        lacking = target - plane.sums(pressure)
+        factor = plane.inverse_gram(pressure, support.free) @ lacking + np.array([1.0, 0.0, 0.0])
         scaled = pressure * plane.field(factor)
         if float(scaled.min()) >= 0:
             off = support.imbalance(plane.sums(scaled) * cell_area, arm)

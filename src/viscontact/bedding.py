@@ -49,6 +49,10 @@ def settle_on_bedding(
     """
     given = support.with_prescribed(np.zeros(3))
     gap = open_gap - plane.field(given)
+    if not support.free[0]:
+        overlap = np.maximum(-gap, 0.0)
+        cells = max(int((overlap > 0).sum()), 1)
+        return overlap / (compliance * np.sqrt(cell_area * cells)), given
     cells = 100
     for _ in range(2):
         stiffness = 1 / (compliance * np.sqrt(cell_area * cells))

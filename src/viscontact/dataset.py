@@ -17,11 +17,12 @@ from viscontact.description import describe_run
 from viscontact.errors import ConvergenceError, DomainError
 from viscontact.grid import Grid
 from viscontact.indenters import Indenter
-from viscontact.load import ForceHistory
+from viscontact.load import LoadHistory
 from viscontact.marching import Progress, march_run
 from viscontact.material import Material
 from viscontact.run import Run, field_instants, prepare_run
 from viscontact.state import ContactState, Outcome
+from viscontact.stepping import AdaptiveTimes
 
 
 @dataclass(frozen=True)
@@ -73,6 +74,8 @@ SCALARS = {
     "peak_pressure": Variable("Pa", "largest pressure"),
     "mean_pressure": Variable("Pa", "force over contact area"),
     "work": Variable("J", "work of the load on the contact since the start"),
+    "loss_per_cycle": Variable("J", "work that the last whole cycle of the load has cost"),
+    "time_error": Variable("1", "estimated relative error of pressure owed to the time steps"),
     "iterations": Variable("1", "iterations of the contact solver", "i4"),
     "residual": Variable("1", "relative violation of the contact conditions"),
     "cells_across": Variable("1", "cells across the contact, along its shorter way", "i4"),
@@ -89,9 +92,9 @@ OUTCOME_FLAGS = {
 def simulate(
     indenter: Indenter,
     material: Material,
-    load: ForceHistory,
+    load: LoadHistory,
     grid: Grid | None = None,
-    times: ArrayLike | None = None,
+    times: ArrayLike | AdaptiveTimes | None = None,
     *,
     indenter_material: Material | None = None,
     tolerance: float = 1e-6,
@@ -107,7 +110,7 @@ def simulate(
         Shape of the pressed body.
     material : Material
         Material of the half-space.
-    load : ForceHistory
+    load : LoadHistory
         Force, eccentricity and prescribed tilts over time.
     grid : Grid, optional
         Cells that carry the pressure; `auto_grid` chooses when left out.
@@ -170,9 +173,11 @@ def simulate(
     started = clock.perf_counter()
     states: list[ContactState] = []
     keep = set(field_instants(fields, run.times).tolist())
+    keeps_all = field_axis(fields) == "time"
     try:
         for state in march_run(run, progress):
-            states.append(state if state.time in keep else state.without_fields())
+            kept = keeps_all or state.time in keep
+            states.append(state if kept else state.without_fields())
     except (ConvergenceError, DomainError) as stop:
         if states:
             stop.partial = to_dataset(run, states, fields, clock.perf_counter() - started)
@@ -255,6 +260,9 @@ def run_attributes(run: Run) -> dict[str, Any]:
         "version": __version__,
         "case": json.dumps(describe_run(run)),
         "tolerance": run.tolerance,
+        "memory": run.memory.method,
+        "memory_error": run.memory.error,
+        "inversion_error": run.compliance.inversion_error,
     }
 
 

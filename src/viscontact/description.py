@@ -129,6 +129,7 @@ def describe_run(run: Run) -> dict[str, Any]:
         "load": describe(run.load),
         "grid": describe(run.grid),
         "times": describe(run.times),
+        "adaptive": describe(run.adaptive),
         "tolerance": run.tolerance,
     }
 

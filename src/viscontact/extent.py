@@ -10,13 +10,14 @@ from numpy.typing import NDArray
 from scipy import fft
 
 from viscontact.balance import Support
+from viscontact.compliance import ContactCompliance, SeriesCompliance
 from viscontact.contact import solve_contact
 from viscontact.contact_problem import ContactProblem
 from viscontact.grid import Grid
 from viscontact.half_space import HalfSpace
 from viscontact.indenters import Indenter
-from viscontact.load import ForceHistory, LoadPoint
-from viscontact.material import ContactCompliance, Material
+from viscontact.load import LoadHistory, LoadPoint
+from viscontact.material import Material
 from viscontact.rim import trace_rim
 
 #: Cells of a coarse solve along each axis, and how far it has to converge.
@@ -113,7 +114,7 @@ def estimate_contact(
 def auto_grid(
     indenter: Indenter,
     material: Material,
-    load: ForceHistory,
+    load: LoadHistory,
     tolerance: float = 0.01,
     *,
     end: float | None = None,
@@ -127,7 +128,7 @@ def auto_grid(
         Shape of the pressed body.
     material : Material
         Material of the half-space.
-    load : ForceHistory
+    load : LoadHistory
         Force, eccentricity and prescribed tilts over time.
     tolerance : float
         Aimed-at relative error of peak pressure, area and approach.
@@ -170,44 +171,64 @@ def auto_grid(
 
 
 def _reach_of_history(
-    indenter: Indenter, compliance: float, load: ForceHistory, end: float | None
+    indenter: Indenter, compliance: float, load: LoadHistory, end: float | None
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Farthest reach over the history, and the extents of the contact under the largest force."""
     points = _corners(load, end)
     if not points:
         raise ValueError(
-            "load: the force is zero throughout, so no grid can be fitted to a contact; give a grid"
+            "load: the load is zero throughout, so no grid can be fitted to a contact; give a grid"
         )
     found = [estimate_contact(indenter, compliance, point) for point in points]
     reach = np.array([estimate.reach for estimate in found], dtype=np.float64).max(axis=0)
-    largest = found[int(np.argmax([point.force for point in points]))]
+    largest = found[int(np.argmax([level_of(point) for point in points]))]
     return reach, np.array([largest.length, largest.width])
 
 
-def _corners(load: ForceHistory, end: float | None) -> list[LoadPoint]:
+def _corners(load: LoadHistory, end: float | None) -> list[LoadPoint]:
     """Distinct loads at the history's points, and within its pieces: there the force may move."""
     corners = load.kinks if end is None else np.append(load.kinks[load.kinks < end], end)
     within = [corners[:-1] + part * np.diff(corners) for part in (0.25, 0.5, 0.75)]
     instants = np.unique(np.concatenate([corners, *within])).tolist()
     points = [load.at(time, side=side) for time in instants for side in ("left", "right")]
-    return list(dict.fromkeys(point for point in points if point.force > 0))
+    return list(dict.fromkeys(point for point in points if level_of(point) > 0))
 
 
 def _largest_compliance(
-    compliance: ContactCompliance, load: ForceHistory, end: float | None
+    compliance: ContactCompliance, load: LoadHistory, end: float | None
 ) -> float:
     if end is not None:
         return float(compliance(end))
-    if compliance.fluidity > 0:
+    latest = compliance.settled_after
+    if math.isinf(latest) or (isinstance(compliance, SeriesCompliance) and compliance.fluidity > 0):
         raise ValueError("end: the law flows without end, so say when the run ends, in s")
-    return compliance.instant + float(np.sum(compliance.amplitudes))
+    if isinstance(compliance, SeriesCompliance):
+        return compliance.instant + float(np.sum(compliance.amplitudes))
+    return float(compliance(latest))
+
+
+def level_of(point: LoadPoint) -> float:
+    """Return what presses: the force [N] or, where that is prescribed, the approach [m].
+
+    Examples
+    --------
+    >>> level_of(LoadPoint(None, 0.0, 0.0, None, None, approach=1e-6))
+    1e-06
+    """
+    level = point.approach if point.force is None else point.force
+    assert level is not None  # one of the two is given
+    return level
 
 
 def _first_size(indenter: Indenter, compliance: float, point: LoadPoint) -> float:
     radius = indenter.radius_of_curvature
-    scale = math.sqrt(point.force * compliance)
-    if math.isfinite(radius):
-        scale = (0.75 * point.force * radius * compliance) ** (1 / 3)
+    level, is_round = level_of(point), math.isfinite(radius) and radius > 0
+    if point.force is None:
+        scale = math.sqrt(radius * level) if is_round else level
+    else:
+        scale = math.sqrt(level * compliance)
+        if is_round:
+            scale = (0.75 * level * radius * compliance) ** (1 / 3)
     return 4 * max(scale, abs(point.eccentricity_x), abs(point.eccentricity_y))
 
 

@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 from scipy import fft
 
-from viscontact.extent import ContactEstimate, estimate_contact
+from viscontact.extent import ContactEstimate, estimate_contact, level_of
 from viscontact.grid import Grid
 from viscontact.load import LoadPoint
 from viscontact.run import Run
@@ -88,7 +88,7 @@ def forecast(run: Run) -> Forecast:
     0.6
     """
     point = _largest_load(run)
-    if point.force > 0:
+    if level_of(point) > 0:
         estimate = estimate_contact(run.indenter, float(run.compliance(run.times[-1])), point)
         extents, reach = (estimate.length, estimate.width), estimate.reach
     else:
@@ -97,7 +97,7 @@ def forecast(run: Run) -> Forecast:
         extent / cell for extent, cell in zip(extents, run.grid.cell_size, strict=True)
     )
     return Forecast(
-        memory=needed_memory(run.grid, len(run.compliance.times)),
+        memory=needed_memory(run.grid, run.memory.fields_kept),
         available=available_memory(),
         seconds=_seconds(run),
         estimate=estimate,
@@ -107,15 +107,16 @@ def forecast(run: Run) -> Forecast:
     )
 
 
-def needed_memory(grid: Grid, terms: int) -> float:
+def needed_memory(grid: Grid, fields_kept: int) -> float:
     """Return how many bytes a run holds.
 
     Parameters
     ----------
     grid : Grid
         Its grid; nothing of its size is allocated here.
-    terms : int
-        Number of exponential terms of the contact compliance.
+    fields_kept : int
+        Fields that the memory keeps of pressure, and as many of deflection: one for each
+        exponential term of the contact compliance, or one for each step.
 
     Returns
     -------
@@ -124,11 +125,11 @@ def needed_memory(grid: Grid, terms: int) -> float:
 
     Examples
     --------
-    >>> round(needed_memory(Grid((1000, 1000), (1.0, 1.0)), terms=2) / 1e6)
+    >>> round(needed_memory(Grid((1000, 1000), (1.0, 1.0)), fields_kept=2) / 1e6)
     452
     """
     nx, ny = grid.shape
-    return PROGRAM + 8.0 * float(nx) * float(ny) * (WORK_ARRAYS + ARRAYS_PER_TERM * terms)
+    return PROGRAM + 8.0 * float(nx) * float(ny) * (WORK_ARRAYS + ARRAYS_PER_TERM * fields_kept)
 
 
 def available_memory() -> float:
@@ -192,7 +193,7 @@ def _largest_load(run: Run) -> LoadPoint:
     end = float(run.times[-1])
     instants = [*(float(kink) for kink in run.load.kinks if kink <= end), end]
     points = [run.load.at(time, side=side) for time in instants for side in ("left", "right")]
-    return max(points, key=lambda point: point.force)
+    return max(points, key=level_of)
 
 
 def _seconds(run: Run) -> float:

@@ -4,45 +4,33 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from viscontact.balance import Support
-from viscontact.contact import ContactSolution, solve_contact
-from viscontact.contact_problem import ContactProblem, Guess
 from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
 from viscontact.grid import Grid
 from viscontact.half_space import HalfSpace
 from viscontact.indenters import Indenter
-from viscontact.load import ForceHistory, LoadPoint
+from viscontact.load import LoadHistory
 from viscontact.material import Material
-from viscontact.memory import Memory, Response
 from viscontact.observation import Instant, Observer
-from viscontact.prediction import POINTS, Twin, predict
-from viscontact.run import Run, prepare_run
-from viscontact.schedule import Step, schedule
+from viscontact.past import Past
+from viscontact.run import Run, Steps, prepare_run
+from viscontact.schedule import Step
 from viscontact.state import ContactState, Outcome
+from viscontact.stepping import AdaptiveTimes
 
-#: Errors are measured against the displacement that the pressure causes, but never against less
-#: than this part of the largest displacement of the past: below it rounding would have a say.
-HISTORY_COUNTS = 1e-3
-
-#: Samples each way within a cell when the body's lowest point is looked for; even, so that a
-#: point on a cell's edge or corner is among them.
-TOUCH_SAMPLES = 16
-
-#: Called after each instant asked for: the state, how many are done, how many there are.
+#: Called after each instant asked for: the state, how many are done, how many there are; with
+#: adaptive steps, how many there probably are.
 Progress = Callable[[ContactState, int, int], None]
 
 
 def march(
     indenter: Indenter,
     material: Material,
-    load: ForceHistory,
+    load: LoadHistory,
     grid: Grid | None = None,
-    times: ArrayLike | None = None,
+    times: ArrayLike | AdaptiveTimes | None = None,
     *,
     indenter_material: Material | None = None,
     tolerance: float = 1e-6,
@@ -58,13 +46,15 @@ def march(
         Shape of the pressed body.
     material : Material
         Material of the half-space.
-    load : ForceHistory
-        Force, eccentricity and prescribed tilts over time.
+    load : LoadHistory
+        Force or approach, eccentricity and prescribed tilts over time.
     grid : Grid, optional
         Cells that carry the pressure; `auto_grid` chooses when left out.
-    times : array_like, optional
+    times : array_like or AdaptiveTimes, optional
         Instants of the states, strictly increasing, none before 0 [s]; chosen from load and
-        law when left out. At a jump the state is the one just after it.
+        law when left out. At a jump the state is the one just after it. With `adaptive_times`
+        there is a state for each step that the run chooses, and one at each instant of
+        `fields`.
     indenter_material : Material, optional
         Material of the indenter; rigid when left out.
     tolerance : float
@@ -144,128 +134,35 @@ def march_run(run: Run, progress: Progress | None = None) -> Iterator[ContactSta
     ConvergenceError, DomainError
         As in `march`.
     """
-    observer = Observer(run)
-    total, done = len(run.times), 0
-    for step, instant in _instants(run):
+    observer, done = Observer(run), 0
+    end = float(run.times[-1])
+    steps = run.steps()
+    for step, instant in _instants(run, steps):
         state = observer.observe(step, instant)
         if step.asked is not None:
             done += 1
-            state = observer.judge(state, last=done == total)
+            state = observer.judge(state, last=step.asked >= end)
             for text in state.warnings:
                 warnings.warn(text, AccuracyWarning, stacklevel=2)
             if progress is not None:
-                progress(state, done, total)
+                progress(state, done, done + steps.left)
             yield state
         if instant.outcome is Outcome.NOT_CONVERGED:
             raise ConvergenceError(_not_converged(run, step, instant))
     observer.refuse_coarse_mesh()
 
 
-def _instants(run: Run) -> Iterator[tuple[Step, Instant]]:
-    """Solve step after step; what the body remembers is all in the two memories."""
-    half_space = HalfSpace(run.grid, mirrored=run.is_mirrored, threads=run.threads)
-    shape = half_space.fold(run.open_gap)
-    memory = Memory(run.compliance, (2, *half_space.shape))  # of pressure and of deflection
-    force_memory = Memory(run.compliance, (1,))
-    scale = 1e-12 * max(run.grid.cell_size)
-    past: list[Twin] = []
-    motion = np.zeros(3)
-    for step in schedule(run.times, run.load):
-        response, force_response = (
-            each.jump() if step.is_jump else each.ramp(step.duration)
-            for each in (memory, force_memory)
-        )
-        point = run.load.at(step.time, side=step.side)
-        force = np.array([point.force])
-        twin_force = float(force_response.of(force)[0])
-        support = half_space.share(Support.of(point))
-        problem = ContactProblem(shape + response.history[1], response.compliance, support, scale)
-        past = past[-POINTS:] if step.smooth else past[-1:]
-        if point.force > 0:
-            guess = _guess(predict(past, step.time, twin_force), response)
-            solution = solve_contact(problem, half_space, guess, tolerance=run.tolerance)
-        else:
-            solution = _apart(problem, half_space, motion)
-            if not response.history[1].any():
-                solution = _before_first_touch(run, solution)
-        values = np.stack([solution.found.pressure, solution.found.deflection])
-        motion = solution.found.motion
-        twin = Twin(step.time, twin_force, response.of(values), motion)
-        past = [*([] if step.is_jump else past), twin] if point.force > 0 else []
-        memory.accept(values)
-        force_memory.accept(force)
-        instant = _whole(half_space, solution, twin, _outcome(point, solution), response.resolved)
-        scale = max(scale, HISTORY_COUNTS * float(instant.displacement.max()))
+def _instants(run: Run, steps: Steps) -> Iterator[tuple[Step, Instant]]:
+    """Solve step after step; what the body remembers is all in its past."""
+    past = Past(run, HalfSpace(run.grid, mirrored=run.is_mirrored, threads=run.threads))
+    while (step := steps.upcoming()) is not None:
+        trial = past.trial(step)
+        failed = trial.outcome is Outcome.NOT_CONVERGED
+        if not (failed or steps.accepts(trial.error)):
+            continue
+        instant = past.accept(step, trial)
         _refuse_rim(run, step, instant)
         yield step, instant
-
-
-def _outcome(point: LoadPoint, solution: ContactSolution) -> Outcome:
-    if point.force == 0:
-        return Outcome.NO_CONTACT
-    return Outcome.CONVERGED if solution.converged else Outcome.NOT_CONVERGED
-
-
-def _guess(twin: Twin | None, response: Response) -> Guess | None:
-    """From a predicted twin back to the pressure and the deflection that would bring it about."""
-    if twin is None:
-        return None
-    pressure, deflection = (twin.fields - response.history) / response.compliance
-    return Guess(pressure, deflection, twin.motion)
-
-
-def _apart(
-    problem: ContactProblem, half_space: HalfSpace, motion: NDArray[np.float64]
-) -> ContactSolution:
-    """No force: the body is where it just touches the (dented) surface, tilts as they were."""
-    tilts = problem.support.with_prescribed(motion) * np.array([0.0, 1.0, 1.0])
-    distance = problem.open_gap - half_space.whole.plane.field(tilts)
-    approach = float(distance.min())
-    nothing = np.zeros(half_space.shape)
-    found = Guess(nothing, nothing, tilts + np.array([approach, 0.0, 0.0]))
-    return ContactSolution(found, distance - approach, 0.0, 0, 0, converged=True)
-
-
-def _before_first_touch(run: Run, apart: ContactSolution) -> ContactSolution:
-    """A flat surface is touched by the body's lowest point, not by the nearest cell centre."""
-    tilts = apart.found.motion[1:]
-    cells = run.open_gap - np.add.outer(tilts[0] * run.grid.x, tilts[1] * run.grid.y)
-    i, j = np.unravel_index(int(cells.argmin()), cells.shape)
-    part = np.linspace(-1.0, 1.0, 2 * TOUCH_SAMPLES + 1)
-    x = run.grid.x[i] + part[:, None] * run.grid.cell_size[0]
-    y = run.grid.y[j] + part[None, :] * run.grid.cell_size[1]
-    lowest = float((run.indenter.gap(x, y) - tilts[0] * x - tilts[1] * y).min())
-    below = apart.found.motion[0] - lowest
-    motion = apart.found.motion - np.array([below, 0.0, 0.0])
-    return replace(apart, found=replace(apart.found, motion=motion), gap=apart.gap + below)
-
-
-def _whole(
-    half_space: HalfSpace,
-    solution: ContactSolution,
-    twin: Twin,
-    outcome: Outcome,
-    resolved: bool,
-) -> Instant:
-    """The instant on the whole grid."""
-    found = solution.found
-    pressure, gap, displacement = (
-        half_space.unfold(field) for field in (found.pressure, solution.gap, twin.fields[1])
-    )
-    for field in (pressure, gap, displacement):
-        field.flags.writeable = False  # the run goes on from them
-    energy = half_space.fold_count * float((found.pressure * found.deflection).sum()) / 2
-    return Instant(
-        pressure,
-        gap,
-        displacement,
-        found.motion,
-        energy * half_space.grid.cell_area,
-        solution.residual,
-        solution.iterations,
-        outcome,
-        resolved,
-    )
 
 
 def _refuse_rim(run: Run, step: Step, instant: Instant) -> None:

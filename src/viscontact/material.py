@@ -2,142 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
 from dataclasses import KW_ONLY, dataclass
-from functools import cached_property
-from typing import overload
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
-from viscontact.laws import SeriesLaw
-from viscontact.laws.arguments import compressibility, non_negative, series, store
-from viscontact.laws.interconversion import (
-    RelaxationTerms,
-    SeriesTerms,
-    creep_function,
-    merged,
-    relaxation_from_creep,
-    relaxation_function,
+from viscontact.compliance import (
+    ContactCompliance,
+    LawCompliance,
+    SeriesCompliance,
 )
-from viscontact.laws.law import over_times
-
-
-@dataclass(frozen=True, eq=False)
-class ContactCompliance:
-    """The one function of time through which a contact sees the bodies in it.
-
-    J(t) = instant + sum amplitudes (1 - exp(-t/times)) + fluidity t stands where (1 - nu)/(2G)
-    stands for an elastic half-space; for two bodies their compliances add.
-
-    Parameters
-    ----------
-    instant : float
-        J(0) >= 0 [1/Pa].
-    amplitudes : array_like
-        Delayed compliances >= 0 [1/Pa]. Zeros are dropped.
-    times : array_like
-        Retardation times > 0 [s], one for each amplitude. Equal times are merged; what is
-        stored ascends.
-    fluidity : float, optional
-        Rate of steady flow >= 0 [1/(Pa s)].
-
-    Raises
-    ------
-    ValueError
-        If a compliance is negative, a time not positive, a value not finite, or lengths differ.
-
-    Examples
-    --------
-    >>> one = ContactCompliance(1e-9, [1e-9, 0.0, 1e-9], [2.0, 3.0, 2.0])
-    >>> both = one + one
-    >>> both.instant, both.amplitudes.tolist(), both.times.tolist()
-    (2e-09, [4e-09], [2.0])
-    >>> both(0.0), round(both.relaxation(0.0))
-    (2e-09, 500000000)
-    """
-
-    instant: float
-    amplitudes: NDArray[np.float64]
-    times: NDArray[np.float64]
-    fluidity: float = 0.0
-
-    def __post_init__(self) -> None:
-        owner = "ContactCompliance"
-        instant = non_negative(f"{owner}.instant", self.instant, "1/Pa")
-        fluidity = non_negative(f"{owner}.fluidity", self.fluidity, "1/(Pa s)")
-        amplitudes, times = merged(
-            *series(owner, "amplitudes", list(self.amplitudes), list(self.times), "1/Pa")
-        )
-        amplitudes.flags.writeable = times.flags.writeable = False
-        store(self, instant=instant, amplitudes=amplitudes, times=times, fluidity=fluidity)
-
-    @overload
-    def __call__(self, t: float) -> float: ...
-    @overload
-    def __call__(self, t: Sequence[float] | NDArray[np.float64]) -> NDArray[np.float64]: ...
-    def __call__(self, t: ArrayLike) -> float | NDArray[np.float64]:
-        """Return J(t).
-
-        Parameters
-        ----------
-        t : float or array_like
-            Time since the step in pressure, >= 0 [s].
-
-        Returns
-        -------
-        float or ndarray
-            Contact compliance [1/Pa], of the shape of `t`.
-
-        Raises
-        ------
-        ValueError
-            If a time is negative or NaN.
-        """
-        return over_times(lambda times: creep_function(self._terms, times), t)
-
-    @overload
-    def relaxation(self, t: float) -> float: ...
-    @overload
-    def relaxation(self, t: Sequence[float] | NDArray[np.float64]) -> NDArray[np.float64]: ...
-    def relaxation(self, t: ArrayLike) -> float | NDArray[np.float64]:
-        """Return M(t), the exact inverse of J: s² L[J](s) L[M](s) = 1.
-
-        Parameters
-        ----------
-        t : float or array_like
-            Time since the step in displacement, >= 0 [s].
-
-        Returns
-        -------
-        float or ndarray
-            Contact modulus [Pa], of the shape of `t`; 2G/(1 - nu) for an elastic body.
-
-        Raises
-        ------
-        ValueError
-            If a time is negative or NaN, or J(0) = 0.
-        """
-        return over_times(lambda times: relaxation_function(self._inverse, times), t)
-
-    def __add__(self, other: ContactCompliance) -> ContactCompliance:
-        """Return the compliance of two bodies pressed on each other."""
-        if not isinstance(other, ContactCompliance):
-            return NotImplemented
-        return ContactCompliance(
-            self.instant + other.instant,
-            np.concatenate([self.amplitudes, other.amplitudes]),
-            np.concatenate([self.times, other.times]),
-            self.fluidity + other.fluidity,
-        )
-
-    @property
-    def _terms(self) -> SeriesTerms:
-        return SeriesTerms(self.instant, self.amplitudes, self.times, self.fluidity)
-
-    @cached_property
-    def _inverse(self) -> RelaxationTerms:
-        return relaxation_from_creep(*self._terms)
+from viscontact.laws import Law, SeriesLaw
+from viscontact.laws.arguments import compressibility, positive, store
+from viscontact.laws.interconversion import relaxation_from_creep
 
 
 @dataclass(frozen=True)
@@ -147,12 +24,15 @@ class Material:
     Parameters
     ----------
     law : Law
-        Creep law in shear; one that is a series (all of `viscontact.laws` are).
+        Creep law in shear.
     poisson_ratio : float, optional
         Constant Poisson's ratio, above -1 and up to 0.5 [-].
     bulk_modulus : float, optional
         Elastic bulk modulus K > 0 [Pa]: Poisson's ratio then varies in time with the law.
         Exactly one of the two must be given.
+    measured_until : float, optional
+        Last time that the law was measured or fitted at [s]; a run that goes beyond warns. A
+        table knows its own.
 
     Raises
     ------
@@ -167,18 +47,28 @@ class Material:
     2.5e-07
     """
 
-    law: SeriesLaw
+    law: Law
     poisson_ratio: float | None = None
     _: KW_ONLY
     bulk_modulus: float | None = None
+    measured_until: float | None = None
 
     def __post_init__(self) -> None:
-        if not isinstance(self.law, SeriesLaw):
+        if not isinstance(self.law, Law):
             raise ValueError(
                 f"Material.law: must be a creep law such as Zener or CreepSeries, got {self.law!r}"
             )
         ratio, bulk = compressibility("Material", self.poisson_ratio, self.bulk_modulus)
         store(self, poisson_ratio=ratio, bulk_modulus=bulk)
+        if self.measured_until is not None:
+            until = positive("Material.measured_until", self.measured_until, "s")
+            store(self, measured_until=until)
+
+    @property
+    def known_until(self) -> float:
+        """Last time on which the law rests on data [s]; inf for a formula."""
+        own = math.inf if self.measured_until is None else self.measured_until
+        return min(own, self.law.measured_until)
 
     def contact_compliance(self) -> ContactCompliance:
         """Return the contact compliance J(t) of a half-space of this material.
@@ -186,7 +76,7 @@ class Material:
         Returns
         -------
         ContactCompliance
-            J(t) [1/Pa], exact for both kinds of material.
+            J(t) [1/Pa]; exact, but for an elastic bulk modulus with a law that is no series.
 
         Notes
         -----
@@ -197,7 +87,7 @@ class Material:
             s L[J] = (3K + 4G~) / (4 G~ (3K + G~)) = 1/(4 G~) + (3/4) / (3K + G~).
 
         The first part is Phi/2, as 1/G~ = 2 s L[Phi]. The second is a spring 3K beside the
-        law, which creeps as a series too.
+        law, which creeps as a series if the law is one, and is interconverted by numbers if not.
 
         Examples
         --------
@@ -210,24 +100,26 @@ class Material:
         >>> round(Material(law, bulk_modulus=5e9).contact_compliance()(0.0) * 1e9, 9)
         0.125
         """
-        phi = self.law.creep_series()
-        creep = ContactCompliance(
+        if isinstance(self.law, SeriesLaw):
+            return self._of_series(self.law)
+        if self.poisson_ratio is not None:
+            return LawCompliance(self.law, 1.0 - self.poisson_ratio)
+        assert self.bulk_modulus is not None  # exactly one is given
+        raise ValueError("bulk_modulus with a law that is no series is not built yet")
+
+    def _of_series(self, law: SeriesLaw) -> ContactCompliance:
+        phi = law.creep_series()
+        creep = SeriesCompliance(
             phi.instant, np.array(phi.amplitudes), np.array(phi.times), phi.fluidity
         )
         if self.poisson_ratio is not None:
-            return _scaled(creep, 1.0 - self.poisson_ratio)
+            return creep.scaled(1.0 - self.poisson_ratio)
         assert self.bulk_modulus is not None  # exactly one is given
-        beside = _beside_spring(_scaled(creep, 2.0), 3.0 * self.bulk_modulus)
-        return _scaled(creep, 0.5) + _scaled(beside, 0.75)
+        beside = _beside_spring(creep.scaled(2.0), 3.0 * self.bulk_modulus)
+        return creep.scaled(0.5) + beside.scaled(0.75)
 
 
-def _scaled(creep: ContactCompliance, factor: float) -> ContactCompliance:
-    return ContactCompliance(
-        factor * creep.instant, factor * creep.amplitudes, creep.times, factor * creep.fluidity
-    )
-
-
-def _beside_spring(creep: ContactCompliance, stiffness: float) -> ContactCompliance:
+def _beside_spring(creep: SeriesCompliance, stiffness: float) -> SeriesCompliance:
     """Return the creep of a body whose load is shared by a spring beside it.
 
     With C = s L[creep] and the spring's compliance c = 1/stiffness, side by side they have
@@ -241,4 +133,4 @@ def _beside_spring(creep: ContactCompliance, stiffness: float) -> ContactComplia
     )
     # Relaxation that is subtracted is creep: -M exp(-t/τ) = M (1 - exp(-t/τ)) - M.
     instant = creep.instant / (1.0 + stiffness * creep.instant)
-    return ContactCompliance(instant, c * c * in_series.moduli, in_series.times)
+    return SeriesCompliance(instant, c * c * in_series.moduli, in_series.times)

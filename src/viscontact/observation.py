@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,6 +15,7 @@ from viscontact.plausibility import (
     REFUSED_CELLS,
     Doubts,
     Geometry,
+    data_doubts,
     geometry_doubts,
     mesh_doubts,
     relative_change,
@@ -48,6 +50,8 @@ class Instant:
         How it ended.
     resolved : bool
         Whether the step was short enough for the law.
+    time_error : float
+        Estimated relative error of the pressure owed to the steps so far.
     """
 
     pressure: NDArray[np.float64]
@@ -59,6 +63,7 @@ class Instant:
     iterations: int
     outcome: Outcome
     resolved: bool
+    time_error: float = 0.0
 
 
 class Observer:
@@ -80,6 +85,7 @@ class Observer:
         self._work = 0.0
         self._before: Instant | None = None
         self._resultants = np.zeros(3)
+        self._cycles = Cycles(run.load.cycle_ends)
         self._largest_area, self._cells_at_largest = 0.0, 0
 
     def observe(self, step: Step, instant: Instant) -> ContactState:
@@ -101,8 +107,9 @@ class Observer:
         rim = trace_rim(self._run.grid, contact, instant.gap, self._outline)
         resultants = self._plane.sums(instant.pressure) * self._run.grid.cell_area
         self._work += self._work_of(step, instant, resultants)
+        self._cycles.pass_by(step, self._work)
         self._collect_doubts(step, instant, rim)
-        state = _state(step, instant, rim, resultants, self._work)
+        state = _state(step, instant, rim, resultants, self._work, self._cycles.last_loss)
         if state.contact_area > self._largest_area:
             self._largest_area, self._cells_at_largest = state.contact_area, state.cells_across
         self._before, self._resultants = instant, resultants
@@ -144,6 +151,7 @@ class Observer:
         )
 
     def _collect_doubts(self, step: Step, instant: Instant, rim: Rim) -> None:
+        self._open = data_doubts(step.time, self._run.measured_until) | self._open
         if instant.outcome is Outcome.NO_CONTACT:
             return
         self._open = geometry_doubts(self._geometry, rim, instant.motion) | self._open
@@ -154,9 +162,11 @@ class Observer:
         forces = [float(end.pressure.sum()) * self._run.grid.cell_area for end in (before, after)]
         compliance = self._run.compliance
         if before.outcome is Outcome.NO_CONTACT:
-            creeps = compliance.times.size or compliance.fluidity
-            share = forces[1] / self._run.load.largest_force if creeps else 0.0
-            return touch_doubts(step.duration, share)
+            if compliance(step.duration) == compliance.instant:
+                return {}  # an elastic body takes the force however it comes
+            load = self._run.load
+            level = float(load.level_at(step.time, side=step.side))
+            return touch_doubts(step.duration, level / load.largest_level)
         if after.resolved:
             return {}
         peaks = [float(end.pressure.max()) for end in (before, after)]
@@ -177,8 +187,54 @@ class Observer:
         return float((self._resultants + resultants) @ travel / 2)
 
 
+class Cycles:
+    """The work at the ends of the load's cycles.
+
+    Parameters
+    ----------
+    ends : sequence of (float, str)
+        Instants [s] in order, and the side of a jump there, as `LoadHistory.cycle_ends`.
+
+    Examples
+    --------
+    >>> cycles = Cycles([(0.0, "left"), (2.0, "right")])
+    >>> cycles.last_loss
+    nan
+    >>> cycles.pass_by(Step(2.0, 2.0, 2.0, smooth=False), work=3.0)
+    >>> cycles.last_loss
+    3.0
+    """
+
+    def __init__(self, ends: Sequence[tuple[float, str]]) -> None:
+        self._ends = list(ends)
+        self._work_at_begin: float | None = None
+        self.last_loss = math.nan
+        if self._ends and self._ends[0] == (0.0, "left"):
+            self._begin(0.0)
+
+    def pass_by(self, step: Step, work: float) -> None:
+        """Take note of the work [J] at the end of a step, if a cycle ends there."""
+        if not self._ends or step.time != self._ends[0][0]:
+            return
+        # Without a jump there, a step's end is on both sides of the instant.
+        if step.before_jump and self._ends[0][1] == "right":
+            return
+        if self._work_at_begin is not None:
+            self.last_loss = work - self._work_at_begin
+        self._begin(work)
+
+    def _begin(self, work: float) -> None:
+        self._work_at_begin = work
+        del self._ends[0]
+
+
 def _state(
-    step: Step, instant: Instant, rim: Rim, resultants: NDArray[np.float64], work: float
+    step: Step,
+    instant: Instant,
+    rim: Rim,
+    resultants: NDArray[np.float64],
+    work: float,
+    loss: float,
 ) -> ContactState:
     force, moment_x, moment_y = (float(resultant) for resultant in resultants)
     touching = force > 0
@@ -202,6 +258,8 @@ def _state(
         peak_pressure=peak,
         mean_pressure=force / area if touching else 0.0,
         work=work,
+        loss_per_cycle=loss,
+        time_error=instant.time_error,
         iterations=instant.iterations,
         residual=instant.residual,
         cells_across=int(min(rim.contact.any(axis=1).sum(), rim.contact.any(axis=0).sum())),

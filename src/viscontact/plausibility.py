@@ -146,6 +146,36 @@ def touch_doubts(duration: float, share: float) -> dict[str, str]:
     }
 
 
+def data_doubts(time: float, measured_until: float) -> dict[str, str]:
+    """Doubt about a run that goes beyond the times at which the material was measured.
+
+    Parameters
+    ----------
+    time : float
+        Instant of the run [s].
+    measured_until : float
+        Last time of the data [s].
+
+    Returns
+    -------
+    dict of str to str
+        Sentences by kind of doubt; empty if there is none.
+
+    Examples
+    --------
+    >>> list(data_doubts(11.0, measured_until=10.0)), list(data_doubts(9.0, measured_until=10.0))
+    (['data'], [])
+    """
+    if time <= measured_until * (1 + 1e-9):
+        return {}
+    return {
+        "data": (
+            f"the run goes beyond {measured_until:.4g} s, where the material's data end; from "
+            "there on its law is an extrapolation"
+        )
+    }
+
+
 def relative_change(before: float, after: float) -> float:
     """Change over the larger of two values; zero if both are."""
     return abs(after - before) / max(abs(after), abs(before), np.finfo(float).tiny)

@@ -30,8 +30,9 @@ class Twin:
     ----------
     time : float
         The instant [s].
-    force : float
-        Twin force ∫ J dW [m²].
+    drive : float
+        What the twin moves with: the twin force ∫ J dW [m²], or a prescribed approach [m], which
+        is the twin's as well.
     fields : ndarray, shape (2, nx, ny)
         Twin pressure ∫ J dp [1], and displacement ∫ J dq [m], which belong to each other.
     motion : ndarray, shape (3,)
@@ -39,12 +40,12 @@ class Twin:
     """
 
     time: float
-    force: float
+    drive: float
     fields: NDArray[np.float64]
     motion: NDArray[np.float64]
 
 
-def predict(past: Sequence[Twin], time: float, force: float) -> Twin | None:
+def predict(past: Sequence[Twin], time: float, drive: float) -> Twin | None:
     """Extrapolate the twin.
 
     Parameters
@@ -53,36 +54,36 @@ def predict(past: Sequence[Twin], time: float, force: float) -> Twin | None:
         Instants since the load's last kink or jump, oldest first; the last three are used.
     time : float
         The instant to guess [s].
-    force : float
-        Its twin force [m²], which the load's history gives beforehand.
+    drive : float
+        Its twin force [m²] or approach [m], which the load's history gives beforehand.
 
     Returns
     -------
     Twin or None
-        Polynomial of degree up to two, in the twin force where that moves steadily, else in
-        time; None without a past.
+        Polynomial of degree up to two, in the drive where that moves steadily, else in time;
+        None without a past.
     """
     if not past:
         return None
     known = past[-POINTS:]
-    forces = [twin.force for twin in known]
-    if _is_steady([*forces, force]):
-        weights = lagrange_weights(forces, force)
+    drives = [twin.drive for twin in known]
+    if _is_steady([*drives, drive]):
+        weights = lagrange_weights(drives, drive)
     else:
         weights = lagrange_weights([twin.time for twin in known], time)
     fields = weights[0] * known[0].fields
     for weight, twin in zip(weights[1:], known[1:], strict=True):
         fields += weight * twin.fields
     motion = np.tensordot(weights, [twin.motion for twin in known], axes=1)
-    return Twin(time, force, fields, motion)
+    return Twin(time, drive, fields, motion)
 
 
-def _is_steady(forces: Sequence[float]) -> bool:
-    steps = np.diff(forces)
+def _is_steady(drives: Sequence[float]) -> bool:
+    steps = np.diff(drives)
     sizes = np.abs(steps)
     same_sign = bool((steps > 0).all() or (steps < 0).all())
     return same_sign and bool(
-        sizes.min() > 1e-9 * np.abs(forces).max() and sizes.max() < UNEVEN * sizes.min()
+        sizes.min() > 1e-9 * np.abs(drives).max() and sizes.max() < UNEVEN * sizes.min()
     )
 
 

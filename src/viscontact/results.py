@@ -96,7 +96,7 @@ class ResultWriter:
             The next state of the run.
         """
         row = len(self._file.dimensions["time"])
-        if state.time in self._kept:
+        if self._axis == "time" or state.time in self._kept:
             self._append_fields(state)
         for name in SCALARS:
             self._file[name][row] = getattr(state, name)

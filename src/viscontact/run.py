@@ -2,23 +2,34 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from numbers import Integral, Real
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from viscontact.adaptive import AdaptiveSteps
+from viscontact.compliance import ContactCompliance
 from viscontact.extent import auto_grid
 from viscontact.grid import Grid
 from viscontact.hull import refuse_outside
 from viscontact.indenters import Indenter
-from viscontact.load import ForceHistory
-from viscontact.material import ContactCompliance, Material
-from viscontact.stepping import uniform_times
+from viscontact.load import LoadHistory
+from viscontact.material import Material
+from viscontact.memory import MemoryPlan, plan_memory
+from viscontact.schedule import FixedSteps
+from viscontact.stepping import AdaptiveTimes, uniform_times
 
 #: Steps of a run whose instants are not given.
 DEFAULT_STEPS = 60
+
+#: Adaptive steps that the memory is planned for; more are remembered as well.
+ADAPTIVE_STEPS = 500
+
+#: Where the steps of a run come from.
+Steps = FixedSteps | AdaptiveSteps
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,14 +46,18 @@ class Run:
         Material of the pressed body; None for a rigid one.
     compliance : ContactCompliance
         J(t) of both bodies together.
-    load : ForceHistory
-        Force, eccentricity and prescribed tilts over time.
+    load : LoadHistory
+        Force or approach, eccentricity and prescribed tilts over time.
     grid : Grid
         The cells.
     open_gap : ndarray, shape (nx, ny)
         The indenter's gap on the grid [m], +inf outside its outline.
     times : ndarray
-        Instants of the states [s].
+        Instants of the states [s]; those that adaptive steps have to hit, the last their end.
+    adaptive : AdaptiveTimes or None
+        The wish for steps that the run chooses itself.
+    memory : MemoryPlan
+        How the past is remembered.
     tolerance : float
         Relative error of gap and balances.
     threads : int
@@ -53,31 +68,39 @@ class Run:
     material: Material
     indenter_material: Material | None
     compliance: ContactCompliance
-    load: ForceHistory
+    load: LoadHistory
     grid: Grid
     open_gap: NDArray[np.float64]
     times: NDArray[np.float64]
+    adaptive: AdaptiveTimes | None
+    memory: MemoryPlan
     tolerance: float
     threads: int
 
     @property
     def is_mirrored(self) -> bool:
         """Whether shape and load are even across y = 0, so that one half tells all."""
-        even_grid = self.grid.shape[1] % 2 == 0
-        even_load = not np.any(self.load.eccentricity_y) and (
-            self.load.tilt_y is None or not np.any(self.load.tilt_y)
-        )
-        return bool(
-            even_grid and even_load and np.array_equal(self.open_gap, self.open_gap[:, ::-1])
-        )
+        return _is_mirrored(self.open_gap, self.load)
+
+    @property
+    def measured_until(self) -> float:
+        """Last time on which the laws rest on data [s]; inf for formulas."""
+        bodies = (self.material, self.indenter_material)
+        return min(body.known_until for body in bodies if body is not None)
+
+    def steps(self) -> Steps:
+        """The run's steps from the start."""
+        if self.adaptive is None:
+            return FixedSteps(self.times, self.load)
+        return AdaptiveSteps(self.adaptive, self.times, self.load, self.compliance)
 
 
 def prepare_run(
     indenter: Indenter,
     material: Material,
-    load: ForceHistory,
+    load: LoadHistory,
     grid: Grid | None = None,
-    times: ArrayLike | None = None,
+    times: ArrayLike | AdaptiveTimes | None = None,
     *,
     indenter_material: Material | None = None,
     tolerance: float = 1e-6,
@@ -106,16 +129,16 @@ def prepare_run(
     compliance = material.contact_compliance()
     if indenter_material is not None:
         compliance = compliance + indenter_material.contact_compliance()
-    instants = _default_times(load, compliance) if times is None else _checked_times(times)
+    adaptive = times if isinstance(times, AdaptiveTimes) else None
+    instants = _instants_of(times, fields, load, compliance)
+    end = float(instants[-1])
     field_instants(fields, instants)
-    _check_magnitudes(compliance, load, grid, float(instants[-1]))
-    _check_jumps(compliance, load, float(instants[-1]))
+    _check_magnitudes(compliance, load, grid, end)
+    _check_jumps(compliance, load, end)
     if grid is None:
-        grid = auto_grid(
-            indenter, material, load, end=float(instants[-1]), indenter_material=indenter_material
-        )
+        grid = auto_grid(indenter, material, load, end=end, indenter_material=indenter_material)
     open_gap = indenter.gap(grid.x[:, None], grid.y[None, :])
-    _check_balance(open_gap, grid, load, float(instants[-1]))
+    _check_balance(open_gap, grid, load, end)
     return Run(
         indenter,
         material,
@@ -125,9 +148,47 @@ def prepare_run(
         grid,
         open_gap,
         instants,
+        adaptive,
+        _planned_memory(compliance, load, instants, adaptive, open_gap),
         float(tolerance),
         int(threads),
     )
+
+
+def _is_mirrored(open_gap: NDArray[np.float64], load: LoadHistory) -> bool:
+    even_grid = open_gap.shape[1] % 2 == 0
+    return bool(even_grid and load.is_even and np.array_equal(open_gap, open_gap[:, ::-1]))
+
+
+def _planned_memory(
+    compliance: ContactCompliance,
+    load: LoadHistory,
+    instants: NDArray[np.float64],
+    adaptive: AdaptiveTimes | None,
+    open_gap: NDArray[np.float64],
+) -> MemoryPlan:
+    # Pressure and deflection are remembered, of all cells that are worked with.
+    numbers = 2 * open_gap.size // (2 if _is_mirrored(open_gap, load) else 1)
+    if adaptive is None:
+        return plan_memory(compliance, FixedSteps(instants, load).instants, numbers)
+    # The steps are not known yet: as if there were many, over all decades that may count.
+    expected = np.append(0.0, np.geomspace(1e-9 * adaptive.end, adaptive.end, ADAPTIVE_STEPS))
+    return replace(plan_memory(compliance, expected, numbers), instants=np.zeros(0))
+
+
+def _instants_of(
+    times: ArrayLike | AdaptiveTimes | None,
+    fields: str | Sequence[float],
+    load: LoadHistory,
+    compliance: ContactCompliance,
+) -> NDArray[np.float64]:
+    if times is None:
+        return _default_times(load, compliance)
+    if not isinstance(times, AdaptiveTimes):
+        return _checked_times(times)
+    kept = _instants("fields", [0.0] if isinstance(fields, str) else fields)
+    stops = np.unique(np.concatenate([[0.0, times.end], kept]))
+    return stops[(stops >= 0) & (stops <= times.end)]
 
 
 def field_instants(
@@ -179,7 +240,7 @@ def _check_kinds(
     wanted: list[tuple[str, object, type, bool]] = [
         ("indenter", indenter, Indenter, False),
         ("material", material, Material, False),
-        ("load", load, ForceHistory, False),
+        ("load", load, LoadHistory, False),
         ("grid", grid, Grid, True),
         ("indenter_material", indenter_material, Material, True),
     ]
@@ -196,11 +257,12 @@ def _check_numbers(tolerance: object, threads: object) -> None:
 
 
 def _check_magnitudes(
-    compliance: ContactCompliance, load: ForceHistory, grid: Grid | None, end: float
+    compliance: ContactCompliance, load: LoadHistory, grid: Grid | None, end: float
 ) -> None:
     """Beyond these, squares and quotients are no numbers, and a search might never end."""
     sizes = () if grid is None else grid.size
-    magnitudes = [("load.force", load.largest_force), ("material", compliance(end))]
+    level = abs(load.largest_level)
+    magnitudes = [(f"load.{load.control}", level), ("material", compliance(end))]
     for name, value in [*magnitudes, *(("grid.size", size) for size in sizes)]:
         if value and not 1e-30 <= value <= 1e30:
             raise ValueError(f"{name}: {value:.3g} in SI units is beyond what can be computed with")
@@ -229,14 +291,18 @@ def _checked_times(times: ArrayLike) -> NDArray[np.float64]:
     return instants
 
 
-def _default_times(load: ForceHistory, compliance: ContactCompliance) -> NDArray[np.float64]:
+def _default_times(load: LoadHistory, compliance: ContactCompliance) -> NDArray[np.float64]:
     """The load's kinks, and steps to its end or through the creep under a held load."""
-    end = float(load.times[-1])
-    creep_times = list(compliance.times)
-    if compliance.fluidity > 0 and compliance.instant > 0:
-        creep_times.append(compliance.instant / compliance.fluidity)
-    if load.force_at(end) > 0 and creep_times:
-        end += 5 * max(creep_times)
+    end = float(load.kinks[-1])
+    if load.level_at(end) > 0:
+        settled = compliance.settled_after
+        if math.isinf(settled):
+            raise ValueError(
+                "times: the law does not say when its creep is over; say when the run ends, e.g. "
+                "times=log_times(first, end, n)"
+            )
+        is_measured = math.isfinite(compliance.measured_until)
+        end = max(end, settled) if is_measured else end + settled
     if end == 0:
         return np.zeros(1)
     kinks = load.kinks[load.kinks <= end]
@@ -245,7 +311,7 @@ def _default_times(load: ForceHistory, compliance: ContactCompliance) -> NDArray
     return np.unique(np.concatenate([even[apart], kinks]))
 
 
-def _check_jumps(compliance: ContactCompliance, load: ForceHistory, end: float) -> None:
+def _check_jumps(compliance: ContactCompliance, load: LoadHistory, end: float) -> None:
     jumps = [jump for jump in load.jumps if jump <= end]
     if jumps and compliance.instant == 0:
         raise ValueError(
@@ -255,17 +321,17 @@ def _check_jumps(compliance: ContactCompliance, load: ForceHistory, end: float) 
 
 
 def _check_balance(
-    open_gap: NDArray[np.float64], grid: Grid, load: ForceHistory, end: float
+    open_gap: NDArray[np.float64], grid: Grid, load: LoadHistory, end: float
 ) -> None:
     """The resultant must act within the hull of what can touch."""
     solid = np.isfinite(open_gap)
     if not solid.any():
         raise ValueError("grid: no cell lies under the indenter; use a finer or larger grid")
-    # A point without force counts where the force grows from it or falls to it.
+    # A point without load counts where the load grows from it or falls to it.
     instants = np.append(load.kinks[load.kinks < end], end)
-    forces = np.maximum(load.force_at(instants, side="left"), load.force_at(instants))
-    before, after = np.append(0.0, forces[:-1]), np.append(forces[1:], 0.0)
-    for time in instants[(before > 0) | (forces > 0) | (after > 0)].tolist():
+    levels = np.maximum(load.level_at(instants, side="left"), load.level_at(instants))
+    before, after = np.append(0.0, levels[:-1]), np.append(levels[1:], 0.0)
+    for time in instants[(before > 0) | (levels > 0) | (after > 0)].tolist():
         for side in ("left", "right"):
             point = load.at(time, side=side)
             where = (

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import itertools
+import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.load import ForceHistory
+from viscontact.load import LoadHistory
 
 #: An instant this close to a kink of the load, relative to it, is meant to be the kink.
 SAME = 1e-9
@@ -48,45 +51,114 @@ class Step:
         return "left" if self.before_jump else "right"
 
 
-def schedule(times: NDArray[np.float64], load: ForceHistory) -> list[Step]:
-    """Steps through the instants asked for and the load's own.
+class FixedSteps:
+    """Steps through given instants, and the load's own.
 
     Parameters
     ----------
     times : ndarray
         Instants asked for, strictly increasing, none before 0 [s]. One that differs from a kink
         by rounding (a part in 1e9) is taken as the kink.
-    load : ForceHistory
-        Its kinks and jumps up to the last instant are stepped, too.
-
-    Returns
-    -------
-    list of Step
-        The first is a jump at time 0 (of size zero if the load starts softly); a jump later is
-        two steps, up to it and across it.
+    load : LoadHistory
+        Its kinks and jumps up to the last instant are stepped, too, and intervals longer than it
+        allows are divided.
 
     Examples
     --------
     >>> import numpy as np
     >>> from viscontact.load import ramp
-    >>> [step.time for step in schedule(np.array([0.0, 2.0]), ramp(1.0, 0.5))]
+    >>> [step.time for step in FixedSteps(np.array([0.0, 2.0]), ramp(1.0, 0.5)).steps]
     [0.0, 0.5, 2.0]
     """
-    kinks, jumps = set(load.kinks.tolist()), set(load.jumps.tolist())
-    wanted: dict[float, float] = {}
+
+    def __init__(self, times: NDArray[np.float64], load: LoadHistory) -> None:
+        self.steps = list(_steps(_instants_wanted(times, load), load))
+        self._taken = 0
+
+    @property
+    def instants(self) -> NDArray[np.float64]:
+        """Ends of all steps, a jump's twice [s]."""
+        return np.array([step.time for step in self.steps])
+
+    @property
+    def left(self) -> int:
+        """Instants asked for that are still to come."""
+        return sum(step.asked is not None for step in self.steps[self._taken :])
+
+    def upcoming(self) -> Step | None:
+        """The next step; None at the end."""
+        return self.steps[self._taken] if self._taken < len(self.steps) else None
+
+    def accepts(self, error: float) -> bool:
+        """Close the step; steps that are given are taken, whatever error they make."""
+        del error
+        self._taken += 1
+        return True
+
+
+def _instants_wanted(times: NDArray[np.float64], load: LoadHistory) -> dict[float, float | None]:
+    """Where steps end, in order: the instant asked for there, or None."""
+    kinks = set(load.kinks.tolist())
+    wanted: dict[float, float | None] = {}
     for time in times.tolist():
-        kink = _kink_meant(time, load.kinks)
+        kink = kink_meant(time, load.kinks)
         wanted[time if kink in wanted else kink] = time
-    inner = {kink for kink in kinks if kink <= max(wanted)}
-    steps = [Step(0.0, 0.0, wanted.get(0.0), smooth=False)]
-    for instant in sorted((wanted.keys() | inner) - {0.0}):
-        begin, asked, jumping = steps[-1].time, wanted.get(instant), instant in jumps
+    last = max(wanted)
+    for kink in kinks:
+        if kink <= last:
+            wanted.setdefault(kink, None)
+    for divided in _divisions(sorted({0.0, *wanted}), load):
+        wanted[divided] = None
+    return dict(sorted(wanted.items()))
+
+
+def _divisions(instants: list[float], load: LoadHistory) -> Iterator[float]:
+    """Instants that divide intervals longer than the load allows, as long as it moves."""
+    if math.isinf(load.longest_step):
+        return
+    for begin, end in itertools.pairwise(instants):
+        if end > load.kinks[-1]:
+            return
+        parts = math.ceil((end - begin) / load.longest_step * (1 - SAME))
+        yield from np.linspace(begin, end, parts + 1)[1:-1].tolist()
+
+
+def _steps(wanted: dict[float, float | None], load: LoadHistory) -> Iterator[Step]:
+    """Steps to these instants, the first a jump at time 0, of size zero under a soft start."""
+    kinks, jumps = set(load.kinks.tolist()), set(load.jumps.tolist())
+    begin = 0.0
+    yield Step(0.0, 0.0, wanted.get(0.0), smooth=False)
+    for instant, asked in wanted.items():
+        if instant == 0:
+            continue
         smooth = begin not in kinks and begin > 0
-        up_to = Step(instant, instant - begin, None if jumping else asked, smooth, jumping)
-        steps += [up_to, Step(instant, 0.0, asked, smooth=False)] if jumping else [up_to]
-    return steps
+        yield from _up_to(instant, instant - begin, asked, smooth, jumping=instant in jumps)
+        begin = instant
 
 
-def _kink_meant(time: float, kinks: NDArray[np.float64]) -> float:
+def _up_to(
+    instant: float, duration: float, asked: float | None, smooth: bool, *, jumping: bool
+) -> Iterator[Step]:
+    yield Step(instant, duration, None if jumping else asked, smooth, before_jump=jumping)
+    if jumping:
+        yield Step(instant, 0.0, asked, smooth=False)
+
+
+def kink_meant(time: float, kinks: NDArray[np.float64]) -> float:
+    """Return the kink that an instant differs from by rounding only, else the instant [s].
+
+    Parameters
+    ----------
+    time : float
+        The instant [s].
+    kinks : ndarray
+        Kinks of a load, at least one [s].
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> kink_meant(0.1 + 0.2, np.array([0.3])), kink_meant(0.31, np.array([0.3]))
+    (0.3, 0.31)
+    """
     nearest = float(kinks[np.abs(kinks - time).argmin()])
     return nearest if abs(nearest - time) <= SAME * max(nearest, time) else time

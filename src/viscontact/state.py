@@ -48,6 +48,11 @@ class ContactState:
     work : float
         Work of the load on the contact since the start, exact across jumps and of second order
         in the step elsewhere [J].
+    loss_per_cycle : float
+        Work that the last whole cycle of the load has cost; NaN before the first is over [J].
+    time_error : float
+        Estimated error of the pressure owed to the time steps so far, relative to the largest
+        deflection [-].
     iterations : int
         Search directions of the contact solver.
     residual : float
@@ -76,6 +81,8 @@ class ContactState:
     peak_pressure: float
     mean_pressure: float
     work: float
+    loss_per_cycle: float
+    time_error: float
     iterations: int
     residual: float
     cells_across: int

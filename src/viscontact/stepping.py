@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -73,6 +74,54 @@ def log_times(first: float, end: float, n: int) -> NDArray[np.float64]:
     # Backwards from the end, the one instant that is there for every n.
     backwards = np.geomspace(end, first, n)
     return np.concatenate(([0.0], backwards[::-1]))
+
+
+@dataclass(frozen=True)
+class AdaptiveTimes:
+    """Steps to be chosen by the run itself; made by `adaptive_times`.
+
+    Attributes
+    ----------
+    end : float
+        The last instant [s].
+    tolerance : float
+        Relative error of pressure and approach that the steps may cause [-].
+    """
+
+    end: float
+    tolerance: float
+
+
+def adaptive_times(end: float, tolerance: float) -> AdaptiveTimes:
+    """Return the wish for steps that a run chooses by their error.
+
+    Parameters
+    ----------
+    end : float
+        The last instant, positive [s].
+    tolerance : float
+        Relative error of pressure and approach that the steps may cause, between 1e-6 and 0.1.
+
+    Returns
+    -------
+    AdaptiveTimes
+        To be given as `times`; the result's ``time`` then holds the steps that were taken, and
+        its ``time_error`` an estimate of the error they caused.
+
+    Raises
+    ------
+    ValueError
+        If the end is not a positive, finite time or the tolerance out of range.
+
+    Examples
+    --------
+    >>> adaptive_times(100.0, tolerance=1e-3)
+    AdaptiveTimes(end=100.0, tolerance=0.001)
+    """
+    allowed = as_real(tolerance)
+    if allowed is None or not 1e-6 <= allowed <= 0.1:
+        raise ValueError(f"tolerance must lie between 1e-6 and 0.1, got {tolerance!r}")
+    return AdaptiveTimes(_instant("end", end), allowed)
 
 
 def _instant(name: str, value: object) -> float:

@@ -11,7 +11,7 @@ from pydantic import Field, ValidationInfo, field_validator, model_validator
 from viscontact import load
 from viscontact.case.load_table import read_load_table
 from viscontact.case.quantities import Angle, Duration, Force, Instant, Offset, Section
-from viscontact.load import ForceHistory
+from viscontact.load import ForceHistory, LoadHistory
 
 
 class Load(Section):
@@ -27,7 +27,7 @@ class Load(Section):
     )
 
     @abstractmethod
-    def noun(self) -> ForceHistory:
+    def noun(self) -> LoadHistory:
         """Return the history that is described."""
 
     @property
@@ -52,7 +52,7 @@ class Step(Load):
     kind: Literal["step"]
     force: Force
 
-    def noun(self) -> ForceHistory:
+    def noun(self) -> LoadHistory:
         """Return the step."""
         return load.step(self.force, **self._tail)
 
@@ -64,7 +64,7 @@ class Ramp(Load):
     force: Force
     duration: Duration
 
-    def noun(self) -> ForceHistory:
+    def noun(self) -> LoadHistory:
         """Return the ramp."""
         return load.ramp(self.force, self.duration, **self._tail)
 
@@ -77,7 +77,7 @@ class Triangle(Load):
     rise: Duration
     fall: Duration | None = Field(default=None, description="as long as rise when left out")
 
-    def noun(self) -> ForceHistory:
+    def noun(self) -> LoadHistory:
         """Return the triangle."""
         return load.triangle(self.force, self.rise, self.fall, **self._tail)
 
@@ -105,7 +105,7 @@ class History(Load):
         """The file that the history is read from, if there is one."""
         return None if self.file is None else Path(self.file)
 
-    def noun(self) -> ForceHistory:
+    def noun(self) -> LoadHistory:
         """Return the history, from its points or from its file."""
         if (self.points is None) == (self.file is None):
             raise ValueError("give points (e.g. '[[0 s, 0 N], [1 s, 10 kN]]') or file, not both")
@@ -116,7 +116,7 @@ class History(Load):
         times, force = zip(*self.points, strict=True)
         return ForceHistory(times, force, **self._tail)
 
-    def _from_file(self, path: Path) -> ForceHistory:
+    def _from_file(self, path: Path) -> LoadHistory:
         columns = read_load_table(path)
         twice = sorted(columns.keys() & self.model_fields_set)
         if twice:

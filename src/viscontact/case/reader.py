@@ -22,7 +22,7 @@ from viscontact.case.wording import corrected, noun_problem, problem
 from viscontact.case.yaml_source import with_overrides
 from viscontact.grid import Grid
 from viscontact.indenters import Indenter
-from viscontact.load import ForceHistory
+from viscontact.load import LoadHistory
 from viscontact.material import Material
 
 
@@ -40,7 +40,7 @@ class Case:
         The half-space's material.
     indenter_material : Material or None
         The pressed body's material; None for a rigid one.
-    load : ForceHistory
+    load : LoadHistory
         Force, eccentricity and prescribed tilts over time.
     times : ndarray
         Instants of the run, those of the fields among them [s].
@@ -60,7 +60,7 @@ class Case:
     indenter: Indenter
     material: Material
     indenter_material: Material | None
-    load: ForceHistory
+    load: LoadHistory
     times: NDArray[np.float64]
     grid: Grid | None
     fields: str | tuple[float, ...]

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from viscontact.case import Case, CaseError, read_case
 from viscontact.cli.messages import refuse
+from viscontact.compliance import SeriesCompliance
 from viscontact.forecast import available_memory, needed_memory
 from viscontact.run import Run, prepare_run
 from viscontact.units import in_digits
@@ -72,7 +73,10 @@ def _refuse_beyond_memory(case: Case) -> None:
     """Refuse the grid before anything of its size is allocated."""
     if case.grid is None:
         return
-    needed = needed_memory(case.grid, len(case.material.contact_compliance().times))
+    compliance = case.material.contact_compliance()
+    # What any other law keeps depends on the steps, of which nothing is known yet.
+    terms = len(compliance.times) if isinstance(compliance, SeriesCompliance) else 1
+    needed = needed_memory(case.grid, terms)
     available = available_memory()
     if needed > available:
         nx, ny = case.grid.shape

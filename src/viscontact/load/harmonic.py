@@ -105,10 +105,9 @@ class HarmonicHistory(LoadHistory):
         return np.zeros(1) if self._first_level > 0 else np.zeros(0)
 
     @property
-    def knots(self) -> NDArray[np.float64]:
-        """Sixty-four instants a cycle [s]."""
-        count = STEPS_PER_CYCLE * self.cycles
-        return np.arange(count + 1) / STEPS_PER_CYCLE * self.period
+    def longest_step(self) -> float:
+        """A 64th of a period [s]."""
+        return self.period / STEPS_PER_CYCLE
 
     @property
     def cycle_ends(self) -> tuple[tuple[float, str], ...]:

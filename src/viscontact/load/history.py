@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import ClassVar, Literal
@@ -77,9 +78,9 @@ class LoadHistory(ABC):
         """Those of the kinks where something jumps under load, increasing [s]."""
 
     @property
-    def knots(self) -> NDArray[np.float64]:
-        """Instants between which a straight line follows the history well enough [s]."""
-        return self.kinks
+    def longest_step(self) -> float:
+        """Longest step, up to the last kink, over which a line follows the history well [s]."""
+        return math.inf
 
     @property
     def cycle_ends(self) -> tuple[tuple[float, str], ...]:

@@ -1,0 +1,22 @@
+"""What a viscoelastic body remembers: time without space.
+
+Because the half-space kernel separates, the displacement is the Boltzmann integral
+u(t) = ∫ J(t - t') dq(t') over the *elastic* displacement q = K p per unit compliance, which the
+contact solver computes anyway: history costs no convolution.
+"""
+
+from viscontact.memory.choice import MemoryPlan, plan_memory
+from viscontact.memory.exponentials import as_exponentials
+from viscontact.memory.recursion import RecursiveMemory
+from viscontact.memory.response import Memory, Response
+from viscontact.memory.superposition import SuperposedMemory
+
+__all__ = [
+    "Memory",
+    "MemoryPlan",
+    "RecursiveMemory",
+    "Response",
+    "SuperposedMemory",
+    "as_exponentials",
+    "plan_memory",
+]

@@ -1,0 +1,98 @@
+"""Which memory a run gets: exact wherever that is possible, and said where it is not."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.compliance import ContactCompliance, SeriesCompliance
+from viscontact.memory.exponentials import as_exponentials
+from viscontact.memory.recursion import RecursiveMemory
+from viscontact.memory.response import Memory
+from viscontact.memory.superposition import SuperposedMemory
+
+#: Increments of the fields are kept and summed as long as they take no more than this [bytes].
+ROOM = 256 * 2**20
+
+#: Beyond this many steps a sum over all of them would take longer than the contact itself.
+MOST_STEPS = 2000
+
+
+@dataclass(frozen=True, eq=False)
+class MemoryPlan:
+    """How the past of a run is remembered.
+
+    Attributes
+    ----------
+    compliance : ContactCompliance
+        J(t) as it is used.
+    instants : ndarray
+        Planned ends of the steps [s].
+    method : str
+        In words.
+    error : float
+        Largest relative deviation of the J that is used from the material's [-].
+    """
+
+    compliance: ContactCompliance
+    instants: NDArray[np.float64]
+    method: str
+    error: float
+
+    @property
+    def fields_kept(self) -> int:
+        """Fields that a memory keeps: one for each exponential, or one for each step."""
+        if isinstance(self.compliance, SeriesCompliance):
+            return len(self.compliance.times) + (self.compliance.fluidity > 0)
+        return len(self.instants)
+
+    def memory(self, shape: tuple[int, ...]) -> Memory:
+        """Return an empty memory for a field of a shape."""
+        if isinstance(self.compliance, SeriesCompliance):
+            return RecursiveMemory(self.compliance, shape)
+        return SuperposedMemory(self.compliance, shape, self.instants)
+
+
+def plan_memory(
+    compliance: ContactCompliance, instants: NDArray[np.float64], numbers: int
+) -> MemoryPlan:
+    """Choose how a run remembers.
+
+    Parameters
+    ----------
+    compliance : ContactCompliance
+        J(t).
+    instants : ndarray
+        Ends of the steps, a jump's twice, in order [s].
+    numbers : int
+        Numbers to be remembered at each step.
+
+    Returns
+    -------
+    MemoryPlan
+        A recursion for a series law, which is exact. For any other law the sum over all earlier
+        steps, as long as they fit into 256 MiB and are at most 2000; else a sum of exponentials,
+        whose deviation from the law is part of the plan.
+
+    Examples
+    --------
+    >>> plan_memory(SeriesCompliance(1.0, [1.0], [2.0]), np.array([0.0, 1.0]), 4096).error
+    0.0
+    """
+    if isinstance(compliance, SeriesCompliance):
+        return MemoryPlan(compliance, instants, "recursion, exact for a series law", 0.0)
+    steps = len(instants)
+    if steps <= MOST_STEPS and 8.0 * steps * numbers <= ROOM:
+        return MemoryPlan(
+            compliance, instants, "sum over all earlier steps, with the law as it stands", 0.0
+        )
+    durations = np.diff(instants)
+    first, last = float(durations[durations > 0].min()), float(instants[-1])
+    series, error = as_exponentials(compliance, first, max(last, 10 * first))
+    method = (
+        f"sum of {len(series.times)} exponentials, within {error:.1e} of the law's creep "
+        f"compliance from {first:.3g} s to {last:.3g} s"
+    )
+    return MemoryPlan(series, instants, method, error)

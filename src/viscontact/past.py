@@ -1,0 +1,208 @@
+"""What a run carries from step to step, and how it takes the next one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.balance import Support
+from viscontact.contact import ContactSolution, solve_contact
+from viscontact.contact_problem import ContactProblem, Guess
+from viscontact.half_space import HalfSpace
+from viscontact.load import LoadPoint
+from viscontact.memory import Response
+from viscontact.observation import Instant
+from viscontact.prediction import POINTS, Twin, predict
+from viscontact.run import Run
+from viscontact.schedule import Step
+from viscontact.state import Outcome
+from viscontact.time_error import TimeErrors
+
+#: Errors are measured against the displacement that the pressure causes, but never against less
+#: than this part of the largest displacement of the past: below it rounding would have a say.
+HISTORY_COUNTS = 1e-3
+
+#: Samples each way within a cell when the body's lowest point is looked for; even, so that a
+#: point on a cell's edge or corner is among them.
+TOUCH_SAMPLES = 16
+
+
+@dataclass(frozen=True, eq=False)
+class Trial:
+    """A step that has been solved, and not been taken yet.
+
+    Attributes
+    ----------
+    solution : ContactSolution
+        Equilibrium at its end.
+    values : ndarray, shape (2, nx, ny)
+        Pressure [Pa] and deflection [Pa m] there.
+    force : float
+        Prescribed force, 0 where an approach is prescribed [N].
+    response : Response
+        Of the memory to the step.
+    twin : Twin
+        Elastic twin of the end.
+    outcome : Outcome
+        How it ended.
+    error : float
+        What the step adds to the relative error of the pressure.
+    """
+
+    solution: ContactSolution
+    values: NDArray[np.float64]
+    force: float
+    response: Response
+    twin: Twin
+    outcome: Outcome
+    error: float
+
+
+class Past:
+    """What has happened so far: memories, the last twins, the last motion.
+
+    Parameters
+    ----------
+    run : Run
+        The run.
+    half_space : HalfSpace
+        Where it takes place.
+    """
+
+    def __init__(self, run: Run, half_space: HalfSpace) -> None:
+        self._run, self._half_space = run, half_space
+        self._shape = half_space.fold(run.open_gap)
+        self._memory = run.memory.memory((2, *half_space.shape))  # of pressure and of deflection
+        self._force_memory = run.memory.memory((1,))
+        self._errors = TimeErrors(run.memory)
+        self._scale = 1e-12 * max(run.grid.cell_size)
+        self._twins: list[Twin] = []
+        self._motion = np.zeros(3)
+
+    def trial(self, step: Step) -> Trial:
+        """Solve a step, without taking it."""
+        point = self._run.load.at(step.time, side=step.side)
+        force = point.force or 0.0
+        response, force_response = (
+            each.jump() if step.is_jump else each.ramp(step.duration)
+            for each in (self._memory, self._force_memory)
+        )
+        twin_force = float(force_response.of(np.array([force]))[0])
+        drive = twin_force if point.approach is None else point.approach
+        problem = ContactProblem(
+            self._shape + response.history[1],
+            response.compliance,
+            self._half_space.share(Support.of(point)),
+            self._scale,
+        )
+        solution, outcome = self._solved(step, point, problem, response, drive)
+        values = np.stack([solution.found.pressure, solution.found.deflection])
+        twin = Twin(step.time, drive, response.of(values), solution.found.motion)
+        error = self._errors.of_step(step, values[1], response)
+        return Trial(solution, values, force, response, twin, outcome, error)
+
+    def accept(self, step: Step, trial: Trial) -> Instant:
+        """Take a step that has been solved."""
+        known = self._known(step)[1 - POINTS :] if not step.is_jump else []
+        self._twins = [] if trial.outcome is Outcome.NO_CONTACT else [*known, trial.twin]
+        self._motion = trial.solution.found.motion
+        self._memory.accept(trial.values)
+        self._force_memory.accept(np.array([trial.force]))
+        time_error = self._errors.after(step, trial.values[1], trial.response)
+        instant = _whole(self._half_space, trial, time_error)
+        self._scale = max(self._scale, HISTORY_COUNTS * float(instant.displacement.max()))
+        return instant
+
+    def _known(self, step: Step) -> list[Twin]:
+        """The twins that tell where the next one will be."""
+        return self._twins[-POINTS:] if step.smooth else self._twins[-1:]
+
+    def _solved(
+        self,
+        step: Step,
+        point: LoadPoint,
+        problem: ContactProblem,
+        response: Response,
+        drive: float,
+    ) -> tuple[ContactSolution, Outcome]:
+        if point.force == 0:
+            untouched = not response.history[1].any()
+            return self._at_touch(problem, untouched=untouched), Outcome.NO_CONTACT
+        given = problem.support.with_prescribed(self._motion)
+        if point.force is None and self._is_clear(problem, given):
+            return _without_pressure(problem, self._half_space, given), Outcome.NO_CONTACT
+        guess = _guess(predict(self._known(step), step.time, drive), response)
+        tolerance = self._run.tolerance
+        solution = solve_contact(problem, self._half_space, guess, tolerance=tolerance)
+        if not solution.converged:
+            return solution, Outcome.NOT_CONVERGED
+        touches = bool(solution.found.pressure.any())
+        return solution, Outcome.CONVERGED if touches else Outcome.NO_CONTACT
+
+    def _is_clear(self, problem: ContactProblem, motion: NDArray[np.float64]) -> bool:
+        plane = self._half_space.whole.plane.field(motion)
+        return bool((problem.open_gap >= plane).all())
+
+    def _at_touch(self, problem: ContactProblem, *, untouched: bool) -> ContactSolution:
+        """No force: the body is where it just touches the (dented) surface, tilts as they were."""
+        tilts = problem.support.with_prescribed(self._motion) * np.array([0.0, 1.0, 1.0])
+        distance = problem.open_gap - self._half_space.whole.plane.field(tilts)
+        motion = tilts + np.array([float(distance.min()), 0.0, 0.0])
+        apart = _without_pressure(problem, self._half_space, motion)
+        return _at_lowest_point(self._run, apart) if untouched else apart
+
+
+def _guess(twin: Twin | None, response: Response) -> Guess | None:
+    """From a predicted twin back to the pressure and the deflection that would bring it about."""
+    if twin is None:
+        return None
+    pressure, deflection = (twin.fields - response.history) / response.compliance
+    return Guess(pressure, deflection, twin.motion)
+
+
+def _without_pressure(
+    problem: ContactProblem, half_space: HalfSpace, motion: NDArray[np.float64]
+) -> ContactSolution:
+    nothing = np.zeros(half_space.shape)
+    gap = problem.open_gap - half_space.whole.plane.field(motion)
+    return ContactSolution(Guess(nothing, nothing, motion), gap, 0.0, 0, 0, converged=True)
+
+
+def _at_lowest_point(run: Run, apart: ContactSolution) -> ContactSolution:
+    """A flat surface is touched by the body's lowest point, not by the nearest cell centre."""
+    tilts = apart.found.motion[1:]
+    cells = run.open_gap - np.add.outer(tilts[0] * run.grid.x, tilts[1] * run.grid.y)
+    i, j = np.unravel_index(int(cells.argmin()), cells.shape)
+    part = np.linspace(-1.0, 1.0, 2 * TOUCH_SAMPLES + 1)
+    x = run.grid.x[i] + part[:, None] * run.grid.cell_size[0]
+    y = run.grid.y[j] + part[None, :] * run.grid.cell_size[1]
+    lowest = float((run.indenter.gap(x, y) - tilts[0] * x - tilts[1] * y).min())
+    below = apart.found.motion[0] - lowest
+    motion = apart.found.motion - np.array([below, 0.0, 0.0])
+    return replace(apart, found=replace(apart.found, motion=motion), gap=apart.gap + below)
+
+
+def _whole(half_space: HalfSpace, trial: Trial, time_error: float) -> Instant:
+    """The instant on the whole grid."""
+    solution = trial.solution
+    found = solution.found
+    pressure, gap, displacement = (
+        half_space.unfold(field) for field in (found.pressure, solution.gap, trial.twin.fields[1])
+    )
+    for field in (pressure, gap, displacement):
+        field.flags.writeable = False  # the run goes on from them
+    energy = half_space.fold_count * float((found.pressure * found.deflection).sum()) / 2
+    return Instant(
+        pressure,
+        gap,
+        displacement,
+        found.motion,
+        energy * half_space.grid.cell_area,
+        solution.residual,
+        solution.iterations,
+        trial.outcome,
+        trial.response.resolved,
+        time_error,
+    )
