@@ -36,7 +36,7 @@ FLOORS = (
         "marching",
     ),
     ("description", "dataset", "results"),  # 5 labels and files
-    ("examples", "units", "forecast", "case", "plot"),  # 6 people
+    ("examples", "units", "materials", "forecast", "case", "plot"),  # 6 people
     ("cli", "__main__"),  # 7 shell
 )
 # Neighbours on a floor of which the first needs the second; the second stands to the left above.
@@ -62,7 +62,10 @@ NEIGHBOURS = {
     ("dataset", "description"),  # the case travels with the result
     ("results", "dataset"),  # the file is laid out as the dataset is
     ("case", "units"),
+    ("case", "materials"),  # which may be given by name
+    ("materials", "units"),
     ("plot", "units"),
+    ("plot", "materials"),  # curves are drawn over the points they rest on
     ("__main__", "cli"),  # python -m viscontact
 }
 # The exact solutions stand aside: they rest on the lower floors, and the product computes nothing

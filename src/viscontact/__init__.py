@@ -43,6 +43,7 @@ _built, __dir__, __all__ = _lazy.attach(
             "Zener",
         ],
         "material": ["Material"],
+        "case": ["shipped_material"],
         "load": [
             "ApproachHistory",
             "ForceHistory",

@@ -3,5 +3,13 @@
 from viscontact.case.problems import CaseError
 from viscontact.case.reader import Case, read_case
 from viscontact.case.sections import case_schema
+from viscontact.case.single_material import read_material, shipped_material
 
-__all__ = ["Case", "CaseError", "case_schema", "read_case"]
+__all__ = [
+    "Case",
+    "CaseError",
+    "case_schema",
+    "read_case",
+    "read_material",
+    "shipped_material",
+]

@@ -32,6 +32,9 @@ class Medium(Section):
     bulk_modulus: Modulus | None = Field(
         default=None, description="elastic; Poisson's ratio then varies in time"
     )
+    measured_until: Duration | None = Field(
+        default=None, description="last time the law is known for; a run that goes beyond warns"
+    )
 
     @abstractmethod
     def law_noun(self) -> SeriesLaw:
@@ -43,7 +46,12 @@ class Medium(Section):
             raise ValueError(
                 "give poisson_ratio (e.g. 0.38) or bulk_modulus (e.g. '4 GPa'), and only one"
             )
-        return Material(self.law_noun(), self.poisson_ratio, bulk_modulus=self.bulk_modulus)
+        return Material(
+            self.law_noun(),
+            self.poisson_ratio,
+            bulk_modulus=self.bulk_modulus,
+            measured_until=self.measured_until,
+        )
 
     @property
     def _in_volume(self) -> dict[str, Any]:

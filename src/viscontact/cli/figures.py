@@ -42,7 +42,7 @@ def draw(directory: Path, figure: str, times: Sequence[str], output: Path | None
     Path
         The file.
     """
-    plot = _plot_package()
+    plot = plot_package()
     draw_it = _named(figure, plot.FIGURES)
     instants = _instants(times)
     folder = directory if directory.is_dir() else directory.parent
@@ -51,7 +51,7 @@ def draw(directory: Path, figure: str, times: Sequence[str], output: Path | None
         if figure != "creep":  # the law goes on after the run
             _refuse_outside(instants, ds, directory)
         _note(early_end(ds), _snapped(instants, ds, figure))
-        _save(plot, file, draw_it, ds, times=instants)
+        save(plot, file, draw_it, ds, times=instants)
     return file
 
 
@@ -76,7 +76,7 @@ def draw_comparison(
     Path
         The file.
     """
-    plot = _plot_package()
+    plot = plot_package()
     draw_it = _named(figure, plot.COMPARISONS)
     instants = _instants(times)
     if len(directories) < 2:
@@ -89,11 +89,12 @@ def draw_comparison(
             _refuse_outside(instants, ds, directory)
             notes = (early_end(ds), _snapped(instants, ds, figure))
             _note(*(f"{label}: {note}" for note in notes if note))
-        _save(plot, file, draw_it, labelled, times=instants)
+        save(plot, file, draw_it, labelled, times=instants)
     return file
 
 
-def _plot_package() -> Any:
+def plot_package() -> Any:
+    """Return `viscontact.plot`, or say what it needs."""
     try:
         from viscontact import plot
     except ModuleNotFoundError as error:
@@ -156,7 +157,8 @@ def _labels(directories: Sequence[Path]) -> list[str]:
     return names if unique else [str(path) for path in directories]
 
 
-def _save(plot: Any, file: Path, draw_it: Any, results: Any, **options: Any) -> None:
+def save(plot: Any, file: Path, draw_it: Any, results: Any, **options: Any) -> None:
+    """Draw and write a figure, or say in one line why not; print the file's name."""
     try:
         plot.save_figure(draw_it(results, **options), file)
     except (ValueError, OSError) as error:

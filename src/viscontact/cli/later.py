@@ -10,13 +10,6 @@ import typer
 from viscontact.cli.messages import refuse
 
 
-def material(
-    name: Annotated[str | None, typer.Argument(help="A shipped material, or a file.")] = None,
-) -> None:
-    """Creep and relaxation of a law (not built yet)."""
-    refuse("material is not built yet; `viscontact plot DIR creep` draws the law of a run")
-
-
 def report(
     directory: Annotated[Path | None, typer.Argument(metavar="DIR", help="A run.")] = None,
     output: Annotated[Path | None, typer.Option("-o", "--output", help="HTML file.")] = None,

@@ -13,7 +13,8 @@ import typer
 from viscontact import __version__
 from viscontact.cli.cases import demo, example, schema
 from viscontact.cli.drawing import compare, plot
-from viscontact.cli.later import material, report, verify
+from viscontact.cli.later import report, verify
+from viscontact.cli.materials import material
 from viscontact.cli.messages import INTERRUPTED, REFUSED, STOPPED, say
 from viscontact.cli.running import check, run
 from viscontact.cli.showing import export, show
@@ -38,7 +39,7 @@ _COMMANDS = (
     (compare, "viscontact compare centred halfway end --figure history -o runs.png"),
     (export, "viscontact export heavier -o heavier.csv"),
     (schema, "viscontact schema > viscontact.schema.json"),
-    (material, "viscontact material pmma-paper"),
+    (material, "viscontact material pmma-paper -o pmma.png"),
     (report, "viscontact report heavier -o heavier.html"),
     (verify, "viscontact verify --fast"),
 )

@@ -18,6 +18,7 @@ except ModuleNotFoundError as error:
 from viscontact.plot.contact_outline import contact_outline
 from viscontact.plot.creep import creep, creep_curve
 from viscontact.plot.history import compare_histories, history
+from viscontact.plot.material_curves import material_curves
 from viscontact.plot.pressure_map import pressure_map
 from viscontact.plot.pressure_profile import compare_pressure_profiles, pressure_profile
 from viscontact.plot.pressure_radial import pressure_radial
@@ -48,6 +49,7 @@ __all__ = [
     "creep",
     "creep_curve",
     "history",
+    "material_curves",
     "pressure_map",
     "pressure_profile",
     "pressure_radial",

@@ -1,0 +1,98 @@
+"""One material alone: by its name in the library, or from the case file that it stands in."""
+
+from __future__ import annotations
+
+import difflib
+from os import PathLike
+from pathlib import Path
+
+from pydantic import ConfigDict, ValidationError
+
+from viscontact.case.document import Document, read_document
+from viscontact.case.library import MATERIALS
+from viscontact.case.materials import AnyMaterial
+from viscontact.case.problems import CaseError
+from viscontact.case.quantities import Section
+from viscontact.case.wording import problem
+from viscontact.material import Material
+
+
+class _Alone(Section):
+    """The one section that is wanted; what stands beside it does not matter."""
+
+    model_config = ConfigDict(extra="ignore", frozen=True, strict=True)
+
+    material: AnyMaterial
+
+
+def shipped_material(name: str) -> Material:
+    """Return a material of the shipped library.
+
+    Parameters
+    ----------
+    name : str
+        Such as ``"pmma-paper"``; ``viscontact material`` lists them with their sources.
+
+    Returns
+    -------
+    Material
+        The material as a case file that gives its name has it.
+
+    Raises
+    ------
+    ValueError
+        If there is no such material; the message lists all.
+
+    Examples
+    --------
+    >>> round(shipped_material("pmma-kumar-2004").law.relaxation(0.0) / 1e6, 2)
+    653.42
+    """
+    if name not in MATERIALS:
+        near = difflib.get_close_matches(str(name), MATERIALS, n=1)
+        hint = f"; did you mean {near[0]!r}?" if near else "."
+        raise ValueError(
+            f"no shipped material is called {name!r}{hint} There are {', '.join(MATERIALS)}"
+        )
+    return _Alone.model_validate({"material": name}).material.noun()
+
+
+def read_material(path: str | PathLike[str]) -> Material:
+    """Read the material of a case file, whatever else it holds.
+
+    Parameters
+    ----------
+    path : path-like
+        A case file, YAML or TOML; or a file that holds a `material` section alone, or only its
+        keys.
+
+    Returns
+    -------
+    Material
+        The half-space's material.
+
+    Raises
+    ------
+    CaseError
+        If there is none, or it cannot be understood; all problems at once, each with its line
+        and key.
+    """
+    document = _as_section(read_document(Path(path)))
+    if "material" not in document.data:
+        raise CaseError(
+            f"{path}: holds no material; a case file has a section material: with its law"
+        )
+    folder = {"folder": str(document.path.parent)}
+    try:
+        return _Alone.model_validate(document.data, context=folder).material.noun()
+    except ValidationError as error:
+        found = dict.fromkeys(problem(document, each) for each in error.errors())
+        raise CaseError(*found) from error
+
+
+def _as_section(document: Document) -> Document:
+    """Put keys that stand alone under `material`."""
+    if "law" not in document.data or "material" in document.data:
+        return document
+    lines = {("material", *key): line for key, line in document.lines.items()}
+    return Document(document.path, document.text, {"material": document.data}, lines)

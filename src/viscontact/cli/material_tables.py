@@ -1,0 +1,215 @@
+"""What `material` prints and draws."""
+
+from __future__ import annotations
+
+import difflib
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from textwrap import indent, wrap
+
+import numpy as np
+from numpy.typing import NDArray
+from rich.box import SIMPLE_HEAD
+from rich.console import Console
+from rich.table import Table
+
+from viscontact import materials
+from viscontact.case import CaseError, read_material, shipped_material
+from viscontact.cli.figures import plot_package, save
+from viscontact.cli.messages import refuse
+from viscontact.laws import SeriesLaw
+from viscontact.material import Material
+from viscontact.materials import Entry
+from viscontact.units import in_digits, in_words, readable_unit
+
+# A law that says nothing about its times is shown over these [s].
+_ANY_TIMES = (1e-3, 1e6)
+_WIDTH = 78
+
+
+@dataclass(frozen=True)
+class _Shown:
+    """A material with its name, and its entry if it is from the library."""
+
+    name: str
+    material: Material
+    entry: Entry | None = None
+
+    @property
+    def measured(self) -> tuple[float, float] | None:
+        """First and last time on which the constants rest, as far as known [s]."""
+        if self.entry is not None:
+            return self.entry.measured
+        until = self.material.known_until
+        return (0.0, until) if math.isfinite(until) else None
+
+    def times(self) -> tuple[float, float]:
+        """First and last time worth a look [s]: a decade more than is known."""
+        first, last = self.measured or _own_times(self.material)
+        # Whole decades, so that a table has round times.
+        low = math.floor(math.log10(first or last * 1e-4) + 1e-9)
+        high = math.ceil(math.log10(last) - 1e-9)
+        margin = 1 if self.measured else 0
+        return 10.0 ** (low - margin), 10.0 ** (max(high, low + 1) + margin)
+
+
+def list_library(output: Path | None = None) -> None:
+    """Print the shipped library.
+
+    Parameters
+    ----------
+    output : Path or None
+        A figure that cannot be drawn of all at once: refused.
+    """
+    if output is not None:
+        refuse(f"{output}: a figure shows one material; name it, e.g. pmma-paper")
+    entries = [materials.entry(name) for name in materials.names()]
+    rows = [
+        (
+            each.name,
+            each.family,
+            each.temperature.partition(" (")[0].partition(",")[0],
+            each.test.partition(" ")[0],
+            " to ".join(in_words(instant, "s", 2) for instant in each.measured),
+        )
+        for each in entries
+    ]
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    for each, row in zip(entries, rows, strict=True):
+        cells = (cell.ljust(width) for cell, width in zip(row, widths, strict=True))
+        print("  ".join(cells).rstrip())
+        print(f"    {each.title} ({each.cite})")
+    print("viscontact material NAME tells all of one; -o FIG.png draws it against its source")
+
+
+def show_material(which: str, output: Path | None) -> None:
+    """Print, and draw if a file is named, one material.
+
+    Parameters
+    ----------
+    which : str
+        A shipped name, or a file.
+    output : Path or None
+        The figure's file.
+    """
+    shown = _found(which)
+    if shown.entry is not None:
+        _print_entry(shown.entry)
+    else:
+        print(f"{shown.name}: {_volume(shown.material)}")
+    Console().print(_values(shown))
+    if output is not None:
+        _draw(shown, output)
+
+
+def _found(which: str) -> _Shown:
+    if which in materials.names():
+        return _Shown(which, shipped_material(which), materials.entry(which))
+    path = Path(which)
+    if not path.exists() and not path.suffix:
+        near = [name for name in materials.names() if which.lower() in name]
+        near = near or difflib.get_close_matches(which, materials.names(), n=1)
+        hint = f"; did you mean {' or '.join(near)}?" if near else "."
+        refuse(
+            f"no shipped material and no file is called {which!r}{hint} "
+            f"There are {', '.join(materials.names())}"
+        )
+    try:
+        return _Shown(which, read_material(path))
+    except CaseError as error:
+        refuse(*error.problems)
+
+
+def _print_entry(entry: Entry) -> None:
+    print(f"{entry.name}: {entry.title}")
+    about = {
+        "family": entry.family,
+        "source": entry.source,
+        "temperature": entry.temperature,
+        "test": entry.test,
+        "range": " to ".join(in_words(t, "s") for t in entry.measured),
+        "constants": entry.constants,
+        "volume": entry.volume,
+        "checked": entry.checked,
+        "licence": entry.licence,
+    }
+    for heading, text in about.items():
+        first, *others = wrap(text, _WIDTH - 15, break_on_hyphens=False) or [""]
+        print(f"  {heading:13}{first}")
+        for line in others:
+            print(f"  {'':13}{line}")
+    print("material:")
+    for key, value in entry.material.items():
+        text = f"[{', '.join(map(str, value))}]" if isinstance(value, list) else str(value)
+        print(indent("\n".join(wrap(f"{key}: {text}", _WIDTH, subsequent_indent="  ")), "  "))
+
+
+def _volume(material: Material) -> str:
+    if material.poisson_ratio is not None:
+        return f"{type(material.law).__name__}, Poisson's ratio {material.poisson_ratio:g}"
+    assert material.bulk_modulus is not None  # exactly one is given
+    return f"{type(material.law).__name__}, bulk modulus {in_words(material.bulk_modulus, 'Pa')}"
+
+
+def _values(shown: _Shown) -> Table:
+    """Compliance, modulus and contact compliance at each decade."""
+    first, last = shown.times()
+    low, high = round(math.log10(first)), round(math.log10(last))
+    times = np.logspace(low, high, high - low + 1, dtype=np.float64)
+    law = shown.material.law
+    columns = {"creep Φ = 1/(2G)": (law(times), "1/Pa")}
+    if float(law(0.0)) > 0:
+        columns["relaxation G"] = (law.relaxation(times), "Pa")
+    columns["contact J"] = (shown.material.contact_compliance()(times), "1/Pa")
+    table = Table(box=SIMPLE_HEAD, padding=(0, 2, 0, 0))
+    table.add_column("time", justify="right")
+    cells = []
+    for heading, (values, unit) in columns.items():
+        symbol, numbers = _in_unit(values, unit)
+        table.add_column(rf"{heading} \[{symbol}]", justify="right")
+        cells.append(numbers)
+    beyond = [not _within(time, shown.measured) for time in times]
+    if any(beyond):
+        table.add_column("")
+    for row, time in enumerate(times):
+        note = ["not measured" if beyond[row] else ""] if any(beyond) else []
+        table.add_row(in_words(time, "s"), *(column[row] for column in cells), *note)
+    return table
+
+
+def _in_unit(values: NDArray[np.float64], unit: str) -> tuple[str, list[str]]:
+    # By the middle of what spans many decades.
+    middle = float(np.exp(np.mean(np.log(np.maximum(values, 1e-300)))))
+    if unit == "1/Pa":
+        modulus = readable_unit(1.0 / middle, "Pa")
+        return f"1/{modulus.symbol}", [in_digits(float(v) * modulus.factor) for v in values]
+    chosen = readable_unit(middle, unit)
+    return chosen.symbol, [in_digits(float(v) / chosen.factor) for v in values]
+
+
+def _within(time: float, measured: tuple[float, float] | None) -> bool:
+    return measured is None or measured[0] * 0.999 <= time <= measured[1] * 1.001
+
+
+def _own_times(material: Material) -> tuple[float, float]:
+    """Over what times a law made of exponentials changes [s]."""
+    law = material.law
+    times = law.creep_series().times if isinstance(law, SeriesLaw) else ()
+    return (min(times) / 100, max(times) * 100) if times else _ANY_TIMES
+
+
+def _draw(shown: _Shown, output: Path) -> None:
+    plot = plot_package()
+    entry = shown.entry
+
+    def figure(material: Material) -> object:
+        return plot.material_curves(
+            material.law,
+            shown.times(),
+            measured=shown.measured,
+            points=entry.points if entry else (),
+            title=entry.title if entry else shown.name,
+        )
+
+    save(plot, output, figure, shown.material)

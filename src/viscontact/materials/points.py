@@ -1,0 +1,122 @@
+"""Values that a source prints or measures, in the convention of its test."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.laws import Law
+
+#: Over time; the others are over angular frequency.
+_OVER_TIME = ("creep_compliance", "relaxation_modulus")
+_QUANTITIES = (*_OVER_TIME, "storage_modulus", "loss_modulus", "loss_tangent")
+
+
+@dataclass(frozen=True, eq=False)
+class Points:
+    """Values of one quantity from a source, not computed from the constants they check.
+
+    Parameters
+    ----------
+    quantity : str
+        ``creep_compliance``, ``relaxation_modulus``, ``storage_modulus``, ``loss_modulus`` or
+        ``loss_tangent``.
+    what : str
+        Where they are from.
+    at : ndarray
+        Times [s], or angular frequencies [rad/s] of the last three quantities.
+    values : ndarray
+        Values as Phi [1/Pa], as shear moduli [Pa] or as ratios, whatever the source's
+        convention was.
+    tolerance : float
+        Largest relative departure of the law from them; why so much is said in the file.
+    """
+
+    quantity: str
+    what: str
+    at: NDArray[np.float64]
+    values: NDArray[np.float64]
+    tolerance: float
+
+    @property
+    def over_time(self) -> bool:
+        """Whether `at` are times; else angular frequencies."""
+        return self.quantity in _OVER_TIME
+
+    def of_law(self, law: Law) -> NDArray[np.float64]:
+        """Return what a law has in their place.
+
+        Parameters
+        ----------
+        law : Law
+            A creep law.
+
+        Returns
+        -------
+        ndarray
+            The quantity at `at`, in the unit of `values`.
+
+        Examples
+        --------
+        >>> from viscontact.laws import Maxwell
+        >>> points = Points("loss_tangent", "", np.array([0.5]), np.array([2.0]), 0.01)
+        >>> points.of_law(Maxwell(1e6, 1e6)).round(12).tolist()
+        [2.0]
+        """
+        if self.quantity == "creep_compliance":
+            return law(self.at)
+        if self.quantity == "relaxation_modulus":
+            return law.relaxation(self.at)
+        modulus = law.complex_modulus(self.at)
+        if self.quantity == "loss_tangent":
+            return np.asarray(modulus.imag / modulus.real)
+        return np.asarray(modulus.real if self.quantity == "storage_modulus" else modulus.imag)
+
+
+def read_points(given: dict[str, Any], poisson_ratio: float | None) -> Points:
+    """Read the points of an entry's file.
+
+    Parameters
+    ----------
+    given : dict
+        ``quantity``, ``what``, ``data``, ``times`` or ``angular_frequencies``, ``values`` and
+        ``tolerance``, the numbers in SI units.
+    poisson_ratio : float or None
+        Of the material, if it is constant: tensile values need it.
+
+    Returns
+    -------
+    Points
+        The same, in shear.
+
+    Raises
+    ------
+    ValueError
+        If a key or a convention is not known, or lengths differ.
+    """
+    quantity = given["quantity"]
+    if quantity not in _QUANTITIES:
+        raise ValueError(f"quantity must be one of {', '.join(_QUANTITIES)}, got {quantity!r}")
+    at = given["times" if quantity in _OVER_TIME else "angular_frequencies"]
+    places = np.asarray(at, dtype=np.float64)
+    values = np.asarray(given["values"], dtype=np.float64)
+    if places.shape != values.shape or values.ndim != 1:
+        raise ValueError(f"{quantity}: {places.size} places and {values.size} values; give as many")
+    factor = _compliance_factor(given["data"], poisson_ratio)
+    if quantity == "creep_compliance":
+        values = values / factor
+    elif quantity != "loss_tangent":
+        values = values * factor / 2.0  # the factor of 1/G is 2
+    return Points(quantity, given["what"], places, values, float(given["tolerance"]))
+
+
+def _compliance_factor(data: str, poisson_ratio: float | None) -> float:
+    """How many times Phi a compliance of this convention is."""
+    if data == "uniaxial":
+        if poisson_ratio is None:
+            raise ValueError("data: uniaxial needs a constant poisson_ratio in the material")
+        return 1.0 / (1.0 + poisson_ratio)
+    return {"deviatoric": 1.0, "shear": 2.0}[data]
