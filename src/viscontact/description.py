@@ -18,7 +18,20 @@ from viscontact.indenters import (
     Roller,
     Sphere,
 )
-from viscontact.laws import Burgers, CreepSeries, Elastic, Maxwell, RelaxationSeries, Zener
+from viscontact.laws import (
+    BesideSpring,
+    Burgers,
+    CreepSeries,
+    Elastic,
+    FractionalMaxwell,
+    FractionalZener,
+    Maxwell,
+    PowerLaw,
+    RelaxationSeries,
+    TabulatedCreep,
+    TabulatedRelaxation,
+    Zener,
+)
 from viscontact.load import ApproachHistory, ForceHistory, HarmonicHistory
 from viscontact.material import Material
 from viscontact.run import Run
@@ -28,6 +41,8 @@ NOUNS = {
     for noun in (
         *(Sphere, Paraboloid, Cone, FlatPunch, Roller, HeightMap, CombinedIndenter),
         *(Elastic, Maxwell, Zener, Burgers, CreepSeries, RelaxationSeries),
+        *(PowerLaw, FractionalMaxwell, FractionalZener, BesideSpring),
+        *(TabulatedCreep, TabulatedRelaxation),
         *(Material, ForceHistory, ApproachHistory, HarmonicHistory, Grid),
     )
 }

@@ -10,7 +10,7 @@ import numpy as np
 
 def positive(name: str, value: float, unit: str) -> float:
     """Return `value` as a float; ValueError unless it is positive and finite."""
-    number = _number(name, value, unit)
+    number = one_number(name, value, unit)
     if not (math.isfinite(number) and number > 0):
         raise ValueError(f"{name}: must be a positive finite number, got {value!r} {unit}")
     return number
@@ -18,10 +18,26 @@ def positive(name: str, value: float, unit: str) -> float:
 
 def non_negative(name: str, value: float, unit: str) -> float:
     """Return `value` as a float; ValueError unless it is finite and at least 0."""
-    number = _number(name, value, unit)
+    number = one_number(name, value, unit)
     if not (math.isfinite(number) and number >= 0):
         raise ValueError(f"{name}: must be a finite number >= 0, got {value!r} {unit}")
     return number
+
+
+def exponent(name: str, value: float) -> float:
+    """Return the power of a spring-pot as a float; ValueError unless above 0 and up to 1."""
+    number = one_number(name, value, "")
+    if not 0 < number <= 1:
+        raise ValueError(
+            f"{name}: must lie above 0 (a spring) and not above 1 (a dashpot), got {value!r}"
+        )
+    return number
+
+
+def one_of(name: str, word: str, words: tuple[str, ...]) -> None:
+    """Check that a named rule is known; ValueError otherwise."""
+    if word not in words:
+        raise ValueError(f"{name}: must be one of {', '.join(map(repr, words))}, got {word!r}")
 
 
 def make_positive(noun: object, **units: str) -> None:
@@ -66,7 +82,7 @@ def compressibility(
     if poisson_ratio is None:
         assert bulk_modulus is not None  # exactly one is given
         return None, positive(f"{owner}: bulk_modulus", bulk_modulus, "Pa")
-    ratio = _number(f"{owner}: poisson_ratio", poisson_ratio, "")
+    ratio = one_number(f"{owner}: poisson_ratio", poisson_ratio, "")
     if not -1 < ratio <= 0.5:
         raise ValueError(
             f"{owner}: poisson_ratio must lie above -1 and not above 0.5, got {poisson_ratio!r}; "
@@ -75,7 +91,8 @@ def compressibility(
     return ratio, None
 
 
-def _number(name: str, value: float, unit: str) -> float:
+def one_number(name: str, value: float, unit: str) -> float:
+    """Return `value` as a float; ValueError unless it is one number."""
     try:
         if isinstance(value, bool | str | bytes):  # True is not 1 Pa, "1e9" is no number
             raise TypeError

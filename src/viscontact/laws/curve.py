@@ -1,0 +1,221 @@
+"""A function of time through measured points: monotone in log time, with exact means.
+
+Between the points the curve is the monotone cubic in ln t of Fritsch & Carlson (1980, SIAM J.
+Numer. Anal. 17, 238), so that values over many decades weigh alike and nothing over- or
+undershoots. Before the first point and beyond the last it goes on by a rule that is named.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.interpolate import PchipInterpolator
+
+Floats = NDArray[np.float64]
+
+#: Rules before the first point: its value, or a power of time along the tangent there.
+Before = Literal["value", "power"]
+#: Rules beyond the last: its value, a straight line in ln t, or a power of time, along the tangent.
+Beyond = Literal["value", "line", "power"]
+
+# Of an interval no wider than a factor e the mean is taken by 12 Gauss-Legendre nodes: the nearest
+# singularity of ln t, t = 0, lies at -2.16 of its half widths, which leaves 4.08^-24 = 2e-15.
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)
+_NODES, _WEIGHTS = (_NODES + 1) / 2, _WEIGHTS / 2
+_NARROW = 1.0
+
+
+class LogCurve:
+    """A monotone curve through points in log time.
+
+    Parameters
+    ----------
+    times : array_like, shape (n,)
+        Ascending times >= 0 [s], at least two of them positive. A point at 0 is the value at
+        once; up to the first positive time the curve is then straight in t.
+    values : array_like, shape (n,)
+        Values, monotone.
+    before : {"value", "power"}, optional
+        Before the first point, if that is not at 0.
+    beyond : {"value", "line", "power"}, optional
+        Beyond the last point.
+    steepest : tuple of float, optional
+        Least and greatest exponent that the power before the first point may take.
+
+    Examples
+    --------
+    >>> curve = LogCurve([1.0, 10.0, 100.0], [1.0, 2.0, 3.0], beyond="line")
+    >>> [round(float(value), 9) for value in curve([0.1, 1.0, 10**1.5, 1000.0])]
+    [1.0, 1.0, 2.5, 4.0]
+    """
+
+    def __init__(
+        self,
+        times: ArrayLike,
+        values: ArrayLike,
+        *,
+        before: Before = "value",
+        beyond: Beyond = "line",
+        steepest: tuple[float, float] = (-np.inf, np.inf),
+    ) -> None:
+        times, values = np.asarray(times, np.float64), np.asarray(values, np.float64)
+        self.at_once = float(values[0]) if times[0] == 0 else None
+        if self.at_once is not None:
+            times, values = times[1:], values[1:]
+        self.times, self.values = times, values
+        self._pieces = PchipInterpolator(np.log(times), values).c
+        self._widths = np.diff(np.log(times))
+        first, last = self._tangents()
+        early = np.clip(first / values[0], *steepest) if before == "power" else 0.0
+        self.exponent = float(early)
+        self._line = last if beyond == "line" else 0.0
+        self._fade = last / values[-1] if beyond == "power" else 0.0
+        whole = [self._primitive(k, times[k + 1], times[k]) for k in range(self._widths.size)]
+        self._areas = np.concatenate([[0.0], np.cumsum(whole)])
+
+    def _tangents(self) -> tuple[float, float]:
+        """Return df/d(ln t) at the first and the last point."""
+        cubic, square, linear, _ = self._pieces[:, -1]
+        h = self._widths[-1]
+        return float(self._pieces[2, 0]), float((3 * cubic * h + 2 * square) * h + linear)
+
+    def __call__(self, t: ArrayLike) -> Floats:
+        """Return the values at times >= 0 [s], of the shape of `t`."""
+        t = np.asarray(t, np.float64)
+        # Each point belongs to the piece that begins there, whose first coefficient it is.
+        inside = np.clip(t, self.times[0], self.times[-1])
+        values = self._cubic(self._piece(inside), inside)
+        values = np.where(t < self.times[0], self._head(np.minimum(t, self.times[0])), values)
+        beyond = self._tail(np.maximum(t, self.times[-1]))
+        return np.asarray(np.where(t >= self.times[-1], beyond, values))
+
+    def mean(self, start: ArrayLike, end: ArrayLike) -> Floats:
+        """Return the means over the times `start` to `end` [s], of equal shape; values where equal.
+
+        Notes
+        -----
+        The primitive of a polynomial P(ln t) is t (P - P' + P'' - P'''). Where an interval is so
+        narrow that its difference would cancel, Gauss-Legendre quadrature has all digits.
+        """
+        start, end = np.asarray(start, np.float64), np.asarray(end, np.float64)
+        first, last = self.times[0], self.times[-1]
+        area = np.zeros(np.broadcast_shapes(start.shape, end.shape))
+        for low, high, mean in (
+            (0.0, first, self._head_mean),
+            (first, last, self._body_mean),
+            (last, np.inf, self._tail_mean),
+        ):
+            a, b = np.clip(start, low, high), np.clip(end, low, high)
+            some = b > a
+            if some.any():
+                area[some] += (b - a)[some] * mean(a[some], b[some])
+        length = end - start
+        return np.asarray(np.where(length > 0, area / np.where(length > 0, length, 1), self(start)))
+
+    # --- before the first point ------------------------------------------------------------------
+
+    def _head(self, t: Floats) -> Floats:
+        ratio = t / self.times[0]
+        if self.at_once is not None:
+            return np.asarray(self.at_once + (self.values[0] - self.at_once) * ratio)
+        with np.errstate(divide="ignore"):  # infinite at once
+            return np.asarray(self.values[0] * ratio**self.exponent)
+
+    def _head_mean(self, start: Floats, end: Floats) -> Floats:
+        if self.at_once is not None:
+            return self._head(start + (end - start) / 2)
+        scale = self.values[0] / self.times[0] ** self.exponent
+        return np.asarray(scale * mean_power(self.exponent, start, end))
+
+    # --- among the points ------------------------------------------------------------------------
+
+    def _piece(self, t: Floats) -> NDArray[np.intp]:
+        found = np.searchsorted(self.times, t, side="right") - 1
+        return np.asarray(np.clip(found, 0, self._widths.size - 1))
+
+    def _cubic(self, piece: NDArray[np.intp], t: Floats) -> Floats:
+        u = np.log(t / self.times[piece])
+        c3, c2, c1, c0 = self._pieces[:, piece]
+        return np.asarray(((c3 * u + c2) * u + c1) * u + c0)
+
+    def _primitive(self, piece: NDArray[np.intp] | int, end: Floats, start: Floats) -> Floats:
+        """Return the integral over a part of a piece."""
+        c3, c2, c1, c0 = self._pieces[:, piece]
+
+        def primitive(t: Floats) -> Floats:
+            u = np.log(t / self.times[piece])
+            value = ((c3 * u + c2) * u + c1) * u + c0
+            slope = (3 * c3 * u + 2 * c2) * u + c1
+            return np.asarray(t * (value - slope + (6 * c3 * u + 2 * c2) - 6 * c3))
+
+        def value(t: Floats) -> Floats:
+            u = np.log(t / self.times[piece])
+            return np.asarray(((c3 * u + c2) * u + c1) * u + c0)
+
+        length, area = end - start, primitive(end) - primitive(start)
+        wide = area / np.where(length > 0, length, 1.0)
+        return narrow_mean(value, start, end, otherwise=wide) * length
+
+    def _body_mean(self, start: Floats, end: Floats) -> Floats:
+        """Return means over intervals of positive length between the first and the last point."""
+        first, last = self._piece(start), self._piece(end)
+        upper = np.minimum(end, self.times[first + 1])
+        area = self._primitive(first, upper, start)
+        several = last > first
+        if several.any():
+            m, k = last[several], first[several]
+            area[several] += self._areas[m] - self._areas[k + 1]
+            area[several] += self._primitive(m, end[several], self.times[m])
+        return area / (end - start)
+
+    # --- beyond the last point -------------------------------------------------------------------
+
+    def _tail(self, t: Floats) -> Floats:
+        ratio = t / self.times[-1]
+        if self._line != 0:
+            return np.asarray(self.values[-1] + self._line * np.log(ratio))
+        return np.asarray(self.values[-1] * ratio**self._fade)
+
+    def _tail_mean(self, start: Floats, end: Floats) -> Floats:
+        if self._line != 0:
+            # The mean of ln t from a to b is ln b - 1 + a ln(b/a)/(b - a).
+            part = (end - start) / end
+            offset = -1 - np.log1p(-part) * (1 - part) / part
+            return np.asarray(self._tail(end) + self._line * offset)
+        ratio = mean_power(self._fade, start / self.times[-1], end / self.times[-1])
+        return np.asarray(self.values[-1] * ratio)
+
+
+def narrow_mean(
+    function: Callable[[Floats], Floats], start: Floats, end: Floats, *, otherwise: Floats
+) -> Floats:
+    """Return the mean of a smooth function of ln t over narrow intervals of time, by quadrature.
+
+    Over others it is what the caller knows, by a primitive whose difference is then sound.
+    """
+    narrow = np.asarray(end <= start * np.exp(_NARROW))
+    if not narrow.any():
+        return otherwise
+    length, mean = end - start, np.zeros(narrow.shape)
+    for node, weight in zip(_NODES, _WEIGHTS, strict=True):
+        mean += weight * function(start + node * length)
+    return np.asarray(np.where(narrow, mean, otherwise))
+
+
+def mean_power(exponent: float, start: Floats, end: Floats) -> Floats:
+    """Return the mean of t^n over intervals of time, t^n where they have no length.
+
+    With n > -1 where they begin at 0, it is b^n times (1 - r^(n+1)) / ((n+1)(1 - r)) with r = a/b,
+    both differences of which lose nothing however close a and b are.
+    """
+    length = end - start
+    part = np.where(length > 0, length, 1.0) / np.where(length > 0, end, 1.0)
+    with np.errstate(divide="ignore"):  # from 0 on
+        log_ratio = np.log1p(-np.minimum(part, 1.0))  # ln(a/b)
+        powers = end**exponent
+    power = exponent + 1
+    grown = -log_ratio if power == 0 else -np.expm1(power * log_ratio) / power
+    return np.asarray(powers * np.where(length > 0, grown / part, 1.0))

@@ -1,0 +1,95 @@
+"""A numerical inverse that grows with what is asked of it, and remembers."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from viscontact.laws.curve import LogCurve
+from viscontact.laws.product_integration import Floats, Function, Load, Mean
+from viscontact.laws.volterra import Response, monotone, respond
+
+# Beyond so many decades after the first node the final value is taken for the function.
+_MOST_DECADES = 60
+
+
+class Inverse:
+    """The solution g of ∫ f(t - t') dg(t') = r(t), found as far as it is asked for.
+
+    Parameters
+    ----------
+    function, mean : callable
+        f(t) and its mean over intervals, as in `viscontact.laws.volterra.invert`.
+    first : float
+        First node [s].
+    trend : int
+        +1 if g grows, -1 if it falls.
+    kinks : sequence of float, optional
+        Times at which f or r has a kink [s].
+    load : Load, optional
+        r(t); 1 if left out.
+    """
+
+    def __init__(
+        self,
+        function: Function,
+        mean: Mean,
+        first: float,
+        trend: int,
+        *,
+        kinks: Sequence[float] = (),
+        load: Load | None = None,
+    ) -> None:
+        self._function, self._mean, self._load = function, mean, load
+        self._first, self._trend, self._kinks = first, trend, kinks
+        self._decades = 0
+        self._curve: LogCurve
+
+    def __call__(self, t: Floats) -> Floats:
+        """Return g at times >= 0 [s], inf included."""
+        last = self._first * 10.0**_MOST_DECADES
+        within = np.minimum(t, last)
+        values = self.curve(float(within.max(initial=0.0)))(within)
+        if not (t > last).any():
+            return values
+        return np.where(t > last, self._final(last), values)
+
+    def _final(self, last: float) -> float:
+        """Return what the end values say, or if both are infinite those of a very late time."""
+        for late in (np.full(1, np.inf), np.full(1, last)):
+            load = 1.0 if self._load is None else float(self._load.at(late)[0])
+            met = float(self._function(late)[0])
+            if math.isfinite(load) or math.isfinite(met):
+                break
+        return load / met if met > 0 else math.inf
+
+    def mean(self, start: Floats, end: Floats) -> Floats:
+        """Return the means of g over intervals of time [s]."""
+        return self.curve(float(end.max(initial=0.0))).mean(start, end)
+
+    def curve(self, end: float) -> LogCurve:
+        """Return g as a curve that reaches a time [s] at least."""
+        decades = 1
+        if end > self._first:
+            decades = math.ceil(math.log10(end / self._first)) + 1
+        if decades > self._decades:
+            self._curve = monotone(self._solved(min(decades, _MOST_DECADES + 1)).curve, self._trend)
+            self._decades = decades
+        return self._curve
+
+    def error(self, since: float, end: float) -> float:
+        """Return the estimated relative error of g between two times [s]."""
+        return self._solved(max(1.0, math.log10(end / self._first)), since).error
+
+    def _solved(self, decades: float, since: float = 0.0) -> Response:
+        return respond(
+            self._function,
+            self._mean,
+            self._first * 10.0**decades * (1 - 1e-9),
+            first=self._first,
+            since=since,
+            kinks=self._kinks,
+            load=self._load,
+        )

@@ -1,0 +1,235 @@
+"""Interconversion of any creep or relaxation function by numbers, over many decades of time.
+
+Creep and relaxation are inverse under the Boltzmann integral: the response g to f obeys
+
+    ∫ f(t - t') dg(t') = 1    for every t > 0,
+
+the jump g(0) = 1/f(0) included. It is marched in time (`product_integration`) on grids that are
+even in ln t, each of half the other's step, and extrapolated to a vanishing step.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from viscontact.laws.curve import LogCurve
+from viscontact.laws.product_integration import Floats, Function, Load, Mean, march
+
+#: Steps in a decade of time on the coarsest of three grids; the finest has four times as many.
+STEPS = 24
+# f may change by this part before the first node; the inverse is straight in t up to there.
+_FIRST_CHANGE = 1e-5
+# A power starts the march this far ahead of the first instant asked for: what its first steps
+# lack in shape has then decayed.
+_AHEAD = 1e-5
+_MOST_DECADES = 60
+
+
+class Response(NamedTuple):
+    """A solution as a function: `curve(t)`, `curve.mean(start, end)`.
+
+    Attributes
+    ----------
+    curve : LogCurve
+        The solution, from the nodes of the fine grid, extrapolated to a vanishing step.
+    error : float
+        Estimated relative error [-].
+    """
+
+    curve: LogCurve
+    error: float
+
+
+def invert(function: Function, mean: Mean, instants: ArrayLike) -> tuple[Floats, float]:
+    """Return the convolution inverse of a creep (or relaxation) function at given instants.
+
+    Parameters
+    ----------
+    function : callable
+        f(t) at times >= 0 in an array [s]: positive and monotone for t > 0. f(0) may be 0 or inf
+        if f begins like a power of time between t^-1 and t^1.
+    mean : callable
+        Mean of f over the times start..end, two arrays of equal shape [s].
+    instants : array_like
+        Times >= 0 [s], in any order and shape.
+
+    Returns
+    -------
+    values : ndarray
+        g(t) with ∫ f(t - t') dg(t') = 1, of the shape of `instants`.
+    error : float
+        Estimated relative error [-]: of a g that grows relative to g, of one that falls relative
+        to 1/f, the greatest it can be (g itself may have relaxed to nothing).
+
+    Raises
+    ------
+    ValueError
+        If f begins like a dashpot or vanishes: its inverse holds a Dirac impulse.
+
+    Notes
+    -----
+    The error is of second order in the step of ln t, which is extrapolated to 0 (Richardson)
+    from three grids; how far the last halving moves the limit is the estimate of its error.
+
+    Examples
+    --------
+    The inverse of 1 + t is exp(-t):
+
+    >>> import numpy as np
+    >>> values, error = invert(lambda t: 1 + t, lambda a, b: 1 + (a + b) / 2, [0.0, 1.0])
+    >>> values.round(4), error < 1e-3
+    (array([1.    , 0.3679]), True)
+    """
+    instants = np.asarray(instants, np.float64)
+    late = float(instants.max(initial=0.0))
+    if late == 0:
+        return 1.0 / function(instants), 0.0
+    early = float(instants[instants > 0].min())
+    found = respond(function, mean, late, first=_first_node(function, early, late), since=early)
+    early_value, late_value = function(np.array([early, late]))
+    return monotone(found.curve, 1 if late_value < early_value else -1)(instants), found.error
+
+
+def respond(
+    function: Function,
+    mean: Mean,
+    end: float,
+    *,
+    first: float,
+    since: float = 0.0,
+    kinks: Sequence[float] = (),
+    load: Load | None = None,
+    steps: int = STEPS,
+) -> Response:
+    """Solve ∫ f(t - t') dg(t') = r(t) for g up to a time.
+
+    Parameters
+    ----------
+    function, mean : callable
+        As in `invert`.
+    end : float
+        Time to reach [s].
+    first : float
+        First node of the grid [s]; before it g is straight in t, or a power if f is.
+    since : float, optional
+        The error is estimated from this time on [s].
+    kinks : sequence of float, optional
+        Times at which g may have a kink [s]: they are made nodes.
+    load : Load, optional
+        r(t), for a growing f with f(0) > 0; left out, it is 1 for t > 0.
+    steps : int, optional
+        Steps in a decade of time on the coarsest grid.
+
+    Returns
+    -------
+    Response
+        The solution. Its values before a time do not depend on `end`.
+    """
+    coarse = _nodes(first, end, kinks, steps)
+    middle = _halved(coarse)
+    fine = _halved(middle)
+    at_once, rough = march(function, mean, coarse, load)
+    _, better = march(function, mean, middle, load)
+    _, best = march(function, mean, fine, load)
+    better, best = better[: 2 * rough.size - 1], best[: 4 * rough.size - 3]
+    values = _extrapolated(better, best)
+    scale = np.abs(values[::4])
+    if load is None and values[-1] < values[0]:
+        scale = 1.0 / function(coarse[: rough.size])
+    doubt = np.abs(values[::4] - _extrapolated(rough, better)[::2]) / scale
+    error = float(np.max(doubt[coarse[: rough.size] >= since], initial=0.0))
+    return Response(_curve(fine[: values.size], at_once, values), error)
+
+
+def _extrapolated(rough: Floats, better: Floats) -> Floats:
+    """Return the limit of a vanishing step from two of which one is half the other (Richardson)."""
+    change = better[::2] - rough
+    # Where a rest has all but relaxed, the rough solution is no guide to the better one.
+    change[np.abs(change) > np.abs(better[::2]) / 2] = 0.0
+    at_nodes = np.arange(better.size)
+    # What the extrapolation adds is smooth: half-way between the nodes it is interpolated.
+    return np.asarray(better + np.interp(at_nodes, at_nodes[::2], change / 3))
+
+
+def monotone(curve: LogCurve, trend: int) -> LogCurve:
+    """Return a solution that should grow (trend 1) or fall (-1), free of swings about nothing.
+
+    Rounding swings about a plateau, and extrapolation about what has relaxed to nothing.
+    """
+    times, values, known = curve.times, curve.values, curve.at_once is not None
+    if curve.at_once is not None:
+        times, values = np.append(0.0, times), np.append(curve.at_once, values)
+    running = np.maximum if trend > 0 else np.minimum
+    steady = running.accumulate(np.maximum(values, np.finfo(np.float64).tiny))
+    return LogCurve(times, steady, before="value" if known else "power", beyond="power")
+
+
+def onset(function: Function, change: float = _FIRST_CHANGE) -> float:
+    """Return a time [s] by which a function has hardly changed from its value at 0, to a part."""
+    at_once = float(function(np.zeros(1))[0])
+
+    def changed(decade: float) -> bool:
+        return bool(abs(float(function(np.array([10.0**decade]))[0]) / at_once - 1) > change)
+
+    # Outward from 1 s: far times may be costly to know. 280 decades are what a double can hold.
+    low = next((d for d in np.arange(0.0, -280.0, -5.0) if not changed(d)), -280.0)
+    high = next((d for d in np.arange(low + 5.0, 280.0, 5.0) if changed(d)), None)
+    if high is None:
+        return 1.0  # it never changes: any time will do
+    low = high - 5.0
+    while high - low > 0.25:
+        middle = (low + high) / 2
+        low, high = (low, middle) if changed(middle) else (middle, high)
+    return float(10.0**low)
+
+
+def first_node(curve: LogCurve) -> float:
+    """Return where the grid for the inverse of a curve begins [s]."""
+    if curve.at_once is None:
+        # A constant up to the first point has a constant inverse up to there.
+        return float(curve.times[0]) * (1.0 if curve.exponent == 0 else _AHEAD)
+    return min(onset(curve), float(curve.times[0])) if curve.at_once > 0 else math.nan
+
+
+def _first_node(function: Function, early: float, late: float) -> float:
+    at_once = float(function(np.zeros(1))[0])
+    if not 0 < at_once < np.inf:
+        return early * _AHEAD
+    return max(min(onset(function), late), late * 10.0**-_MOST_DECADES)
+
+
+def _nodes(first: float, end: float, kinks: Sequence[float], steps: int) -> Floats:
+    """Return a grid even in ln t from the first node past the end, each kink a node."""
+    # The last nodes are lost to differentiation: the end keeps clear of them.
+    decades = max(1, math.floor(math.log10(end / first) + 1.5 / steps) + 1)
+    # Whole decades from the first node on: a later end adds nodes and moves none.
+    marks = first * 10.0 ** np.arange(decades + 1)
+    within = [kink for kink in kinks if first < kink < marks[-1]]
+    edges = np.unique(np.concatenate([marks, within]))
+    edges = edges[np.append(True, edges[1:] > edges[:-1] * (1 + 1e-6))]
+    parts = [np.array([first])]
+    for low, high in itertools.pairwise(edges):
+        ratio = high / low
+        count = max(1, math.ceil(steps * math.log10(ratio) - 1e-6))
+        parts.append(np.append(low * ratio ** (np.arange(1, count) / count), high))
+    return np.concatenate(parts)
+
+
+def _halved(nodes: Floats) -> Floats:
+    """Return the grid of half the step in ln t; every other node is an old one."""
+    fine = np.empty(2 * nodes.size - 1)
+    fine[::2] = nodes
+    fine[1::2] = np.sqrt(nodes[:-1]) * np.sqrt(nodes[1:])
+    return fine
+
+
+def _curve(nodes: Floats, at_once: float, values: Floats) -> LogCurve:
+    if at_once in (0.0, math.inf):
+        return LogCurve(nodes, values, before="power", beyond="power")
+    return LogCurve(np.append(0.0, nodes), np.append(at_once, values), beyond="power")
