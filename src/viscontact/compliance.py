@@ -24,6 +24,7 @@ from viscontact.laws.interconversion import (
     relaxation_function,
 )
 from viscontact.laws.law import over_intervals, over_times
+from viscontact.laws.volterra import invert
 
 
 class ContactCompliance(ABC):
@@ -336,7 +337,8 @@ class SummedCompliance(ContactCompliance):
         return np.asarray(sum(part(t) for part in self.parts))
 
     def _relaxation(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
-        raise ValueError("relaxation of a sum of unlike laws is not built yet")
+        values, _ = invert(self._creep, self._mean, t)
+        return values
 
     def _mean(self, start: NDArray[np.float64], end: NDArray[np.float64]) -> NDArray[np.float64]:
         return np.asarray(sum(part.mean(start, end) for part in self.parts))

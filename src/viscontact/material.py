@@ -11,8 +11,9 @@ from viscontact.compliance import (
     ContactCompliance,
     LawCompliance,
     SeriesCompliance,
+    SummedCompliance,
 )
-from viscontact.laws import Law, SeriesLaw
+from viscontact.laws import BesideSpring, Law, SeriesLaw
 from viscontact.laws.arguments import compressibility, positive, store
 from viscontact.laws.interconversion import relaxation_from_creep
 
@@ -105,7 +106,8 @@ class Material:
         if self.poisson_ratio is not None:
             return LawCompliance(self.law, 1.0 - self.poisson_ratio)
         assert self.bulk_modulus is not None  # exactly one is given
-        raise ValueError("bulk_modulus with a law that is no series is not built yet")
+        beside = BesideSpring(self.law, 3.0 * self.bulk_modulus)
+        return SummedCompliance((LawCompliance(self.law, 0.5), LawCompliance(beside, 1.5)))
 
     def _of_series(self, law: SeriesLaw) -> ContactCompliance:
         phi = law.creep_series()

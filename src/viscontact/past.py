@@ -12,7 +12,7 @@ from viscontact.contact import ContactSolution, solve_contact
 from viscontact.contact_problem import ContactProblem, Guess
 from viscontact.half_space import HalfSpace
 from viscontact.load import LoadPoint
-from viscontact.memory import Response
+from viscontact.memory import Memory, RecursiveMemory, Response
 from viscontact.observation import Instant
 from viscontact.prediction import POINTS, Twin, predict
 from viscontact.run import Run
@@ -75,7 +75,7 @@ class Past:
         self._run, self._half_space = run, half_space
         self._shape = half_space.fold(run.open_gap)
         self._memory = run.memory.memory((2, *half_space.shape))  # of pressure and of deflection
-        self._force_memory = run.memory.memory((1,))
+        self._force_memory = RecursiveMemory(run.memory.sketch, (1,))
         self._errors = TimeErrors(run.memory)
         self._scale = 1e-12 * max(run.grid.cell_size)
         self._twins: list[Twin] = []
@@ -86,8 +86,7 @@ class Past:
         point = self._run.load.at(step.time, side=step.side)
         force = point.force or 0.0
         response, force_response = (
-            each.jump() if step.is_jump else each.ramp(step.duration)
-            for each in (self._memory, self._force_memory)
+            _response(each, step) for each in (self._memory, self._force_memory)
         )
         twin_force = float(force_response.of(np.array([force]))[0])
         drive = twin_force if point.approach is None else point.approach
@@ -152,6 +151,10 @@ class Past:
         motion = tilts + np.array([float(distance.min()), 0.0, 0.0])
         apart = _without_pressure(problem, self._half_space, motion)
         return _at_lowest_point(self._run, apart) if untouched else apart
+
+
+def _response(memory: Memory, step: Step) -> Response:
+    return memory.jump() if step.is_jump else memory.ramp(step.duration)
 
 
 def _guess(twin: Twin | None, response: Response) -> Guess | None:

@@ -8,12 +8,10 @@ can have come to, not of what they cancel to.
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.memory import MemoryPlan, Response
+from viscontact.memory import MemoryPlan, RecursiveMemory, Response
 from viscontact.schedule import Step
 
 #: The bulge of a first step after a kink is guessed from the curvature in its successor, which is
@@ -37,8 +35,8 @@ class TimeErrors:
     """
 
     def __init__(self, plan: MemoryPlan) -> None:
-        self._compliance = plan.compliance
-        self._memory = replace(plan, instants=np.zeros(0)).memory((1,))
+        self._compliance = plan.sketch
+        self._memory = RecursiveMemory(plan.sketch, (1,))
         self._memory.jump()
         self._memory.accept(np.zeros(1))
         self._past: list[tuple[float, NDArray[np.float64]]] = []

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -34,12 +35,16 @@ class MemoryPlan:
         In words.
     error : float
         Largest relative deviation of the J that is used from the material's [-].
+    sketch : SeriesCompliance
+        J(t) as exponentials, whatever the method: for estimates and predictions, which it makes
+        cheap.
     """
 
     compliance: ContactCompliance
     instants: NDArray[np.float64]
     method: str
     error: float
+    sketch: SeriesCompliance
 
     @property
     def fields_kept(self) -> int:
@@ -82,17 +87,20 @@ def plan_memory(
     0.0
     """
     if isinstance(compliance, SeriesCompliance):
-        return MemoryPlan(compliance, instants, "recursion, exact for a series law", 0.0)
+        exact = "recursion, exact for a series law"
+        return MemoryPlan(compliance, instants, exact, 0.0, compliance)
+    durations = np.diff(instants)
+    first = float(durations.min(initial=np.inf, where=durations > 0))
+    if math.isinf(first):
+        first = 1.0  # a jump alone, for which no time counts
+    last = max(float(instants[-1]), 10 * first)
+    series, error = as_exponentials(compliance, first, last)
     steps = len(instants)
     if steps <= MOST_STEPS and 8.0 * steps * numbers <= ROOM:
-        return MemoryPlan(
-            compliance, instants, "sum over all earlier steps, with the law as it stands", 0.0
-        )
-    durations = np.diff(instants)
-    first, last = float(durations[durations > 0].min()), float(instants[-1])
-    series, error = as_exponentials(compliance, first, max(last, 10 * first))
+        method = "sum over all earlier steps, with the law as it stands"
+        return MemoryPlan(compliance, instants, method, 0.0, series)
     method = (
         f"sum of {len(series.times)} exponentials, within {error:.1e} of the law's creep "
         f"compliance from {first:.3g} s to {last:.3g} s"
     )
-    return MemoryPlan(series, instants, method, error)
+    return MemoryPlan(series, instants, method, error, series)
