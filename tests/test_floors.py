@@ -36,7 +36,7 @@ FLOORS = (
         "marching",
     ),
     ("description", "dataset", "results"),  # 5 labels and files
-    ("examples", "units", "materials", "forecast", "case", "plot"),  # 6 people
+    ("examples", "units", "materials", "identification", "forecast", "case", "plot"),  # 6 people
     ("cli", "__main__"),  # 7 shell
 )
 # Neighbours on a floor of which the first needs the second; the second stands to the left above.
@@ -65,6 +65,7 @@ NEIGHBOURS = {
     ("case", "materials"),  # which may be given by name
     ("materials", "units"),
     ("plot", "units"),
+    ("plot", "identification"),  # data, what was fitted, and what is left
     ("plot", "materials"),  # curves are drawn over the points they rest on
     ("__main__", "cli"),  # python -m viscontact
 }

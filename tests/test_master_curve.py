@@ -176,9 +176,9 @@ def isotherm(temperature, values=FALLING, name="modulus", points=(1.0, 2.0, 3.0)
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: isotherm(-20.0), r"temperature, row 1: .*above 0 K, got -20\.0"),
-        (lambda: isotherm(300.0, [3.0, -2.0, 1.0]), r"at 300 K: modulus, row 2: .*got -2\.0"),
-        (lambda: isotherm(300.0, points=(1.0, 0.0, 2.0)), "at 300 K: times, row 2"),
+        (lambda: isotherm(-20.0), r"temperature, row 0: .*above 0 K, got -20\.0"),
+        (lambda: isotherm(300.0, [3.0, -2.0, 1.0]), r"at 300 K: modulus, row 1: .*got -2\.0"),
+        (lambda: isotherm(300.0, points=(1.0, 0.0, 2.0)), "at 300 K: times, row 1"),
         (lambda: isotherm(300.0, points=(1.0, 1.0, 2.0)), "two rows have the same time"),
         (lambda: isotherm(300.0, [3.0, 2.0]), "got 3 points, 2 modulus"),
         (lambda: isotherm(300.0, name="storage"), "both storage and loss, got storage"),

@@ -42,6 +42,16 @@ __getattr__, __dir__, __all__ = _lazy.attach(
         ],
         "material": ["Material"],
         "case": ["shipped_material"],
+        "identification": [
+            "IndentationRecord",
+            "Isotherm",
+            "build_master_curve",
+            "fit_creep",
+            "fit_dynamic",
+            "fit_indentation",
+            "fit_master_curve",
+            "fit_relaxation",
+        ],
         "load": [
             "ApproachHistory",
             "ForceHistory",

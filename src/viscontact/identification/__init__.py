@@ -1,6 +1,8 @@
 """Laws found in measurements: from creep, relaxation and oscillation, at several temperatures."""
 
 from viscontact.identification.fit import Fit
+from viscontact.identification.indentation import fit_indentation
+from viscontact.identification.indentation_fit import IndentationFit
 from viscontact.identification.master_curve import (
     Isotherm,
     MasterCurve,
@@ -8,10 +10,13 @@ from viscontact.identification.master_curve import (
     fit_master_curve,
 )
 from viscontact.identification.prony import fit_creep, fit_dynamic, fit_relaxation
+from viscontact.identification.record import IndentationRecord
 from viscontact.identification.shift_fit import ShiftFit, fit_arrhenius, fit_wlf
 
 __all__ = [
     "Fit",
+    "IndentationFit",
+    "IndentationRecord",
     "Isotherm",
     "MasterCurve",
     "ShiftFit",
@@ -19,6 +24,7 @@ __all__ = [
     "fit_arrhenius",
     "fit_creep",
     "fit_dynamic",
+    "fit_indentation",
     "fit_master_curve",
     "fit_relaxation",
     "fit_wlf",

@@ -14,7 +14,8 @@ def positive_column(
     Parameters
     ----------
     owner, name : str
-        Who asks, and what the column is called, for the message.
+        Who asks, and what the column is called, for the message. Rows are counted from 0, as
+        Python does.
     values : array_like, shape (n,)
         The column.
     unit : str
@@ -37,7 +38,7 @@ def positive_column(
     >>> positive_column("fit_creep", "times", [1.0, -2.0], "s")
     Traceback (most recent call last):
     ...
-    ValueError: fit_creep: times, row 2: must be a finite number above 0 s, got -2.0
+    ValueError: fit_creep: times, row 1: must be a finite number above 0 s, got -2.0
     """
     try:
         column = np.array(values, dtype=np.float64)
@@ -52,7 +53,7 @@ def positive_column(
         row = int(np.argmax(wrong))
         least = f"of at least 0 {unit}" if zero else f"above 0 {unit}"
         raise ValueError(
-            f"{owner}: {name}, row {row + 1}: must be a finite number {least}, "
+            f"{owner}: {name}, row {row}: must be a finite number {least}, "
             f"got {float(column[row])!r}"
         )
     return column

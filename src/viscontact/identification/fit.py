@@ -98,7 +98,7 @@ class Fit:
             f"Fit: {type(self.law).__name__} of {count} to {points.size} rows of {self.data} data "
             f"at {points[0]:.4g} to {points[-1]:.4g} {unit}\n"
             f"     relative residual {self.residual:.2e} (root mean square), "
-            f"largest {largest:.2e} ({column}, row {row + 1})\n"
+            f"largest {largest:.2e} ({column}, row {row})\n"
             f"     {_in_short(self.law)}"
         )
 

@@ -16,11 +16,18 @@ from viscontact.identification.responses import (
     RelaxationResponse,
     Response,
 )
-from viscontact.identification.spectrum import Spectrum, parsimonious_spectrum, spectrum_of
+from viscontact.identification.spectrum import (
+    Observed,
+    Spectrum,
+    dense_spectrum,
+    parsimonious_spectrum,
+    spectrum_of,
+)
 from viscontact.laws import CreepSeries, RelaxationSeries
 
 _LEAST_ROWS = 3
 _EXCESS, _TOLERANCE = 1.05, 1e-3
+_WEIGHINGS, _LARGEST_RATIO = 3, 30.0
 _Series = TypeVar("_Series", CreepSeries, RelaxationSeries)
 _CREEP: dict[str, Callable[..., CreepSeries]] = {
     "deviatoric": CreepSeries,
@@ -101,7 +108,7 @@ def fit_creep(
     require_trend(owner, "compliance", instants, values, rises=True)
     _require_span(owner, "times", instants)
     make = _chosen(owner, _CREEP, data)
-    found = _found(owner, CreepResponse(instants, fluid), values, terms, excess, tolerance)
+    found = _found(owner, _alike(CreepResponse(instants, fluid), values), terms, excess, tolerance)
     flow = float(found.constants[1]) if fluid else 0.0
     series = CreepSeries(
         float(found.constants[0]), found.strengths.tolist(), found.times.tolist(), flow
@@ -175,7 +182,9 @@ def fit_relaxation(
     require_trend(owner, "modulus", instants, values, rises=False)
     _require_span(owner, "times", instants)
     make = _chosen(owner, _MODULI, data)
-    found = _found(owner, RelaxationResponse(instants, fluid), values, terms, excess, tolerance)
+    found = _found(
+        owner, _alike(RelaxationResponse(instants, fluid), values), terms, excess, tolerance
+    )
     series = _relaxation_series(found)
     law = make(
         series.equilibrium,
@@ -223,7 +232,9 @@ def fit_dynamic(
     Notes
     -----
     G' = G_inf + sum G_i a²/(1 + a²) and G'' = sum G_i a/(1 + a²) with a = ωτ_i, both at once;
-    each value counts by its relative residual, so that small losses count as much as large ones.
+    relative residuals count. Losses scatter more than storage, and superpose less well from
+    several temperatures: each of the two columns counts by the inverse of its own scatter, which
+    the dense fit shows.
 
     Examples
     --------
@@ -244,9 +255,9 @@ def fit_dynamic(
     require_trend(owner, "storage", frequencies, in_phase, rises=True)
     _require_span(owner, "angular_frequency", frequencies)
     make = _chosen(owner, _MODULI, data)
-    response = DynamicResponse(frequencies, fluid)
     values = np.concatenate([in_phase, out_of_phase])
-    series = _relaxation_series(_found(owner, response, values, terms, excess, tolerance))
+    observed = _by_scatter(_alike(DynamicResponse(frequencies, fluid), values), tolerance)
+    series = _relaxation_series(_found(owner, observed, terms, excess, tolerance))
     law = make(
         series.equilibrium,
         series.moduli,
@@ -258,8 +269,7 @@ def fit_dynamic(
 
 def _found(
     owner: str,
-    response: Response,
-    values: NDArray[np.float64],
+    observed: Observed,
     terms: int | None,
     excess: float,
     tolerance: float,
@@ -270,13 +280,38 @@ def _found(
             f"got excess={excess!r} and tolerance={tolerance!r}"
         )
     if terms is None:
-        return parsimonious_spectrum(response, values, excess=excess, tolerance=tolerance)
-    if isinstance(terms, bool) or terms != int(terms) or not 0 <= terms <= values.size // 2:
+        return parsimonious_spectrum(observed, excess=excess, tolerance=tolerance)
+    most = observed.values.size // 2
+    if isinstance(terms, bool) or terms != int(terms) or not 0 <= terms <= most:
         raise ValueError(
-            f"{owner}: terms must be a whole number from 0 to {values.size // 2}, half the number "
-            f"of values, got {terms!r}"
+            f"{owner}: terms must be a whole number from 0 to {most}, half the number of values, "
+            f"got {terms!r}"
         )
-    return spectrum_of(response, values, int(terms))
+    return spectrum_of(observed, int(terms))
+
+
+def _alike(response: Response, values: NDArray[np.float64]) -> Observed:
+    """Let each row count by its relative residual."""
+    return Observed(response, values, np.ones_like(values))
+
+
+def _by_scatter(observed: Observed, tolerance: float) -> Observed:
+    """Let each half of the rows, storage and loss, count by the inverse of its scatter.
+
+    Feasible weighted least squares: the scatter is estimated from a fit in which it has been
+    taken into account already, three times over.
+    """
+    for _ in range(_WEIGHINGS):
+        dense = dense_spectrum(observed)
+        strengths = np.concatenate([dense.constants, dense.strengths])
+        relative = observed.columns(dense.times) @ strengths / observed.weights - 1.0
+        scatter = np.sqrt(np.mean(relative.reshape(2, -1) ** 2, axis=1))
+        # What is good enough is not told apart, nor is a column ever silenced.
+        scatter = np.maximum(scatter, max(tolerance, scatter.max() / _LARGEST_RATIO, 1e-12))
+        weights = np.repeat(1 / scatter, relative.size // 2)
+        weights /= np.sqrt(np.mean(weights**2))
+        observed = Observed(observed.response, observed.values, weights)
+    return observed
 
 
 def _relaxation_series(found: Spectrum) -> RelaxationSeries:

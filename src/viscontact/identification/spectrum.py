@@ -36,6 +36,35 @@ _FEW = 8  # terms up to which a second start is worth its time
 
 
 @dataclass(frozen=True, eq=False)
+class Observed:
+    """Measured values, and how much each of them counts.
+
+    Parameters
+    ----------
+    response : Response
+        The kind of test, and where it was measured.
+    values : ndarray, shape (rows,)
+        Positive values; residuals are relative to them.
+    weights : ndarray, shape (rows,)
+        What the relative residuals are multiplied with [-].
+    """
+
+    response: Response
+    values: Array
+    weights: Array
+
+    def relative(self, rows: Array) -> Array:
+        """Return columns of rows as shares of the measured values, weighted."""
+        return rows * (self.weights / self.values)[:, None]
+
+    def columns(self, times: Array) -> Array:
+        """Return the columns of the linear fit: what has no time, then the terms."""
+        return self.relative(
+            np.concatenate([self.response.constants, self.response.terms(times)], axis=1)
+        )
+
+
+@dataclass(frozen=True, eq=False)
 class Spectrum:
     """Strengths and times of a sum of exponential terms, and how well it fits.
 
@@ -46,7 +75,7 @@ class Spectrum:
     strengths, times : ndarray, shape (n,)
         Strengths > 0 and times ascending [s].
     residual : float
-        Root mean square of the relative residuals [-].
+        Root mean square of the weighted relative residuals [-].
     """
 
     constants: Array
@@ -55,17 +84,13 @@ class Spectrum:
     residual: float
 
 
-def parsimonious_spectrum(
-    response: Response, measured: Array, *, excess: float, tolerance: float
-) -> Spectrum:
+def parsimonious_spectrum(observed: Observed, *, excess: float, tolerance: float) -> Spectrum:
     """Return the spectrum of fewest terms that fits about as well as any can.
 
     Parameters
     ----------
-    response : Response
-        The kind of test, and where it was measured.
-    measured : ndarray, shape (rows,)
-        Positive values; residuals are relative to them.
+    observed : Observed
+        The measured values, the kind of test, and how much each row counts.
     excess : float
         How many times the residual of the dense fit is accepted, above 1.
     tolerance : float
@@ -76,7 +101,7 @@ def parsimonious_spectrum(
     Spectrum
         The one with fewest terms whose residual is at most the larger of the two.
     """
-    dense = dense_spectrum(response, measured)
+    dense = dense_spectrum(observed)
     enough = max(excess * dense.residual, tolerance)
     # More terms never fit worse, so the fewest are found by halving. As many as the dense fit
     # has are enough: they start from its times.
@@ -84,20 +109,20 @@ def parsimonious_spectrum(
     best = dense
     while many - too_few > 1:
         middle = (too_few + many) // 2
-        tried = _near(response, measured, middle, dense)
+        tried = _near(observed, middle, dense)
         if tried.residual <= enough:
             many, best = middle, tried
         else:
             too_few = middle
-    return _descended(response, measured, np.log(best.times), _FINE)
+    return _descended(observed, np.log(best.times), _FINE)
 
 
-def dense_spectrum(response: Response, measured: Array) -> Spectrum:
+def dense_spectrum(observed: Observed) -> Spectrum:
     """Return the best fit by a dense row of fixed times.
 
     Parameters
     ----------
-    response, measured
+    observed
         As in `parsimonious_spectrum`.
 
     Returns
@@ -105,17 +130,17 @@ def dense_spectrum(response: Response, measured: Array) -> Spectrum:
     Spectrum
         Only what has a strength.
     """
-    first, last = response.reach
+    first, last = observed.response.reach
     count = 1 + round(_CANDIDATES_PER_DECADE * np.log10(last / first))
-    return _strengths(response, measured, np.geomspace(first, last, max(count, 3)))[0]
+    return _strengths(observed, np.geomspace(first, last, max(count, 3)))[0]
 
 
-def spectrum_of(response: Response, measured: Array, count: int) -> Spectrum:
+def spectrum_of(observed: Observed, count: int) -> Spectrum:
     """Return the best fit found with so many terms.
 
     Parameters
     ----------
-    response, measured
+    observed
         As in `parsimonious_spectrum`.
     count : int
         How many terms, at most: one that gets no strength is left out.
@@ -126,76 +151,71 @@ def spectrum_of(response: Response, measured: Array, count: int) -> Spectrum:
         Where the merged neighbours of the dense fit descend to; for few terms the better of
         this and a descent from times spread evenly over the span of the data.
     """
-    near = _near(response, measured, count, dense_spectrum(response, measured))
-    return _descended(response, measured, np.log(near.times), _FINE)
+    near = _near(observed, count, dense_spectrum(observed))
+    return _descended(observed, np.log(near.times), _FINE)
 
 
-def _near(response: Response, measured: Array, count: int, dense: Spectrum) -> Spectrum:
-    lowest, highest = np.log(response.reach)
+def _near(observed: Observed, count: int, dense: Spectrum) -> Spectrum:
+    lowest, highest = np.log(observed.response.reach)
     starts = []
     if count <= dense.times.size:
-        starts.append(_merged_neighbours(response, measured, dense, count))
+        starts.append(_merged_neighbours(observed, dense, count))
     if not starts or count <= _FEW:  # few terms can be caught in a wrong order of the clusters
         starts.append(lowest + (highest - lowest) * (np.arange(count) + 0.5) / max(count, 1))
-    found = [_descended(response, measured, start, _COARSE) for start in starts]
+    found = [_descended(observed, start, _COARSE) for start in starts]
     return min(found, key=lambda spectrum: spectrum.residual)
 
 
-def _descended(response: Response, measured: Array, start: Array, gain: float) -> Spectrum:
+def _descended(observed: Observed, start: Array, gain: float) -> Spectrum:
     if start.size == 0:
-        return _strengths(response, measured, np.exp(start))[0]
-    lowest, highest = np.log(response.reach)
+        return _strengths(observed, np.exp(start))[0]
+    lowest, highest = np.log(observed.response.reach)
     ended = least_squares(
-        lambda log_times: _strengths(response, measured, np.exp(log_times))[1],
+        lambda log_times: _strengths(observed, np.exp(log_times))[1],
         start,
-        jac=lambda log_times: _jacobian(response, measured, log_times),
+        jac=lambda log_times: _jacobian(observed, log_times),
         bounds=(lowest - 1e-9, highest + 1e-9),
         ftol=gain,
         xtol=1e-12,
         gtol=1e-14,
         max_nfev=100,
     )
-    return _strengths(response, measured, np.sort(np.exp(ended.x)))[0]
+    return _strengths(observed, np.sort(np.exp(ended.x)))[0]
 
 
-def _strengths(response: Response, measured: Array, times: Array) -> tuple[Spectrum, Array]:
+def _strengths(observed: Observed, times: Array) -> tuple[Spectrum, Array]:
     """Return the non-negative strengths that fit best at given times, and the residuals."""
-    constants = response.constants
-    columns = np.concatenate([constants, response.terms(times)], axis=1) / measured[:, None]
-    if columns.shape[1] == 0:
-        strengths = np.zeros(0)
-    else:
-        lengths = np.maximum(np.linalg.norm(columns, axis=0), np.finfo(np.float64).tiny)
-        solved, _ = nnls(columns / lengths, np.ones(measured.size), maxiter=30 * lengths.size)
-        strengths = solved / lengths
-    residuals = columns @ strengths - 1.0
-    fixed, free = np.split(strengths, [constants.shape[1]])
+    columns = observed.columns(times)
+    lengths = np.maximum(np.linalg.norm(columns, axis=0), np.finfo(np.float64).tiny)
+    # NNLS refuses a matrix without columns, which is a fluid without terms.
+    solved = nnls(columns / lengths, observed.weights)[0] if lengths.size else lengths
+    strengths = solved / lengths
+    residuals = columns @ strengths - observed.weights
+    fixed, free = np.split(strengths, [columns.shape[1] - times.size])
     rms = float(np.sqrt(np.mean(residuals**2)))
     return Spectrum(fixed, free[free > 0], times[free > 0], rms), residuals
 
 
-def _jacobian(response: Response, measured: Array, log_times: Array) -> Array:
+def _jacobian(observed: Observed, log_times: Array) -> Array:
     """Return Kaufman's Jacobian: what moving a time does that no change of strengths can undo."""
     times = np.exp(log_times)
-    constants = response.constants
-    columns = np.concatenate([constants, response.terms(times)], axis=1) / measured[:, None]
-    spectrum, _ = _strengths(response, measured, times)
-    strengths = np.zeros(times.size)
+    spectrum, _ = _strengths(observed, times)
     present = np.isin(times, spectrum.times)
+    strengths = np.zeros(times.size)
     strengths[present] = spectrum.strengths
-    kept = columns[:, np.concatenate([spectrum.constants > 0, present])]
-    slopes = response.slopes(times) * strengths / measured[:, None]
+    kept = observed.columns(times)[:, np.concatenate([spectrum.constants > 0, present])]
+    slopes = observed.relative(observed.response.slopes(times) * strengths)
     across, _ = np.linalg.qr(kept)
     return np.asarray(slopes - across @ (across.T @ slopes))
 
 
-def _merged_neighbours(response: Response, measured: Array, dense: Spectrum, count: int) -> Array:
+def _merged_neighbours(observed: Observed, dense: Spectrum, count: int) -> Array:
     """Return ln τ of the dense fit's terms, neighbours merged until so many are left.
 
     Merged first are those whose merging displaces least, after Ward: w1 w2/(w1 + w2) times the
     squared distance, where a weight is what the term contributes to the fit.
     """
-    shown = response.terms(dense.times) * dense.strengths / measured[:, None]
+    shown = observed.relative(observed.response.terms(dense.times) * dense.strengths)
     weights, places = list(np.linalg.norm(shown, axis=0)), list(np.log(dense.times))
     while len(places) > count:
         costs = [

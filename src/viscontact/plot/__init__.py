@@ -18,6 +18,7 @@ except ModuleNotFoundError as error:
 from viscontact.plot.contact_outline import contact_outline
 from viscontact.plot.creep import creep, creep_curve
 from viscontact.plot.history import compare_histories, history
+from viscontact.plot.identified import fitted_indentation, fitted_series, master_curve
 from viscontact.plot.material_curves import material_curves
 from viscontact.plot.pressure_map import pressure_map
 from viscontact.plot.pressure_profile import compare_pressure_profiles, pressure_profile
@@ -48,7 +49,10 @@ __all__ = [
     "contact_outline",
     "creep",
     "creep_curve",
+    "fitted_indentation",
+    "fitted_series",
     "history",
+    "master_curve",
     "material_curves",
     "pressure_map",
     "pressure_profile",

@@ -1,0 +1,160 @@
+"""Laws that an indentation record may be fitted with: their parameters, and where to begin."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact import laws
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A law with unknown parameters, all positive.
+
+    Parameters
+    ----------
+    names : tuple of str
+        Names of the parameters: those of the law's constructor.
+    units : tuple of str
+        Their units.
+    build : callable
+        Takes the parameters in this order, returns the law.
+    starts : tuple of tuple of float
+        Where to begin, one or more sets of values.
+    """
+
+    names: tuple[str, ...]
+    units: tuple[str, ...]
+    build: Callable[..., laws.Law]
+    starts: tuple[tuple[float, ...], ...]
+
+    @property
+    def bounded(self) -> Array:
+        """Which parameters are exponents, between 0 and 1."""
+        return np.array([name == "exponent" for name in self.names])
+
+    def free(self, values: Array) -> Array:
+        """Return the parameters on a scale without limits: ln p, or ln(p/(1 - p)) of exponents."""
+        below_one = np.where(self.bounded, 1.0 - values, 1.0)
+        return np.asarray(np.log(values) - np.log(below_one))
+
+    def values(self, free: Array) -> Array:
+        """Return the parameters from that scale."""
+        with np.errstate(over="ignore"):
+            grown = np.exp(free)
+            return np.where(self.bounded, 1.0 / (1.0 + np.exp(-free)), grown)
+
+
+def candidate(name: str, terms: int, modulus: float, duration: float) -> Candidate:
+    """Return a candidate law by its name.
+
+    Parameters
+    ----------
+    name : str
+        A key of `CANDIDATES`.
+    terms : int
+        How many exponentials a creep series has.
+    modulus : float
+        Shear modulus that an elastic body would need [Pa].
+    duration : float
+        How long the record lasts [s].
+
+    Returns
+    -------
+    Candidate
+        The law's parameters, and starting values made of modulus and duration.
+
+    Raises
+    ------
+    ValueError
+        If there is no such law.
+    """
+    if name not in CANDIDATES:
+        raise ValueError(
+            f"fit_indentation: law must be one of {', '.join(CANDIDATES)}, got {name!r}"
+        )
+    return CANDIDATES[name](terms, modulus, duration)
+
+
+def _elastic(terms: int, modulus: float, duration: float) -> Candidate:
+    return Candidate(("shear_modulus",), ("Pa",), laws.Elastic, ((modulus,),))
+
+
+def _maxwell(terms: int, modulus: float, duration: float) -> Candidate:
+    starts = tuple((1.5 * modulus, modulus * duration * share) for share in (0.3, 3.0))
+    return Candidate(("shear_modulus", "viscosity"), ("Pa", "Pa s"), laws.Maxwell, starts)
+
+
+def _zener(terms: int, modulus: float, duration: float) -> Candidate:
+    names = ("shear_modulus", "delayed_modulus", "viscosity")
+    starts = tuple(
+        (stiffer * modulus, 2 * modulus, 2 * modulus * duration * share)
+        for stiffer, share in itertools.product((1.5, 5.0), (0.03, 0.2, 1.5))
+    )
+    return Candidate(names, ("Pa", "Pa", "Pa s"), laws.Zener, starts)
+
+
+def _burgers(terms: int, modulus: float, duration: float) -> Candidate:
+    names = ("shear_modulus", "viscosity", "delayed_modulus", "delayed_viscosity")
+    starts = tuple(
+        (2 * modulus, 3 * modulus * duration, 2 * modulus, 2 * modulus * duration * share)
+        for share in (0.01, 0.1, 0.5)
+    )
+    return Candidate(names, ("Pa", "Pa s", "Pa", "Pa s"), laws.Burgers, starts)
+
+
+def _creep_series(terms: int, modulus: float, duration: float) -> Candidate:
+    names = (
+        "instant",
+        *(f"amplitudes[{i}]" for i in range(terms)),
+        *(f"times[{i}]" for i in range(terms)),
+    )
+    phi = 0.5 / modulus
+    shares = np.geomspace(0.01, 1.0, 2 * terms + 1)[1::2]
+    start = (0.6 * phi, *(terms * [phi / terms]), *(duration * shares).tolist())
+
+    def build(*values: float) -> laws.CreepSeries:
+        return laws.CreepSeries(values[0], values[1 : terms + 1], values[terms + 1 :])
+
+    units = ("1/Pa", *(terms * ["1/Pa"]), *(terms * ["s"]))
+    return Candidate(names, units, build, (start,))
+
+
+def _power_law(terms: int, modulus: float, duration: float) -> Candidate:
+    # The compliance at the end of the record: nearest to what was measured.
+    def build(compliance: float, exponent: float) -> laws.PowerLaw:
+        return laws.PowerLaw(compliance, exponent, duration)
+
+    starts = tuple((0.5 / modulus, exponent) for exponent in (0.05, 0.2, 0.5))
+    return Candidate(("compliance", "exponent"), ("1/Pa", ""), build, starts)
+
+
+def _power_law_with_instant(terms: int, modulus: float, duration: float) -> Candidate:
+    def build(compliance: float, exponent: float, instant: float) -> laws.PowerLaw:
+        return laws.PowerLaw(compliance, exponent, duration, instant)
+
+    starts = tuple(
+        (0.5 * (1 - share) / modulus, exponent, 0.5 * share / modulus)
+        for share, exponent in itertools.product((0.2, 0.7), (0.2, 0.5))
+    )
+    names, units = ("compliance", "exponent", "instant"), ("1/Pa", "", "1/Pa")
+    return Candidate(names, units, build, starts)
+
+
+#: Names as in case files.
+CANDIDATES: dict[str, Callable[[int, float, float], Candidate]] = {
+    "elastic": _elastic,
+    "maxwell": _maxwell,
+    "zener": _zener,
+    "burgers": _burgers,
+    "creep-series": _creep_series,
+    "power-law": _power_law,
+    "power-law-with-instant": _power_law_with_instant,
+}

@@ -1,0 +1,115 @@
+"""A law found in an indentation record, and how sure it is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.identification.record import IndentationRecord
+from viscontact.laws import Law
+from viscontact.material import Material
+
+Array = NDArray[np.float64]
+
+_TOUCH = 0.05  # of the largest force: less may be scatter without contact
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class IndentationFit:
+    """A law fitted to an indentation record.
+
+    Made by `fit_indentation`.
+
+    Attributes
+    ----------
+    material : Material
+        The material, ready for `simulate`.
+    parameters : dict of str to float
+        The fitted parameters by the names of the law's constructor, in SI units.
+    intervals : dict of str to (float, float)
+        Confidence interval of each.
+    confidence : float
+        Its level, such as 0.95.
+    correlation : ndarray, shape (p, p)
+        Correlation of the parameters' logarithms, in their order: near 1 or -1, the record
+        knows a combination of two better than each [-].
+    record : IndentationRecord
+        What was measured.
+    given : str
+        What the solution was given, ``"approach"`` or ``"force"``; the other is fitted.
+    fitted : ndarray, shape (n,)
+        The other one as the law gives it [N or m].
+    units : tuple of str
+        Units of the parameters, in their order.
+    """
+
+    material: Material
+    parameters: dict[str, float]
+    intervals: dict[str, tuple[float, float]]
+    confidence: float
+    correlation: Array
+    record: IndentationRecord
+    given: str
+    fitted: Array
+    units: tuple[str, ...]
+
+    @property
+    def law(self) -> Law:
+        """The law in shear."""
+        return self.material.law
+
+    @property
+    def measured(self) -> Array:
+        """What `fitted` stands beside [N or m]."""
+        return compared(self.record, self.given)[0]
+
+    @property
+    def residuals(self) -> Array:
+        """Fitted less measured over the largest measured value; NaN in rows left out [-]."""
+        measured, counted = compared(self.record, self.given)
+        difference = (self.fitted - measured) / np.abs(measured).max()
+        return np.where(counted, difference, np.nan)
+
+    @property
+    def residual(self) -> float:
+        """Root mean square of the residuals [-]."""
+        return float(np.sqrt(np.nanmean(self.residuals**2)))
+
+    def __repr__(self) -> str:
+        lines = [
+            f"IndentationFit: {type(self.law).__name__} to {self.measured.size} rows over "
+            f"{np.ptp(self.record.times):.4g} s, residual {self.residual:.2e} of the largest "
+            f"{'force' if self.given == 'approach' else 'approach'}"
+        ]
+        for (name, value), unit in zip(self.parameters.items(), self.units, strict=True):
+            low, high = self.intervals[name]
+            lines.append(
+                f"     {name} = {value:.4g} {unit or '(-)'} "
+                f"({self.confidence:.0%}: {low:.4g} to {high:.4g})"
+            )
+        return "\n".join(lines)
+
+
+def compared(record: IndentationRecord, given: str) -> tuple[Array, NDArray[np.bool_]]:
+    """Return what is fitted, and in which rows.
+
+    Parameters
+    ----------
+    record : IndentationRecord
+        What was measured.
+    given : str
+        ``"approach"`` or ``"force"``.
+
+    Returns
+    -------
+    measured : ndarray, shape (n,)
+        Force [N], or approach [m].
+    counted : ndarray of bool, shape (n,)
+        Where it counts.
+    """
+    if given == "approach":
+        return record.force, np.ones(record.force.size, dtype=bool)
+    # Without force an approach says where the stage is, not where the body is.
+    return record.approach, record.force > _TOUCH * record.force.max()

@@ -1,0 +1,124 @@
+"""An indentation record: what an instrument wrote down while it pressed."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.indenters import Cone, FlatPunch, Indenter, Sphere
+from viscontact.reference import ConeProfile, PunchProfile, SphereProfile
+
+Array = NDArray[np.float64]
+
+_LEAST_ROWS = 5
+
+
+@dataclass(frozen=True, eq=False)
+class IndentationRecord:
+    """Approach and force of a rigid indenter over time, from before the first contact on.
+
+    Parameters
+    ----------
+    indenter : Sphere, Cone or FlatPunch
+        The indenter; a punch must be round.
+    times : array_like, shape (n,)
+        Instants, never falling; a repeated one is a jump [s].
+    approach : array_like, shape (n,)
+        Approach, 0 at the first touch and negative before it [m].
+    force : array_like, shape (n,)
+        Force, positive in compression; scatter may make it negative near 0 [N].
+
+    Raises
+    ------
+    ValueError
+        If a value is not finite or a time falls, naming its row; if lengths differ; if nothing
+        is pressed; if the indenter is another one.
+    """
+
+    indenter: Indenter
+    times: Array
+    approach: Array
+    force: Array
+
+    def __post_init__(self) -> None:
+        columns = {
+            name: _finite(name, getattr(self, name), unit)
+            for name, unit in (("times", "s"), ("approach", "m"), ("force", "N"))
+        }
+        lengths = {name: column.size for name, column in columns.items()}
+        if len(set(lengths.values())) > 1 or min(lengths.values()) < _LEAST_ROWS:
+            found = ", ".join(f"{count} {name}" for name, count in lengths.items())
+            raise ValueError(
+                f"IndentationRecord: needs {_LEAST_ROWS} rows or more with a value in each "
+                f"column, got {found}"
+            )
+        back = np.flatnonzero(np.diff(columns["times"]) < 0)
+        if back.size:
+            row = int(back[0]) + 1
+            raise ValueError(
+                f"IndentationRecord: times, row {row}: must not be before the row above, "
+                f"got {columns['times'][row]:.6g} s after {columns['times'][row - 1]:.6g} s"
+            )
+        if not (columns["approach"].max() > 0 and columns["force"].max() > 0):
+            raise ValueError(
+                "IndentationRecord: nothing is pressed: approach and force must be positive "
+                "somewhere; both are positive when the bodies are pressed together"
+            )
+        for name, column in columns.items():
+            object.__setattr__(self, name, column)
+        _ = self.profile  # refuses other indenters
+
+    @property
+    def profile(self) -> SphereProfile | ConeProfile | PunchProfile:
+        """The indenter as the exact solution takes it."""
+        match self.indenter:
+            case Sphere(radius=radius):
+                return SphereProfile(radius)
+            case Cone(half_angle=half_angle):
+                return ConeProfile(half_angle)
+            case FlatPunch(radius=radius) if radius is not None:
+                return PunchProfile(radius)
+        raise ValueError(
+            "IndentationRecord.indenter: must be a Sphere, a Cone or a round FlatPunch(radius), "
+            f"got {self.indenter!r}"
+        )
+
+    def elastic_force(self, approach: Array) -> Array:
+        """Return the force on an elastic body of contact modulus E* = 1 Pa [N].
+
+        Parameters
+        ----------
+        approach : ndarray
+            Approach >= 0 [m].
+
+        Returns
+        -------
+        ndarray
+            4/3 sqrt(R) d^1.5 (Hertz), 2/pi tan(half angle) d² (Sneddon) or 2 a d (Boussinesq).
+        """
+        match self.profile:
+            case SphereProfile(radius=radius):
+                return np.asarray(4 / 3 * math.sqrt(radius) * approach**1.5)
+            case ConeProfile(half_angle=half_angle):
+                return np.asarray(2 / math.pi * math.tan(half_angle) * approach**2)
+            case PunchProfile(radius=radius):
+                return np.asarray(2 * radius * approach)
+
+
+def _finite(name: str, values: NDArray[np.float64], unit: str) -> Array:
+    try:
+        column = np.array(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        column = np.zeros((0, 0))
+    if column.ndim != 1:
+        raise ValueError(f"IndentationRecord: {name} must be a column of numbers in {unit}")
+    wrong = ~np.isfinite(column)
+    if wrong.any():
+        row = int(np.argmax(wrong))
+        raise ValueError(
+            f"IndentationRecord: {name}, row {row}: must be finite, got {float(column[row])!r}"
+        )
+    return column
