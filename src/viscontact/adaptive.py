@@ -139,7 +139,8 @@ class AdaptiveSteps:
     def _first_duration(self) -> float:
         """A first step over which the law creeps little, as nothing else is known."""
         way = next(stop for stop in (*sorted(self._kinks), self._end) if stop > self._time)
-        way = FIRST_OF_WAY * (way - self._time)
+        shortest = SHORTEST * self._end
+        way = max(FIRST_OF_WAY * (way - self._time), shortest)
         instant = self._compliance.instant or self._compliance(way)
         part = 0.5 * (12 * self._allowed) ** (1 / ORDER)
         if self._load.level_at(self._time) <= 0:
@@ -150,7 +151,6 @@ class AdaptiveSteps:
             crept: float = self._compliance(math.exp(log_time)) - wanted
             return crept
 
-        shortest = SHORTEST * self._end
         if excess(math.log(way)) <= 0:
             return way
         if excess(math.log(shortest)) >= 0:
