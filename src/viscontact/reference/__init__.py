@@ -1,7 +1,7 @@
 """Exact solutions to check against: everything in SI units, nothing of the solver inside.
 
 The elastic ones take the contact modulus E* [Pa], the viscoelastic ones a creep compliance
-J(t) [1/Pa] and its convolution inverse M(t) [Pa] as callables.
+J(t) [1/Pa] and its convolution inverse M(t) [Pa] as callables, or just one of the two.
 """
 
 from viscontact.reference.axisymmetric_contact import AxisymmetricContact
@@ -22,7 +22,15 @@ from viscontact.reference.lee_radok_contact import LeeRadokContact
 from viscontact.reference.line import LineContact, hertz_line
 from viscontact.reference.profiles import ConeProfile, PunchProfile, SphereProfile
 from viscontact.reference.punch import ConeContact, FlatPunchContact, cone, flat_punch
+from viscontact.reference.punch_history import (
+    PunchOscillation,
+    punch_harmonic,
+    punch_harmonic_start,
+    punch_staircase,
+    series_complex_compliance,
+)
 from viscontact.reference.ting import TingHump, ting_hump
+from viscontact.reference.ting_cycles import TingCycles, ting_cycles
 from viscontact.reference.ting_force_triangle import TingForceTriangle, ting_force_triangle
 from viscontact.reference.ting_triangle import TingTriangle, ting_triangle
 
@@ -34,10 +42,12 @@ __all__ = [
     "FlatPunchContact",
     "LeeRadokContact",
     "LineContact",
+    "PunchOscillation",
     "PunchProfile",
     "ResolutionError",
     "SphereContact",
     "SphereProfile",
+    "TingCycles",
     "TingForceTriangle",
     "TingHump",
     "TingTriangle",
@@ -50,7 +60,12 @@ __all__ = [
     "lee_radok_ramp",
     "lee_radok_step",
     "press_axisymmetric",
+    "punch_harmonic",
+    "punch_harmonic_start",
+    "punch_staircase",
     "resolution_error",
+    "series_complex_compliance",
+    "ting_cycles",
     "ting_force_triangle",
     "ting_hump",
     "ting_triangle",

@@ -69,7 +69,7 @@ def press_axisymmetric(
     ------
     ValueError
         If times, histories or numbers make no sense, if the load jumps where J(0) = 0, or if
-        the indenter would meet the recovering dent in a ring, where this solution ends.
+        the contact is found to be a ring, by steps too long for the law or otherwise.
 
     Notes
     -----
@@ -83,8 +83,7 @@ def press_axisymmetric(
     v >= w - g, with which u >= w - f. A smooth edge carries no infinite pressure: chi(a) = 0. So
     an s loses contact when its chi falls to 0, and takes it when w - g(s) meets its own recovery.
     On the first way in chi(s, t) = integral of M(t - t') dw(t') from t_s, where w = g(s), to t;
-    that it falls to 0 is Ting's equation for t_1 = t_s. A body that recovers fast at one place
-    and slowly at another may meet a returning indenter in a ring: that is refused.
+    that it falls to 0 is Ting's equation for t_1 = t_s.
 
     Each s is a scalar Volterra equation. Chi is linear in time within a step, with the instants
     of contact and loss found inside it, and linear in g(s) between the elements' ends: on an

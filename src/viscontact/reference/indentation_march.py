@@ -245,9 +245,9 @@ def _require_circle(
         widest = float(opening[after.reached : outermost].max())
         if widest > _RING * float(rods.depths[-1]):
             raise ValueError(
-                f"times: at t = {end:.6g} s the indenter touches the recovering dent in a ring, "
-                f"open by {widest:.3g} m within; this solution holds for full circles, so end "
-                "the history before"
+                f"times: at t = {end:.6g} s the contact is a ring, open by {widest:.3g} m within; "
+                "this solution holds for full circles. Where the steps are long against the law "
+                "more of them help, substeps=; else end the history before"
             )
 
 

@@ -47,14 +47,14 @@ class Rods:
         if reached == 0:
             return 0.0
         if reached == len(self.places):
-            return 2 * self.profile.edge * float(chi[0])  # a punch: one rod for all of it
+            return self.sum(chi)
         last = reached - 1
         inside = self.near[:last] @ chi[:last] + self.far[:last] @ chi[1:reached]
         return 2 * float(inside + chi[last] * self._front_weight(last, front))
 
     def sum(self, chi: Array) -> float:
         """Twice the integral over s of a load on all rods [N]."""
-        if len(self.places) == 1:
+        if len(self.places) == 1:  # a punch
             return 2 * self.profile.edge * float(chi[0])
         return 2 * float(self.near @ chi[:-1] + self.far @ chi[1:])
 
@@ -218,7 +218,7 @@ def settle(rods: Rods, step: Step, approach: float) -> Settled:
 def _front(rods: Rods, step: Step, excess: Array, wanted: Array, reached: int) -> float:
     """Find the depth g where the load falls to 0, between the last rod in contact and the next."""
     if reached in (0, len(wanted)):
-        return 0.0
+        return float(rods.depths[-1]) if reached else 0.0
     last, begin, end = reached - 1, rods.depths[reached - 1], rods.depths[reached]
     if step.instant > 0:
         return float(begin + (end - begin) * wanted[last] / (wanted[last] - wanted[reached]))
@@ -267,7 +267,7 @@ def settle_under(rods: Rods, step: Step, force: float, guess: float) -> Settled:
     state, last = settle(rods, step, min(max(guess, low), high)), None
     for _ in range(100):
         short = force - state.force
-        if abs(short) <= 1e-13 * force or high - low <= 4e-16 * abs(high):
+        if abs(short) <= 1e-13 * force or 0 <= high - low <= 4e-16 * abs(low):
             break
         low, high = (state.approach, high) if short > 0 else (low, state.approach)
         slope = _slope(rods, step, state, last)

@@ -198,7 +198,7 @@ def ting_triangle(
         tuple(np.atleast_1d(np.asarray(a, dtype=np.float64)).tolist()) for a in (moduli, times)
     ]
     valid = len(terms[0]) == len(terms[1]) and all(tau > 0 for tau in terms[1])
-    if not (valid and min(equilibrium, *terms[0], 0.0) >= 0 and max(equilibrium, *terms[0]) > 0):
+    if not (valid and min([equilibrium, *terms[0]]) >= 0 and max([equilibrium, *terms[0]]) > 0):
         raise ValueError(
             "moduli: wanted a relaxation series with moduli >= 0 Pa, not all 0, and as many "
             f"positive times, got equilibrium={equilibrium!r}, moduli={terms[0]!r}, "

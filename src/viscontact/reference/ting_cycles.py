@@ -1,0 +1,224 @@
+"""In and out at constant speed again and again on a Maxwell body, dent and all, in closed form."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.polynomial import legendre
+from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import brentq
+
+from viscontact.reference.arguments import Values, require_positive
+from viscontact.reference.ting import GrowingProfile
+
+Array = NDArray[np.float64]
+
+_GAUSS, _WEIGHTS = legendre.leggauss(60)
+
+
+@dataclass(frozen=True)
+class TingCycles:
+    """A sphere or cone moved into a Maxwell body and out, cycle after cycle, at one speed.
+
+    Made by `ting_cycles`.
+
+    Attributes
+    ----------
+    profile : SphereProfile or ConeProfile
+        The indenter.
+    peak : float
+        Largest approach [m].
+    rise : float
+        Time of each way in, and of each way out [s].
+    modulus : float
+        M(0) [Pa].
+    relaxation_time : float
+        tau of M(t) = M(0) exp(-t/tau) [s].
+    """
+
+    profile: GrowingProfile
+    peak: float
+    rise: float
+    modulus: float
+    relaxation_time: float
+
+    def approach(self, t: ArrayLike) -> Values:
+        """Approach at time t, from 0 to the peak and back [m].
+
+        Parameters
+        ----------
+        t : array_like
+            Time, 0 or later [s].
+
+        Returns
+        -------
+        float or ndarray
+            Approach [m].
+        """
+        share = np.mod(np.asarray(t, dtype=np.float64) / self.rise, 2.0)
+        approach: Values = self.peak * np.minimum(share, 2 - share)
+        return approach
+
+    def touched(self, cycle: int) -> float:
+        """Instant when contact is made in a cycle, counted from 0 [s].
+
+        Parameters
+        ----------
+        cycle : int
+            The cycle.
+
+        Returns
+        -------
+        float
+            The instant [s].
+        """
+        return float(self._span(np.zeros(1), cycle)[0][0])
+
+    def lost(self, cycle: int) -> float:
+        """Instant when contact is lost in a cycle, counted from 0 [s].
+
+        Parameters
+        ----------
+        cycle : int
+            The cycle.
+
+        Returns
+        -------
+        float
+            The instant [s].
+        """
+        return float(self._span(np.zeros(1), cycle)[1][0])
+
+    def contact_radius(self, t: ArrayLike) -> Values:
+        """Radius of the contact circle, 0 without contact [m].
+
+        Parameters
+        ----------
+        t : array_like
+            Time, 0 or later [s].
+
+        Returns
+        -------
+        float or ndarray
+            The radius [m].
+        """
+        times = np.asarray(t, dtype=np.float64)
+        found = [self._edge(float(now)) for now in times.ravel()]
+        return np.array(found).reshape(times.shape)[()]
+
+    def force(self, t: ArrayLike) -> Values:
+        """Force on the half-space, 0 without contact [N].
+
+        Parameters
+        ----------
+        t : array_like
+            Time, 0 or later [s].
+
+        Returns
+        -------
+        float or ndarray
+            2 integral of chi(s) over 0 < s < a [N].
+        """
+        times = np.asarray(t, dtype=np.float64)
+        found = [self._force(float(now)) for now in times.ravel()]
+        return np.array(found).reshape(times.shape)[()]
+
+    def _force(self, now: float) -> float:
+        half = self._edge(now) / 2
+        return float(2 * half * (self._chi(half * (1 + _GAUSS), now) @ _WEIGHTS))
+
+    def _span(self, s: Array, cycle: int) -> tuple[Array, Array]:
+        """Instants when the radius s is touched and lost in a cycle [s]."""
+        b = self.rise
+        touched = b * self.profile.depth(s) / self.peak
+        lost = self._parted(touched, 0)
+        for k in range(1, cycle + 1):
+            touched = 4 * k * b - lost  # as deep on the way in as it was when lost
+            lost = self._parted(touched, k)
+        return touched, lost
+
+    def _parted(self, touched: Array, cycle: int) -> Array:
+        """Instants when radii touched in a cycle are lost again [s]."""
+        tau, top = self.relaxation_time, (2 * cycle + 1) * self.rise
+        lost: Array = top + tau * np.log(2 - np.exp((touched - top) / tau))
+        return lost
+
+    def _chi(self, s: Array, now: float) -> Array:
+        """Transformed pressure at radii in contact [N/m]."""
+        tau, b = self.relaxation_time, self.rise
+        cycle = int(now // (2 * b))
+        turn = min(now, (2 * cycle + 1) * b)
+        touched, _ = self._span(s, cycle)
+        way_in = -np.exp((turn - now) / tau) * np.expm1((touched - turn) / tau)
+        loads: Array = self.modulus * tau * self.peak / b * (way_in + np.expm1((turn - now) / tau))
+        return loads
+
+    def _edge(self, now: float) -> float:
+        """Radius of the contact [m]."""
+        cycle = int(now // (2 * self.rise))
+        rising = now <= (2 * cycle + 1) * self.rise
+
+        def inside(s: float) -> float:
+            touched, lost = self._span(np.array([s]), cycle)
+            return float(now - touched[0] if rising else lost[0] - now)
+
+        largest = float(self.profile.reach(np.array(self.peak)))
+        if inside(0.0) <= 0:
+            return 0.0
+        if inside(largest) >= 0:
+            return largest
+        return float(brentq(inside, 0.0, largest, xtol=1e-300))
+
+
+def ting_cycles(
+    profile: GrowingProfile, peak: float, rise: float, modulus: float, relaxation_time: float
+) -> TingCycles:
+    """Contact of a sphere or cone moved into a Maxwell body and out again, any number of times.
+
+    Parameters
+    ----------
+    profile : SphereProfile or ConeProfile
+        The indenter.
+    peak : float
+        Largest approach [m].
+    rise : float
+        Time of each way in, and of each way out [s].
+    modulus : float
+        M(0), the contact modulus at once, 1/J(0) [Pa].
+    relaxation_time : float
+        tau of M(t) = M(0) exp(-t/tau) [s].
+
+    Returns
+    -------
+    TingCycles
+        Force, contact radius and the instants of contact made and lost.
+
+    Raises
+    ------
+    ValueError
+        If an argument is not positive and finite.
+
+    Notes
+    -----
+    A Maxwell body left alone stays as it is: a radius s of `press_axisymmetric` is touched again
+    at the approach it was lost at. Between, chi = integral of M(t - t') dw(t') from when it was
+    touched, so in cycle k, with the peak at b_k, it is lost at
+    tau ln(2 exp(b_k/tau) - exp(touched/tau)).
+
+    References
+    ----------
+    T. C. T. Ting, J. Appl. Mech. 33 (1966) 845-854, for the first cycle; T. C. T. Ting, J. Appl.
+    Mech. 35 (1968) 248-254, for contacts that come and go. The recursion is in the Notes.
+
+    Examples
+    --------
+    >>> from viscontact.reference.profiles import SphereProfile
+    >>> contact = ting_cycles(SphereProfile(0.01), 1e-5, 1.0, 2e9, 1.0)
+    >>> print(f"lost {contact.lost(0):.5f} s, touched again {contact.touched(1):.5f} s")
+    lost 1.48988 s, touched again 2.51012 s
+    """
+    require_positive("m", peak=peak)
+    require_positive("s", rise=rise, relaxation_time=relaxation_time)
+    require_positive("Pa", modulus=modulus)
+    return TingCycles(profile, peak, rise, modulus, relaxation_time)
