@@ -21,18 +21,23 @@ PACKAGE = Path(viscontact.__file__).parent
 # The floors from the ground up. A new module gets its place here; think twice before it is high.
 FLOORS = (
     ("errors", "real", "grid", "load", "indenters", "laws"),  # 0 words: they do not know each other
-    ("material", "influence", "memory", "state", "rim", "hull"),  # 1 single ideas
+    ("compliance", "material", "influence", "memory", "state", "rim", "hull"),  # 1 single ideas
     ("convolution", "balance", "bedding", "half_space"),  # 2 operators on fields
     ("contact_problem", "search", "contact"),  # 3 equilibrium at one instant
     # 4 time
     (
         "stepping",
         "schedule",
+        "time_error",
+        "adaptive",
         "prediction",
         "plausibility",
         "extent",
+        "instants",
+        "admission",
         "run",
         "observation",
+        "past",
         "marching",
     ),
     ("description", "dataset", "results"),  # 5 labels and files
@@ -43,21 +48,37 @@ FLOORS = (
 NEIGHBOURS = {
     ("load", "real"),  # what counts as a number
     ("indenters", "real"),
-    ("memory", "material"),  # the past is weighted by the contact compliance
+    ("material", "compliance"),  # what contact sees of it
+    ("memory", "compliance"),  # the past is weighted by it
     ("bedding", "balance"),  # which resultants the first guess carries
     ("half_space", "balance"),  # the rigid planes and the operators over one grid
     ("half_space", "convolution"),
     ("search", "contact_problem"),
     ("contact", "contact_problem"),
     ("contact", "search"),  # which finds the pressure
-    ("run", "stepping"),  # the instants when none are given
+    ("adaptive", "stepping"),  # what is wished for
+    ("adaptive", "schedule"),  # its steps are steps
+    ("adaptive", "time_error"),
+    ("time_error", "schedule"),
+    ("instants", "stepping"),  # when none are given
+    ("run", "stepping"),
+    ("run", "instants"),
+    ("run", "admission"),  # what is refused
+    ("run", "schedule"),  # where its steps come from
+    ("run", "adaptive"),
     ("run", "extent"),  # the grid when none is given
     ("observation", "run"),  # which instants are kept
     ("observation", "schedule"),  # the step that ended
     ("observation", "plausibility"),  # which warnings it deserves
+    ("past", "run"),
+    ("past", "schedule"),  # a step to be taken
+    ("past", "prediction"),  # starts from a prediction,
+    ("past", "time_error"),  # makes an error,
+    ("past", "observation"),  # and ends at an instant
     ("marching", "run"),
+    ("marching", "stepping"),
     ("marching", "schedule"),  # the loop goes through the schedule's steps,
-    ("marching", "prediction"),  # starts each from a prediction,
+    ("marching", "past"),  # takes each,
     ("marching", "observation"),  # and observes where it ended
     ("dataset", "description"),  # the case travels with the result
     ("results", "dataset"),  # the file is laid out as the dataset is

@@ -152,7 +152,7 @@ class AdaptiveSteps:
             return crept
 
         if excess(math.log(way)) <= 0:
-            return way
+            return float(way)
         if excess(math.log(shortest)) >= 0:
             return shortest
         return math.exp(float(brentq(excess, math.log(shortest), math.log(way), rtol=1e-3)))

@@ -17,10 +17,11 @@ from viscontact.description import describe_run
 from viscontact.errors import ConvergenceError, DomainError
 from viscontact.grid import Grid
 from viscontact.indenters import Indenter
+from viscontact.instants import field_instants
 from viscontact.load import LoadHistory
 from viscontact.marching import Progress, march_run
 from viscontact.material import Material
-from viscontact.run import Run, field_instants, prepare_run
+from viscontact.run import Run, prepare_run
 from viscontact.state import ContactState, Outcome
 from viscontact.stepping import AdaptiveTimes
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from viscontact.dataset import COORDINATES, FIELDS, OUTCOME_FLAGS, SCALARS, Variable, field_axis
 from viscontact.grid import Grid
-from viscontact.run import field_instants
+from viscontact.instants import field_instants
 from viscontact.state import ContactState
 
 #: The result's name in a run directory.

@@ -1,0 +1,80 @@
+"""What a run is refused for, before its first step."""
+
+from __future__ import annotations
+
+from numbers import Integral, Real
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.compliance import ContactCompliance
+from viscontact.grid import Grid
+from viscontact.hull import refuse_outside
+from viscontact.indenters import Indenter
+from viscontact.load import LoadHistory
+from viscontact.material import Material
+
+
+def check_kinds(
+    indenter: object, material: object, load: object, grid: object, indenter_material: object
+) -> None:
+    """Refuse arguments that are not the nouns they should be, by name."""
+    wanted: list[tuple[str, object, type, bool]] = [
+        ("indenter", indenter, Indenter, False),
+        ("material", material, Material, False),
+        ("load", load, LoadHistory, False),
+        ("grid", grid, Grid, True),
+        ("indenter_material", indenter_material, Material, True),
+    ]
+    for name, value, kind, optional in wanted:
+        if not (isinstance(value, kind) or (optional and value is None)):
+            raise ValueError(f"{name} must be of kind {kind.__name__}, got {value!r}")
+
+
+def check_numbers(tolerance: object, threads: object) -> None:
+    """Refuse a tolerance or a number of threads out of range."""
+    if not (isinstance(tolerance, Real) and 1e-13 <= float(tolerance) <= 1e-2):
+        raise ValueError(f"tolerance must lie between 1e-13 and 1e-2, got {tolerance!r}")
+    if not (isinstance(threads, Integral) and 1 <= int(threads) <= 1024):
+        raise ValueError(f"threads must be a whole number >= 1, and at most 1024, got {threads!r}")
+
+
+def check_magnitudes(
+    compliance: ContactCompliance, load: LoadHistory, grid: Grid | None, end: float
+) -> None:
+    """Refuse magnitudes whose squares and quotients are no numbers; a search might never end."""
+    sizes = () if grid is None else grid.size
+    level = abs(load.largest_level)
+    magnitudes = [(f"load.{load.control}", level), ("material", compliance(end))]
+    for name, value in [*magnitudes, *(("grid.size", size) for size in sizes)]:
+        if value and not 1e-30 <= value <= 1e30:
+            raise ValueError(f"{name}: {value:.3g} in SI units is beyond what can be computed with")
+
+
+def check_jumps(compliance: ContactCompliance, load: LoadHistory, end: float) -> None:
+    """Refuse a jump of the load within the run [s] that the law cannot follow."""
+    jumps = [jump for jump in load.jumps if jump <= end]
+    if jumps and compliance.instant == 0:
+        raise ValueError(
+            f"load: the load jumps at t = {jumps[0]:g} s but the law has no instant compliance, "
+            "so the surface could not follow; use a ramp, or give the law an instant compliance"
+        )
+
+
+def check_balance(open_gap: NDArray[np.float64], grid: Grid, load: LoadHistory, end: float) -> None:
+    """Refuse a resultant that acts outside the hull of what can touch."""
+    solid = np.isfinite(open_gap)
+    if not solid.any():
+        raise ValueError("grid: no cell lies under the indenter; use a finer or larger grid")
+    # A point without load counts where the load grows from it or falls to it.
+    instants = np.append(load.kinks[load.kinks < end], end)
+    levels = np.maximum(load.level_at(instants, side="left"), load.level_at(instants))
+    before, after = np.append(0.0, levels[:-1]), np.append(levels[1:], 0.0)
+    for time in instants[(before > 0) | (levels > 0) | (after > 0)].tolist():
+        for side in ("left", "right"):
+            point = load.at(time, side=side)
+            where = (
+                None if point.tilt_x is not None else point.eccentricity_x,
+                None if point.tilt_y is not None else point.eccentricity_y,
+            )
+            refuse_outside(solid, grid, where, time)
