@@ -10,7 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.special import gamma
 
-from viscontact.identification import fit_creep, fit_dynamic, fit_relaxation
+from viscontact.case import read_material
+from viscontact.identification import fit_creep, fit_dynamic, fit_relaxation, material_section
 from viscontact.laws import CreepSeries, RelaxationSeries
 
 T = np.geomspace(1e-2, 1e3, 60)
@@ -215,3 +216,26 @@ def test_the_law_of_a_fit_is_a_law_like_any_other():
     fit = fit_relaxation(T, relaxing(T, 1.0), data="shear")
     assert isinstance(fit.law, RelaxationSeries)
     assert fit.law(0.0) == pytest.approx(1 / (2 * 7.5), rel=5e-3)
+
+
+@pytest.mark.parametrize(
+    "fit",
+    [
+        fit_creep(T, 1e-9 * creeping(T, 0.5, 0.02), data="uniaxial", poisson_ratio=0.3, fluid=True),
+        fit_creep(T, 1e-9 * creeping(T, 0.5, 0.0), data="uniaxial", bulk_modulus=4e9),
+        fit_relaxation(T, 1e9 * relaxing(T, 1.0), data="uniaxial", poisson_ratio=0.3),
+        fit_relaxation(T, 1e6 * relaxing(T, 0.0), data="shear", fluid=True),
+        fit_creep(T, 1e-6 * creeping(T, 0.5, 0.0), data="deviatoric"),
+    ],
+    ids=["fluid", "bulk", "relaxation", "shear fluid", "deviatoric"],
+)
+def test_the_section_of_a_case_file_is_the_law_to_its_six_digits(fit, tmp_path):
+    """By the reader of case files, which knows nothing of fits."""
+    text = material_section(fit)
+    if "uniaxial" not in text:
+        assert "# the data are of shear alone" in text
+        text += "\n  poisson_ratio: 0.3"
+    path = tmp_path / "material.yaml"
+    path.write_text(text, encoding="utf-8")
+    law = read_material(path).law
+    np.testing.assert_allclose(law(T), fit.law(T), rtol=5e-6)

@@ -11,6 +11,7 @@ from viscontact.identification.master_curve import (
 )
 from viscontact.identification.prony import fit_creep, fit_dynamic, fit_relaxation
 from viscontact.identification.record import IndentationRecord
+from viscontact.identification.section import material_section
 from viscontact.identification.shift_fit import ShiftFit, fit_arrhenius, fit_wlf
 
 __all__ = [
@@ -28,4 +29,5 @@ __all__ = [
     "fit_master_curve",
     "fit_relaxation",
     "fit_wlf",
+    "material_section",
 ]

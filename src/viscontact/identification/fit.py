@@ -35,6 +35,8 @@ class Fit:
     measured : mapping of str to ndarray
         The measured columns by name: ``compliance`` [1/Pa], ``modulus`` [Pa], or ``storage``
         and ``loss`` [Pa].
+    poisson_ratio, bulk_modulus : float or None
+        What uniaxial data were converted with [-, Pa].
     """
 
     law: CreepSeries | RelaxationSeries
@@ -42,6 +44,8 @@ class Fit:
     data: str
     points: Array
     measured: Mapping[str, Array]
+    poisson_ratio: float | None = None
+    bulk_modulus: float | None = None
 
     @property
     def terms(self) -> int:

@@ -108,6 +108,7 @@ def fit_creep(
     require_trend(owner, "compliance", instants, values, rises=True)
     _require_span(owner, "times", instants)
     make = _chosen(owner, _CREEP, data)
+    in_volume = _in_volume(owner, data, poisson_ratio, bulk_modulus)
     found = _found(owner, _alike(CreepResponse(instants, fluid), values), terms, excess, tolerance)
     flow = float(found.constants[1]) if fluid else 0.0
     series = CreepSeries(
@@ -118,9 +119,9 @@ def fit_creep(
         series.amplitudes,
         series.times,
         series.fluidity,
-        **_in_volume(owner, data, poisson_ratio, bulk_modulus),
+        **in_volume,
     )
-    return Fit(law, series, data, instants, {"compliance": values})
+    return Fit(law, series, data, instants, {"compliance": values}, **in_volume)
 
 
 def fit_relaxation(
@@ -182,6 +183,7 @@ def fit_relaxation(
     require_trend(owner, "modulus", instants, values, rises=False)
     _require_span(owner, "times", instants)
     make = _chosen(owner, _MODULI, data)
+    in_volume = _in_volume(owner, data, poisson_ratio, bulk_modulus)
     found = _found(
         owner, _alike(RelaxationResponse(instants, fluid), values), terms, excess, tolerance
     )
@@ -190,9 +192,9 @@ def fit_relaxation(
         series.equilibrium,
         series.moduli,
         series.times,
-        **_in_volume(owner, data, poisson_ratio, bulk_modulus),
+        **in_volume,
     )
-    return Fit(law, series, data, instants, {"modulus": values})
+    return Fit(law, series, data, instants, {"modulus": values}, **in_volume)
 
 
 def fit_dynamic(
@@ -255,6 +257,7 @@ def fit_dynamic(
     require_trend(owner, "storage", frequencies, in_phase, rises=True)
     _require_span(owner, "angular_frequency", frequencies)
     make = _chosen(owner, _MODULI, data)
+    in_volume = _in_volume(owner, data, poisson_ratio, bulk_modulus)
     values = np.concatenate([in_phase, out_of_phase])
     observed = _by_scatter(_alike(DynamicResponse(frequencies, fluid), values), tolerance)
     series = _relaxation_series(_found(owner, observed, terms, excess, tolerance))
@@ -262,9 +265,10 @@ def fit_dynamic(
         series.equilibrium,
         series.moduli,
         series.times,
-        **_in_volume(owner, data, poisson_ratio, bulk_modulus),
+        **in_volume,
     )
-    return Fit(law, series, data, frequencies, {"storage": in_phase, "loss": out_of_phase})
+    columns = {"storage": in_phase, "loss": out_of_phase}
+    return Fit(law, series, data, frequencies, columns, **in_volume)
 
 
 def _found(
