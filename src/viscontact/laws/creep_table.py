@@ -37,10 +37,10 @@ class TabulatedCreep(Law):
         Phi at these times [1/Pa], positive, never falling.
     before : {"first", "slope"}, optional
         Before the first row, unless that is at 0: its value, so that the body is elastic up to
-        there; or its slope in log time, as a power of time (the tangent in log-log, which stays
-        positive), with an exponent of at most 1. A power leaves no instant compliance.
+        there; or the first slope in log time, as the power of time through the first two rows,
+        which stays positive, with an exponent of at most 1. It leaves no instant compliance.
     beyond : {"slope", "last"}, optional
-        Beyond the last row: its slope in log time, or its value.
+        Beyond the last row: the slope in log time from the last but one to it, or its value.
 
     Raises
     ------

@@ -8,7 +8,7 @@ undershoots. Before the first point and beyond the last it goes on by a rule tha
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,9 +16,10 @@ from scipy.interpolate import PchipInterpolator
 
 Floats = NDArray[np.float64]
 
-#: Rules before the first point: its value, or a power of time along the tangent there.
+#: Rules before the first point: its value, or the power of time through the first two.
 Before = Literal["value", "power"]
-#: Rules beyond the last: its value, a straight line in ln t, or a power of time, along the tangent.
+#: Rules beyond the last: its value, or the straight line in ln t or the power of time through the
+#: last two.
 Beyond = Literal["value", "line", "power"]
 
 # Of an interval no wider than a factor e the mean is taken by 12 Gauss-Legendre nodes: the nearest
@@ -68,19 +69,15 @@ class LogCurve:
         self.times, self.values = times, values
         self._pieces = PchipInterpolator(np.log(times), values).c
         self._widths = np.diff(np.log(times))
-        first, last = self._tangents()
-        early = np.clip(first / values[0], *steepest) if before == "power" else 0.0
+        early = np.clip(_power(times[:2], values[:2]), *steepest) if before == "power" else 0.0
         self.exponent = float(early)
-        self._line = last if beyond == "line" else 0.0
-        self._fade = last / values[-1] if beyond == "power" else 0.0
+        self._line = self._fade = 0.0
+        if beyond == "line":
+            self._line = float((values[-1] - values[-2]) / self._widths[-1])
+        elif beyond == "power":
+            self._fade = _power(times[-2:], values[-2:])
         whole = [self._primitive(k, times[k + 1], times[k]) for k in range(self._widths.size)]
         self._areas = np.concatenate([[0.0], np.cumsum(whole)])
-
-    def _tangents(self) -> tuple[float, float]:
-        """Return df/d(ln t) at the first and the last point."""
-        cubic, square, linear, _ = self._pieces[:, -1]
-        h = self._widths[-1]
-        return float(self._pieces[2, 0]), float((3 * cubic * h + 2 * square) * h + linear)
 
     def __call__(self, t: ArrayLike) -> Floats:
         """Return the values at times >= 0 [s], of the shape of `t`."""
@@ -91,6 +88,24 @@ class LogCurve:
         values = np.where(t < self.times[0], self._head(np.minimum(t, self.times[0])), values)
         beyond = self._tail(np.maximum(t, self.times[-1]))
         return np.asarray(np.where(t >= self.times[-1], beyond, values))
+
+    def rate(self, t: NDArray[Any], where: Floats) -> NDArray[Any]:
+        """Return df/dt at times `t`, by the formula of the pieces in which the times `where` lie.
+
+        The formulas are analytic: `t` may be complex.
+        """
+        u = np.log(t / self.times[0])
+        if self.at_once is not None:
+            head = np.full_like(t, (self.values[0] - self.at_once) / self.times[0])
+        else:
+            head = self.exponent * self.values[0] * np.exp(self.exponent * u) / t
+        piece = self._piece(where)
+        c3, c2, c1, _ = self._pieces[:, piece]
+        v = np.log(t / self.times[piece])
+        body = ((3 * c3 * v + 2 * c2) * v + c1) / t
+        late = np.log(t / self.times[-1])
+        tail = (self._line + self._fade * self.values[-1] * np.exp(self._fade * late)) / t
+        return np.where(where < self.times[0], head, np.where(where >= self.times[-1], tail, body))
 
     def mean(self, start: ArrayLike, end: ArrayLike) -> Floats:
         """Return the means over the times `start` to `end` [s], of equal shape; values where equal.
@@ -187,6 +202,13 @@ class LogCurve:
             return np.asarray(self._tail(end) + self._line * offset)
         ratio = mean_power(self._fade, start / self.times[-1], end / self.times[-1])
         return np.asarray(self.values[-1] * ratio)
+
+
+def _power(times: Floats, values: Floats) -> float:
+    """Return the exponent of the power of time through two points; 0 where one is not positive."""
+    if not (values > 0).all():
+        return 0.0
+    return float(np.log(values[1] / values[0]) / np.log(times[1] / times[0]))
 
 
 def narrow_mean(

@@ -9,10 +9,10 @@ step the order drops to one. Hence the form in which the kernel falls,
     f falls:   ∫ f(t - t') g'(t') dt' + f(t) g(0) = 1,                 unknown g,
     f grows:   f(0) k'(t) + ∫ f'(t - t') k'(t') dt' = r(t),  k' = g,   unknown k,
 
-whose unknown is straight on all past steps and a parabola through its last three values on the
-step in progress. Where the kernel is all at lag 0 this is the second-order backward difference
-formula, which damps. A step reaches back over all earlier ones: the work grows with their number
-squared.
+whose unknown is a parabola on each step, through its value there and the two before. Where the
+kernel is all at lag 0 this is the second-order backward difference formula, which damps; a
+straight line would lose an order there, and on past steps too where the kernel is singular. A
+step reaches back over all earlier ones: the work grows with their number squared.
 
 A function that begins like a power, f = c t^m with f(0) = 0 or inf, has an inverse that begins
 like sin(πm)/(πm) t^-m / c, which starts the march.
@@ -31,10 +31,9 @@ Floats = NDArray[np.float64]
 Function = Callable[[Floats], Floats]
 Mean = Callable[[Floats, Floats], Floats]
 
-# Lags so much longer than their interval see it as a point: an error of its square / 24.
-_POINT = 1e-4
-# The derivative of f is taken over this part of its lag at least, with the same error.
-_WIDE = 3e-4
+# Steps so much shorter than their lag see it as a point: an error of its square / 24. Differences
+# of f are taken over that part of the lag at least.
+_POINT = 3e-4
 
 
 class Load(NamedTuple):
@@ -47,84 +46,108 @@ class Load(NamedTuple):
 _ONE = Load(np.ones_like, lambda start, end: np.ones_like(start))
 
 
+class Kernel(NamedTuple):
+    """What a falling kernel κ makes of the unknown's rate on each step.
+
+    Attributes
+    ----------
+    past : callable
+        From lags that fall to 0 and the steps between them, ∫ κ dl over each step and
+        ∫ κ (h - 2 (l - a)) dl, a being where it begins: what the bend of the unknown meets.
+    whole, bent : ndarray
+        The same over the step in progress, for all steps, with what κ has in a point at lag 0.
+    """
+
+    past: Callable[[Floats, Floats], tuple[Floats, Floats]]
+    whole: Floats
+    bent: Floats
+
+
 def march(function: Function, mean: Mean, nodes: Floats, load: Load | None) -> tuple[float, Floats]:
     """Return g at once, 0 or inf where it begins as a power, and at the nodes (or but the last)."""
-    ends = function(nodes[[0, -1]])
-    if ends[-1] < ends[0]:
-        at_once, values = _under_falling(function, mean, nodes)
-    else:
-        at_once, values = _under_growing(function, mean, nodes, load or _ONE)
-    return at_once, values
-
-
-def _under_falling(function: Function, mean: Mean, nodes: Floats) -> tuple[float, Floats]:
-    """Return g, growing, at once and at the nodes, from a function that falls."""
-    times = np.append(0.0, nodes)
-    steps = np.diff(times)
-    at_once = 1.0 / float(function(np.zeros(1))[0])  # 0 if f begins infinite
-    g = np.full(times.size, at_once)
-    if at_once == 0:
-        g[1] = _power_share(function, nodes[0]) / function(nodes[:1])[0]
-    # ∫ f(l) (h - 2 l) dl over the lags of the step in progress, per h: what its curvature meets.
-    curved = mean(np.zeros(nodes.size), steps) - 2 * _first_moment(mean, steps)
-    for i in range(2 if at_once == 0 else 1, times.size):
-        lags = times[i] - times[: i + 1]
-        weights = _means(function, mean, lags[1:], lags[:-1])
-        owed = 1.0 - at_once * function(times[i : i + 1])[0] - weights[:-1] @ np.diff(g[:i])
-        h, before, rate = steps[i - 1], 0.0, 0.0
-        if i > 1:
-            before, rate = steps[i - 2], (g[i - 1] - g[i - 2]) / steps[i - 2]
-        bend = h * curved[i - 1] / (h + before) if i > 1 else 0.0
-        g[i] = g[i - 1] + (owed + bend * h * rate) / (weights[-1] + bend)
-    return at_once, g[1:]
-
-
-def _under_growing(
-    function: Function, mean: Mean, nodes: Floats, load: Load
-) -> tuple[float, Floats]:
-    """Return g at once and at the nodes but the last, from a function that grows."""
-    times = np.append(0.0, nodes)
-    steps = np.diff(times)
-    instant, first = float(function(np.zeros(1))[0]), float(function(nodes[:1])[0])
-    k = np.zeros(times.size)
+    begin, end = function(nodes[[0, -1]])
+    steps = np.diff(nodes, prepend=0.0)
+    instant = float(function(np.zeros(1))[0])
+    if end < begin:
+        kernel = _falling(function, mean, steps)
+        if not math.isinf(instant):
+            rates = _rates(kernel, nodes, 1.0 - function(nodes) / instant, None)
+            return 1.0 / instant, 1.0 / instant + np.cumsum(rates * steps)
+        begun = _power_share(function, nodes[0]) / begin
+        rates = _rates(kernel, nodes, np.ones_like(nodes), begun / nodes[0])
+        return 0.0, np.cumsum(rates * steps)
+    load = load or _ONE
+    loads, kernel = load.at(nodes), _growing(function, mean, steps, instant)
     if instant > 0:
-        at_once = float(load.at(np.zeros(1))[0]) / instant
-        k[1] = nodes[0] * load.mean(np.zeros(1), nodes[:1])[0] / first
+        at_once, begun = float(load.at(np.zeros(1))[0]) / instant, loads[0] / begin
+        average = load.mean(np.zeros(1), nodes[:1])[0] / begin
     else:
-        at_once = math.inf
-        begun = _power_share(function, nodes[0]) / first
-        k[1] = nodes[0] * begun / (1 - first_exponent(function, nodes[0]))
-    loads = load.at(nodes)
-    curved = 2 * mean(np.zeros(nodes.size), steps) - function(steps)
-    for i in range(2, times.size):
-        weights = _growths(function, times[i] - times[: i + 1], steps[:i])
-        weights[-1] += instant
-        h, before = steps[i - 1], steps[i - 2]
-        rates = np.diff(k[:i]) / steps[: i - 1]
-        bend = h * curved[i - 1] / (h + before)
-        owed = loads[i - 1] - weights[:-1] @ rates
-        k[i] = k[i - 1] + h * (owed + bend * rates[-1]) / (weights[-1] + bend)
-    slopes = _slopes(times, k)
-    # No parabola goes through a power's beginning; up to the first node all is quasi-elastic.
-    slopes[0] = begun if instant == 0 else loads[0] / first
-    return at_once, slopes
+        at_once, begun = math.inf, _power_share(function, nodes[0]) / begin
+        average = begun / (1 - first_exponent(function, nodes[0]))
+    rates = _rates(kernel, nodes, loads, average)
+    # Up to the first node all is quasi-elastic, or a power: no parabola goes through that.
+    return at_once, np.append(begun, _at_nodes(rates, steps)[1:])
 
 
-def _growths(function: Function, lags: Floats, steps: Floats) -> Floats:
-    """Return by how much f grows over each interval of lag."""
-    middle = lags[1:] + steps / 2
-    # Over an interval that is nothing to its lag the difference would cancel, and old values can
-    # be so large that this counts: f' there comes from an interval that is wide enough.
-    half = np.maximum(steps, _WIDE * middle) / 2
-    apart = function(middle + half) - function(np.maximum(middle - half, 0.0))
-    return np.asarray(apart * (steps / (2 * half)))
+def _rates(kernel: Kernel, nodes: Floats, owed: Floats, first: float | None) -> Floats:
+    """Return the mean rates of the unknown on all steps, the first one of which may be known."""
+    begins, steps = np.append(0.0, nodes[:-1]), np.diff(nodes, prepend=0.0)
+    rates, bends = np.zeros(nodes.size), np.zeros(nodes.size)
+    rates[0] = owed[0] / kernel.whole[0] if first is None else first
+    for i in range(1, nodes.size):
+        whole, bent = kernel.past(nodes[i] - begins[:i], steps[:i])
+        rest = owed[i] - whole @ rates[:i] - bent @ bends[:i]
+        if i == 1:  # the first step is long and may hide a power: no parabola rests on it
+            rates[i] = rest / kernel.whole[i]
+            continue
+        apart = steps[i] + steps[i - 1]
+        bending = kernel.bent[i] / apart
+        rates[i] = (rest + bending * rates[i - 1]) / (kernel.whole[i] + bending)
+        bends[i] = (rates[i] - rates[i - 1]) / apart
+    return rates
 
 
-def _slopes(times: Floats, k: Floats) -> Floats:
-    """Return k' at all nodes but the outer two, by the parabola through the nodes around."""
-    steps = np.diff(times)
-    rates = np.diff(k) / steps
-    return np.asarray((rates[:-1] * steps[1:] + rates[1:] * steps[:-1]) / (steps[:-1] + steps[1:]))
+def _falling(function: Function, mean: Mean, steps: Floats) -> Kernel:
+    """Return the kernel κ = f of a function that falls."""
+
+    def past(lags: Floats, steps: Floats) -> tuple[Floats, Floats]:
+        middle = lags - steps / 2
+        values = function(middle)
+        bent = np.zeros(values.size)
+        near = steps > _POINT * middle
+        a, b, c = (lags - steps)[near], middle[near], lags[near]
+        early, late = mean(a, b), mean(b, c)
+        values[near] = (early + late) / 2
+        bent[near] = (early - late) / 3  # exact for a straight f
+        return values * steps, bent * steps**2
+
+    none = np.zeros(steps.size)
+    bent = mean(none, steps) - 2 * _first_moment(mean, steps)
+    return Kernel(past, mean(none, steps) * steps, bent * steps**2)
+
+
+def _growing(function: Function, mean: Mean, steps: Floats, instant: float) -> Kernel:
+    """Return the kernel κ = f(0) δ + f' of a function that grows."""
+
+    def past(lags: Floats, steps: Floats) -> tuple[Floats, Floats]:
+        middle = lags - steps / 2
+        # Over a step that is nothing to its lag the difference would cancel, and old rates can
+        # be so large that this counts: f' there comes from an interval that is wide enough.
+        half = np.maximum(steps, _POINT * middle) / 2
+        at = function(middle)
+        early, late = at - function(np.maximum(middle - half, 0.0)), function(middle + half) - at
+        share = steps / (2 * half)
+        return (early + late) * share, (early - late) * share**2 * steps * (2 / 3)
+
+    at_end = function(steps)
+    curved = 2 * mean(np.zeros(steps.size), steps) - at_end
+    return Kernel(past, at_end, curved * steps)
+
+
+def _at_nodes(rates: Floats, steps: Floats) -> Floats:
+    """Return the rate at each node but the last, by the parabola through the nodes around."""
+    before, after = steps[:-1], steps[1:]
+    return np.asarray((rates[:-1] * after + rates[1:] * before) / (before + after))
 
 
 def _power_share(function: Function, first: float) -> float:
@@ -142,13 +165,6 @@ def first_exponent(function: Function, first: float) -> float:
     """Return the exponent of the power of time as which f begins, from two times there."""
     low, high = function(np.array([first, 2 * first]))
     return math.log2(float(high / low))
-
-
-def _means(function: Function, mean: Mean, start: Floats, end: Floats) -> Floats:
-    means = function(start + (end - start) / 2)
-    near = end - start > _POINT * end
-    means[near] = mean(start[near], end[near])
-    return means
 
 
 def _first_moment(mean: Mean, ends: Floats) -> Floats:

@@ -35,11 +35,11 @@ class TabulatedRelaxation(Law):
         G at these times [Pa], positive, never growing.
     before : {"first", "slope"}, optional
         Before the first row, unless that is at 0: its value, so that the body is elastic up to
-        there; or its slope in log time, as a power of time (the tangent in log-log), no steeper
-        than t^-0.9. A power leaves no instant compliance.
+        there; or the first slope in log time, as the power of time through the first two rows,
+        no steeper than t^-0.9. It leaves no instant compliance.
     beyond : {"slope", "last"}, optional
-        Beyond the last row: its slope in log time, as a power of time, because a straight line
-        would run below zero; or its value.
+        Beyond the last row: the last slope in log time, as the power of time through the last two
+        rows, because a straight line would run below zero; or its value.
 
     Raises
     ------

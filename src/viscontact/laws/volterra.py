@@ -22,7 +22,7 @@ from viscontact.laws.curve import LogCurve
 from viscontact.laws.product_integration import Floats, Function, Load, Mean, march
 
 #: Steps in a decade of time on the coarsest of three grids; the finest has four times as many.
-STEPS = 24
+STEPS = 20
 # f may change by this part before the first node; the inverse is straight in t up to there.
 _FIRST_CHANGE = 1e-5
 # A power starts the march this far ahead of the first instant asked for: what its first steps
@@ -144,6 +144,8 @@ def respond(
         scale = 1.0 / function(coarse[: rough.size])
     doubt = np.abs(values[::4] - _extrapolated(rough, better)[::2]) / scale
     error = float(np.max(doubt[coarse[: rough.size] >= since], initial=0.0))
+    if since > first and not 0 < function(np.zeros(1))[0] < np.inf:
+        error += first / since  # what the beginning as a power has left, on any grid
     return Response(_curve(fine[: values.size], at_once, values), error)
 
 
@@ -165,8 +167,11 @@ def monotone(curve: LogCurve, trend: int) -> LogCurve:
     times, values, known = curve.times, curve.values, curve.at_once is not None
     if curve.at_once is not None:
         times, values = np.append(0.0, times), np.append(curve.at_once, values)
-    running = np.maximum if trend > 0 else np.minimum
-    steady = running.accumulate(np.maximum(values, np.finfo(np.float64).tiny))
+    # From the end backwards: a swing then spoils those before it, which are larger, by no more
+    # than itself.
+    values = np.maximum(values, np.finfo(np.float64).tiny)
+    running = np.minimum if trend > 0 else np.maximum
+    steady = running.accumulate(values[::-1])[::-1]
     return LogCurve(times, steady, before="value" if known else "power", beyond="power")
 
 
