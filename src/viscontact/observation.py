@@ -24,7 +24,7 @@ from viscontact.plausibility import (
 )
 from viscontact.rim import Rim, trace_outline, trace_rim
 from viscontact.run import Run
-from viscontact.schedule import Step
+from viscontact.schedule import SAME, Step
 from viscontact.state import ContactState, Outcome
 
 
@@ -164,14 +164,23 @@ class Observer:
         if before.outcome is Outcome.NO_CONTACT:
             if compliance(step.duration) == compliance.instant:
                 return {}  # an elastic body takes the force however it comes
-            load = self._run.load
-            level = float(load.level_at(step.time, side=step.side))
-            return touch_doubts(step.duration, level / load.largest_level)
+            return touch_doubts(step.duration, self._rise(step) / self._run.load.largest_level)
         if after.resolved:
             return {}
         peaks = [float(end.pressure.max()) for end in (before, after)]
         change = max(relative_change(*peaks), relative_change(*forces))
         return step_doubts(step.duration, change)
+
+    def _rise(self, step: Step) -> float:
+        """How far the load rises over a step that begins without contact [N or m].
+
+        A force begins from nothing then; but a dent is met again at an approach that may be far
+        from 0, and only the way beyond the step's begin is made at once.
+        """
+        load = self._run.load
+        begin = step.time - step.duration * (1 - SAME)
+        levels = (load.level_at(step.time, side=step.side), load.level_at(begin))
+        return float(levels[0]) - max(float(levels[1]), 0.0)
 
     def _work_of(self, step: Step, instant: Instant, resultants: NDArray[np.float64]) -> float:
         """Work over a step: trapezium rule on the motion; across a jump exact.
