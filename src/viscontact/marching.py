@@ -158,7 +158,7 @@ def _instants(run: Run, steps: Steps) -> Iterator[tuple[Step, Instant]]:
     while (step := steps.upcoming()) is not None:
         trial = past.trial(step)
         failed = trial.outcome is Outcome.NOT_CONVERGED
-        if not (failed or steps.accepts(trial.error)):
+        if not (failed or steps.accepts(trial.error.relative)):
             continue
         instant = past.accept(step, trial)
         _refuse_rim(run, step, instant)

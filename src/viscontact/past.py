@@ -18,7 +18,7 @@ from viscontact.prediction import POINTS, Twin, predict
 from viscontact.run import Run
 from viscontact.schedule import Step
 from viscontact.state import Outcome
-from viscontact.time_error import TimeErrors
+from viscontact.time_error import StepError, TimeErrors
 
 #: Errors are measured against the displacement that the pressure causes, but never against less
 #: than this part of the largest displacement of the past: below it rounding would have a say.
@@ -47,8 +47,8 @@ class Trial:
         Elastic twin of the end.
     outcome : Outcome
         How it ended.
-    error : float
-        What the step adds to the relative error of the pressure.
+    error : StepError
+        What the step adds to the error of the pressure.
     """
 
     solution: ContactSolution
@@ -57,7 +57,7 @@ class Trial:
     response: Response
     twin: Twin
     outcome: Outcome
-    error: float
+    error: StepError
 
 
 class Past:
@@ -109,7 +109,7 @@ class Past:
         self._motion = trial.solution.found.motion
         self._memory.accept(trial.values)
         self._force_memory.accept(np.array([trial.force]))
-        time_error = self._errors.after(step, trial.values[1], trial.response)
+        time_error = self._errors.after(step, trial.values[1], trial.response, trial.error)
         instant = _whole(self._half_space, trial, time_error)
         self._scale = max(self._scale, HISTORY_COUNTS * float(instant.displacement.max()))
         return instant

@@ -8,6 +8,8 @@ can have come to, not of what they cancel to.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -21,8 +23,28 @@ FIRST = 3.0
 #: Curvatures are taken from the steps behind, and lag where they grow.
 SAFETY = 1.5
 
-#: Without any successor: this part of the change over the step, as under t^(2/3).
-ALONE = 0.1
+#: Without any successor: this part of the change over the step, as under t² from rest; a first
+#: touch, which goes as t^(2/3), has a tenth.
+ALONE = 1 / 6
+
+
+@dataclass(frozen=True)
+class StepError:
+    """What one step adds to the error.
+
+    Attributes
+    ----------
+    bulge : float
+        Mean distance of the deflection from the path the memory takes [Pa m].
+    relative : float
+        What it adds to the pressure's error, relative to the largest deflection so far [-].
+    size : float
+        That largest deflection [Pa m].
+    """
+
+    bulge: float
+    relative: float
+    size: float
 
 
 class TimeErrors:
@@ -43,7 +65,7 @@ class TimeErrors:
         self._pending: tuple[float, float] | None = None
         self._size = 0.0
 
-    def of_step(self, step: Step, field: NDArray[np.float64], response: Response) -> float:
+    def of_step(self, step: Step, field: NDArray[np.float64], response: Response) -> StepError:
         """Return what a step adds to the error of the pressure at its end.
 
         Parameters
@@ -57,45 +79,47 @@ class TimeErrors:
 
         Returns
         -------
-        float
-            Relative to the largest deflection of the run so far [-]; 0 for the first step after
-            a kink, about which nothing is known before the second.
+        StepError
+            About the first step after a kink nothing is known before the second.
         """
-        size = max(self._size, float(np.abs(field).max()))
+        # Deflections are positive: the kernel is.
+        size = max(self._size, float(field.max()))
         if step.is_jump or size == 0:
-            return 0.0
+            return StepError(0.0, 0.0, size)
         bulge = self._bulge(step, field, response)
         crept = self._compliance(step.duration) - self._compliance.instant
-        return bulge * crept / (response.compliance * size)
+        return StepError(bulge, bulge * crept / (response.compliance * size), size)
 
-    def after(self, step: Step, field: NDArray[np.float64], response: Response) -> float:
+    def after(
+        self, step: Step, field: NDArray[np.float64], response: Response, error: StepError
+    ) -> float:
         """Take a step, and return the estimated relative error of the pressure after it.
 
         Parameters
         ----------
         step, field, response
             As in `of_step`.
+        error : StepError
+            From `of_step`.
 
         Returns
         -------
         float
             Relative to the largest deflection of the run so far [-].
         """
-        self._size = max(self._size, float(np.abs(field).max()))
-        bulge = self._bulge(step, field, response)
+        self._size = error.size
         if not step.smooth or step.is_jump:
             self._settle(alone=True)
             self._past = self._past[-1:]
         if step.is_jump:
-            self._past = [(step.time, field.copy())]
-            return self._present(response)
-        if len(self._past) < 2:
+            self._past = []
+        elif len(self._past) < 2:
             change = float(np.abs(field - self._past[-1][1]).max()) if self._past else 0.0
             self._pending = (step.duration, change)
         else:
-            self._settle(alone=False, bulge=bulge / step.duration**2)
-            self._remember(step.duration, bulge)
-        self._past = [*self._past[-1:], (step.time, field.copy())]
+            self._settle(alone=False, bulge=error.bulge / step.duration**2)
+            self._remember(step.duration, error.bulge)
+        self._past = [*self._past[-1:], (step.time, field)]
         return self._present(response)
 
     def _bulge(self, step: Step, field: NDArray[np.float64], response: Response) -> float:

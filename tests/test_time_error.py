@@ -1,0 +1,70 @@
+"""The estimate of what time steps cost, where the error is known in closed form."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from viscontact.compliance import SeriesCompliance
+from viscontact.memory import RecursiveMemory, plan_memory
+from viscontact.schedule import Step
+from viscontact.time_error import ALONE, FIRST, SAFETY, TimeErrors
+
+FLUID = SeriesCompliance(1.0, [], [], 0.01)  # so stiff that steps of 1 s rise all the way
+FIELD = np.array([[0.5, 1.0]])
+
+
+def follow(values, duration=1.0, compliance=FLUID):
+    """Estimates and exact errors along a field that takes the values step by step."""
+    errors = TimeErrors(plan_memory(compliance, np.arange(len(values)) * duration, 2))
+    memory = RecursiveMemory(compliance, FIELD.shape)
+    estimates = []
+    for k, value in enumerate(values):
+        step = Step(k * duration, duration if k else 0.0, None, smooth=k > 1)
+        response = memory.ramp(duration) if k else memory.jump()
+        field = value * FIELD
+        estimates.append(errors.after(step, field, response, errors.of_step(step, field, response)))
+        memory.accept(field)
+    return np.array(estimates), response.compliance
+
+
+def test_a_held_and_a_steadily_growing_field_have_no_error():
+    assert follow(np.ones(6))[0].max() == 0.0
+    # Rounding of second differences alone.
+    assert follow(np.arange(6.0))[0][2:].max() < 1e-15
+
+
+@pytest.mark.parametrize("steps", [4, 16])
+def test_under_a_parabola_the_estimate_is_the_sum_of_its_bulges(steps):
+    times = np.arange(steps + 1.0)
+    estimates, met = follow(times**2)
+    # A line through a step of t² lies above it by d²/6 in the mean, and flow adds them all up; the
+    # first step's is taken from its change, which is less than the guess from its successor.
+    assert ALONE < FIRST * SAFETY / 6
+    bulges = ALONE + SAFETY / 6 * (steps - 1)
+    assert estimates[-1] == pytest.approx(0.01 * bulges / (met * steps**2), rel=1e-12)
+
+
+def test_the_estimate_is_of_second_order_in_the_step():
+    ends = [follow(np.sin(np.linspace(0, 1.5, n + 1)), 1.5 / n)[0][-1] for n in (20, 40, 80)]
+    orders = np.log2(np.divide(ends[:-1], ends[1:]))
+    assert orders == pytest.approx([2.0, 2.0], abs=0.15)
+
+
+def test_a_first_step_without_a_successor_counts_by_its_change():
+    errors = TimeErrors(plan_memory(FLUID, np.arange(3.0), 2))
+    memory = RecursiveMemory(FLUID, FIELD.shape)
+    for step, value in (
+        (Step(0.0, 0.0, 0.0, smooth=False), 0.0),
+        (Step(1.0, 1.0, 1.0, smooth=False), 1.0),
+        (Step(2.0, 1.0, 2.0, smooth=False), 1.0),
+    ):
+        response = memory.jump() if step.is_jump else memory.ramp(step.duration)
+        measured = errors.of_step(step, value * FIELD, response)
+        estimate = errors.after(step, value * FIELD, response, measured)
+        memory.accept(value * FIELD)
+    assert estimate == pytest.approx(ALONE * 0.01 / response.compliance, rel=1e-12)
+
+
+def test_an_elastic_body_has_no_error_of_time():
+    assert follow(np.arange(8.0) ** 2, compliance=SeriesCompliance(1.0, [], []))[0].max() == 0.0
