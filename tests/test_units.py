@@ -48,6 +48,14 @@ from viscontact.units import (
         ("10 GPa s", "viscosity", 1e10),
         ("10 GPa·s", "viscosity", 1e10),
         ("1e-6 / (MPa s)", "fluidity", 1e-12),
+        ("50 kHz", "frequency", 5e4),
+        ("60 rpm", "angular frequency", 2 * math.pi),
+        ("60 degC", "temperature", 333.15),
+        ("-40 °F", "temperature", 233.15),  # where both scales meet
+        ("0 K", "temperature", 0.0),
+        ("51.6 degC", "temperature difference", 51.6),
+        ("18 degF", "temperature difference", 10.0),
+        ("80 kJ/mol", "molar energy", 8e4),
     ],
 )
 def test_quantity_in_words_is_its_si_value(text: str, dimension: str, value: float) -> None:
@@ -67,6 +75,10 @@ def test_a_length_in_millimetres_is_exactly_the_number_that_a_script_writes() ->
         ("3 kg", "force", "got a mass"),
         ("20 degC", "length", "got a temperature"),
         ("5 %", "angle", "got a plain ratio"),
+        ("5 mm", "temperature", "got a length"),
+        ("20 degree_Reaumur", "temperature", "got a temperature"),
+        ("10 Hz", "angular frequency", "got a frequency or a rate"),
+        ("10 rad/s", "frequency", "got an angular frequency"),
         ("10", "force", "10 has no unit, a force is wanted; write e.g. '10 kN'"),
         ("kN", "force", "no number in front"),
         ("10 Kn", "force", "unknown unit 'Kn' (did you mean 'kN'?)"),

@@ -4,7 +4,14 @@ Case files and the command line take ``"5 mm"``; everything behind them is SI. T
 figures turn SI numbers back into units a person reads.
 """
 
-from viscontact.units.quantities import DIMENSIONS, Dimension, parse_quantity, parse_unit
+from viscontact.units.quantities import (
+    DIMENSIONS,
+    Dimension,
+    Scale,
+    parse_quantity,
+    parse_scale,
+    parse_unit,
+)
 from viscontact.units.readable import ReadableUnit, in_digits, in_words, readable_unit
 from viscontact.units.rounding import is_rounding_tilt
 
@@ -12,10 +19,12 @@ __all__ = [
     "DIMENSIONS",
     "Dimension",
     "ReadableUnit",
+    "Scale",
     "in_digits",
     "in_words",
     "is_rounding_tilt",
     "parse_quantity",
+    "parse_scale",
     "parse_unit",
     "readable_unit",
 ]

@@ -29,6 +29,11 @@ DIMENSIONS = {
     "compliance": Dimension("a compliance", "1/Pa", "5.5e-4 / MPa"),
     "viscosity": Dimension("a viscosity", "Pa s", "10 GPa s"),
     "fluidity": Dimension("a fluidity", "1/(Pa s)", "1e-6 / (MPa s)"),
+    "frequency": Dimension("a frequency", "Hz", "10 Hz"),
+    "angular frequency": Dimension("an angular frequency", "rad/s", "62.8 rad/s"),
+    "temperature": Dimension("a temperature", "K", "25 degC"),
+    "temperature difference": Dimension("a temperature difference", "K", "51.6 K"),
+    "molar energy": Dimension("an energy per mole", "J/mol", "80 kJ/mol"),
 }
 
 # Only to name what was given instead: "(got a mass)".
@@ -37,7 +42,7 @@ _OTHER_DIMENSIONS = {
     "m^2": "an area",
     "m^3": "a volume",
     "m/s": "a speed",
-    "1/s": "a rate",
+    "1/s": "a frequency or a rate",
     "1/m": "a curvature",
     "K": "a temperature",
     "N m": "an energy or a moment",
@@ -46,12 +51,22 @@ _OTHER_DIMENSIONS = {
     "V": "a voltage",
 }
 
+# Degrees have an offset, which units as factors cannot have, and C alone is no coulomb here.
+_DEGREES = {
+    **dict.fromkeys(("k", "kelvin", "degk", "°k"), (1.0, 0.0)),
+    **dict.fromkeys(("c", "celsius", "degc", "°c", "℃"), (1.0, 273.15)),
+    **dict.fromkeys(("f", "fahrenheit", "degf", "°f", "℉"), (5 / 9, 459.67 * 5 / 9)),
+}
+
+_OFFSET = " above another zero"
+
 _COMMON_UNITS = (
     *("nm", "um", "µm", "mm", "cm", "m", "in"),
     *("us", "ms", "s", "min", "h", "d"),
     *("uN", "mN", "N", "kN", "MN", "lbf"),
     *("Pa", "kPa", "MPa", "GPa", "psi", "bar"),
     *("urad", "mrad", "rad", "deg"),
+    *("Hz", "rad/s", "K", "degC", "degF", "kJ/mol"),
 )
 
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
@@ -64,6 +79,43 @@ _UNIT = re.compile(
     )
 )
 _NOT_FINITE = re.compile(r"\s*[+-]?\.?(?:nan|inf|infinity)\b.*", re.IGNORECASE | re.DOTALL)
+
+
+@dataclass(frozen=True)
+class Scale:
+    """A unit as a straight line to SI: SI value = factor × number + offset."""
+
+    factor: float
+    offset: float = 0.0
+
+    def si(self, number: str) -> float:
+        """Return the SI value of a number in this unit.
+
+        Parameters
+        ----------
+        number : str
+            Its digits, with a decimal point.
+
+        Returns
+        -------
+        float
+            The value; inf if it is beyond all floats.
+
+        Examples
+        --------
+        >>> Scale(0.001).si("9.565"), Scale(1.0, 273.15).si("60")
+        (0.009565, 333.15)
+        """
+        # In decimals, so that 9.565 mm is the 0.009565 m that a script would say, to the last
+        # digit; 9.565 * 0.001 is not.
+        plain = float(number)
+        if not math.isfinite(plain):
+            return math.inf
+        if plain == 0.0:  # or too small for a float, and its exponent perhaps for a decimal
+            return self.offset
+        if self.factor == 1.0 and self.offset == 0.0:
+            return plain
+        return float(Decimal(number) * Decimal(repr(self.factor)) + Decimal(repr(self.offset)))
 
 
 def parse_quantity(text: str, dimension: str) -> float:
@@ -98,8 +150,7 @@ def parse_quantity(text: str, dimension: str) -> float:
     """
     wanted = DIMENSIONS[dimension]
     number, unit = _split(text, wanted)
-    factor = _factor(unit, text, wanted)
-    value = _scaled(number, factor)
+    value = _scale(unit, text, dimension).si(number)
     if not math.isfinite(value):
         raise ValueError(f"{text!r} is not a finite number; write e.g. {wanted.example!r}")
     return value
@@ -131,6 +182,45 @@ def parse_unit(text: str, dimension: str) -> float:
     60.0
     """
     return _factor(text.strip(), text, DIMENSIONS[dimension])
+
+
+def parse_scale(text: str, dimension: str) -> Scale:
+    """Return what one unit, given in words, is in SI: temperatures may have an offset.
+
+    Parameters
+    ----------
+    text : str
+        A unit alone, such as ``"kN"`` or ``"degC"``.
+    dimension : str
+        What is wanted: a key of `DIMENSIONS`.
+
+    Returns
+    -------
+    Scale
+        The line to the dimension's SI unit.
+
+    Raises
+    ------
+    ValueError
+        If the unit is unknown or measures something else.
+
+    Examples
+    --------
+    >>> parse_scale("°C", "temperature").si("-50")
+    223.15
+    >>> parse_scale("degC", "temperature difference").si("51.6")
+    51.6
+    """
+    return _scale(text.strip(), text, dimension)
+
+
+def _scale(unit: str, text: str, dimension: str) -> Scale:
+    wanted = DIMENSIONS[dimension]
+    if dimension.startswith("temperature"):
+        degrees = _DEGREES.get(unit.lower())
+        if degrees is not None:
+            return Scale(degrees[0], degrees[1] if dimension == "temperature" else 0.0)
+    return Scale(_factor(unit, text, wanted))
 
 
 def _split(text: str, wanted: Dimension) -> tuple[str, str]:
@@ -184,13 +274,15 @@ def _in_base_units(unit: Any) -> tuple[float, str]:
     # The string of the base units tells an angle (radian) from a ratio, which its
     # dimensionality does not.
     try:
-        factor = _registry().Quantity(1.0, unit).to_base_units()
-    except Exception:  # a unit without a fixed factor, such as a degree Celsius
+        zero, one = (_registry().Quantity(n, unit).to_base_units() for n in (0.0, 1.0))
+    except Exception:  # a unit without a fixed factor, such as a product of degrees Celsius
         return math.nan, str(unit)
-    return float(factor.magnitude), str(factor.units)
+    offset = "" if zero.magnitude == 0.0 else _OFFSET
+    return float(one.magnitude), f"{one.units}{offset}"
 
 
 def _dimension_name(base: str) -> str:
+    base = base.removesuffix(_OFFSET)
     known = {_si_base(d.unit): d.name for d in DIMENSIONS.values()}
     known |= {_si_base(unit): name for unit, name in _OTHER_DIMENSIONS.items()}
     return known.get(base, f"a quantity in {base}" if base != "dimensionless" else "a plain ratio")
@@ -199,16 +291,6 @@ def _dimension_name(base: str) -> str:
 @functools.lru_cache(maxsize=64)
 def _si_base(unit: str) -> str:
     return _in_base_units(_registry().parse_units(unit))[1]
-
-
-def _scaled(number: str, factor: float) -> float:
-    # In decimals, so that 9.565 mm is the 0.009565 m that a script would say, to the last
-    # digit; 9.565 * 0.001 is not.
-    if not math.isfinite(float(number)):
-        return math.inf
-    if float(number) == 0.0:  # or too small for a float, and its exponent perhaps for a decimal
-        return 0.0
-    return float(Decimal(number) * Decimal(repr(factor)))
 
 
 @functools.lru_cache(maxsize=1)
