@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import math
 import re
 from pathlib import Path
 
@@ -11,6 +12,7 @@ from viscontact.units import parse_unit
 _DIMENSIONS = {
     "time": "time",
     "force": "force",
+    "approach": "length",
     "eccentricity_x": "length",
     "eccentricity_y": "length",
     "tilt_x": "angle",
@@ -25,19 +27,22 @@ def read_load_table(path: Path) -> dict[str, list[float]]:
     Parameters
     ----------
     path : Path
-        The file; its first line names columns and units, as ``time [s], force [kN]``.
+        The file; its first line names columns and units, as ``time [s], force [kN]`` or
+        ``time [s]; approach [um]``. Columns are parted by commas, or by semicolons, and
+        numbers then may have decimal commas.
 
     Returns
     -------
     dict
-        Arguments of `viscontact.ForceHistory`, in SI units.
+        Arguments of `viscontact.ForceHistory` or `viscontact.ApproachHistory`, in SI units.
 
     Raises
     ------
     ValueError
-        If the file cannot be read, a column is unknown or missing, or an entry is no number.
+        If the file cannot be read, a column is unknown or missing, an entry is no number, or
+        the times decrease; with the row and the column.
     """
-    rows = _rows(path)
+    separator, rows = _rows(path)
     if not rows:
         raise ValueError(f"file: {path.name} is empty; it begins with e.g. 'time [s], force [kN]'")
     factors = _columns(path.name, rows[0][1])
@@ -48,21 +53,28 @@ def read_load_table(path: Path) -> dict[str, list[float]]:
                 f"file: {path.name}:{number} has {len(row)} entries, the header {len(factors)}"
             )
         for (name, factor), entry in zip(factors.items(), row, strict=True):
-            values[name].append(factor * _number(path.name, number, entry))
+            place = f"{path.name}:{number}: {name}"
+            values[name].append(factor * _number(place, entry, separator))
+        _refuse_decrease(f"{path.name}:{number}", values["time"])
+    if not values["time"]:
+        raise ValueError(f"file: {path.name} has a header and no rows")
     values["times"] = values.pop("time")
     return values
 
 
-def _rows(path: Path) -> list[tuple[int, list[str]]]:
-    """Rows that are neither empty nor comments, with their line numbers."""
+def _rows(path: Path) -> tuple[str, list[tuple[int, list[str]]]]:
+    """What parts the columns; rows that are neither empty nor comments, by line number."""
     try:
         with path.open(encoding="utf-8-sig", newline="") as lines:
-            numbered = list(enumerate(csv.reader(lines), start=1))
+            text = list(lines)
+        told = [line for line in text if line.strip() and not line.startswith("#")]
+        separator = ";" if told and ";" in told[0] else ","
+        numbered = list(enumerate(csv.reader(text, delimiter=separator), start=1))
     except FileNotFoundError as error:
         raise ValueError(f"file: no such file {path}") from error
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise ValueError(f"file: cannot read {path} as CSV: {error}") from error
-    return [(n, row) for n, row in numbered if any(row) and not row[0].startswith("#")]
+    return separator, [(n, row) for n, row in numbered if any(row) and not row[0].startswith("#")]
 
 
 def _columns(name: str, header: list[str]) -> dict[str, float]:
@@ -78,13 +90,31 @@ def _columns(name: str, header: list[str]) -> dict[str, float]:
         if match["name"] in factors:
             raise ValueError(f"file: {name}: two columns are called {match['name']}")
         factors[match["name"]] = parse_unit(match["unit"], _DIMENSIONS[match["name"]])
-    if missing := [wanted for wanted in ("time", "force") if wanted not in factors]:
-        raise ValueError(f"file: {name}: the column {missing[0]} is missing")
+    if "time" not in factors:
+        raise ValueError(f"file: {name}: the column time is missing")
+    if "force" in factors and "approach" in factors:
+        raise ValueError(
+            f"file: {name}: the columns force and approach exclude each other; only one of them "
+            "can be prescribed"
+        )
+    if not factors.keys() & {"force", "approach"}:
+        raise ValueError(f"file: {name}: the column force is missing, or approach in its place")
     return factors
 
 
-def _number(name: str, line: int, entry: str) -> float:
+def _number(place: str, entry: str, separator: str) -> float:
     try:
-        return float(entry)
+        value = float(entry.replace(",", ".") if separator == ";" else entry)
     except ValueError:
-        raise ValueError(f"file: {name}:{line}: {entry.strip()!r} is not a number") from None
+        raise ValueError(f"file: {place}: {entry.strip()!r} is not a number") from None
+    if not math.isfinite(value):
+        raise ValueError(f"file: {place} must be finite, got {entry.strip()!r}")
+    return value
+
+
+def _refuse_decrease(place: str, times: list[float]) -> None:
+    before, now = times[-2:] if len(times) > 1 else (0.0, times[-1])
+    if now < before:
+        raise ValueError(
+            f"file: {place}: time must not decrease, got {before:g} s followed by {now:g} s"
+        )

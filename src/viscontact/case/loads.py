@@ -3,28 +3,32 @@
 from __future__ import annotations
 
 from abc import abstractmethod
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 
 from viscontact import load
+from viscontact.case.levels import APPROACH_EXAMPLE, ForceOrApproach, Level, Tilt
 from viscontact.case.load_table import read_load_table
-from viscontact.case.quantities import Angle, Duration, Force, Instant, Offset, Section
-from viscontact.load import ForceHistory, LoadHistory
+from viscontact.case.problems import dotted
+from viscontact.case.quantities import Angle, CycleCount, Duration, Force, Instant, Offset, Section
+from viscontact.case.sentences import SentenceError, Sentences, course_of
+from viscontact.load import ApproachHistory, ForceHistory, LoadHistory
+from viscontact.load.history import Control
+from viscontact.units import DIMENSIONS
+
+_FREE = "prescribed slope along {}, in place of the moment balance; free: no moment"
 
 
 class Load(Section):
-    """A force over time, where it acts, and prescribed tilts."""
+    """A force or an approach over time, where the force acts, and prescribed tilts."""
 
     eccentricity_x: Offset = Field(default=0.0, description="where the force acts along x")
     eccentricity_y: Offset = Field(default=0.0, description="where the force acts along y")
-    tilt_x: Angle | None = Field(
-        default=None, description="prescribed slope along x, in place of the moment balance"
-    )
-    tilt_y: Angle | None = Field(
-        default=None, description="prescribed slope along y, in place of the moment balance"
-    )
+    tilt_x: Tilt = Field(default=None, description=_FREE.format("x"))
+    tilt_y: Tilt = Field(default=None, description=_FREE.format("y"))
 
     @abstractmethod
     def noun(self) -> LoadHistory:
@@ -37,7 +41,9 @@ class Load(Section):
 
     @property
     def _tail(self) -> dict[str, Any]:
-        return {name: getattr(self, name) for name in Load.model_fields}
+        """What stands in the file; what does not is the noun's to choose."""
+        given = [name for name in Load.model_fields if name in self.model_fields_set]
+        return {name: getattr(self, name) for name in given}
 
     @model_validator(mode="after")
     def _accepted(self) -> Load:
@@ -46,54 +52,106 @@ class Load(Section):
         return self
 
 
-class Step(Load):
-    """A force put on at once, then held."""
+class Controlled(Load):
+    """A history whose height is a force or an approach."""
+
+    force: Force | None = Field(default=None, description="prescribed force")
+    approach: Offset | None = Field(
+        default=None,
+        description="prescribed approach, in place of the force",
+        examples=[APPROACH_EXAMPLE],
+    )
+
+    @property
+    def _height(self) -> dict[Control, float]:
+        return _one_of(self.approach, "force", self.force)
+
+
+class Step(Controlled):
+    """A force or an approach put on at once, then held."""
 
     kind: Literal["step"]
-    force: Force
 
     def noun(self) -> LoadHistory:
         """Return the step."""
-        return load.step(self.force, **self._tail)
+        return load.step(**self._height, **self._tail)
 
 
-class Ramp(Load):
-    """A force that grows evenly, then is held."""
+class Ramp(Controlled):
+    """A force or an approach that grows evenly, then is held."""
 
     kind: Literal["ramp"]
-    force: Force
     duration: Duration
 
     def noun(self) -> LoadHistory:
         """Return the ramp."""
-        return load.ramp(self.force, self.duration, **self._tail)
+        return load.ramp(**self._height, duration=self.duration, **self._tail)
 
 
-class Triangle(Load):
-    """A force that grows evenly, then falls back to zero."""
+class Triangle(Controlled):
+    """A force or an approach that grows evenly to its peak, then falls back to zero."""
 
     kind: Literal["triangle"]
-    force: Force = Field(description="at the peak")
     rise: Duration
     fall: Duration | None = Field(default=None, description="as long as rise when left out")
 
     def noun(self) -> LoadHistory:
         """Return the triangle."""
-        return load.triangle(self.force, self.rise, self.fall, **self._tail)
+        return load.triangle(**self._height, rise=self.rise, fall=self.fall, **self._tail)
+
+
+class Harmonic(Load):
+    """A force or an approach that swings, mean + amplitude sin(2 pi t/period + phase)."""
+
+    kind: Literal["harmonic"]
+    mean: Force | None = Field(default=None, description="mean force")
+    approach: Offset | None = Field(
+        default=None,
+        description="mean approach, in place of the mean force",
+        examples=[APPROACH_EXAMPLE],
+    )
+    amplitude: ForceOrApproach = Field(description="of the force, or of the approach")
+    period: Duration = Field(description="time of a cycle")
+    cycles: CycleCount = Field(description="after these the level stays where it is")
+    phase: Angle = Field(default=0.0, description="at time 0")
+
+    def noun(self) -> LoadHistory:
+        """Return the harmonic load."""
+        middle = _one_of(self.approach, "mean", self.mean)
+        control: Control = "approach" if "approach" in middle else "force"
+        if self.amplitude.control != control:
+            wanted, example = {
+                "force": ("a force, as the mean", DIMENSIONS["force"].example),
+                "approach": ("a length, as the approach", APPROACH_EXAMPLE),
+            }[control]
+            raise ValueError(f"amplitude must be {wanted} is; write e.g. 'amplitude: {example}'")
+        return load.harmonic(
+            **middle,
+            amplitude=self.amplitude.value,
+            period=self.period,
+            cycles=self.cycles,
+            phase=self.phase,
+            **self._tail,
+        )
 
 
 class History(Load):
-    """A force by points, linear between them; a time given twice is a jump."""
+    """A force or an approach by points, from a table, or in sentences."""
 
     kind: Literal["history"]
-    points: list[Annotated[tuple[Instant, Force], Field(strict=False)]] | None = Field(
-        default=None, description="[time, force] each", examples=[[["0 s", "0 N"]]]
+    points: list[Annotated[tuple[Instant, ForceOrApproach], Field(strict=False)]] | None = Field(
+        default=None,
+        description="[time, force] or [time, approach] each, linear between them; a time given "
+        "twice is a jump",
+        examples=[[["0 s", "0 N"], ["1 s", "10 kN"]]],
     )
     file: str | None = Field(
         default=None,
-        description="CSV with a header such as: time [s], force [kN], eccentricity_x [mm]",
+        description="CSV with a header such as: time [s], force [kN], eccentricity_x [mm]; or "
+        "approach [um] in place of the force",
         examples=["load.csv"],
     )
+    sentences: Sentences | None = None
 
     @field_validator("file")
     @classmethod
@@ -106,22 +164,94 @@ class History(Load):
         return None if self.file is None else Path(self.file)
 
     def noun(self) -> LoadHistory:
-        """Return the history, from its points or from its file."""
-        if (self.points is None) == (self.file is None):
-            raise ValueError("give points (e.g. '[[0 s, 0 N], [1 s, 10 kN]]') or file, not both")
+        """Return the history, from its points, its file or its sentences."""
+        if [self.points, self.file, self.sentences].count(None) != 2:
+            raise ValueError(
+                "give points (e.g. '[[0 s, 0 N], [1 s, 10 kN]]'), file or sentences (e.g. 'ramp to "
+                "10 kN in 1 s'), and only one of them"
+            )
         if self.file is not None:
             return self._from_file(Path(self.file))
+        if self.sentences is not None:
+            return self._from_sentences()
+        return self._from_points()
+
+    def _from_points(self) -> LoadHistory:
         if not self.points:
             raise ValueError("points is empty; write e.g. '[[0 s, 0 N], [1 s, 10 kN]]'")
-        times, force = zip(*self.points, strict=True)
-        return ForceHistory(times, force, **self._tail)
+        times, levels = zip(*self.points, strict=True)
+        control = _common_control(levels)
+        for place, level in enumerate(levels, start=1):
+            if control == "force" and level.value < 0:
+                raise ValueError(
+                    f"points[{place}]: a force must be zero or more, got {level.value:g} N: a "
+                    "negative force pulls, and adhesion is not modelled"
+                )
+        return _history(control, times, [level.value for level in levels], self._tail)
+
+    def _from_sentences(self) -> LoadHistory:
+        said = [sentence for entry in self.sentences or () for sentence in entry]
+        try:
+            course = course_of(said)
+        except SentenceError as error:
+            # A text has no entries; the message then names the section's key.
+            key = ("sentences", error.entry - 1)
+            raise ValueError(f"{dotted(key)}: {error}") from error
+        except ValueError as error:
+            raise ValueError(f"sentences: {error}") from error
+        return _history(*course, self._tail)
 
     def _from_file(self, path: Path) -> LoadHistory:
         columns = read_load_table(path)
         twice = sorted(columns.keys() & self.model_fields_set)
         if twice:
             raise ValueError(f"{twice[0]} stands in the case and in {path.name}; give it once")
-        return ForceHistory(**{**self._tail, **columns})
+        control: Control = "approach" if "approach" in columns else "force"
+        times, levels = columns.pop("times"), columns.pop(control)
+        return _history(control, times, levels, {**self._tail, **columns})
 
 
-AnyLoad = Annotated[Step | Ramp | Triangle | History, Field(discriminator="kind")]
+def _one_of(approach: float | None, name: str, value: float | None) -> dict[Any, float]:
+    """The force, under the name it has, or the approach."""
+    if approach is not None and value is not None:
+        raise ValueError(f"{name} and approach exclude each other; give one of them")
+    if approach is not None:
+        return {"approach": approach}
+    if value is not None:
+        return {name: value}
+    force = DIMENSIONS["force"].example
+    raise ValueError(
+        f"{name} is missing; write e.g. '{name}: {force}', or 'approach: {APPROACH_EXAMPLE}'"
+    )
+
+
+def _common_control(levels: Sequence[Level]) -> Control:
+    for place, level in enumerate(levels, start=1):
+        if level.control != levels[0].control:
+            words = {"force": "a force", "approach": "a length"}
+            raise ValueError(
+                f"points[{place}]: {words[level.control]} stands there, {words[levels[0].control]} "
+                "in the first point; either the force or the approach is prescribed, throughout"
+            )
+    return levels[0].control
+
+
+def _history(
+    control: Control, times: Sequence[float], levels: Sequence[float], tail: dict[str, Any]
+) -> LoadHistory:
+    if control == "force":
+        return ForceHistory(times, levels, **tail)
+    tilts = {name: tail[name] for name in ("tilt_x", "tilt_y") if name in tail}
+    for name in tail.keys() - tilts.keys():
+        if any(tail[name] if isinstance(tail[name], list) else [tail[name]]):
+            raise ValueError(
+                f"{name} goes with a force; with an approach no force is prescribed that could "
+                "act there, so leave it out, or prescribe the tilt"
+            )
+    return ApproachHistory(times, levels, **tilts)
+
+
+AnyLoad = Annotated[
+    Step | Ramp | Triangle | Harmonic | History,
+    Field(discriminator="kind"),
+]

@@ -9,6 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field, GetCoreSchemaHandler, GetJson
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
+from viscontact.load.shapes import MOST_CYCLES
 from viscontact.units import DIMENSIONS, parse_quantity
 
 # Squares and products of these are still numbers.
@@ -122,6 +123,8 @@ Duration = Annotated[float, Quantity("time", POSITIVE)]
 PoissonRatio = Annotated[float, Field(gt=-1, le=0.5)]
 CellCount = Annotated[int, Field(ge=1, le=_MOST_CELLS)]
 StepCount = Annotated[int, Field(ge=1, le=_MOST_STEPS)]
+TimeTolerance = Annotated[float, Field(ge=1e-6, le=0.1)]
+CycleCount = Annotated[int, Field(ge=1, le=MOST_CYCLES)]
 
 
 class Section(BaseModel):

@@ -24,6 +24,7 @@ from viscontact.grid import Grid
 from viscontact.indenters import Indenter
 from viscontact.load import LoadHistory
 from viscontact.material import Material
+from viscontact.stepping import AdaptiveTimes
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,9 +42,9 @@ class Case:
     indenter_material : Material or None
         The pressed body's material; None for a rigid one.
     load : LoadHistory
-        Force, eccentricity and prescribed tilts over time.
-    times : ndarray
-        Instants of the run, those of the fields among them [s].
+        Force or approach, eccentricity and prescribed tilts over time.
+    times : ndarray or AdaptiveTimes
+        Instants of the run, those of the fields among them [s], or the wish for adaptive ones.
     grid : Grid or None
         The grid; None for an automatic one.
     fields : str or tuple of float
@@ -61,7 +62,7 @@ class Case:
     material: Material
     indenter_material: Material | None
     load: LoadHistory
-    times: NDArray[np.float64]
+    times: NDArray[np.float64] | AdaptiveTimes
     grid: Grid | None
     fields: str | tuple[float, ...]
     tolerance: float

@@ -9,11 +9,22 @@ from numpy.typing import NDArray
 from pydantic import Discriminator, Field, Tag, model_validator
 
 from viscontact import grid
-from viscontact.case.quantities import CellCount, Duration, Instant, Length, Section, StepCount
-from viscontact.stepping import log_times, uniform_times
+from viscontact.case.quantities import (
+    CellCount,
+    Duration,
+    Instant,
+    Length,
+    Section,
+    StepCount,
+    TimeTolerance,
+)
+from viscontact.stepping import AdaptiveTimes, adaptive_times, log_times, uniform_times
 
 #: Without `first`, steps in log time begin at this part of the end.
 FIRST_OF_END = 1e-3
+
+#: Without `tolerance`, adaptive steps keep the error they cause below this.
+ADAPTIVE_TOLERANCE = 1e-3
 
 #: Without `output`, so many instants keep their fields.
 DEFAULT_FIELDS = 10
@@ -23,14 +34,27 @@ class Time(Section):
     """The instants at which the state is computed."""
 
     end: Duration
-    steps: StepCount
-    spacing: Literal["uniform", "log"] = "uniform"
+    steps: StepCount | None = Field(
+        default=None, description="number of steps; not with adaptive spacing"
+    )
+    spacing: Literal["uniform", "log", "adaptive"] = Field(
+        default="uniform",
+        description="adaptive: each step as long as the tolerance allows",
+    )
     first: Duration | None = Field(
         default=None, description="with log spacing: the first instant after 0; end/1000 if not"
     )
+    tolerance: TimeTolerance | None = Field(
+        default=None,
+        description="with adaptive spacing: relative error that the steps may cause; "
+        f"{ADAPTIVE_TOLERANCE:g} if not",
+    )
 
-    def instants(self) -> NDArray[np.float64]:
-        """Return the instants, from 0 to the end [s]."""
+    def instants(self) -> NDArray[np.float64] | AdaptiveTimes:
+        """Return the instants, from 0 to the end [s], or the wish for adaptive ones."""
+        if self.spacing == "adaptive":
+            return adaptive_times(self.end, self.tolerance or ADAPTIVE_TOLERANCE)
+        assert self.steps is not None  # refused otherwise
         if self.spacing == "uniform":
             return uniform_times(self.end, self.steps)
         first = self.end * FIRST_OF_END if self.first is None else self.first
@@ -38,10 +62,22 @@ class Time(Section):
 
     @model_validator(mode="after")
     def _accepted(self) -> Time:
-        if self.spacing == "uniform" and self.first is not None:
-            raise ValueError("first goes with spacing: log only; leave it out")
+        for name, spacings in _GOES_WITH.items():
+            if getattr(self, name) is not None and self.spacing not in spacings:
+                raise ValueError(
+                    f"{name} goes with spacing: {' or '.join(spacings)} only; leave it out"
+                )
+        if self.steps is None and self.spacing != "adaptive":
+            raise ValueError(
+                "steps is missing; write e.g. 'steps: 120', or 'spacing: adaptive' for steps "
+                "that the run chooses"
+            )
         self.instants()
         return self
+
+
+#: Which keys say something about which spacing.
+_GOES_WITH = {"steps": ("uniform", "log"), "first": ("log",), "tolerance": ("adaptive",)}
 
 
 class Cells(Section):
@@ -84,20 +120,23 @@ class Output(Section):
     )
 
 
-def kept_fields(output: Output, times: NDArray[np.float64]) -> str | tuple[float, ...]:
+def kept_fields(
+    output: Output, times: NDArray[np.float64] | AdaptiveTimes
+) -> str | tuple[float, ...]:
     """Return the instants whose fields are kept.
 
     Parameters
     ----------
     output : Output
         What the case asks for.
-    times : ndarray
-        The run's instants [s].
+    times : ndarray or AdaptiveTimes
+        The run's instants [s], or the wish for adaptive ones.
 
     Returns
     -------
     str or tuple of float
-        ``"all"``, ``"none"``, or instants [s].
+        ``"all"``, ``"none"``, or instants [s]. When nothing is asked for, ten: evenly among the
+        run's steps, or, where these are adaptive, 0 and nine from end/1000 on in log time.
 
     Raises
     ------
@@ -108,35 +147,43 @@ def kept_fields(output: Output, times: NDArray[np.float64]) -> str | tuple[float
     --------
     >>> kept_fields(Output(fields=["0 s", "30 s"]), np.array([0.0, 60.0]))
     (0.0, 30.0)
+    >>> kept_fields(Output(), adaptive_times(10.0, tolerance=1e-3))[:3]
+    (0.0, 0.01, 0.023713737056616554)
     """
     if isinstance(output.fields, str):
         return output.fields
+    end = times.end if isinstance(times, AdaptiveTimes) else float(times[-1])
     if output.fields is None:
-        chosen = np.linspace(0, len(times) - 1, min(DEFAULT_FIELDS, len(times))).round()
-        return tuple(times[chosen.astype(int)].tolist())
-    late = [instant for instant in output.fields if instant > times[-1] * (1 + 1e-9)]
+        return _default_fields(times)
+    late = [instant for instant in output.fields if instant > end * (1 + 1e-9)]
     if late:
-        raise ValueError(
-            f"the instant {late[0]:g} s lies after the end of the run, {times[-1]:g} s"
-        )
-    return tuple(sorted({min(instant, float(times[-1])) for instant in output.fields}))
+        raise ValueError(f"the instant {late[0]:g} s lies after the end of the run, {end:g} s")
+    return tuple(sorted({min(instant, end) for instant in output.fields}))
+
+
+def _default_fields(times: NDArray[np.float64] | AdaptiveTimes) -> tuple[float, ...]:
+    if isinstance(times, AdaptiveTimes):
+        spread = log_times(times.end * FIRST_OF_END, times.end, DEFAULT_FIELDS - 1)
+        return tuple(spread.tolist())
+    chosen = np.linspace(0, len(times) - 1, min(DEFAULT_FIELDS, len(times))).round()
+    return tuple(times[chosen.astype(int)].tolist())
 
 
 def with_instants(
-    times: NDArray[np.float64], fields: str | tuple[float, ...]
-) -> NDArray[np.float64]:
+    times: NDArray[np.float64] | AdaptiveTimes, fields: str | tuple[float, ...]
+) -> NDArray[np.float64] | AdaptiveTimes:
     """Return the run's instants with those added whose fields are asked for.
 
     Parameters
     ----------
-    times : ndarray
-        The instants of the `time` section [s].
+    times : ndarray or AdaptiveTimes
+        The instants of the `time` section [s]; adaptive steps hit those of the fields anyway.
     fields : str or tuple of float
         From `kept_fields`.
 
     Returns
     -------
-    ndarray
+    ndarray or AdaptiveTimes
         All instants, strictly increasing [s].
 
     Examples
@@ -144,7 +191,7 @@ def with_instants(
     >>> with_instants(np.array([0.0, 1.0]), (0.0, 0.5)).tolist()
     [0.0, 0.5, 1.0]
     """
-    if isinstance(fields, str):
+    if isinstance(fields, str) or isinstance(times, AdaptiveTimes):
         return times
     # A field asked for at 30 s is the field at 30 s, not that of a step nearby; it takes the
     # place of a step that differs by rounding only.

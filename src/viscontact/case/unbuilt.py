@@ -8,8 +8,6 @@ VALUES: dict[str, frozenset[str]] = {
     "law": frozenset(
         {"power-law", "fractional", "fractional-maxwell", "fractional-zener", "table"}
     ),
-    "kind": frozenset({"harmonic", "approach"}),
-    "spacing": frozenset({"adaptive"}),
 }
 
 #: Keys by section, with what to do instead.
@@ -22,11 +20,6 @@ KEYS: dict[str, dict[str, str]] = {
         "file": "give the terms of a creep-series or relaxation-series",
         "quantity": "give the terms of a creep-series or relaxation-series",
     },
-    "load": {
-        "approach": "give force: the load is force-controlled",
-        "sentences": "give kind: history with points or file",
-    },
-    "time": {"tolerance": "give steps with spacing: uniform or log"},
 }
 KEYS["indenter_material"] = KEYS["material"]
 
@@ -45,8 +38,8 @@ def refused_value(key: str, value: object, built: list[str]) -> str | None:
 
     Examples
     --------
-    >>> refused_value("kind", "harmonic", ["ramp", "step"])
-    "'harmonic' is not built yet; built: ramp, step"
+    >>> refused_value("shape", "height-map", ["cone", "sphere"])
+    "'height-map' is not built yet; built: cone, sphere"
     """
     if value not in VALUES.get(key, ()):
         return None
@@ -63,8 +56,8 @@ def refused_key(section: object, key: object) -> str | None:
 
     Examples
     --------
-    >>> refused_key("load", "sentences")
-    'is not built yet; give kind: history with points or file'
+    >>> refused_key("indenter", "profile")
+    'is not built yet; give crown_radius, or leave both out for sharp ends'
     """
     remedy = KEYS.get(str(section), {}).get(str(key))
     return f"is not built yet; {remedy}" if remedy else None

@@ -12,7 +12,7 @@ from pydantic_core import ErrorDetails
 
 from viscontact.case import indenters, loads, materials, schedule
 from viscontact.case.document import Document
-from viscontact.case.problems import KeyPath
+from viscontact.case.problems import KeyPath, dotted
 from viscontact.case.sections import CaseFile
 from viscontact.case.unbuilt import refused_key, refused_value
 from viscontact.units import DIMENSIONS
@@ -28,7 +28,7 @@ _ALTERNATIVES: dict[str | int, type[BaseModel]] = {
     **{"burgers": materials.Burgers, "creep-series": materials.CreepSeries},
     "relaxation-series": materials.RelaxationSeries,
     **{"step": loads.Step, "ramp": loads.Ramp, "triangle": loads.Triangle},
-    "history": loads.History,
+    **{"harmonic": loads.Harmonic, "history": loads.History},
 }
 
 # What others call the same, where the spelling gives no hint.
@@ -36,6 +36,10 @@ _OTHER_NAMES = {
     **{"cylinder": "roller", "ball": "sphere"},
     **{"prony": "relaxation-series", "generalized-maxwell": "relaxation-series"},
     **{"standard-linear-solid": "zener", "sls": "zener", "constant": "step"},
+    **{"sine": "harmonic", "sinusoidal": "harmonic", "cyclic": "harmonic"},
+    **{"points": "history", "sentences": "history", "file": "history"},
+    **{"depth": "approach", "indentation": "approach", "displacement": "approach"},
+    **{"force": "mean", "frequency": "period", "logarithmic": "log", "linear": "uniform"},
 }
 
 
@@ -117,20 +121,23 @@ def noun_problem(document: Document, section: KeyPath, why: str) -> str:
     """
     key = _named_key(document.data, section, why)
     # "Roller: radius must be" and "load.force: ..." name the key a second time.
-    why = re.sub(r"^[A-Z]\w+[:.] ?", "", why)
-    last = ".".join(str(part) for part in key)
-    for name in (last, *(str(part) for part in key[-1:])):
-        why = re.sub(rf"^{re.escape(name)}(: |, | (?=must|has|is|stands|does))", "", why)
+    why = re.sub(r"^(?:[A-Z]\w+[:.]|harmonic:) ?", "", why)
+    names = [dotted(key[start:]) for start in range(len(key))]
+    for name in names:
+        behind = r"(\[\d+\])*(: |, | (?=must|has|is|stands|does|goes))"
+        why = re.sub(f"^{re.escape(name)}{behind}", "", why)
     return document.problem(key, why)
 
 
 def _named_key(data: Any, section: KeyPath, why: str) -> KeyPath:
     """The key that a message speaks of first, if it is one that stands in the file."""
-    lead = re.match(r"[\w.]+(?=:)", why)
-    named = tuple(lead[0].split(".")) if lead else ()
+    lead = re.match(r"\w[\w.\[\]]*(?=:)", why)
+    steps = re.findall(r"\[(\d+)\]|([^.\[\]]+)", lead[0]) if lead else []
+    named = tuple(int(place) - 1 if place else name for place, name in steps)
     for length in range(len(named), 0, -1):
-        if _holds(data, named[:length]):
-            return named[:length]
+        for path in (named[:length], (*section, *named[:length])):
+            if _holds(data, path):
+                return path
     words = re.findall(r"\w+", why) if section else ()
     return next(((*section, word) for word in words if _holds(data, (*section, word))), section)
 
@@ -173,10 +180,8 @@ def _union_key(error: ErrorDetails) -> str:
 def _why(key: KeyPath, model: type[BaseModel], error: ErrorDetails) -> str:
     kind, context = error["type"], error.get("ctx", {})
     if kind == "extra_forbidden":
-        allowed = sorted(model.model_fields)
-        return refused_key(key[0] if len(key) > 1 else "", key[-1]) or _unknown(
-            "key", key[-1], allowed
-        )
+        refused = refused_key(key[0] if len(key) > 1 else "", key[-1])
+        return refused or _unknown_key(model, key[-1])
     if kind == "missing":
         return f"is missing{_example(model, str(key[-1]))}"
     if kind == "union_tag_not_found":
@@ -205,6 +210,22 @@ def _unknown(what: str, given: object, allowed: list[str]) -> str:
     shown = "" if what == "key" else f" {str(given)[:40]!r}"
     hint = f"; did you mean {near!r}?" if near else "."
     return f"unknown {what}{shown}{hint} Allowed: {', '.join(allowed)}"
+
+
+def _unknown_key(model: type[BaseModel], given: object) -> str:
+    """Say what is allowed, or which other kind, law or shape has the key."""
+    unknown = _unknown("key", given, sorted(model.model_fields))
+    for discriminator in ("kind", "law", "shape"):
+        if discriminator not in model.model_fields:
+            continue
+        others = [
+            str(tag)
+            for tag, other in _ALTERNATIVES.items()
+            if str(given) in other.model_fields and discriminator in other.model_fields
+        ]
+        if others:
+            return f"{unknown}. It goes with {discriminator}: {' or '.join(others)}"
+    return unknown
 
 
 def _nearest(given: object, allowed: list[str]) -> str | None:
