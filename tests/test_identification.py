@@ -224,7 +224,7 @@ def test_the_law_of_a_fit_is_a_law_like_any_other():
         fit_creep(T, 1e-9 * creeping(T, 0.5, 0.02), data="uniaxial", poisson_ratio=0.3, fluid=True),
         fit_creep(T, 1e-9 * creeping(T, 0.5, 0.0), data="uniaxial", bulk_modulus=4e9),
         fit_relaxation(T, 1e9 * relaxing(T, 1.0), data="uniaxial", poisson_ratio=0.3),
-        fit_relaxation(T, 1e6 * relaxing(T, 0.0), data="shear", fluid=True),
+        fit_relaxation(T, 1.234565e6 * relaxing(T, 0.0), data="shear", fluid=True),
         fit_creep(T, 1e-6 * creeping(T, 0.5, 0.0), data="deviatoric"),
     ],
     ids=["fluid", "bulk", "relaxation", "shear fluid", "deviatoric"],

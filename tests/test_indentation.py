@@ -109,6 +109,9 @@ def test_each_law_is_found_again_without_scatter(name, law, indenter):
     fit = fit_indentation(exact_record(law, indenter, rows=31), name, poisson_ratio=NU)
     t = np.linspace(0.2, 4.0, 20)
     np.testing.assert_allclose(fit.law(t), law(t), rtol=2e-3)
+    if name.startswith("power-law"):  # whose compliance is the one at the record's end
+        assert fit.law.reference_time == pytest.approx(4.0)
+        assert fit.parameters["compliance"] == pytest.approx(law.compliance, rel=0.02)
 
 
 def test_the_approach_under_a_given_force_gives_the_same_law():

@@ -12,6 +12,7 @@ from viscontact.identification import (
     fit_master_curve,
     fit_wlf,
 )
+from viscontact.identification.overlap import Curve, log_shift
 from viscontact.laws import WLF, Arrhenius, CreepSeries, RelaxationSeries, TabulatedShift
 
 TEMPERATURES = np.arange(360.0, 431.0, 5.0)
@@ -103,6 +104,44 @@ def test_oscillations_shift_as_relaxations_do():
     fit = fit_master_curve(curve, data="shear")
     at = np.geomspace(1e-1, 1e4, 40)
     np.testing.assert_allclose(fit.law.relaxation(at), LAW.relaxation(at), rtol=0.02)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_losses_that_scatter_wildly_do_not_move_a_well_measured_storage(seed):
+    """Real losses of a glass are a hundredth of the modulus and differ from set to set by much."""
+    frequencies, some, rng = 1.0 / T, TEMPERATURES[:4], np.random.default_rng(seed)
+    sets = []
+    for t in some:
+        modulus = LAW.complex_modulus(frequencies * RULE.factor(t))
+        loss = 0.02 * modulus.real * np.exp(rng.standard_normal(T.size))
+        sets.append(Isotherm(t, frequencies, {"storage": modulus.real, "loss": loss}))
+    found = build_master_curve(sets, some[0]).factors
+    wanted = RULE.factor(some) / RULE.factor(some[0])
+    np.testing.assert_allclose(decades(found), decades(wanted), atol=0.1)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_shift_found_has_the_least_mismatch_and_says_how_much_it_is(seed):
+    rng = np.random.default_rng(seed)
+    slow, fast = (
+        Curve(
+            np.log(T),
+            np.log(LAW.relaxation(T / RULE.factor(t)) * (1 + 0.02 * rng.standard_normal(T.size)))[
+                None
+            ],
+        )
+        for t in (375.0, 380.0)
+    )
+
+    def mismatch(shift):
+        x = np.linspace(slow.log_times[0] + shift, slow.log_times[-1], 1000)
+        one = np.interp(x, slow.log_times, slow.log_columns[0])
+        other = np.interp(x - shift, fast.log_times, fast.log_columns[0])
+        return np.sqrt(np.mean((one - other) ** 2))
+
+    shift, said = log_shift(slow, fast)
+    assert said == pytest.approx(mismatch(shift), rel=0.01)
+    assert mismatch(shift) <= min(mismatch(shift - 0.01), mismatch(shift + 0.01))
 
 
 def test_creep_sets_shift_too():

@@ -2,21 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from dataclasses import fields
 
 from viscontact.identification.fit import Fit
-from viscontact.laws import CreepSeries
+from viscontact.identification.indentation_fit import IndentationFit
+from viscontact.laws import (
+    Burgers,
+    CreepSeries,
+    Elastic,
+    Law,
+    Maxwell,
+    PowerLaw,
+    RelaxationSeries,
+    Zener,
+)
 
 _DIGITS = 6
 
 
-def material_section(fit: Fit) -> str:
+def material_section(fit: Fit | IndentationFit) -> str:
     """Return the law of a fit as a section to paste in a case file.
 
     Parameters
     ----------
-    fit : Fit
-        What `fit_creep`, `fit_relaxation` or `fit_dynamic` returned.
+    fit : Fit or IndentationFit
+        What `fit_creep`, `fit_relaxation`, `fit_dynamic` or `fit_indentation` returned.
 
     Returns
     -------
@@ -39,32 +50,34 @@ def material_section(fit: Fit) -> str:
       data: uniaxial
       poisson_ratio: 0.4
     """
-    series = fit.series
-    if isinstance(series, CreepSeries):
-        lines = [
-            "law: creep-series",
-            f"instant: {_compliance(series.instant)}",
-            f"amplitudes: {_listed(map(_compliance, series.amplitudes))}",
-            f"times: {_listed(map(_duration, series.times))}",
-        ]
-        if series.fluidity > 0:
-            lines.append(f"fluidity: {1e6 * series.fluidity:.{_DIGITS}g} / (MPa s)")
+    if isinstance(fit, IndentationFit):
+        law: Law = fit.law
+        data = "deviatoric" if isinstance(law, CreepSeries | PowerLaw) else "shear"
+        volume = _volume(fit.material.poisson_ratio, fit.material.bulk_modulus)
     else:
-        lines = [
-            "law: relaxation-series",
-            f"equilibrium: {_modulus(series.equilibrium)}",
-            f"moduli: {_listed(map(_modulus, series.moduli))}",
-            f"times: {_listed(map(_duration, series.times))}",
-        ]
-    lines += [f"data: {fit.data}", _volume(fit)]
+        law, data = fit.series, fit.data
+        volume = _volume(fit.poisson_ratio, fit.bulk_modulus)
+    lines = [*_law(law), f"data: {data}", volume]
     return "\n".join(["material:", *(f"  {line}" for line in lines)])
 
 
-def _volume(fit: Fit) -> str:
-    if fit.poisson_ratio is not None:
-        return f"poisson_ratio: {fit.poisson_ratio:.{_DIGITS}g}"
-    if fit.bulk_modulus is not None:
-        return f"bulk_modulus: {_modulus(fit.bulk_modulus)}"
+def _law(law: Law) -> list[str]:
+    """Return the lines of the law itself; the keys are the constructor's arguments."""
+    lines = [f"law: {_NAMES[type(law)]}"]
+    for field in fields(law):  # type: ignore[arg-type]
+        value, write = getattr(law, field.name), _WRITTEN[field.name]
+        if isinstance(value, tuple):
+            lines.append(f"{field.name}: {_listed(map(write, value))}")
+        elif value != 0 or field.name in ("instant", "equilibrium"):
+            lines.append(f"{field.name}: {write(value)}")
+    return lines
+
+
+def _volume(poisson_ratio: float | None, bulk_modulus: float | None) -> str:
+    if poisson_ratio is not None:
+        return f"poisson_ratio: {_number(poisson_ratio)}"
+    if bulk_modulus is not None:
+        return f"bulk_modulus: {_modulus(bulk_modulus)}"
     return "# the data are of shear alone: add poisson_ratio, or bulk_modulus"
 
 
@@ -82,3 +95,41 @@ def _modulus(value: float) -> str:
 
 def _duration(value: float) -> str:
     return f"{value:.{_DIGITS}g} s"
+
+
+def _viscosity(value: float) -> str:
+    return f"{1e-6 * value:.{_DIGITS}g} MPa s"
+
+
+def _fluidity(value: float) -> str:
+    return f"{1e6 * value:.{_DIGITS}g} / (MPa s)"
+
+
+def _number(value: float) -> str:
+    return f"{value:.{_DIGITS}g}"
+
+
+_NAMES: dict[type[Law], str] = {
+    Burgers: "burgers",
+    CreepSeries: "creep-series",
+    Elastic: "elastic",
+    Maxwell: "maxwell",
+    PowerLaw: "power-law",
+    RelaxationSeries: "relaxation-series",
+    Zener: "zener",
+}
+_WRITTEN: dict[str, Callable[[float], str]] = {
+    "shear_modulus": _modulus,
+    "delayed_modulus": _modulus,
+    "equilibrium": _modulus,
+    "moduli": _modulus,
+    "viscosity": _viscosity,
+    "delayed_viscosity": _viscosity,
+    "instant": _compliance,
+    "compliance": _compliance,
+    "amplitudes": _compliance,
+    "fluidity": _fluidity,
+    "times": _duration,
+    "reference_time": _duration,
+    "exponent": _number,
+}
