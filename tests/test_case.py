@@ -216,7 +216,7 @@ def test_bad_value_is_refused_at_its_key(setting: str, said: str, tmp_path: Path
         ),
         ("{law: maxwell, shear_modulus: 1 MPa, poisson_ratio: 0.5}", "viscosity: is missing"),
         ("{law: elastic, youngs_modulus: 1 MPa, poisson_ratio: 0.5}", "data: uniaxial"),
-        ("{law: elastic, poisson_ratio: 0.5}", "shear_modulus is missing"),
+        ("{law: elastic, poisson_ratio: 0.5}", "shear_modulus: is missing"),
         ("{law: elastic, shear_modulus: 1 MPa}", "poisson_ratio"),
         ("{shear_modulus: 1 MPa}", "material.law: is missing"),
         (

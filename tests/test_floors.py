@@ -61,6 +61,7 @@ NEIGHBOURS = {
     ("adaptive", "time_error"),
     ("time_error", "schedule"),
     ("instants", "stepping"),  # when none are given
+    ("instants", "schedule"),  # what is meant to be a kink
     ("run", "stepping"),
     ("run", "instants"),
     ("run", "admission"),  # what is refused

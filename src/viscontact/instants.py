@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.compliance import ContactCompliance
 from viscontact.load import LoadHistory
+from viscontact.schedule import kink_meant
 from viscontact.stepping import AdaptiveTimes, uniform_times
 
 #: Steps of a run whose instants are not given.
@@ -59,8 +60,9 @@ def run_instants(
     if not isinstance(times, AdaptiveTimes):
         return _checked_times(times)
     kept = _instants("fields", [0.0] if isinstance(fields, str) else fields)
-    stops = np.unique(np.concatenate([[0.0, times.end], kept]))
-    return stops[(stops >= 0) & (stops <= times.end)]
+    stops = [0.0, times.end, *kept[(kept >= 0) & (kept <= times.end)].tolist()]
+    # What differs from a kink of the load by rounding is stepped, and kept, as the kink.
+    return np.array(sorted({kink_meant(stop, load.kinks) for stop in stops}))
 
 
 def field_instants(

@@ -12,7 +12,7 @@ import itertools
 import re
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from viscontact.case.levels import Level, read_level
 from viscontact.case.quantities import POSITIVE, Quantity
@@ -48,6 +48,13 @@ class Token:
     def is_number(self) -> bool:
         """Whether it begins a quantity or a count."""
         return _NUMBER.fullmatch(self.text) is not None
+
+
+class Rate(NamedTuple):
+    """So much in so long [s]."""
+
+    change: Level
+    per: float
 
 
 @dataclass(frozen=True)
@@ -202,15 +209,15 @@ def _time(tokens: Sequence[Token]) -> tuple[float, int]:
     return Quantity("time", POSITIVE).read(text), used
 
 
-def _rate(tokens: Sequence[Token]) -> tuple[Level, int]:
+def _rate(tokens: Sequence[Token]) -> tuple[Rate, int]:
     text, used = _quantity(tokens)
     level, _, unit = text.rpartition("/")
     if not level:
         raise PhraseError(f"{text!r} is not per time; write e.g. '2 kN/s'")
-    value, control = read_level(level)
-    if value <= 0:
+    change = read_level(level)
+    if change.value <= 0:
         raise PhraseError(f"a rate must be more than zero, got {text!r}; the goal says which way")
-    return Level(value / parse_unit(unit, "time"), control), used
+    return Rate(change, parse_unit(unit, "time")), used
 
 
 def _count(tokens: Sequence[Token]) -> tuple[int, int]:

@@ -13,7 +13,7 @@ from pydantic import BeforeValidator, PlainValidator, WithJsonSchema
 from pydantic_core import PydanticCustomError
 
 from viscontact.case.levels import Level
-from viscontact.case.phrases import CAN_BE_SAID, FORMS, PhraseError, Reading, read_form
+from viscontact.case.phrases import CAN_BE_SAID, FORMS, PhraseError, Rate, Reading, read_form
 from viscontact.load.harmonic import STEPS_PER_CYCLE
 from viscontact.load.history import Control
 from viscontact.units import in_words
@@ -160,7 +160,8 @@ def _control(sentences: Sequence[Sentence]) -> Control:
     """Whether forces or lengths are spoken of; never both."""
     found: Control | None = None
     for sentence in sentences:
-        for slot in sentence.reading.slots:
+        for given in sentence.reading.slots:
+            slot = given.change if isinstance(given, Rate) else given
             if not isinstance(slot, Level):
                 continue
             if found is not None and slot.control != found:
@@ -209,7 +210,7 @@ def _repeated(
 
 
 class _Way:
-    """Points that are gone through, in exact numbers, so that ten times 0.1 s are 1 s."""
+    """Points that are gone through, in exact decimal numbers: ten times 0.1 s are 1 s."""
 
     def __init__(self, control: Control) -> None:
         self.control: Control = control
@@ -221,9 +222,9 @@ class _Way:
         """Do what a sentence says."""
         kind, slots = move.form.kind, move.slots
         if kind == "hold for":
-            self._go(sentence, self.levels[-1], Fraction(slots[0]))
+            self._go(sentence, self.levels[-1], _exact(slots[0]))
         elif kind == "hold until":
-            self._wait_until(sentence, Fraction(slots[0]))
+            self._wait_until(sentence, _exact(slots[0]))
         elif kind == "swing":
             self._swing(sentence, *slots)
         else:
@@ -234,7 +235,7 @@ class _Way:
     def _goal(self, kind: str, slots: tuple[Any, ...]) -> Fraction:
         if kind.startswith("off"):
             return Fraction(0)
-        given = Fraction(slots[0].value)
+        given = _exact(slots[0].value)
         if kind.startswith("to"):
             return given
         return self.levels[-1] + (-given if kind.startswith("back") else given)
@@ -243,12 +244,13 @@ class _Way:
         self, sentence: Sentence, kind: str, slots: tuple[Any, ...], goal: Fraction
     ) -> None:
         if kind.endswith("in"):
-            self._go(sentence, goal, Fraction(slots[-1]))
+            self._go(sentence, goal, _exact(slots[-1]))
         elif kind.endswith("at"):
             distance = abs(goal - self.levels[-1])
             if not distance:
                 _refuse(sentence, "it is there already; write e.g. 'hold for 10 s'")
-            self._go(sentence, goal, distance / Fraction(slots[-1].value))
+            change, per = slots[-1]
+            self._go(sentence, goal, distance / _exact(change.value) * _exact(per))
         else:
             self._jump(sentence, goal)
 
@@ -276,11 +278,11 @@ class _Way:
         self._go(sentence, self.levels[-1], instant - self.times[-1])
 
     def _swing(self, sentence: Sentence, amplitude: Level, period: float, cycles: int) -> None:
-        middle, swing = self.levels[-1], Fraction(amplitude.value)
+        middle, swing = self.levels[-1], _exact(amplitude.value)
         self._refuse_pull(sentence, middle - abs(swing))
         if cycles * STEPS_PER_CYCLE > MOST_POINTS:
             _refuse(sentence, f"that makes more than {MOST_POINTS} points; kind: harmonic has none")
-        part = Fraction(period) / STEPS_PER_CYCLE
+        part = _exact(period) / STEPS_PER_CYCLE
         for _ in range(cycles):
             for sine in _SINES:
                 self._go(sentence, middle + swing * sine, part)
@@ -293,6 +295,11 @@ class _Way:
                 f"the force would fall to {lowest}: a negative force pulls, and adhesion is not "
                 "modelled",
             )
+
+
+def _exact(number: float) -> Fraction:
+    """The decimal number that was written, so that 2 um less 3 um are -1 um."""
+    return Fraction(repr(number))
 
 
 def _refuse(sentence: Sentence, why: str) -> NoReturn:

@@ -119,6 +119,8 @@ def noun_problem(document: Document, section: KeyPath, why: str) -> str:
     str
         Where, which key, why, and what to do.
     """
+    if missing := re.match(r"(\w+) (?=is missing)", why):
+        return document.problem((*section, missing[1]), why[missing.end() :])
     key = _named_key(document.data, section, why)
     # "Roller: radius must be" and "load.force: ..." name the key a second time.
     why = re.sub(r"^(?:[A-Z]\w+[:.]|harmonic:) ?", "", why)
