@@ -43,7 +43,7 @@ grid:
 """
 COMMANDS = (
     *("run", "check", "show", "export", "plot", "compare", "schema", "example", "demo"),
-    *("material", "report", "verify"),
+    *("fit", "material", "report", "verify"),
 )
 
 

@@ -165,6 +165,18 @@ def test_the_order_of_sets_and_of_their_rows_does_not_matter():
     np.testing.assert_allclose(one.measured["modulus"], other.measured["modulus"], rtol=1e-12)
 
 
+def test_the_instant_of_the_step_counts_for_the_law_but_not_for_the_shift():
+    sets, with_instant = relaxation_sets()[:4], []
+    for s in sets:
+        modulus = np.append(s.measured["modulus"], LAW.relaxation(0.0))
+        with_instant.append(Isotherm(s.temperature, np.append(s.points, 0.0), {"modulus": modulus}))
+    one, other = build_master_curve(sets, 370.0), build_master_curve(with_instant, 370.0)
+    np.testing.assert_allclose(other.factors, one.factors, rtol=1e-12)
+    assert other.points[0] == 0.0
+    at_once = fit_master_curve(other, data="shear").law.relaxation(0.0)
+    assert at_once == pytest.approx(LAW.relaxation(0.0), rel=0.01)
+
+
 def test_another_reference_moves_the_whole_curve():
     sets = relaxation_sets(0.005)
     one, other = build_master_curve(sets, 380.0), build_master_curve(sets, 402.5)
@@ -217,7 +229,8 @@ def isotherm(temperature, values=FALLING, name="modulus", points=(1.0, 2.0, 3.0)
     [
         (lambda: isotherm(-20.0), r"temperature, row 0: .*above 0 K, got -20\.0"),
         (lambda: isotherm(300.0, [3.0, -2.0, 1.0]), r"at 300 K: modulus, row 1: .*got -2\.0"),
-        (lambda: isotherm(300.0, points=(1.0, 0.0, 2.0)), "at 300 K: times, row 1"),
+        (lambda: isotherm(300.0, points=(1.0, -1.0, 2.0)), "at 300 K: times, row 1"),
+        (lambda: isotherm(300.0, [3.0, 2.0], points=(0.0, 1.0)), "two rows above 0 s"),
         (lambda: isotherm(300.0, points=(1.0, 1.0, 2.0)), "two rows have the same time"),
         (lambda: isotherm(300.0, [3.0, 2.0]), "got 3 points, 2 modulus"),
         (lambda: isotherm(300.0, name="storage"), "both storage and loss, got storage"),

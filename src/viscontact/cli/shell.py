@@ -13,6 +13,7 @@ import typer
 from viscontact import __version__
 from viscontact.cli.cases import demo, example, schema
 from viscontact.cli.drawing import compare, plot
+from viscontact.cli.fitting import fit
 from viscontact.cli.later import report, verify
 from viscontact.cli.materials import material
 from viscontact.cli.messages import INTERRUPTED, REFUSED, STOPPED, say
@@ -39,6 +40,7 @@ _COMMANDS = (
     (compare, "viscontact compare centred halfway end --figure history -o runs.png"),
     (export, "viscontact export heavier -o heavier.csv"),
     (schema, "viscontact schema > viscontact.schema.json"),
+    (fit, "viscontact fit dma.csv --poisson-ratio 0.38 -o fit.png --yaml pmma.yaml"),
     (material, "viscontact material pmma-paper -o pmma.png"),
     (report, "viscontact report heavier -o heavier.html"),
     (verify, "viscontact verify --fast"),

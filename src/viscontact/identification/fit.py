@@ -101,10 +101,17 @@ class Fit:
         return (
             f"Fit: {type(self.law).__name__} of {count} to {points.size} rows of {self.data} data "
             f"at {points[0]:.4g} to {points[-1]:.4g} {unit}\n"
-            f"     relative residual {self.residual:.2e} (root mean square), "
+            f"     relative residual {self._rms()} (root mean square), "
             f"largest {largest:.2e} ({column}, row {row})\n"
             f"     {_in_short(self.law)}"
         )
+
+    def _rms(self) -> str:
+        """Say the root mean square, of each column where there are two."""
+        if len(self.measured) == 1:
+            return f"{self.residual:.2e}"
+        rms = {name: np.sqrt(np.mean(each**2)) for name, each in self.residuals.items()}
+        return ", ".join(f"{value:.2e} of {name}" for name, value in rms.items())
 
     def _worst(self) -> tuple[float, str, int]:
         worst = (0.0, next(iter(self.measured)), 0)

@@ -34,8 +34,8 @@ class Isotherm:
     temperature : float
         Absolute temperature > 0 [K]: 20 °C is 293.15 K.
     points : array_like, shape (n,)
-        Times > 0 [s], or with `storage` and `loss` angular frequencies > 0 [rad/s]. In any
-        order.
+        Times >= 0 [s], or with `storage` and `loss` angular frequencies > 0 [rad/s]. In any
+        order; two or more above 0.
     measured : mapping of str to array_like
         The columns by name, all > 0: ``compliance`` [1/Pa], or ``modulus`` [Pa], or ``storage``
         and ``loss`` [Pa].
@@ -59,14 +59,16 @@ class Isotherm:
                 f"{owner}: measured must have the column compliance, or modulus, or both storage "
                 f"and loss, got {', '.join(names) or 'none'}"
             )
-        name, unit = ("angular_frequency", "rad/s") if self.oscillates else ("times", "s")
-        points = positive_column(owner, name, self.points, unit)
+        name, unit_of_points = ("angular_frequency", "rad/s") if self.oscillates else ("times", "s")
+        points = positive_column(owner, name, self.points, unit_of_points, zero=not self.oscillates)
         unit = "1/Pa" if "compliance" in self.measured else "Pa"
         measured = {
             name: positive_column(owner, name, values, unit)
             for name, values in self.measured.items()
         }
         require_rows(owner, 2, points=points, **measured)
+        if np.count_nonzero(points) < 2:
+            raise ValueError(f"{owner}: needs at least two rows above 0 {unit_of_points}")
         if np.unique(points).size < points.size:
             raise ValueError(f"{owner}: two rows have the same time or frequency; give one of them")
         object.__setattr__(self, "temperature", float(temperature))
@@ -79,11 +81,13 @@ class Isotherm:
         return "storage" in self.measured
 
     def curve(self) -> Curve:
-        """Return the set over ln(time), or over -ln(angular frequency)."""
-        log_times = -np.log(self.points) if self.oscillates else np.log(self.points)
+        """Return the set over ln(time), or over -ln(angular frequency), without the time 0."""
+        later = np.flatnonzero(self.points)
+        log_times = np.log(self.points[later]) * (-1 if self.oscillates else 1)
         order = np.argsort(log_times)
         names = next(columns for columns, _ in _KINDS if set(columns) == set(self.measured))
-        return Curve(log_times[order], np.log([self.measured[name][order] for name in names]))
+        columns = np.array([self.measured[name][later][order] for name in names])
+        return Curve(log_times[order], np.log(columns))
 
 
 @dataclass(frozen=True, eq=False)

@@ -207,8 +207,10 @@ def master_curve(
             }
             if name == "loss":
                 look |= {"markerfacecolor": "none", "markeredgewidth": 0.7}
-            panels["sets"].plot(isotherm.points, unit(values), linewidth=0.6, **look)
-            panels["master"].plot(reduced[i], unit(values), linestyle="none", **look)
+            later = isotherm.points > 0  # the instant itself is not on a logarithmic axis
+            shown = unit(values[later])
+            panels["sets"].plot(isotherm.points[later], shown, linewidth=0.6, **look)
+            panels["master"].plot(reduced[i][later], shown, linestyle="none", **look)
     if fit is not None:
         along = _geometric(curve.points)
         for values in fit.curve(along).values():
