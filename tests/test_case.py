@@ -284,12 +284,14 @@ def test_history_by_points_and_from_a_file_are_the_same(tmp_path: Path) -> None:
     ("table", "said"),
     [
         ("", "load.csv is empty"),
-        ("time, force\n0, 1\n", "cannot read the column name 'time'"),
+        ("time, force\n0, 1\n", "load.csv:1: column 'time': has no unit"),
+        ("time [s], farce [N]\n0, 1\n", "cannot read the column name 'farce [N]'"),
+        ("time [s], force [N], T [K]\n0, 1, 3\n", "cannot read the column name 'T [K]'"),
         ("time [s], force [MPa]\n0, 1\n", "as a force (got a pressure)"),
         ("time [s]\n0\n", "the column force is missing"),
-        ("time [s], force [N]\n0, x\n", "load.csv:2: force: 'x' is not a number"),
+        ("time [s], force [N]\n0, x\n", "load.csv:2: column 'force [N]': 'x' is not a number"),
         ("time [s], force [N]\n0\n", "load.csv:2 has 1 entries"),
-        ("time [s], force [N]\n0, nan\n", "must be finite"),
+        ("time [s], force [N]\n0, nan\n", "must be a finite number"),
         ("time [s], force [N]\n2, 1\n1, 1\n", "must not decrease"),
     ],
 )

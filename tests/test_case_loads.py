@@ -242,7 +242,10 @@ def test_bad_load_is_one_line_at_its_key(load: Any, said: str, tmp_path: Path) -
         ("time [s], force [N], approach [m]\n0, 0, 0\n", "load.csv: the columns force and appr"),
         ("time [s], approach [N]\n0, 0\n", "as a length (got a force)"),
         ("time [s], force [N]\n", "load.csv has a header and no rows"),
-        ("time [s], force [N]\n0, 1\n\n2, nan\n", "load.csv:4: force must be finite, got 'nan'"),
+        (
+            "time [s], force [N]\n0, 1\n\n2, nan\n",
+            "load.csv:4: column 'force [N]': must be a finite number, got 'nan'",
+        ),
         ("time [s], force [N]\n0, 1\n2, 3\n1, 3\n", "load.csv:4: time must not decrease, got 2 s"),
         ("time [s], force [N]\n-1, 1\n", "load.csv:2: time must not decrease, got 0 s followed by"),
         ("time [s], force [N]\n0, -1\n", "force must be zero or more, got -1.0 N"),

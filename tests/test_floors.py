@@ -41,7 +41,16 @@ FLOORS = (
         "marching",
     ),
     ("description", "dataset", "results"),  # 5 labels and files
-    ("examples", "units", "materials", "identification", "forecast", "case", "plot"),  # 6 people
+    (
+        "examples",
+        "units",
+        "tables",
+        "materials",
+        "identification",
+        "forecast",
+        "case",
+        "plot",
+    ),  # 6 people
     ("cli", "__main__"),  # 7 shell
 )
 # Neighbours on a floor of which the first needs the second; the second stands to the left above.
@@ -85,6 +94,8 @@ NEIGHBOURS = {
     ("results", "dataset"),  # the file is laid out as the dataset is
     ("case", "units"),
     ("case", "materials"),  # which may be given by name
+    ("case", "tables"),  # loads and materials may be measured ones
+    ("tables", "units"),
     ("materials", "units"),
     ("plot", "units"),
     ("plot", "identification"),  # data, what was fitted, and what is left

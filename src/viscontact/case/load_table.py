@@ -2,23 +2,11 @@
 
 from __future__ import annotations
 
-import csv
-import math
-import re
 from pathlib import Path
 
-from viscontact.units import parse_unit
+from viscontact.tables import Table, read_table
 
-_DIMENSIONS = {
-    "time": "time",
-    "force": "force",
-    "approach": "length",
-    "eccentricity_x": "length",
-    "eccentricity_y": "length",
-    "tilt_x": "angle",
-    "tilt_y": "angle",
-}
-_HEADER = re.compile(r"\s*(?P<name>\w+)\s*\[(?P<unit>[^\]]+)\]\s*")
+_COLUMNS = ("time", "force", "approach", "eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y")
 
 
 def read_load_table(path: Path) -> dict[str, list[float]]:
@@ -27,9 +15,8 @@ def read_load_table(path: Path) -> dict[str, list[float]]:
     Parameters
     ----------
     path : Path
-        The file; its first line names columns and units, as ``time [s], force [kN]`` or
-        ``time [s]; approach [um]``. Columns are parted by commas, or by semicolons, and
-        numbers then may have decimal commas.
+        The file, as `viscontact.tables.read_table` takes it; its header names columns and
+        units, as ``time [s], force [kN]`` or ``t [s]; approach [um]``.
 
     Returns
     -------
@@ -42,79 +29,43 @@ def read_load_table(path: Path) -> dict[str, list[float]]:
         If the file cannot be read, a column is unknown or missing, an entry is no number, or
         the times decrease; with the row and the column.
     """
-    separator, rows = _rows(path)
-    if not rows:
-        raise ValueError(f"file: {path.name} is empty; it begins with e.g. 'time [s], force [kN]'")
-    factors = _columns(path.name, rows[0][1])
-    values: dict[str, list[float]] = {name: [] for name in factors}
-    for number, row in rows[1:]:
-        if len(row) != len(factors):
-            raise ValueError(
-                f"file: {path.name}:{number} has {len(row)} entries, the header {len(factors)}"
-            )
-        for (name, factor), entry in zip(factors.items(), row, strict=True):
-            place = f"{path.name}:{number}: {name}"
-            values[name].append(factor * _number(place, entry, separator))
-        _refuse_decrease(f"{path.name}:{number}", values["time"])
-    if not values["time"]:
-        raise ValueError(f"file: {path.name} has a header and no rows")
+    try:
+        table = read_table(path)
+        _require_columns(table)
+        _refuse_decrease(table)
+    except ValueError as error:
+        raise ValueError(f"file: {error}") from error
+    values = {name: column.tolist() for name, column in table.columns.items()}
     values["times"] = values.pop("time")
     return values
 
 
-def _rows(path: Path) -> tuple[str, list[tuple[int, list[str]]]]:
-    """What parts the columns; rows that are neither empty nor comments, by line number."""
-    try:
-        with path.open(encoding="utf-8-sig", newline="") as lines:
-            text = list(lines)
-        told = [line for line in text if line.strip() and not line.startswith("#")]
-        separator = ";" if told and ";" in told[0] else ","
-        numbered = list(enumerate(csv.reader(text, delimiter=separator), start=1))
-    except FileNotFoundError as error:
-        raise ValueError(f"file: no such file {path}") from error
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise ValueError(f"file: cannot read {path} as CSV: {error}") from error
-    return separator, [(n, row) for n, row in numbered if any(row) and not row[0].startswith("#")]
+def _require_columns(table: Table) -> None:
+    name = table.source.name
+    # A column left out in silence would be a load that is not applied.
+    others = [table.headings[column] for column in table.columns if column not in _COLUMNS]
+    for unknown in (*table.left_out, *others):
+        raise ValueError(
+            f"{name}: cannot read the column name {unknown!r}; "
+            f"names are {', '.join(_COLUMNS)}, each with its unit, as 'force [kN]'"
+        )
+    if "time" not in table:
+        raise ValueError(f"{name}: the column time is missing")
+    if "force" in table and "approach" in table:
+        raise ValueError(
+            f"{name}: the columns force and approach exclude each other; only one of them can be "
+            "prescribed"
+        )
+    if "force" not in table and "approach" not in table:
+        raise ValueError(f"{name}: the column force is missing, or approach in its place")
 
 
-def _columns(name: str, header: list[str]) -> dict[str, float]:
-    """Factor to SI of each column, in order."""
-    factors: dict[str, float] = {}
-    for cell in header:
-        match = _HEADER.fullmatch(cell)
-        if match is None or match["name"] not in _DIMENSIONS:
+def _refuse_decrease(table: Table) -> None:
+    before = 0.0
+    for line, now in zip(table.lines.tolist(), table["time"].tolist(), strict=True):
+        if now < before:
             raise ValueError(
-                f"file: {name}: cannot read the column name {cell.strip()!r}; "
-                f"names are {', '.join(_DIMENSIONS)}, each with its unit, as 'force [kN]'"
+                f"{table.source.name}:{line}: time must not decrease, got {before:g} s followed "
+                f"by {now:g} s"
             )
-        if match["name"] in factors:
-            raise ValueError(f"file: {name}: two columns are called {match['name']}")
-        factors[match["name"]] = parse_unit(match["unit"], _DIMENSIONS[match["name"]])
-    if "time" not in factors:
-        raise ValueError(f"file: {name}: the column time is missing")
-    if "force" in factors and "approach" in factors:
-        raise ValueError(
-            f"file: {name}: the columns force and approach exclude each other; only one of them "
-            "can be prescribed"
-        )
-    if not factors.keys() & {"force", "approach"}:
-        raise ValueError(f"file: {name}: the column force is missing, or approach in its place")
-    return factors
-
-
-def _number(place: str, entry: str, separator: str) -> float:
-    try:
-        value = float(entry.replace(",", ".") if separator == ";" else entry)
-    except ValueError:
-        raise ValueError(f"file: {place}: {entry.strip()!r} is not a number") from None
-    if not math.isfinite(value):
-        raise ValueError(f"file: {place} must be finite, got {entry.strip()!r}")
-    return value
-
-
-def _refuse_decrease(place: str, times: list[float]) -> None:
-    before, now = times[-2:] if len(times) > 1 else (0.0, times[-1])
-    if now < before:
-        raise ValueError(
-            f"file: {place}: time must not decrease, got {before:g} s followed by {now:g} s"
-        )
+        before = now

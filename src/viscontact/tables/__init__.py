@@ -1,0 +1,7 @@
+"""Measured tables: CSV files whose header names columns and units, as instruments export them."""
+
+from viscontact.tables.names import QUANTITIES
+from viscontact.tables.reader import read_table
+from viscontact.tables.table import Table
+
+__all__ = ["QUANTITIES", "Table", "read_table"]

@@ -1,0 +1,155 @@
+"""What the columns of measured tables are called, and what is meant."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import Literal
+
+Data = Literal["deviatoric", "shear", "uniaxial"]
+
+#: The quantities a table can hold, with what their unit measures (a key of
+#: `viscontact.units.DIMENSIONS`); None for those without a unit.
+QUANTITIES: dict[str, str | None] = {
+    "time": "time",
+    "angular_frequency": "angular frequency",
+    "creep_compliance": "compliance",
+    "relaxation_modulus": "pressure",
+    "storage_modulus": "pressure",
+    "loss_modulus": "pressure",
+    "loss_tangent": None,
+    "temperature": "temperature",
+    "set": None,
+    "shift_factor": None,
+    "force": "force",
+    "approach": "length",
+    "eccentricity_x": "length",
+    "eccentricity_y": "length",
+    "tilt_x": "angle",
+    "tilt_y": "angle",
+}
+
+
+@dataclass(frozen=True)
+class Meaning:
+    """What a heading means.
+
+    Parameters
+    ----------
+    quantity : str
+        A key of `QUANTITIES`, or ``"frequency"`` for one in hertz. ``"modulus"`` is the
+        relaxation modulus of a table over time, and not clear in one over frequency.
+    data : str, optional
+        The test it tells: ``"shear"``, ``"uniaxial"`` or ``"deviatoric"``; None if it does not.
+    logarithm : float, optional
+        Base of the logarithm whose values stand there, if they are logarithms.
+    """
+
+    quantity: str
+    data: Data | None = None
+    logarithm: float | None = None
+
+
+# One letter means one thing in capitals and another without.
+_SYMBOLS = {
+    **dict.fromkeys(("t", "ξ"), Meaning("time")),
+    "f": Meaning("frequency"),
+    **dict.fromkeys(("ω", "w"), Meaning("angular_frequency")),
+    **dict.fromkeys(("T", "ϑ", "θ", "Θ"), Meaning("temperature")),
+    "J": Meaning("creep_compliance", "shear"),
+    "D": Meaning("creep_compliance", "uniaxial"),
+    **dict.fromkeys(("Φ", "φ"), Meaning("creep_compliance", "deviatoric")),
+    "G": Meaning("modulus", "shear"),
+    "E": Meaning("modulus", "uniaxial"),
+    "G'": Meaning("storage_modulus", "shear"),
+    "E'": Meaning("storage_modulus", "uniaxial"),
+    "G''": Meaning("loss_modulus", "shear"),
+    "E''": Meaning("loss_modulus", "uniaxial"),
+    **dict.fromkeys(("F", "P"), Meaning("force")),
+    **dict.fromkeys(("d", "h", "δ"), Meaning("approach")),
+}
+_WORDS = {
+    **dict.fromkeys(("time", "times", "zeit", "temps", "test_time"), Meaning("time")),
+    **dict.fromkeys(("frequency", "freq", "freq.", "frequenz"), Meaning("frequency")),
+    **dict.fromkeys(
+        ("angular_frequency", "ang._frequency", "angular_freq", "omega", "kreisfrequenz"),
+        Meaning("angular_frequency"),
+    ),
+    **dict.fromkeys(
+        ("temperature", "temp", "temp.", "temperatur", "température"), Meaning("temperature")
+    ),
+    **dict.fromkeys(
+        ("creep_compliance", "compliance", "nachgiebigkeit"), Meaning("creep_compliance")
+    ),
+    "phi": Meaning("creep_compliance", "deviatoric"),
+    **dict.fromkeys(("j_creep", "shear_compliance"), Meaning("creep_compliance", "shear")),
+    **dict.fromkeys(("d_creep", "tensile_compliance"), Meaning("creep_compliance", "uniaxial")),
+    "relaxation_modulus": Meaning("relaxation_modulus"),
+    "modulus": Meaning("modulus"),
+    **dict.fromkeys(
+        ("g_relax", "shear_relaxation_modulus"), Meaning("relaxation_modulus", "shear")
+    ),
+    **dict.fromkeys(
+        ("e_relax", "tensile_relaxation_modulus"), Meaning("relaxation_modulus", "uniaxial")
+    ),
+    **dict.fromkeys(("storage_modulus", "speichermodul"), Meaning("storage_modulus")),
+    **dict.fromkeys(("g_stor", "g_storage"), Meaning("storage_modulus", "shear")),
+    **dict.fromkeys(("e_stor", "e_storage"), Meaning("storage_modulus", "uniaxial")),
+    **dict.fromkeys(("loss_modulus", "verlustmodul"), Meaning("loss_modulus")),
+    "g_loss": Meaning("loss_modulus", "shear"),
+    "e_loss": Meaning("loss_modulus", "uniaxial"),
+    **dict.fromkeys(
+        ("loss_tangent", "loss_factor", "verlustfaktor", "tan_delta", "tandelta", "tan(delta)"),
+        Meaning("loss_tangent"),
+    ),
+    **dict.fromkeys(("tan_d", "tan_δ", "tanδ", "tan(δ)"), Meaning("loss_tangent")),
+    **dict.fromkeys(("set", "sets"), Meaning("set")),
+    **dict.fromkeys(("shift_factor", "at", "a_t"), Meaning("shift_factor")),
+    **dict.fromkeys(
+        ("log_at", "log_a_t", "log10_at", "log10_a_t", "log(at)", "log10(at)"),
+        Meaning("shift_factor", logarithm=10.0),
+    ),
+    **dict.fromkeys(
+        ("ln_at", "ln_a_t", "ln(at)"), Meaning("shift_factor", logarithm=2.718281828459045)
+    ),
+    **dict.fromkeys(("force", "load", "kraft"), Meaning("force")),
+    **dict.fromkeys(
+        ("approach", "depth", "indentation", "indentation_depth", "eindringtiefe"),
+        Meaning("approach"),
+    ),
+    **{
+        name: Meaning(name) for name in ("eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y")
+    },
+}  # fmt: skip
+
+_PRIMES = str.maketrans({"’": "'", "′": "'", "‘": "'", "`": "'", "´": "'", "″": "''", '"': "''"})
+# "E(t)" is E; the argument says nothing that the other columns do not.
+_ARGUMENT = re.compile(r"\s*\((?:t|f|ω|w|omega|time|t,\s*T)\)\s*$")
+
+
+def meaning(name: str) -> Meaning | None:
+    """Return what a column's name means.
+
+    Parameters
+    ----------
+    name : str
+        The name, without its unit.
+
+    Returns
+    -------
+    Meaning or None
+        None if it is not known.
+
+    Examples
+    --------
+    >>> meaning("E''"), meaning("Zeit"), meaning("strain")
+    (Meaning(quantity='loss_modulus', data='uniaxial', logarithm=None), Meaning(quantity='time', \
+data=None, logarithm=None), None)
+    """
+    plain = _ARGUMENT.sub("", name.translate(_PRIMES).strip())
+    return _SYMBOLS.get(plain) or _WORDS.get(re.sub(r"[\s_-]+", "_", plain).lower())
+
+
+def known_names() -> list[str]:
+    """Return every name that is known, to find the nearest to a misspelt one."""
+    return [*_WORDS]

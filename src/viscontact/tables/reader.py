@@ -1,0 +1,118 @@
+"""From a CSV file to a measured table."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from os import PathLike
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.tables.header import Column, Header, read_header
+from viscontact.tables.numbers import decimal_number
+from viscontact.tables.table import Table, read_only
+from viscontact.tables.text import Row, read_rows
+
+
+def read_table(path: str | PathLike[str], columns: Mapping[str, str | None] | None = None) -> Table:
+    r"""Read a measured table from a CSV file.
+
+    Parameters
+    ----------
+    path : path-like
+        The file. Its header names columns and units in one row (``time [s], E' (MPa)``) or two
+        (names, then units).
+    columns : mapping, optional
+        What columns mean whose names do not say: heading to a quantity (a key of `QUANTITIES`,
+        or ``"frequency"``), or to None to leave the column out.
+
+    Returns
+    -------
+    Table
+        The columns in SI units.
+
+    Raises
+    ------
+    ValueError
+        If the file cannot be read, has no header, a unit is missing or measures something
+        else, a quantity is not clear or there twice, a row is ragged, or a cell is no finite
+        number: with the line of the file and the column.
+
+    Notes
+    -----
+    Text may be UTF-8 (with or without a byte-order mark), UTF-16, Windows-1252 or Latin-1; cells
+    are separated by tabs, semicolons or commas; numbers may have decimal commas where the
+    separator is none. Frequencies arrive in rad/s, whether they are written in Hz or so;
+    temperatures in K; shift factors as a_T where their logarithm (``log_aT``, decimal, or
+    ``ln_aT``) stands. Files are bounded at 50 MB and a million rows.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> file = Path(tempfile.mkdtemp(), "dma.csv")
+    >>> _ = file.write_text("f;E';T\nHz;MPa;°C\n0,1;8097,2;-50\n", encoding="utf-8")
+    >>> table = read_table(file)
+    >>> table.data, [round(float(values[0]), 6) for values in table.columns.values()]
+    ('uniaxial', [0.628319, 8097200000.0, 223.15])
+    """
+    path = Path(path)
+    rows = read_rows(path)
+    header = read_header(path.name, rows[:2], columns or {})
+    body = rows[header.rows :]
+    if not body:
+        raise ValueError(f"{path.name} has a header and no rows")
+    values = _values(path.name, header, body)
+    names = [column.meaning.quantity for column in header.columns]
+    return Table(
+        source=path,
+        columns={n: read_only(v.copy()) for n, v in zip(names, values.T, strict=True)},
+        data=header.data,
+        headings={c.meaning.quantity: c.heading for c in header.columns},
+        lines=np.array([row.line for row in body], dtype=np.int64),
+        left_out=header.left_out,
+    )
+
+
+def _values(source: str, header: Header, rows: list[Row]) -> NDArray[np.float64]:
+    places = [column.place for column in header.columns]
+    for row in rows:
+        _require_width(source, header.width, row)
+    # A comma between digits is a decimal mark everywhere or nowhere.
+    comma = any("," in row.cells[place] for row in rows for place in places)
+    mark = "," if comma else "."
+    values = np.empty((len(rows), len(places)))
+    for i, row in enumerate(rows):
+        for j, column in enumerate(header.columns):
+            values[i, j] = _value(source, row, column, mark)
+    return values
+
+
+def _require_width(source: str, width: int, row: Row) -> None:
+    # Empty cells at the end are what a spreadsheet leaves behind.
+    if len(row.cells) < width or any(row.cells[width:]):
+        raise ValueError(
+            f"{source}:{row.line} has {len(row.cells)} entries, the header {width}; decimal commas "
+            "need semicolons or tabs between the columns"
+        )
+
+
+def _value(source: str, row: Row, column: Column, mark: str) -> float:
+    try:
+        value = column.scale.si(decimal_number(row.cells[column.place], mark))
+        base = column.meaning.logarithm
+        if base is not None:
+            value = _power(base, value)
+        if not math.isfinite(value):
+            raise ValueError(f"{row.cells[column.place]!r} is beyond all numbers")
+    except ValueError as error:
+        raise ValueError(f"{source}:{row.line}: column {column.heading!r}: {error}") from None
+    return value
+
+
+def _power(base: float, exponent: float) -> float:
+    try:
+        return float(base**exponent)
+    except OverflowError:
+        return math.inf

@@ -1,0 +1,164 @@
+"""A measured table: columns in SI units, and the sets of rows that belong together."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.tables.names import Data
+
+Array = NDArray[np.float64]
+
+# Chambers hold a temperature to some tenths of a kelvin, and tests step it by several.
+_SAME_TEMPERATURE, _WIDEST_SET = 1.0, 5.0
+
+
+@dataclass(frozen=True, eq=False)
+class Table:
+    """A measured table.
+
+    Made by `viscontact.tables.read_table`.
+
+    Attributes
+    ----------
+    source : Path
+        The file.
+    columns : mapping of str to ndarray, each of shape (rows,)
+        By quantity, in the file's order, in SI units: a key of
+        `viscontact.tables.QUANTITIES`.
+    data : str or None
+        The test that the headings tell: ``"shear"`` (G, J), ``"uniaxial"`` (E, D) or
+        ``"deviatoric"`` (Phi); None if they do not.
+    headings : mapping of str to str
+        What the columns are called in the file, by quantity.
+    lines : ndarray of int, shape (rows,)
+        Line of the file where each row stands, from 1.
+    left_out : tuple of str
+        Headings of columns that are not known and not read.
+    """
+
+    source: Path
+    columns: Mapping[str, Array]
+    data: Data | None
+    headings: Mapping[str, str]
+    lines: NDArray[np.int64]
+    left_out: tuple[str, ...] = ()
+
+    def __getitem__(self, quantity: str) -> Array:
+        """Return a column; ValueError naming those that there are, if there is no such."""
+        if quantity not in self.columns:
+            found = ", ".join(f"{q} ({self.headings[q]!r})" for q in self.columns)
+            left = ", ".join(map(repr, self.left_out))
+            hint = f"; not known: {left}, say what they are with columns=" if left else ""
+            raise ValueError(
+                f"{self.source.name}: the column {quantity} is missing; there are {found}{hint}"
+            )
+        return self.columns[quantity]
+
+    def __contains__(self, quantity: object) -> bool:
+        return quantity in self.columns
+
+    def __len__(self) -> int:
+        return int(self.lines.size)
+
+    def __repr__(self) -> str:
+        return f"Table({self.source.name}: {len(self)} rows of {', '.join(self.columns)})"
+
+    @property
+    def temperature(self) -> float | None:
+        """Mean temperature of the rows [K]; None without such a column.
+
+        ValueError if it spreads over more than 5 K: then these are several sets.
+        """
+        if "temperature" not in self:
+            return None
+        values = self["temperature"]
+        if np.ptp(values) > _WIDEST_SET:
+            raise ValueError(
+                f"{self.source.name}: temperatures from {values.min() - 273.15:.4g} to "
+                f"{values.max() - 273.15:.4g} °C are no single one; take one of its sets"
+            )
+        return float(np.mean(values))
+
+    @property
+    def set_number(self) -> float | None:
+        """Number of the set that all rows belong to; None without one."""
+        if "set" not in self:
+            return None
+        numbers = np.unique(self["set"])
+        return float(numbers[0]) if numbers.size == 1 else None
+
+    def sets(self) -> tuple[Table, ...]:
+        """Return the sets of rows that belong together.
+
+        Returns
+        -------
+        tuple of Table
+            By the column of set numbers, in the order of their first rows; without one by
+            temperature, from cold to warm, a gap of more than 1 K between two; without either
+            the table itself. Rows keep their order.
+
+        Raises
+        ------
+        ValueError
+            If temperatures creep on without a gap over more than 5 K.
+        """
+        if "set" in self:
+            numbers, first = np.unique(self["set"], return_index=True)
+            return tuple(self._rows(self["set"] == n) for n in numbers[np.argsort(first)])
+        if "temperature" not in self:
+            return (self,)
+        return self._isotherms()
+
+    def _isotherms(self) -> tuple[Table, ...]:
+        values = self["temperature"]
+        order = np.argsort(values, kind="stable")
+        starts = np.flatnonzero(np.diff(values[order]) > _SAME_TEMPERATURE) + 1
+        groups = np.split(order, starts)
+        for group in groups:
+            if np.ptp(values[group]) > _WIDEST_SET:
+                low, high = values[group].min() - 273.15, values[group].max() - 273.15
+                raise ValueError(
+                    f"{self.source.name}: temperatures from {low:.4g} to {high:.4g} °C without a "
+                    "gap of 1 K cannot be told apart; number the sets in a column Set"
+                )
+        return tuple(self._rows(np.sort(group)) for group in groups)
+
+    def _rows(self, which: NDArray[np.bool_] | NDArray[np.int64]) -> Table:
+        columns = {name: read_only(values[which]) for name, values in self.columns.items()}
+        return Table(
+            self.source, columns, self.data, self.headings, self.lines[which], self.left_out
+        )
+
+    def located(self, error: ValueError) -> str:
+        """Return a refusal that counts rows from 0 in lines of the file.
+
+        Parameters
+        ----------
+        error : ValueError
+            What a law or a fit refused: "TabulatedCreep.times, row 3: ...".
+
+        Returns
+        -------
+        str
+            The message with "line 5 of pmma.csv" in place of "row 3".
+        """
+
+        def line(match: re.Match[str]) -> str:
+            row = int(match[1])
+            if row >= len(self):
+                return match[0]
+            return f"line {self.lines[row]} of {self.source.name}"
+
+        return re.sub(r"\brow (\d+)", line, str(error))
+
+
+def read_only(values: Array) -> Array:
+    """Return the values, protected against writing."""
+    values.flags.writeable = False
+    return values

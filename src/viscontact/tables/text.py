@@ -1,0 +1,111 @@
+"""From the bytes of a table to its rows of cells."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+# Beyond these no laboratory file is a table of measured points; a reader that needs more is to
+# thin out what it recorded.
+_LARGEST_FILE, _MOST_ROWS = 50_000_000, 1_000_000
+
+_COMMENTS = ("#", "%", "//")
+_BYTE_ORDER_MARKS = ((b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"), (b"", "utf-8-sig"))
+
+
+@dataclass(frozen=True)
+class Row:
+    """One row of a file: its line number, from 1, and its cells without blanks around them."""
+
+    line: int
+    cells: tuple[str, ...]
+
+
+def read_rows(path: Path) -> list[Row]:
+    """Read the rows of a file that are neither empty nor comments.
+
+    Parameters
+    ----------
+    path : Path
+        A text file in UTF-8, UTF-16 with a byte-order mark, Windows-1252 or Latin-1; cells are
+        separated by tabs, semicolons or commas, whichever its first row has. Comments begin with
+        ``#``, ``%`` or ``//``.
+
+    Returns
+    -------
+    list of Row
+        With cells of different number as they come.
+
+    Raises
+    ------
+    ValueError
+        If the file cannot be read, is no text, or is beyond bounds.
+    """
+    text = _text(path)
+    lines = [line for line in text.splitlines() if line.strip()]
+    first = next((line for line in lines if not _is_comment(line)), "")
+    rows: list[Row] = []
+    try:
+        for row in _split(text, _separator(first)):
+            rows.append(row)
+            if len(rows) > _MOST_ROWS:
+                raise ValueError(
+                    f"{path.name}: more than {_MOST_ROWS} rows; keep fewer of the measured points"
+                )
+    except csv.Error as error:
+        raise ValueError(f"{path.name}: cannot be read as CSV: {error}") from error
+    if not rows:
+        raise ValueError(f"{path.name} is empty; a table begins with e.g. 'time [s], force [kN]'")
+    return rows
+
+
+def _text(path: Path) -> str:
+    try:
+        if path.is_dir():
+            raise ValueError(f"{path}: is a directory; name the file in it")
+        if path.stat().st_size > _LARGEST_FILE:
+            raise ValueError(
+                f"{path.name}: larger than {_LARGEST_FILE // 1_000_000} MB; keep fewer points"
+            )
+        data = path.read_bytes()
+    except FileNotFoundError:
+        raise ValueError(f"no such file {path}") from None
+    except OSError as error:
+        raise ValueError(f"cannot read {path}: {error}") from error
+    text = _decoded(data)
+    if text is None or any(ord(c) < 32 and c not in "\t\n\r\f\v" for c in text):
+        raise ValueError(
+            f"{path.name}: is no text file in UTF-8, UTF-16 or Latin-1; export it as CSV"
+        )
+    return text
+
+
+def _decoded(data: bytes) -> str | None:
+    marked = next(encoding for mark, encoding in _BYTE_ORDER_MARKS if data.startswith(mark))
+    # Latin-1 last: it reads anything.
+    encodings = (marked,) if marked == "utf-16" else (marked, "cp1252", "latin-1")
+    for encoding in encodings:
+        try:
+            return data.decode(encoding)
+        except UnicodeDecodeError:
+            continue
+    return None
+
+
+def _separator(header: str) -> str:
+    # A semicolon goes before a comma: commas may then be in names and numbers.
+    return next((mark for mark in "\t;," if mark in header), ",")
+
+
+def _split(text: str, separator: str) -> Iterator[Row]:
+    reader = csv.reader(io.StringIO(text, newline=""), delimiter=separator, skipinitialspace=True)
+    for cells in reader:
+        if any(cell.strip() for cell in cells) and not _is_comment(cells[0]):
+            yield Row(reader.line_num, tuple(cell.strip() for cell in cells))
+
+
+def _is_comment(line: str) -> bool:
+    return line.lstrip().startswith(_COMMENTS)
