@@ -9,7 +9,8 @@ from scipy.optimize import brentq
 from scipy.stats import t as student
 
 from viscontact import AccuracyWarning, reference
-from viscontact.identification import IndentationRecord, fit_indentation
+from viscontact.case import read_material
+from viscontact.identification import IndentationRecord, fit_indentation, material_section
 from viscontact.indenters import Cone, FlatPunch, Paraboloid, Sphere
 from viscontact.laws import Elastic, Maxwell, PowerLaw, Zener
 from viscontact.material import Material
@@ -180,6 +181,24 @@ def test_a_fit_prints_what_it_found_with_units_and_intervals():
     assert "viscosity = " in repr(fit)
     assert "Pa s (95%: " in repr(fit)
     np.testing.assert_allclose(np.diag(fit.correlation), 1.0)
+
+
+@pytest.mark.parametrize(("name", "law", "indenter"), CASES[:3], ids=[c[0] for c in CASES[:3]])
+def test_the_section_of_a_case_file_is_the_law_that_was_found(name, law, indenter, tmp_path):
+    fit = fit_indentation(exact_record(law, indenter, rows=31), name, poisson_ratio=NU)
+    path = tmp_path / "material.yaml"
+    path.write_text(material_section(fit), encoding="utf-8")
+    found = read_material(path)
+    t = np.linspace(0.0, 4.0, 20)
+    np.testing.assert_allclose(found.law(t), fit.law(t), rtol=5e-6)
+    assert found.poisson_ratio == pytest.approx(NU)
+
+
+def test_the_section_of_a_power_law_has_the_keys_of_its_arguments():
+    fit = fit_indentation(exact_record(CASES[3][1], rows=31), "power-law", poisson_ratio=NU)
+    keys = [line.split(":")[0].strip() for line in material_section(fit).splitlines()[1:]]
+    wanted = ["law", "compliance", "exponent", "reference_time", "data", "poisson_ratio"]
+    assert keys == wanted
 
 
 def test_a_parameter_that_the_record_leaves_open_is_said_so():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Callable, Iterable
 from dataclasses import fields
 
@@ -68,7 +69,7 @@ def _law(law: Law) -> list[str]:
         value, write = getattr(law, field.name), _WRITTEN[field.name]
         if isinstance(value, tuple):
             lines.append(f"{field.name}: {_listed(map(write, value))}")
-        elif value != 0 or field.name in ("instant", "equilibrium"):
+        elif value != 0 or field.name not in _OPTIONAL[type(law)]:
             lines.append(f"{field.name}: {write(value)}")
     return lines
 
@@ -118,6 +119,10 @@ _NAMES: dict[type[Law], str] = {
     RelaxationSeries: "relaxation-series",
     Zener: "zener",
 }
+# What is 0 when it is left out.
+_OPTIONAL: dict[type[Law], tuple[str, ...]] = defaultdict(
+    tuple, {CreepSeries: ("fluidity",), PowerLaw: ("instant",)}
+)
 _WRITTEN: dict[str, Callable[[float], str]] = {
     "shear_modulus": _modulus,
     "delayed_modulus": _modulus,
