@@ -21,7 +21,7 @@ NODES, WEIGHTS = np.polynomial.legendre.leggauss(20)
 
 def by_panels(curve, start, end):
     """The mean by Gauss-Legendre on panels between the curve's points and quarters of decades."""
-    marks = np.concatenate([curve.times, 10.0 ** np.arange(-16, 12, 0.25)])
+    marks = np.concatenate([curve.times, 10.0 ** np.arange(-40, 12, 0.25)])
     edges = np.unique(np.concatenate([[start, end], marks[(marks > start) & (marks < end)]]))
     t = edges[:-1, None] + np.diff(edges)[:, None] * (NODES + 1) / 2
     return (curve(t) @ WEIGHTS) @ np.diff(edges) / 2 / (end - start)

@@ -122,10 +122,10 @@ def test_march_is_of_second_order_in_the_step_of_log_time(pair):
 def test_limit_of_a_vanishing_step_is_better_than_any_step_and_gets_better():
     pair, errors, estimates = PAIRS["solid of six times"], [], []
     for steps in (6, 12, 24):
-        found = respond(pair.function, pair.mean, 1e6, first=1e-7, since=1e-6, steps=steps)
-        assert found.curve(T) == pytest.approx(pair.inverse(T), rel=found.error * 3)
+        found = respond(pair.function, pair.mean, 1e6, first=1e-7, steps=steps)
+        assert found.curve(T) == pytest.approx(pair.inverse(T), rel=found.error(1e-6, 1e6) * 3)
         errors.append((np.abs(found.curve(T) - pair.inverse(T)) / scale(pair, T)).max())
-        estimates.append(found.error)
+        estimates.append(found.error(1e-6, 1e6))
     assert (np.array(errors) < estimates).all()
     assert (np.log2(np.array(errors[:-1]) / errors[1:]) > 1.8).all()
 

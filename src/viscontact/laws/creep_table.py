@@ -193,6 +193,7 @@ class TabulatedCreep(Law):
             first_node(curve),
             -1,
             kinks=(float(curve.times[0]),),
+            since=float(curve.times[0]),
         )
 
     @cached_property

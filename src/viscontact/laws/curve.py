@@ -12,12 +12,13 @@ from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.interpolate import PchipInterpolator
+from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
 
 Floats = NDArray[np.float64]
 
-#: Rules before the first point: its value, or the power of time through the first two.
-Before = Literal["value", "power"]
+#: Rules before the first point: its value, the power of time through the first two, or one of a
+#: given exponent.
+Before = Literal["value", "power"] | float
 #: Rules beyond the last: its value, or the straight line in ln t or the power of time through the
 #: last two.
 Beyond = Literal["value", "line", "power"]
@@ -39,7 +40,7 @@ class LogCurve:
         once; up to the first positive time the curve is then straight in t.
     values : array_like, shape (n,)
         Values, monotone.
-    before : {"value", "power"}, optional
+    before : {"value", "power"} or float, optional
         Before the first point, if that is not at 0.
     beyond : {"value", "line", "power"}, optional
         Beyond the last point.
@@ -67,17 +68,33 @@ class LogCurve:
         if self.at_once is not None:
             times, values = times[1:], values[1:]
         self.times, self.values = times, values
-        self._pieces = PchipInterpolator(np.log(times), values).c
         self._widths = np.diff(np.log(times))
-        early = np.clip(_power(times[:2], values[:2]), *steepest) if before == "power" else 0.0
-        self.exponent = float(early)
+        if before == "power":
+            before = float(np.clip(_power(times[:2], values[:2]), *steepest))
+        self.exponent = 0.0 if before == "value" else float(before)
         self._line = self._fade = 0.0
         if beyond == "line":
             self._line = float((values[-1] - values[-2]) / self._widths[-1])
         elif beyond == "power":
             self._fade = _power(times[-2:], values[-2:])
+        self._pieces = self._smooth(
+            self.exponent * values[0] if before != "value" and self.at_once is None else None,
+            {"value": None, "line": self._line, "power": self._fade * values[-1]}[beyond],
+        )
         whole = [self._primitive(k, times[k + 1], times[k]) for k in range(self._widths.size)]
         self._areas = np.concatenate([[0.0], np.cumsum(whole)])
+
+    def _smooth(self, first: float | None, last: float | None) -> Floats:
+        """Return the cubics, with given slopes at the ends so that the curve goes on smoothly."""
+        u = np.log(self.times)
+        monotone = PchipInterpolator(u, self.values)
+        slopes = monotone.derivative()(u)
+        # Up to three times the slope of the points a cubic stays monotone (Fritsch & Carlson).
+        secants = np.diff(self.values)[[0, -1]] / self._widths[[0, -1]]
+        for at, slope, secant in ((0, first, secants[0]), (-1, last, secants[-1])):
+            if slope is not None:
+                slopes[at] = np.sign(secant) * min(abs(slope), 3 * abs(secant))
+        return np.asarray(CubicHermiteSpline(u, self.values, slopes).c)
 
     def __call__(self, t: ArrayLike) -> Floats:
         """Return the values at times >= 0 [s], of the shape of `t`."""

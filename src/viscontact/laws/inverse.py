@@ -30,6 +30,8 @@ class Inverse:
         Times at which f or r has a kink [s].
     load : Load, optional
         r(t); 1 if left out.
+    since : float, optional
+        If f begins as a power, the time up to which it is one [s].
     """
 
     def __init__(
@@ -41,16 +43,19 @@ class Inverse:
         *,
         kinks: Sequence[float] = (),
         load: Load | None = None,
+        since: float = 0.0,
     ) -> None:
         self._function, self._mean, self._load = function, mean, load
         self._first, self._trend, self._kinks = first, trend, kinks
+        self._since = since
         self._decades = 0
+        self._found: Response
         self._curve: LogCurve
 
     def __call__(self, t: Floats) -> Floats:
         """Return g at times >= 0 [s], inf included."""
         last = self._first * 10.0**_MOST_DECADES
-        within = np.minimum(t, last)
+        within = np.where(t > last, 0.0, t)
         values = self.curve(float(within.max(initial=0.0)))(within)
         if not (t > last).any():
             return values
@@ -71,25 +76,23 @@ class Inverse:
 
     def curve(self, end: float) -> LogCurve:
         """Return g as a curve that reaches a time [s] at least."""
-        decades = 1
-        if end > self._first:
-            decades = math.ceil(math.log10(end / self._first)) + 1
+        reach = max(end, 10 * self._since, 10 * self._first)
+        decades = min(math.ceil(math.log10(reach / self._first)), _MOST_DECADES + 1)
         if decades > self._decades:
-            self._curve = monotone(self._solved(min(decades, _MOST_DECADES + 1)).curve, self._trend)
+            self._found = respond(
+                self._function,
+                self._mean,
+                self._first * 10.0**decades,
+                first=self._first,
+                since=self._since,
+                kinks=self._kinks,
+                load=self._load,
+            )
+            self._curve = monotone(self._found.curve, self._trend)
             self._decades = decades
         return self._curve
 
-    def error(self, since: float, end: float) -> float:
+    def error(self, start: float, end: float) -> float:
         """Return the estimated relative error of g between two times [s]."""
-        return self._solved(max(1.0, math.log10(end / self._first)), since).error
-
-    def _solved(self, decades: float, since: float = 0.0) -> Response:
-        return respond(
-            self._function,
-            self._mean,
-            self._first * 10.0**decades * (1 - 1e-9),
-            first=self._first,
-            since=since,
-            kinks=self._kinks,
-            load=self._load,
-        )
+        self.curve(end)
+        return self._found.error(start, end)

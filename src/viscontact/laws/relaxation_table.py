@@ -181,8 +181,9 @@ class TabulatedRelaxation(Law):
     @cached_property
     def _inverse(self) -> Inverse:
         curve = self._curve
-        kinks = (float(curve.times[0]),)
-        return Inverse(curve, curve.mean, first_node(curve), 1, kinks=kinks)
+        first = float(curve.times[0])
+        node = first_node(curve)
+        return Inverse(curve, curve.mean, node, 1, kinks=(first,), since=first)
 
     @cached_property
     def _error(self) -> float:

@@ -19,7 +19,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscontact.laws.curve import LogCurve
-from viscontact.laws.product_integration import Floats, Function, Load, Mean, march
+from viscontact.laws.product_integration import (
+    Floats,
+    Function,
+    Load,
+    Mean,
+    first_exponent,
+    march,
+)
 
 #: Steps in a decade of time on the coarsest of three grids; the finest has four times as many.
 STEPS = 20
@@ -32,18 +39,24 @@ _MOST_DECADES = 60
 
 
 class Response(NamedTuple):
-    """A solution as a function: `curve(t)`, `curve.mean(start, end)`.
+    """A solution as a function, and how well it is known.
 
     Attributes
     ----------
     curve : LogCurve
         The solution, from the nodes of the fine grid, extrapolated to a vanishing step.
-    error : float
-        Estimated relative error [-].
+    nodes, doubts : ndarray
+        The nodes of the coarse grid [s], and the estimated relative error at each [-].
     """
 
     curve: LogCurve
-    error: float
+    nodes: Floats
+    doubts: Floats
+
+    def error(self, start: float, end: float) -> float:
+        """Return the largest estimated error between two times [s]."""
+        asked = (self.nodes >= start) & (self.nodes <= end * 1.5)  # a step further
+        return float(np.max(self.doubts[asked], initial=0.0))
 
 
 def invert(function: Function, mean: Mean, instants: ArrayLike) -> tuple[Floats, float]:
@@ -93,7 +106,8 @@ def invert(function: Function, mean: Mean, instants: ArrayLike) -> tuple[Floats,
     early = float(instants[instants > 0].min())
     found = respond(function, mean, late, first=_first_node(function, early, late), since=early)
     early_value, late_value = function(np.array([early, late]))
-    return monotone(found.curve, 1 if late_value < early_value else -1)(instants), found.error
+    falls = late_value > early_value
+    return monotone(found.curve, -1 if falls else 1)(instants), found.error(early, late)
 
 
 def respond(
@@ -118,7 +132,7 @@ def respond(
     first : float
         First node of the grid [s]; before it g is straight in t, or a power if f is.
     since : float, optional
-        The error is estimated from this time on [s].
+        If f begins as a power, the time up to which it is one [s], far after `first`.
     kinks : sequence of float, optional
         Times at which g may have a kink [s]: they are made nodes.
     load : Load, optional
@@ -142,11 +156,19 @@ def respond(
     scale = np.abs(values[::4])
     if load is None and values[-1] < values[0]:
         scale = 1.0 / function(coarse[: rough.size])
-    doubt = np.abs(values[::4] - _extrapolated(rough, better)[::2]) / scale
-    error = float(np.max(doubt[coarse[: rough.size] >= since], initial=0.0))
-    if since > first and not 0 < function(np.zeros(1))[0] < np.inf:
-        error += first / since  # what the beginning as a power has left, on any grid
-    return Response(_curve(fine[: values.size], at_once, values), error)
+    doubts = np.abs(values[::4] - _extrapolated(rough, better)[::2]) / scale
+    coarse, fine = coarse[: rough.size], fine[: values.size]
+    if at_once not in (0.0, math.inf) or load is not None:
+        return Response(_curve(fine, at_once, values), coarse, doubts)
+    # The beginning as a power leaves this, on any grid; up to there it is known better.
+    settled = np.searchsorted(fine, since / 2)  # clear of the kink there
+    curve = LogCurve(
+        fine[settled:],
+        values[settled:],
+        before=-first_exponent(function, first),
+        beyond="power",
+    )
+    return Response(curve, coarse, doubts + first / np.maximum(coarse, first))
 
 
 def _extrapolated(rough: Floats, better: Floats) -> Floats:
@@ -172,7 +194,7 @@ def monotone(curve: LogCurve, trend: int) -> LogCurve:
     values = np.maximum(values, np.finfo(np.float64).tiny)
     running = np.minimum if trend > 0 else np.maximum
     steady = running.accumulate(values[::-1])[::-1]
-    return LogCurve(times, steady, before="value" if known else "power", beyond="power")
+    return LogCurve(times, steady, before="value" if known else curve.exponent, beyond="power")
 
 
 def onset(function: Function, change: float = _FIRST_CHANGE) -> float:
@@ -235,6 +257,6 @@ def _halved(nodes: Floats) -> Floats:
 
 
 def _curve(nodes: Floats, at_once: float, values: Floats) -> LogCurve:
-    if at_once in (0.0, math.inf):
+    if at_once == 0:
         return LogCurve(nodes, values, before="power", beyond="power")
     return LogCurve(np.append(0.0, nodes), np.append(at_once, values), beyond="power")
