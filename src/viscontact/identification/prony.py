@@ -14,20 +14,18 @@ from viscontact.identification.responses import (
     CreepResponse,
     DynamicResponse,
     RelaxationResponse,
-    Response,
 )
 from viscontact.identification.spectrum import (
     Observed,
     Spectrum,
-    dense_spectrum,
     parsimonious_spectrum,
     spectrum_of,
 )
+from viscontact.identification.weighing import alike, by_scatter
 from viscontact.laws import CreepSeries, RelaxationSeries
 
 _LEAST_ROWS = 3
 _EXCESS, _TOLERANCE = 1.05, 1e-3
-_WEIGHINGS, _LARGEST_RATIO = 3, 30.0
 _Series = TypeVar("_Series", CreepSeries, RelaxationSeries)
 _CREEP: dict[str, Callable[..., CreepSeries]] = {
     "deviatoric": CreepSeries,
@@ -109,7 +107,7 @@ def fit_creep(
     _require_span(owner, "times", instants)
     make = _chosen(owner, _CREEP, data)
     in_volume = _in_volume(owner, data, poisson_ratio, bulk_modulus)
-    found = _found(owner, _alike(CreepResponse(instants, fluid), values), terms, excess, tolerance)
+    found = _found(owner, alike(CreepResponse(instants, fluid), values), terms, excess, tolerance)
     flow = float(found.constants[1]) if fluid else 0.0
     series = CreepSeries(
         float(found.constants[0]), found.strengths.tolist(), found.times.tolist(), flow
@@ -185,7 +183,7 @@ def fit_relaxation(
     make = _chosen(owner, _MODULI, data)
     in_volume = _in_volume(owner, data, poisson_ratio, bulk_modulus)
     found = _found(
-        owner, _alike(RelaxationResponse(instants, fluid), values), terms, excess, tolerance
+        owner, alike(RelaxationResponse(instants, fluid), values), terms, excess, tolerance
     )
     series = _relaxation_series(found)
     law = make(
@@ -259,7 +257,7 @@ def fit_dynamic(
     make = _chosen(owner, _MODULI, data)
     in_volume = _in_volume(owner, data, poisson_ratio, bulk_modulus)
     values = np.concatenate([in_phase, out_of_phase])
-    observed = _by_scatter(_alike(DynamicResponse(frequencies, fluid), values), tolerance)
+    observed = by_scatter(alike(DynamicResponse(frequencies, fluid), values), tolerance)
     series = _relaxation_series(_found(owner, observed, terms, excess, tolerance))
     law = make(
         series.equilibrium,
@@ -292,30 +290,6 @@ def _found(
             f"got {terms!r}"
         )
     return spectrum_of(observed, int(terms))
-
-
-def _alike(response: Response, values: NDArray[np.float64]) -> Observed:
-    """Let each row count by its relative residual."""
-    return Observed(response, values, np.ones_like(values))
-
-
-def _by_scatter(observed: Observed, tolerance: float) -> Observed:
-    """Let each half of the rows, storage and loss, count by the inverse of its scatter.
-
-    Feasible weighted least squares: the scatter is estimated from a fit in which it has been
-    taken into account already, three times over.
-    """
-    for _ in range(_WEIGHINGS):
-        dense = dense_spectrum(observed)
-        strengths = np.concatenate([dense.constants, dense.strengths])
-        relative = observed.columns(dense.times) @ strengths / observed.weights - 1.0
-        scatter = np.sqrt(np.mean(relative.reshape(2, -1) ** 2, axis=1))
-        # What is good enough is not told apart, nor is a column ever silenced.
-        scatter = np.maximum(scatter, max(tolerance, scatter.max() / _LARGEST_RATIO, 1e-12))
-        weights = np.repeat(1 / scatter, relative.size // 2)
-        weights /= np.sqrt(np.mean(weights**2))
-        observed = Observed(observed.response, observed.values, weights)
-    return observed
 
 
 def _relaxation_series(found: Spectrum) -> RelaxationSeries:
