@@ -50,9 +50,11 @@ def settle_on_bedding(
     given = support.with_prescribed(np.zeros(3))
     gap = open_gap - plane.field(given)
     if not support.free[0]:
-        overlap = np.maximum(-gap, 0.0)
+        # No force, no matter how stiff the bedding: it is only the tilts that settle.
+        bearing = (gap < 0).astype(float)
+        motion, overlap = _settled(gap, np.zeros(3), np.zeros(3), plane, support.free, bearing)
         cells = max(int((overlap > 0).sum()), 1)
-        return overlap / (compliance * np.sqrt(cell_area * cells)), given
+        return overlap / (compliance * np.sqrt(cell_area * cells)), given + motion
     cells = 100
     for _ in range(2):
         stiffness = 1 / (compliance * np.sqrt(cell_area * cells))

@@ -164,7 +164,7 @@ class Observer:
         if before.outcome is Outcome.NO_CONTACT:
             if compliance(step.duration) == compliance.instant:
                 return {}  # an elastic body takes the force however it comes
-            return touch_doubts(step.duration, self._rise(step) / self._run.load.largest_level)
+            return touch_doubts(step.duration, self._rise(step))
         if after.resolved:
             return {}
         peaks = [float(end.pressure.max()) for end in (before, after)]
@@ -172,7 +172,7 @@ class Observer:
         return step_doubts(step.duration, change)
 
     def _rise(self, step: Step) -> float:
-        """How far the load rises over a step that begins without contact [N or m].
+        """How far the load rises over a step that begins without contact, of its largest [-].
 
         A force begins from nothing then; but a dent is met again at an approach that may be far
         from 0, and only the way beyond the step's begin is made at once.
@@ -180,7 +180,9 @@ class Observer:
         load = self._run.load
         begin = step.time - step.duration * (1 - SAME)
         levels = (load.level_at(step.time, side=step.side), load.level_at(begin))
-        return float(levels[0]) - max(float(levels[1]), 0.0)
+        # A clamped tilt can press with no approach at all.
+        largest = max(load.largest_level, np.finfo(float).tiny)
+        return (float(levels[0]) - max(float(levels[1]), 0.0)) / largest
 
     def _work_of(self, step: Step, instant: Instant, resultants: NDArray[np.float64]) -> float:
         """Work over a step: trapezium rule on the motion; across a jump exact.
