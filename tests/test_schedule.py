@@ -81,3 +81,12 @@ def test_a_swinging_load_is_stepped_as_finely_as_it_needs_until_it_rests():
     assert durations[:3] == pytest.approx([0.25 / 3] * 3)
     assert durations[-1] == pytest.approx(13.6)
     assert [each.asked for each in steps if each.asked is not None] == [0.0, 0.25, 6.4, 20.0]
+
+
+def test_the_ends_of_cycles_are_met_though_nobody_asks_for_them():
+    load = harmonic(3.0, 1.0, period=0.7, cycles=3)
+    taken = {each.time: each for each in FixedSteps(np.array([0.0, 1.0, 2.5]), load).steps}
+    assert {0.7, 1.4, 3 * 0.7} <= taken.keys()
+    assert taken[1.4].asked is None
+    after = min(time for time in taken if time > 1.4)
+    assert taken[after].smooth  # they are no kinks

@@ -56,8 +56,8 @@ class AdaptiveSteps:
         self._load, self._compliance = load, compliance
         self._kinks = set(load.kinks.tolist())
         self._jumps = set(load.jumps.tolist())
-        asked = {kink_meant(stop, load.kinks) for stop in [*stops.tolist(), wanted.end]}
-        inner = {kink for kink in self._kinks if kink < self._end}
+        asked = {kink_meant(stop, load.stops) for stop in [*stops.tolist(), wanted.end]}
+        inner = {stop for stop in load.stops.tolist() if stop < self._end}
         self._stops = sorted((asked | inner) - {0.0})
         self._end = max(self._stops)
         self._time, self._duration = 0.0, 0.0

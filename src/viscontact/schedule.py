@@ -98,15 +98,14 @@ class FixedSteps:
 
 def _instants_wanted(times: NDArray[np.float64], load: LoadHistory) -> dict[float, float | None]:
     """Where steps end, in order: the instant asked for there, or None."""
-    kinks = set(load.kinks.tolist())
+    stops = load.stops
     wanted: dict[float, float | None] = {}
     for time in times.tolist():
-        kink = kink_meant(time, load.kinks)
-        wanted[time if kink in wanted else kink] = time
+        stop = kink_meant(time, stops)
+        wanted[time if stop in wanted else stop] = time
     last = max(wanted)
-    for kink in kinks:
-        if kink <= last:
-            wanted.setdefault(kink, None)
+    for stop in stops[stops <= last].tolist():
+        wanted.setdefault(stop, None)
     for divided in _divisions(sorted({0.0, *wanted}), load):
         wanted[divided] = None
     return dict(sorted(wanted.items()))

@@ -88,6 +88,12 @@ class LoadHistory(ABC):
         return ()
 
     @property
+    def stops(self) -> NDArray[np.float64]:
+        """Instants that every run has to hit: kinks, and the ends of cycles, increasing [s]."""
+        ends = [time for time, _ in self.cycle_ends]
+        return np.unique(np.concatenate([self.kinks, ends]))
+
+    @property
     @abstractmethod
     def is_even(self) -> bool:
         """Whether the load is even across y = 0."""
