@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
+from scipy.special import exp1
 
 from viscontact.laws import CreepSeries
 from viscontact.laws.curve import LogCurve, mean_power
@@ -128,8 +129,22 @@ def test_oscillating_curve_tends_to_the_series_it_samples(falling):
 def test_oscillating_power_is_its_closed_form():
     """i omega L[t^n] = Γ(1+n) (i omega)^-n, from a head and a tail that are powers."""
     for n in (-0.4, 0.4):
-        times = np.geomspace(1.0, 10.0, 201)
+        times = np.geomspace(1.0, 1.001, 3)  # so near that a cubic is the power
         curve = LogCurve(times, times**n, before="power", beyond="power")
         omega = np.array([1e-6, 1.0, 1e6])
         expected = math.gamma(1 + n) * (1j * omega) ** -n
-        np.testing.assert_allclose(oscillating(curve, omega), expected, rtol=1e-5)
+        np.testing.assert_allclose(oscillating(curve, omega), expected, rtol=1e-9)
+
+
+def test_oscillating_straight_line_in_log_time_is_its_closed_form():
+    """f = 1 up to 1 s and then 1 + b ln t: f* = 1 + b E1(i omega) (Abramowitz & Stegun 5.1.1)."""
+    curve = LogCurve([1.0, 10.0, 1e3], [1.0, 1.5, 2.5], beyond="line")
+    omega = np.logspace(-9, 9, 37)
+    expected = 1 + 0.5 / math.log(10) * exp1(1j * omega)
+    np.testing.assert_allclose(oscillating(curve, omega), expected, rtol=1e-12)
+
+
+def test_a_steep_fall_after_a_power_is_still_a_fall():
+    """The power through points 1e6 apart would leave the first one too steeply for a cubic."""
+    curve = LogCurve([1.0, 2.0, 4.0], [1.0, 1e-6, 1e-7], before="power", beyond="power")
+    assert (np.diff(curve(np.geomspace(0.5, 8.0, 500))) <= 0).all()

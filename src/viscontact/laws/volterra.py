@@ -105,9 +105,8 @@ def invert(function: Function, mean: Mean, instants: ArrayLike) -> tuple[Floats,
         return 1.0 / function(instants), 0.0
     early = float(instants[instants > 0].min())
     found = respond(function, mean, late, first=_first_node(function, early, late), since=early)
-    early_value, late_value = function(np.array([early, late]))
-    falls = late_value > early_value
-    return monotone(found.curve, -1 if falls else 1)(instants), found.error(early, late)
+    trend = 1 if found.curve.values[-1] > found.curve.values[0] else -1
+    return monotone(found.curve, trend)(instants), found.error(early, late)
 
 
 def respond(
