@@ -1,13 +1,16 @@
 """The recursion against Boltzmann's integral, written out for each law and history."""
 
+import math
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from verification.independent import superposed
-from viscontact.compliance import SeriesCompliance
-from viscontact.memory import RecursiveMemory
+from viscontact.compliance import LawCompliance, SeriesCompliance
+from viscontact.laws import PowerLaw
+from viscontact.memory import RecursiveMemory, SuperposedMemory
 
 ELASTIC = SeriesCompliance(2.0, (), ())
 KELVIN = SeriesCompliance(2.0, [1.5], [3.0])
@@ -127,6 +130,53 @@ def test_a_step_huge_against_the_law_neither_overflows_nor_rings(law, length):
     # What error is left in a value is at least halved by each step.
     assert (changes[1:] <= 0.5 * changes[:-1] + 1e-14).all()
     assert 0 <= values[-1] < values[0]
+
+
+@pytest.mark.parametrize("exponent", [0.2, 0.35, 0.5])
+def test_equation_of_the_first_kind_is_solved_to_second_order(exponent):
+    # J = t^n, q = t²: u = Γ(1+n) Γ(3)/Γ(3+n) t^(2+n). Abel's equation by the trapezoidal rule.
+    n, errors = exponent, []
+    for steps in (20, 40, 80):
+        times = np.linspace(0.0, 1.0, steps + 1)
+        wanted = math.gamma(1 + n) * 2 / math.gamma(3 + n) * times ** (2 + n)
+        found = solved(LawCompliance(PowerLaw(1.0, n, 1.0), 1.0), times, wanted)
+        errors.append(np.abs(found - times**2)[steps // 2 :].max())
+    rates = np.log2(np.divide(errors[:-1], errors[1:]))
+    assert rates == pytest.approx(2.0, abs=0.1)
+    assert errors[-1] < 1e-4
+
+
+@pytest.mark.parametrize("exponent", [0.2, 0.5, 0.8, 1.0])
+@pytest.mark.parametrize("growth", [1.0, 1.2, 0.9])
+def test_without_instant_compliance_a_wrong_value_is_forgotten(exponent, growth):
+    # A first value that the displacement, zero, does not ask for: what follows it dies out.
+    times = np.append(0.0, np.cumsum(growth ** np.arange(30.0)))
+    compliance = LawCompliance(PowerLaw(1.0, exponent, 1.0), 1.0)
+    memory, values = SuperposedMemory(compliance, (1,), times), []
+    memory.jump()
+    memory.accept(np.zeros(1))
+    for duration in np.diff(times):
+        response = memory.ramp(duration)
+        values.append(-response.history / response.compliance if values else np.ones(1))
+        memory.accept(values[-1])
+    # What has crept meanwhile is pulled back at first: by 1.6 for a dashpot.
+    found = np.abs(values)[1:, 0]
+    assert found[0] < 1.7
+    assert (found[1:] <= 0.55 * found[0]).all()
+    assert (found[10:] < 0.02).all()
+
+
+def solved(compliance, times, wanted):
+    """Values whose displacements are those wanted, step by step from rest."""
+    memory, values = SuperposedMemory(compliance, (1,), times), [0.0]
+    memory.jump()
+    memory.accept(np.zeros(1))
+    for duration, displacement in zip(np.diff(times), wanted[1:], strict=True):
+        response = memory.ramp(duration)
+        value = (displacement - response.history) / response.compliance
+        memory.accept(value)
+        values.append(float(value[0]))
+    return np.array(values)
 
 
 def test_what_is_taken_into_the_memory_is_a_copy():

@@ -85,9 +85,9 @@ def march(
     -----
     Steps also end at the load's kinks and jumps. Within a step the pressure is linear in time,
     so the error falls with the square of the step; the paper's piecewise-constant rule (Spinu &
-    Cerlinca 2018, eq. 12) is of first order. Over steps long against the law (always, if it has
-    no instant compliance) the pressure rises over a part of the step only, lest it ring, and the
-    error is of first order; an `AccuracyWarning` says so where it matters.
+    Cerlinca 2018, eq. 12) is of first order. Over steps long against the law (always, if it is a
+    dashpot at first) the pressure rises over a part of the step only, lest it ring, and the error
+    is of first order; an `AccuracyWarning` says so where it matters.
 
     Examples
     --------

@@ -66,18 +66,18 @@ def rise(compliance, duration):
     """How long a value rises in a step, before it is held; what the package says it does.
 
     All the step, unless what the body then owes to the old value, J(T) less the mean of J,
-    exceeds what it gives at once, J(0): then as long as the two are equal.
+    exceeds what it gives at once, J(0): then as long as the two are equal. Without J(0), half of
+    the mean of J stands in its place.
     """
 
     def owed(part):
         held = duration * (1 - part)
-        return compliance(duration) - mean_creep(compliance, held, duration * part)
+        new = mean_creep(compliance, held, duration * part)
+        return compliance(duration) - new - (compliance.instant or new / 2)
 
-    if owed(1.0) <= compliance.instant:
+    if owed(1.0) <= 0:
         return duration
-    if compliance.instant == 0:
-        return 0.0
-    return duration * brentq(lambda part: owed(part) - compliance.instant, 0.0, 1.0, xtol=1e-15)
+    return duration * brentq(owed, 0.0, 1.0, xtol=1e-15)
 
 
 def superposed(compliance, times, fields):

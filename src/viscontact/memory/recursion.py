@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.compliance import SeriesCompliance
-from viscontact.memory.response import RESOLVED, Memory, Response, longest_smooth_rise
+from viscontact.memory.response import Memory, Response, is_resolved, longest_smooth_rise
 
 
 class RecursiveMemory(Memory):
@@ -74,7 +74,7 @@ class RecursiveMemory(Memory):
         # What creeps within the step, by a line through it, is to stay a part of J(0).
         crept = self._amplitudes @ np.minimum(duration / self._times / 2, 1.0)
         crept += self._fluidity * duration / 2
-        resolved = bool(crept <= RESOLVED * self._instant)
+        resolved = is_resolved(float(crept), self._instant, whole=rise == duration)
         return self._response(resolved=resolved, held=1 - rise / duration)
 
     def _weights(

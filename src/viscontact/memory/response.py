@@ -86,6 +86,32 @@ class Memory(ABC):
         """
 
 
+def is_resolved(crept: float, instant: float, *, whole: bool) -> bool:
+    """Whether a step is short against the law, so that pressure may change much over it.
+
+    Parameters
+    ----------
+    crept : float
+        What creeps within the step [1/Pa].
+    instant : float
+        J(0) [1/Pa].
+    whole : bool
+        Whether the field rises over the whole of it.
+
+    Returns
+    -------
+    bool
+        With J(0) = 0 nothing is short; but a law that a line through the step does not make ring
+        is followed well by it.
+
+    Examples
+    --------
+    >>> is_resolved(0.1, 1.0, whole=True), is_resolved(0.5, 1.0, whole=True)
+    (True, False)
+    """
+    return whole if instant == 0 else crept <= RESOLVED * instant
+
+
 def longest_smooth_rise(compliance: ContactCompliance, duration: float) -> float:
     """Return over how long a first part of a step a field may rise without ringing.
 
@@ -106,8 +132,10 @@ def longest_smooth_rise(compliance: ContactCompliance, duration: float) -> float
     An error in the old value returns in the new one, reversed, by the ratio of the old value's
     weight, J(d) - mean of J over [d - r, d], to the new one's, that mean. The rise r is the
     longest whose old weight is within J(0), which halves an error at least. With J(0) = 0 (a
-    first-kind equation, where the trapezoidal rule is known not to damp: Linz 1985, Analytical
-    and Numerical Methods for Volterra Equations) the rise is a jump.
+    first-kind equation: Linz 1985, Analytical and Numerical Methods for Volterra Equations) it is
+    the longest that halves an error: the whole step for J like t^n with n up to 1/2, where the
+    trapezoidal rule is known to be stable and of second order; for a dashpot, whose rule does not
+    damp, two thirds of it.
 
     Examples
     --------
@@ -119,10 +147,9 @@ def longest_smooth_rise(compliance: ContactCompliance, duration: float) -> float
     instant, end = compliance.instant, compliance(duration)
 
     def excess(part: float) -> float:
-        return end - compliance.mean((1.0 - part) * duration, duration) - instant
+        new = compliance.mean((1.0 - part) * duration, duration)
+        return end - new - (instant if instant > 0 else new / 2)
 
     if excess(1.0) <= 0:
         return duration
-    if instant == 0:
-        return 0.0
     return duration * float(brentq(excess, 0.0, 1.0, xtol=1e-15))

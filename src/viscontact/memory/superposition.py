@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.compliance import ContactCompliance
-from viscontact.memory.response import RESOLVED, Memory, Response, longest_smooth_rise
+from viscontact.memory.response import Memory, Response, is_resolved, longest_smooth_rise
 
 #: Steps ahead for which the sum over the past is made at once, as one product of matrices.
 STEPS_AHEAD = 16
@@ -75,7 +75,7 @@ class SuperposedMemory(Memory):
         rise = longest_smooth_rise(self._compliance, duration)
         met = self._compliance.mean(duration - rise, duration)
         crept = self._compliance(duration) - self._compliance.instant
-        resolved = crept <= RESOLVED * self._compliance.instant
+        resolved = is_resolved(crept, self._compliance.instant, whole=rise == duration)
         past = self._past_until(self._time + duration, rise=rise)
         return Response(past - met * self._value, met, resolved, held=1 - rise / duration)
 
