@@ -5,9 +5,10 @@ roots of a quadratic and amplitudes their residues in s² L[J] L[M] = 1.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.special import erfcx, gamma
 
 import viscontact as vc
 from inverse_pairs import series
@@ -18,13 +19,17 @@ TIME = 100.0  # s
 
 @dataclass(frozen=True)
 class Body:
-    """A material, what it is in theory, and the decades of time in which it creeps."""
+    """A material, what it is in theory, and the decades of time in which it creeps.
+
+    If the pressed ball creeps, too, creep and relaxation are those of both together.
+    """
 
     material: vc.Material
     creep: Callable
     relaxation: Callable
     first: float
     end: float
+    ball: vc.Material | None = None
 
 
 def maxwell():
@@ -60,16 +65,116 @@ def burgers():
     instant, flow, delayed = (
         (1 - poisson_ratio) / (2 * value) for value in (stiff, viscosity, soft)
     )
-    # f(s) = s L[J]; M = sum exp(s_k t)/(s_k f'(s_k)) over its zeros.
+    return Body(material, *_delayed_and_flowing(instant, delayed, delay, flow), 0.1, 300.0)
+
+
+def _delayed_and_flowing(instant, delayed, delay, flow):
+    """J with one delayed part and flow; f(s) = s L[J], M = sum exp(s_k t)/(s_k f'(s_k))."""
     zeros = np.roots([instant * delay, instant + flow * delay + delayed, flow])
     slopes = -flow / zeros**2 - delayed * delay / (1 + zeros * delay) ** 2
-    return Body(
-        material,
+    return (
         lambda t: instant + flow * t - delayed * np.expm1(-t / delay),
         lambda t: np.exp(t[:, None] * zeros) @ (1 / (zeros * slopes)),
-        0.1,
-        300.0,
     )
+
+
+def solid_ball_on_a_fluid():
+    """Two creeping bodies: their compliances add."""
+    fluid = vc.Material(vc.Maxwell(G, G * TIME), poisson_ratio=0.5)
+    ball = vc.Material(vc.Zener(G, G / 2, G * TIME / 20), poisson_ratio=0.3)
+    # Halved by Phi = 1/(2 G), and (1 - nu) of each.
+    instant = 0.5 / (2 * G) + 0.7 / (2 * G)
+    pair = _delayed_and_flowing(instant, 0.7 / G, TIME / 10, 0.5 / (2 * G * TIME))
+    return Body(fluid, *pair, TIME / 100, 3 * TIME, ball)
+
+
+def elastic():
+    """Nothing creeps."""
+    modulus = 2 * G / 0.7
+
+    def relaxation(t):
+        return np.full_like(t, modulus)
+
+    return Body(vc.Material(vc.Elastic(G), 0.3), lambda t: 1 / relaxation(t), relaxation, 1.0, 10.0)
+
+
+# With exponent 1/2 Mittag-Leffler's function is E(-x) = exp(x²) erfc(x): Mainardi (2010), app. E.
+
+
+def power_law():
+    """Phi = J0 + J sqrt(t/tau); M the inverse of J0 (1 + x) with x² L = pi/4 (J/J0)² t/tau."""
+    instant, crept, time, share = 5e-10, 8e-10, 20.0, 0.62
+    material = vc.Material(vc.PowerLaw(crept, 0.5, time, instant), 0.38)
+
+    def relaxation(t):
+        return erfcx(gamma(1.5) * crept / instant * np.sqrt(t / time)) / (share * instant)
+
+    return Body(
+        material,
+        lambda t: share * (instant + crept * np.sqrt(t / time)),
+        relaxation,
+        0.02,
+        500.0,
+    )
+
+
+def fractional_maxwell():
+    """A spring and a spring-pot of exponent 1/2 in series."""
+    material = vc.Material(vc.FractionalMaxwell(G, TIME, 0.5), 0.5)
+    return Body(
+        material,
+        lambda t: (1 + np.sqrt(t / TIME) / gamma(1.5)) / (4 * G),
+        lambda t: 4 * G * erfcx(np.sqrt(t / TIME)),
+        TIME / 1000,
+        10 * TIME,
+    )
+
+
+def fractional_maxwell_with_elastic_bulk():
+    """As `maxwell_with_elastic_bulk`, with sqrt(s tau) in the place of s tau."""
+    bulk = 1.5e9
+    material = vc.Material(vc.FractionalMaxwell(G, TIME, 0.5), bulk_modulus=bulk)
+    delay, relaxation_delay = 1 + G / (3 * bulk), 1 + 4 * G / (3 * bulk)
+
+    def creep(t):
+        root = np.sqrt(t / TIME)
+        volumetric = 1 / (3 * bulk) - (1 / (3 * bulk) - 1 / (3 * bulk + G)) * erfcx(root / delay)
+        return (1 + root / gamma(1.5)) / (4 * G) + 0.75 * volumetric
+
+    def relaxation(t):
+        root = np.sqrt(t / TIME)
+        return G * erfcx(root) + 3 * G / relaxation_delay * erfcx(root / relaxation_delay)
+
+    return Body(material, creep, relaxation, TIME / 1000, 10 * TIME)
+
+
+def fractional_zener():
+    """A spring beside them: from 3 G to G."""
+    material = vc.Material(vc.FractionalZener(3 * G, G, TIME, 0.5), 0.5)
+    slower = 9 * TIME  # by the square of the ratio of moduli
+    return Body(
+        material,
+        lambda t: (1 / 3 + 2 / 3 * (1 - erfcx(np.sqrt(t / slower)))) / (4 * G),
+        lambda t: 4 * G * (1 + 2 * erfcx(np.sqrt(t / TIME))),
+        TIME / 1000,
+        100 * TIME,
+    )
+
+
+def tabulated_creep():
+    """The rows of a creep test on `creep_series`, 12 in each decade."""
+    body = creep_series()
+    times = np.append(0.0, np.geomspace(5e-3, 2e4, 81))
+    law = vc.TabulatedCreep(times, body.creep(times) / 0.62)
+    return replace(body, material=vc.Material(law, 0.38))
+
+
+def tabulated_relaxation():
+    """The rows of a relaxation test on `relaxation_series`, 12 in each decade."""
+    body = relaxation_series()
+    times = np.append(0.0, np.geomspace(5e-3, 5e3, 73))
+    law = vc.TabulatedRelaxation(times, body.relaxation(times) * 0.62 / 2)
+    return replace(body, material=vc.Material(law, 0.38))
 
 
 def creep_series():
@@ -127,5 +232,13 @@ BODIES = {
         creep_series,
         relaxation_series,
         maxwell_with_elastic_bulk,
+        solid_ball_on_a_fluid,
+        elastic,
+        power_law,
+        fractional_maxwell,
+        fractional_maxwell_with_elastic_bulk,
+        fractional_zener,
+        tabulated_creep,
+        tabulated_relaxation,
     )
 }

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 import viscontact as vc
-from verification.creeping_bodies import BODIES
+from inverse_pairs import power_law
+from verification.creeping_bodies import BODIES, Body
 from verification.pressing import (
     BALL,
     FORCE,
@@ -32,7 +33,8 @@ def spread(body, load, times, *, cells=38.0, tolerance=1e-7):
     force, compliance = load.at(times[-1]).force, body.creep(times[-1:])[0]
     radius = math.cbrt(0.75 * RADIUS * force * compliance)
     grid = grid_around((radius, radius), (cells, cells), margin=1.22)
-    return grid, list(vc.march(BALL, body.material, load, grid, times, tolerance=tolerance))
+    options = {"indenter_material": body.ball, "tolerance": tolerance}
+    return grid, list(vc.march(BALL, body.material, load, grid, times, **options))
 
 
 def errors(body, load, exact, times):
@@ -69,7 +71,11 @@ def test_step_loaded_sphere_in_120_uniform_steps(name):
 
 @pytest.mark.parametrize("name", [name for name in BODIES if name != "maxwell"])
 def test_step_loaded_sphere_in_120_logarithmic_steps_for_every_kind_of_law(name):
-    """Lee & Radok (1960). Measured, worst of all: pressure 2.2e-4, approach 1e-4, radius 1.2e-3."""
+    """Lee & Radok (1960). Measured, worst: pressure 2.2e-4, approach 1.6e-4, radius 1.7e-3.
+
+    Series, tables of them (12 rows a decade, whose interpolation costs up to 3e-5 in J), powers and
+    fractional derivatives of time, two creeping bodies, elastic bulk. The pressure needs J and M.
+    """
     body = BODIES[name]
     exact = reference.lee_radok_step(FORCE, RADIUS, body.creep, body.relaxation)
     times = vc.log_times(body.first, body.end, STEPS)
@@ -79,19 +85,22 @@ def test_step_loaded_sphere_in_120_logarithmic_steps_for_every_kind_of_law(name)
     assert found["radius"] < 2e-3
 
 
-@pytest.mark.parametrize("name", ["maxwell", "zener", "creep_series"])
+@pytest.mark.parametrize(
+    "name",
+    ["maxwell", "zener", "solid_ball_on_a_fluid", "fractional_zener", "tabulated_relaxation"],
+)
 def test_ramp_loaded_sphere_in_steps_that_grow_from_the_first_touch(name):
     """Lee & Radok (1960) under a ramp that ends between two instants, then held.
 
     Pressure starts as the cube root of time, so steps grow as the square of their number.
-    Measured: pressure 4.2e-4 where the contact is smallest, 12 cells, approach 3.3e-4, radius
+    Measured: pressure 7.3e-4 where the contact is smallest, 12 cells, approach 3.3e-4, radius
     2.3e-3.
     """
     body = BODIES[name]
-    duration, end = 0.95, 3.0
-    exact = reference.lee_radok_ramp(FORCE, duration * 100, RADIUS, body.creep, body.relaxation)
-    times = 100 * end * np.linspace(0, 1, STEPS + 1) ** 2
-    found = errors(body, vc.ramp(FORCE, duration * 100), exact, times)
+    duration = 0.95 * body.end / 3
+    exact = reference.lee_radok_ramp(FORCE, duration, RADIUS, body.creep, body.relaxation)
+    times = body.end * np.linspace(0, 1, STEPS + 1) ** 2
+    found = errors(body, vc.ramp(FORCE, duration), exact, times)
     assert found["pressure"] < 1e-3
     assert found["approach"] < 8e-4
     assert found["radius"] < 3e-3
@@ -138,6 +147,28 @@ def test_kelvin_voigt_body_under_a_ramp(steps):
     np.testing.assert_allclose(central_pressure(grid, states)[late], pressure, rtol=1e-2)
     traced = np.sqrt(over_time(states, "contact_area") / math.pi)[late]
     np.testing.assert_allclose(traced, radius, rtol=0.5 / steps + 5e-3)
+
+
+@pytest.mark.parametrize("exponent", [0.2, 0.5])
+def test_power_law_without_instant_compliance_under_a_ramp(exponent):
+    """Lee & Radok (1960), with the pair of `inverse_pairs`: as atomic force microscopy takes cells.
+
+    Measured from half the ramp on, in 40 steps: pressure 9e-4, approach 1.4e-4; with a step's
+    pressure in place at its begin it was 1.1e-2 and 3.2e-2.
+    """
+    time, duration, end = 20.0, 50.0, 150.0
+    creep, modulus = power_law(exponent)
+    compliance = creep(np.array([time]))[0] / 0.62
+    material = vc.Material(vc.PowerLaw(compliance, exponent, time), poisson_ratio=0.38)
+    body = Body(material, creep, modulus, 0.0, end)
+    exact = reference.lee_radok_ramp(FORCE, duration, RADIUS, creep, modulus)
+    times = end * np.linspace(0, 1, 41) ** 2
+    grid, states = spread(body, vc.ramp(FORCE, duration), times, cells=25.3)
+    late = times > duration / 2
+    pressure, radius = exact.pressure(0.0, times[late]), exact.contact_radius(times[late])
+    np.testing.assert_allclose(central_pressure(grid, states)[late], pressure, rtol=2e-3)
+    approach = over_time(states, "approach")[late]
+    np.testing.assert_allclose(approach, radius**2 / RADIUS, rtol=5e-4)
 
 
 @pytest.mark.parametrize("name", TABLE_1)
