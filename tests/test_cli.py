@@ -147,7 +147,7 @@ def test_run_does_not_write_over_the_users_own_files(folder: Path) -> None:
             ],
             "load: the load jumps at t = 0 s",
         ),
-        (["load.approach=1 mm"], "load.approach: is not built yet"),
+        (["load.approach=1 mm"], "load.force: force and approach exclude each other"),
         (["grid.size=[1 nm, 1 nm]", "output.fields=[9 s]"], "output.fields: the instant 9 s"),
     ],
 )

@@ -86,3 +86,19 @@ def test_what_has_no_grid_is_refused_with_a_reason():
     for tolerance in (0.0, 0.6, np.nan):
         with pytest.raises(ValueError, match="tolerance"):
             vc.auto_grid(vc.Sphere(1.0), rubber, vc.step(1.0), tolerance)
+
+
+@pytest.mark.parametrize("cycles", [1, 3, 4])
+def test_grid_holds_the_crest_of_a_load_that_swings(cycles):
+    # At whole cycles the approach is the mean; at the crest it is twice that, and the contact of
+    # Hertz's sphere sqrt(2) times as wide: a = sqrt(R delta).
+    swing = vc.harmonic(approach=1e-5, amplitude=1e-5, period=1.0, cycles=cycles)
+    grid = vc.auto_grid(vc.Sphere(0.01), rubber, swing)
+    assert grid.size[0] / 2 > 1.2 * math.sqrt(0.01 * 2e-5)
+
+
+def test_estimate_under_an_approach_is_hertzs():
+    # F = (4/3) E* sqrt(R) delta^(3/2), E* = 1/J; the coarse solve is good to a few per cent.
+    found = estimate_contact(vc.Sphere(0.01), 1e-6, vc.step(approach=1e-5).at(0.0))
+    assert found.approach == 1e-5
+    assert found.force == pytest.approx(4 / 3 * 1e6 * 0.1 * 1e-5**1.5, rel=0.03)

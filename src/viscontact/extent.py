@@ -31,6 +31,9 @@ MARGIN = 1.3
 
 MAX_TRIES = 60
 
+#: A load that swings shows its crest within so many of its longest steps.
+SWING_STEPS = 128
+
 
 @dataclass(frozen=True)
 class ContactEstimate:
@@ -46,6 +49,8 @@ class ContactEstimate:
         Largest pressure [Pa].
     centre_x, centre_y : float
         Middle of the contact [m].
+    force : float
+        Integral of the pressure [N].
     """
 
     length: float
@@ -54,6 +59,7 @@ class ContactEstimate:
     peak_pressure: float
     centre_x: float
     centre_y: float
+    force: float
 
     @property
     def reach(self) -> tuple[float, float]:
@@ -189,7 +195,8 @@ def _corners(load: LoadHistory, end: float | None) -> list[LoadPoint]:
     """Distinct loads at the history's points, and within its pieces: there the force may move."""
     corners = load.kinks if end is None else np.append(load.kinks[load.kinks < end], end)
     within = [corners[:-1] + part * np.diff(corners) for part in (0.25, 0.5, 0.75)]
-    instants = np.unique(np.concatenate([corners, *within])).tolist()
+    crest, _ = largest_load(load, float(corners[-1]))
+    instants = np.unique(np.concatenate([corners, *within, [crest]])).tolist()
     points = [load.at(time, side=side) for time in instants for side in ("left", "right")]
     return list(dict.fromkeys(point for point in points if level_of(point) > 0))
 
@@ -205,6 +212,37 @@ def _largest_compliance(
     if isinstance(compliance, SeriesCompliance):
         return compliance.instant + float(np.sum(compliance.amplitudes))
     return float(compliance(latest))
+
+
+def largest_load(load: LoadHistory, end: float) -> tuple[float, LoadPoint]:
+    """Return when a load is largest, and what it prescribes there.
+
+    Parameters
+    ----------
+    load : LoadHistory
+        The load.
+    end : float
+        Later instants do not count [s].
+
+    Returns
+    -------
+    time : float
+        One of its kinks, the end, or a step within its first swings [s].
+    point : LoadPoint
+        What is prescribed there, on the side of a jump where it is more.
+
+    Examples
+    --------
+    >>> from viscontact.load import harmonic
+    >>> largest_load(harmonic(mean=2.0, amplitude=1.0, period=4.0, cycles=4), end=16.0)[0]
+    1.0
+    """
+    instants = [*load.kinks[load.kinks <= end].tolist(), end]
+    if math.isfinite(load.longest_step):
+        steps = np.arange(1, SWING_STEPS + 1) * load.longest_step
+        instants += steps[steps < end].tolist()
+    points = [(time, load.at(time, side=side)) for time in instants for side in ("left", "right")]
+    return max(points, key=lambda timed: level_of(timed[1]))
 
 
 def level_of(point: LoadPoint) -> float:
@@ -254,4 +292,5 @@ def _coarse_contact(
         float(solution.found.pressure.max()),
         float(grid.x[rows[[0, -1]]].mean()),
         float(grid.y[columns[[0, -1]]].mean()),
+        float(solution.found.pressure.sum()) * grid.cell_area,
     )

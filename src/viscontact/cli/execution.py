@@ -13,6 +13,7 @@ from viscontact.cli.messages import INTERRUPTED, stop
 from viscontact.cli.preparation import Prepared, prepare
 from viscontact.cli.progress import shown_progress
 from viscontact.cli.run_directory import chosen_directory, refuse_occupied, set_up
+from viscontact.cli.stored import progress_made
 from viscontact.cli.summary import print_summary
 from viscontact.dataset import run_attributes
 from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
@@ -73,7 +74,7 @@ def execute(
     record, started = Record(), clock.perf_counter()
     _march_into(result, prepared, record, quiet=quiet)
     if not quiet:
-        print_summary(record.states, directory, clock.perf_counter() - started)
+        print_summary(prepared.run, record.states, directory, clock.perf_counter() - started)
     return directory
 
 
@@ -104,7 +105,7 @@ def _write_states(result: Path, prepared: Prepared, record: Record, *, quiet: bo
         ResultWriter(
             result, run.grid, run.times, fields=case.fields, attributes=attributes
         ) as writer,
-        shown_progress(len(run.times), quiet=quiet) as progress,
+        shown_progress(None if run.adaptive else len(run.times), quiet=quiet) as progress,
         warnings.catch_warnings(),
     ):
         # They travel with the states, and the summary prints them.
@@ -112,11 +113,13 @@ def _write_states(result: Path, prepared: Prepared, record: Record, *, quiet: bo
         for state in march_run(run, progress):
             writer.append(state)
             record.states.append(state.without_fields())
-            if interruption.requested and len(record.states) < len(run.times):
+            if interruption.requested and state.time < run.times[-1]:
                 record.interrupted = True
                 return
 
 
 def _kept(result: Path, prepared: Prepared, record: Record) -> str:
-    done, total = len(record.states), len(prepared.run.times)
-    return f"{result.parent} keeps {done} of {total} instants"
+    reached = record.states[-1].time if record.states else None
+    run = prepared.run
+    made = progress_made(len(record.states), reached, run.times.tolist(), run.adaptive)
+    return f"{result.parent} keeps {made}"

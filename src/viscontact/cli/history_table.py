@@ -15,11 +15,12 @@ from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.table import Table
 
+from viscontact.cli.accuracy import accuracy_lines
 from viscontact.cli.messages import refuse
 from viscontact.cli.stored import early_end
 from viscontact.dataset import SCALARS
 from viscontact.state import Outcome
-from viscontact.units import in_digits, is_rounding_tilt, readable_unit
+from viscontact.units import in_digits, in_words, is_rounding_tilt, readable_unit
 
 _COLUMNS = (
     *("force", "approach", "tilt_x", "tilt_y", "contact_area", "contact_length"),
@@ -44,6 +45,8 @@ def print_history(ds: xr.Dataset, *, everything: bool = False) -> None:
     console.print(_table(ds, rows))
     if len(rows) < count:
         console.print(f"{len(rows)} of {count} instants; --all shows every one")
+    for line in _footers(ds):
+        console.print(line, highlight=False)
     if ended := early_end(ds):
         console.print(f"[yellow]{ended}[/]", highlight=False)
     for line in str(ds.attrs.get("warnings", "")).splitlines():
@@ -68,6 +71,19 @@ def write_csv(ds: xr.Dataset, output: Path | None) -> None:
             _write_rows(ds, file)
     except OSError as error:
         refuse(f"{output}: cannot be written: {error}")
+
+
+def _footers(ds: xr.Dataset) -> Iterator[str]:
+    """Loss per cycle, where the load has cycles, and what to know of errors in time."""
+    losses = ds["loss_per_cycle"].values
+    # The last whole cycle's loss stands at every instant until the next is over.
+    known = losses[np.isfinite(losses)]
+    if known.size:
+        first, last = (in_words(float(loss), "J") for loss in known[[0, -1]])
+        several = f"{first} in the first cycle, {last} in the last"
+        yield f"loss per cycle: {last if np.ptp(known) == 0 else several}"
+    attributes = (str(ds.attrs.get("memory", "")), float(ds.attrs.get("inversion_error", 0.0)))
+    yield from accuracy_lines(ds["time_error"].values, *attributes)
 
 
 def _spread(count: int) -> NDArray[np.int_]:

@@ -11,6 +11,7 @@ from viscontact.extent import ContactEstimate
 from viscontact.forecast import Forecast, forecast
 from viscontact.indenters import Indenter
 from viscontact.plausibility import DEEP_APPROACH, DOUBTFUL_CELLS, WIDE_CONTACT
+from viscontact.run import Run
 from viscontact.units import in_digits, in_words
 
 
@@ -33,10 +34,11 @@ def print_forecast(prepared: Prepared) -> None:
         console.print(f"[yellow]warning:[/] {line}")
     console.print(_listed(_needs(prepared, expected)))
     if expected.estimate is not None:
+        control = prepared.run.load.control
         console.print(
-            "Under the largest force, with the end's compliance (a coarse elastic solve):"
+            f"Under the largest {control}, with {expected.compliance} (a coarse elastic solve):"
         )
-        console.print(_listed(_expectations(expected, expected.estimate)))
+        console.print(_listed(_expectations(expected, expected.estimate, control)))
 
 
 def _listed(rows: list[tuple[str, str]]) -> Table:
@@ -54,7 +56,7 @@ def _needs(prepared: Prepared, expected: Forecast) -> list[tuple[str, str]]:
     return [
         ("grid", f"{nx} x {ny} cells on {in_words(lx, 'm')} x {in_words(ly, 'm')}{chosen}"),
         ("cell", f"{in_words(dx, 'm', 3)} x {in_words(dy, 'm', 3)}"),
-        ("steps", f"{len(run.times) - 1} to t = {in_words(float(run.times[-1]), 's')}"),
+        ("steps", f"{_steps(run)} to t = {in_words(float(run.times[-1]), 's')}"),
         ("fields kept", kept if isinstance(kept, str) else f"at {len(kept)} instants"),
         (
             "memory",
@@ -64,12 +66,26 @@ def _needs(prepared: Prepared, expected: Forecast) -> list[tuple[str, str]]:
     ]
 
 
-def _expectations(expected: Forecast, found: ContactEstimate) -> list[tuple[str, str]]:
+def _steps(run: Run) -> str:
+    if run.adaptive is None:
+        return f"{len(run.times) - 1}"
+    return f"adaptive, tolerance {run.adaptive.tolerance:g},"
+
+
+def _expectations(
+    expected: Forecast, found: ContactEstimate, control: str
+) -> list[tuple[str, str]]:
+    # What is prescribed is known.
+    follows = (
+        ("approach", in_words(found.approach, "m", 3))
+        if control == "force"
+        else ("force", in_words(found.force, "N", 3))
+    )
     return [
         ("contact", f"{in_words(found.length, 'm', 3)} long, {in_words(found.width, 'm', 3)} wide"),
         ("cells in it", f"{expected.cells_along:.0f} along, {expected.cells_across:.0f} across"),
         ("peak pressure", in_words(found.peak_pressure, "Pa", 3)),
-        ("approach", in_words(found.approach, "m", 3)),
+        follows,
     ]
 
 

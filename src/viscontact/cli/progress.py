@@ -20,13 +20,13 @@ _LINE_PART, _LINE_SECONDS = 0.1, 30.0
 
 
 @contextmanager
-def shown_progress(total: int, *, quiet: bool) -> Iterator[Report]:
+def shown_progress(total: int | None, *, quiet: bool) -> Iterator[Report]:
     """Show how a run goes on.
 
     Parameters
     ----------
-    total : int
-        Number of instants.
+    total : int or None
+        Number of instants; None where the run chooses its steps, so that all totals are guesses.
     quiet : bool
         Show nothing.
 
@@ -41,10 +41,10 @@ def shown_progress(total: int, *, quiet: bool) -> Iterator[Report]:
         with _bar() as bar:
             task = bar.add_task("", total=total, details="")
             yield lambda state, done, total: bar.update(
-                task, completed=done, details=_details(state)
+                task, completed=done, total=total, details=_details(state)
             )
     else:
-        yield _PlainLines()
+        yield _PlainLines(guessed=total is None)
 
 
 def _bar() -> Progress:
@@ -61,7 +61,8 @@ def _bar() -> Progress:
 class _PlainLines:
     """A line now and then."""
 
-    def __init__(self) -> None:
+    def __init__(self, *, guessed: bool) -> None:
+        self._of = " of about " if guessed else "/"
         self._started = self._said_at = clock.perf_counter()
         self._next = 1
 
@@ -71,7 +72,8 @@ class _PlainLines:
             return
         self._next, self._said_at = done + max(1, round(total * _LINE_PART)), now
         left = (now - self._started) / done * (total - done)
-        say(f"step {done}/{total}, about {left:.0f} s left, {_details(state)}")
+        of = self._of if done < total else "/"
+        say(f"step {done}{of}{total}, about {left:.0f} s left, {_details(state)}")
 
 
 def _details(state: ContactState) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -12,6 +12,7 @@ import xarray as xr
 from viscontact.cli.messages import refuse
 from viscontact.dataset import SCALARS
 from viscontact.results import RESULT_NAME, open_results
+from viscontact.units import in_words
 
 
 @contextmanager
@@ -60,11 +61,48 @@ def early_end(ds: xr.Dataset) -> str:
         A sentence; empty for a run that is complete, or does not say what it was to be.
     """
     try:
-        total = len(json.loads(ds.attrs["case"])["times"])
-    except (KeyError, TypeError, ValueError):  # a dataset of the user's own making
+        case = json.loads(ds.attrs["case"])
+        times, adaptive = case["times"], case.get("adaptive")
+        end = float(times[-1])
+    except (KeyError, IndexError, TypeError, ValueError):  # a dataset of the user's own making
         return ""
-    done = ds.sizes["time"]
-    return f"the run stopped at {done} of {total} instants" if done < total else ""
+    reached = float(ds["time"][-1])
+    if reached >= end:
+        return ""
+    return f"the run stopped at {progress_made(ds.sizes['time'], reached, times, adaptive)}"
+
+
+def progress_made(
+    done: int, reached: float | None, times: Sequence[float], adaptive: object
+) -> str:
+    """Say how far a run has come.
+
+    Parameters
+    ----------
+    done : int
+        Instants that are complete.
+    reached : float or None
+        The last of them [s]; None without any.
+    times : sequence of float
+        The run's instants [s]; where it chooses its steps, the last is the end.
+    adaptive : object
+        None where the run does not choose its steps.
+
+    Returns
+    -------
+    str
+        Such as ``"3 of 7 instants"``.
+
+    Examples
+    --------
+    >>> progress_made(2, 1.0, [0.0, 1.0, 2.0], adaptive=None)
+    '2 of 3 instants'
+    """
+    if adaptive is None:
+        return f"{done} of {len(times)} instants"
+    if reached is None:
+        return "0 instants"
+    return f"{done} instants, up to t = {in_words(reached, 's')} of {in_words(times[-1], 's')}"
 
 
 def _unreadable(path: Path, error: Exception) -> str:

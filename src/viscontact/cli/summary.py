@@ -9,23 +9,30 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
+from viscontact.cli.accuracy import accuracy_lines
 from viscontact.dataset import SCALARS
+from viscontact.run import Run
 from viscontact.state import ContactState
 from viscontact.units import in_digits, in_words, is_rounding_tilt, readable_unit
 
 _ROWS = (
     *("force", "eccentricity_x", "eccentricity_y", "approach", "tilt_x", "tilt_y"),
     *("contact_area", "contact_length", "contact_width", "peak_pressure", "mean_pressure", "work"),
+    "loss_per_cycle",
 )
 # Exactly centred loads leave eccentricities of rounding size [m].
 _NEGLIGIBLE = 1e-12
 
 
-def print_summary(states: Sequence[ContactState], directory: Path, seconds: float) -> None:
+def print_summary(
+    run: Run, states: Sequence[ContactState], directory: Path, seconds: float
+) -> None:
     """Print what a run found, what it took, and what to doubt.
 
     Parameters
     ----------
+    run : Run
+        The run.
     states : sequence of ContactState
         All states of the run.
     directory : Path
@@ -41,6 +48,9 @@ def print_summary(states: Sequence[ContactState], directory: Path, seconds: floa
         f"{len(states)} instants in {in_words(seconds, 's', 3)}, {iterations} iterations, "
         f"residual at most {residual:.1e}"
     )
+    errors = _values(states, "time_error")
+    for line in accuracy_lines(errors, run.memory.method, run.compliance.inversion_error):
+        console.print(line, highlight=False)
     for state in states:
         for text in state.warnings:
             console.print(f"[yellow]warning:[/] t = {in_words(state.time, 's')}: {text}")
