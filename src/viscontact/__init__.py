@@ -61,7 +61,7 @@ __getattr__, __dir__, __all__ = _lazy.attach(
             "step",
             "triangle",
         ],
-        "stepping": ["log_times", "uniform_times"],
+        "stepping": ["adaptive_times", "log_times", "uniform_times"],
         "extent": ["auto_grid"],
         "state": ["ContactState", "Outcome"],
         "marching": ["march"],
