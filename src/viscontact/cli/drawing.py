@@ -26,7 +26,7 @@ def plot(
         typer.Argument(
             metavar="FIGURE",
             help="pressure-map, pressure-profile, pressure-radial, contact-outline, history, "
-            "or creep.",
+            "hysteresis, or creep.",
         ),
     ],
     times: Instants = None,
@@ -43,7 +43,7 @@ def compare(
         list[Path], typer.Argument(metavar="DIR...", help="Runs, or their .nc files.")
     ],
     figure: Annotated[
-        str, typer.Option("--figure", help="history or pressure-profile.")
+        str, typer.Option("--figure", help="history, hysteresis or pressure-profile.")
     ] = "history",
     times: Instants = None,
     output: Picture = None,

@@ -18,6 +18,7 @@ except ModuleNotFoundError as error:
 from viscontact.plot.contact_outline import contact_outline
 from viscontact.plot.creep import creep, creep_curve
 from viscontact.plot.history import compare_histories, history
+from viscontact.plot.hysteresis import compare_hysteresis, hysteresis
 from viscontact.plot.identified import fitted_indentation, fitted_series, master_curve
 from viscontact.plot.material_curves import material_curves
 from viscontact.plot.pressure_map import pressure_map
@@ -31,12 +32,14 @@ FIGURES: dict[str, Callable[..., Figure]] = {
     "pressure-radial": pressure_radial,
     "contact-outline": contact_outline,
     "history": history,
+    "hysteresis": hysteresis,
     "creep": creep,
 }
 """Figures of one run by name: ``FIGURES[name](results, times=None)``."""
 
 COMPARISONS: dict[str, Callable[..., Figure]] = {
     "history": compare_histories,
+    "hysteresis": compare_hysteresis,
     "pressure-profile": compare_pressure_profiles,
 }
 """Figures of several runs by name: ``COMPARISONS[name]({label: results, ...}, times=None)``."""
@@ -45,6 +48,7 @@ __all__ = [
     "COMPARISONS",
     "FIGURES",
     "compare_histories",
+    "compare_hysteresis",
     "compare_pressure_profiles",
     "contact_outline",
     "creep",
@@ -52,6 +56,7 @@ __all__ = [
     "fitted_indentation",
     "fitted_series",
     "history",
+    "hysteresis",
     "master_curve",
     "material_curves",
     "pressure_map",

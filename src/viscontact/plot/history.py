@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.plot import style
 from viscontact.plot.readable import DisplayUnit, display_unit
+from viscontact.plot.span import within_span
 from viscontact.units import is_rounding_tilt
 
 _NAME = "history"
@@ -87,7 +88,8 @@ def compare_histories(runs: Mapping[str, xr.Dataset], *, times: ArrayLike | None
     """
     if not runs:
         raise ValueError(f"{_NAME}: needs at least one run to compare, got none")
-    shown = {name: _within(run, times, name) for name, run in runs.items()}
+    drawn = (*(quantity.name for quantity in _QUANTITIES), "contact_length")
+    shown = {name: within_span(run, drawn, times, _NAME, name) for name, run in runs.items()}
     quantities = [quantity for quantity in _QUANTITIES if _worth_a_panel(quantity, shown)]
     figure, panels = _panels(len(quantities))
     time_unit = display_unit("s", *(run["time"].values for run in shown.values()))
@@ -97,22 +99,6 @@ def compare_histories(runs: Mapping[str, xr.Dataset], *, times: ArrayLike | None
     if len(shown) > 1:
         _add_runs(figure, panels[0], list(shown))
     return figure
-
-
-def _within(run: xr.Dataset, times: ArrayLike | None, name: str) -> xr.Dataset:
-    span = run["time"].values if times is None else np.atleast_1d(np.asarray(times, dtype=float))
-    if span.size == 0 or not np.all(np.isfinite(span)):
-        raise ValueError(f"{_NAME}: times must be finite numbers of seconds, got {times!r}")
-    inside = (run["time"] >= span.min()) & (run["time"] <= span.max())
-    shown = run[[*(q.name for q in _QUANTITIES), "contact_length"]].isel(
-        time=np.flatnonzero(inside)
-    )
-    if shown.sizes["time"] < 2:
-        raise ValueError(
-            f"{_NAME}: needs at least two steps to draw a line, got {shown.sizes['time']} "
-            f"between {span.min():.4g} and {span.max():.4g} s{f' in {name}' if name else ''}"
-        )
-    return shown
 
 
 def _worth_a_panel(quantity: _Quantity, runs: Mapping[str, xr.Dataset]) -> bool:
