@@ -1,0 +1,131 @@
+"""Force against approach: what loading and unloading differ by is lost in the bodies."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import ArrayLike, NDArray
+
+from viscontact.plot import style
+from viscontact.plot.readable import display_unit
+from viscontact.plot.span import within_span
+from viscontact.units import in_words
+
+_NAME = "hysteresis"
+
+#: Where along the way arrows show its direction.
+_ARROWS = (0.15, 0.4, 0.65, 0.9)
+
+
+def hysteresis(results: xr.Dataset, *, times: ArrayLike | None = None) -> Figure:
+    """Draw the force against the approach, with arrows that go with time.
+
+    Parameters
+    ----------
+    results : xarray.Dataset
+        What ``simulate`` or ``open_results`` returned.
+    times : array_like, optional
+        Draw only the span between the least and the largest of these instants [s]; by
+        default all of it.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        One loop a cycle. The area within it is what the cycle has cost; that of the last whole
+        one is written above.
+
+    Raises
+    ------
+    ValueError
+        If fewer than two steps lie in the span.
+    """
+    figure = compare_hysteresis({"": results}, times=times)
+    if loss := _last_loss(results, times):
+        style.add_heading(figure.axes[0], loss, aside=True)
+    return figure
+
+
+def compare_hysteresis(runs: Mapping[str, xr.Dataset], *, times: ArrayLike | None = None) -> Figure:
+    """Overlay force against approach of several runs.
+
+    Parameters
+    ----------
+    runs : mapping of str to xarray.Dataset
+        Results by the name to print.
+    times : array_like, optional
+        Draw only the span between the least and the largest of these instants [s].
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        One line a run.
+
+    Raises
+    ------
+    ValueError
+        If there are no runs, or one has fewer than two steps in the span.
+    """
+    if not runs:
+        raise ValueError(f"{_NAME}: needs at least one run to compare, got none")
+    shown = {
+        name: within_span(run, ("approach", "force"), times, _NAME, name)
+        for name, run in runs.items()
+    }
+    figure = style.new_figure(style.ONE_COLUMN, 3.3)
+    axes = figure.subplots()
+    style.dress(axes)
+    x_unit = display_unit("m", *(run["approach"].values for run in shown.values()))
+    y_unit = display_unit("N", *(run["force"].values for run in shown.values()))
+    for (name, run), look in zip(shown.items(), style.run_styles(len(shown)), strict=True):
+        x, y = x_unit(run["approach"].values), y_unit(run["force"].values)
+        axes.plot(x, y, label=name, **look)
+        _add_arrows(axes, x, y, look)
+    axes.set(xlabel=x_unit.label("Approach"), ylabel=y_unit.label("Force"))
+    _frame(axes)
+    if len(shown) > 1:
+        style.add_legend(axes, axes.get_lines(), list(shown), loc="best")
+    return figure
+
+
+def _add_arrows(
+    axes: Axes, x: NDArray[np.float64], y: NDArray[np.float64], look: dict[str, Any]
+) -> None:
+    """Arrows along the way, at parts of its length as it is seen."""
+    steps = [np.diff(values) / (np.ptp(values) or 1.0) for values in (x, y)]
+    way = np.append(0.0, np.cumsum(np.hypot(*steps)))
+    if way[-1] == 0:
+        return
+    for part in _ARROWS:
+        # From a bit before to the place itself; the head is at the latter.
+        ends = [(np.interp(at * way[-1], way, x), np.interp(at * way[-1], way, y))
+                for at in (part - 0.004, part)]  # fmt: skip
+        axes.annotate(
+            "",
+            ends[1],
+            ends[0],
+            arrowprops={
+                **{"arrowstyle": "-|>", "mutation_scale": 9, "shrinkA": 0, "shrinkB": 0},
+                **{"color": look["color"], "linewidth": 0.0},
+            },
+        )
+
+
+def _frame(axes: Axes) -> None:
+    """From zero where the force is steady: rounding is not to fill the axis."""
+    low, high = axes.dataLim.y0, axes.dataLim.y1
+    if high - low <= 1e-6 * abs(high):
+        axes.set_ylim(0.0, 1.15 * high or 1.0)
+
+
+def _last_loss(results: xr.Dataset, times: ArrayLike | None) -> str:
+    """The loss of the last cycle that is over within the span, in words."""
+    if "loss_per_cycle" not in results:
+        return ""
+    losses = within_span(results, ("loss_per_cycle",), times, _NAME, "")["loss_per_cycle"].values
+    known = losses[np.isfinite(losses)]
+    return f"loss per cycle {in_words(float(known[-1]), 'J', 3)}" if known.size else ""
