@@ -45,6 +45,7 @@ FLOORS = (
         "examples",
         "units",
         "tables",
+        "cards",
         "materials",
         "identification",
         "forecast",
@@ -95,6 +96,8 @@ NEIGHBOURS = {
     ("case", "units"),
     ("case", "materials"),  # which may be given by name
     ("case", "tables"),  # loads and materials may be measured ones
+    ("cards", "tables"),  # the text of a file, whatever its encoding
+    ("cards", "units"),
     ("tables", "units"),
     ("materials", "units"),
     ("plot", "units"),

@@ -3,5 +3,6 @@
 from viscontact.tables.names import QUANTITIES
 from viscontact.tables.reader import read_table
 from viscontact.tables.table import Table
+from viscontact.tables.text import read_text
 
-__all__ = ["QUANTITIES", "Table", "read_table"]
+__all__ = ["QUANTITIES", "Table", "read_table", "read_text"]

@@ -44,7 +44,7 @@ def read_rows(path: Path) -> list[Row]:
     ValueError
         If the file cannot be read, is no text, or is beyond bounds.
     """
-    text = _text(path)
+    text = read_text(path)
     lines = [line for line in text.splitlines() if line.strip()]
     first = next((line for line in lines if not _is_comment(line)), "")
     rows: list[Row] = []
@@ -62,7 +62,25 @@ def read_rows(path: Path) -> list[Row]:
     return rows
 
 
-def _text(path: Path) -> str:
+def read_text(path: Path) -> str:
+    """Read a text file of a program or instrument, whatever encoding it is written in.
+
+    Parameters
+    ----------
+    path : Path
+        A file of no more than 50 MB in UTF-8, UTF-16 with a byte-order mark, Windows-1252 or
+        Latin-1.
+
+    Returns
+    -------
+    str
+        Its text.
+
+    Raises
+    ------
+    ValueError
+        If it cannot be read, is too large, or is no text.
+    """
     try:
         if path.is_dir():
             raise ValueError(f"{path}: is a directory; name the file in it")
@@ -78,7 +96,7 @@ def _text(path: Path) -> str:
     text = _decoded(data)
     if text is None or any(ord(c) < 32 and c not in "\t\n\r\f\v" for c in text):
         raise ValueError(
-            f"{path.name}: is no text file in UTF-8, UTF-16 or Latin-1; export it as CSV"
+            f"{path.name}: is no text file in UTF-8, UTF-16 or Latin-1; export it as plain text"
         )
     return text
 
