@@ -36,7 +36,8 @@ def print_forecast(prepared: Prepared) -> None:
     if expected.estimate is not None:
         control = prepared.run.load.control
         console.print(
-            f"Under the largest {control}, with {expected.compliance} (a coarse elastic solve):"
+            f"Under the largest {control}, with {expected.compliance} (a coarse elastic solve):",
+            soft_wrap=True,
         )
         console.print(_listed(_expectations(expected, expected.estimate, control)))
 

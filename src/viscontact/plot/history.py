@@ -20,6 +20,10 @@ from viscontact.units import is_rounding_tilt
 
 _NAME = "history"
 
+#: A change by less than this part is rounding; a load that is held from this part of the time on
+#: leaves the rest to creep, which is even in log time.
+_STEADY, _SOON = 1e-5, 0.05
+
 
 @dataclass(frozen=True)
 class _Quantity:
@@ -56,7 +60,7 @@ def history(results: xr.Dataset, *, times: ArrayLike | None = None) -> Figure:
     -------
     matplotlib.figure.Figure
         One panel a quantity. Force and tilts have one only where they change. Time is
-        logarithmic where the run's steps are.
+        logarithmic where the run's steps are and the load is held nearly from the start.
 
     Raises
     ------
@@ -143,10 +147,11 @@ def _draw(
 
 def _scale_time(panels: list[Axes], runs: Mapping[str, xr.Dataset], time_unit: DisplayUnit) -> None:
     instants = [time_unit(run["time"].values) for run in runs.values()]
+    on_log = all(_steps_grow(run["time"].values) and _held_from(run) for run in runs.values())
     start = min(float(instant[0]) for instant in instants)
     end = max(float(instant[-1]) for instant in instants)
     for axes in panels:
-        if all(_steps_grow(instant) for instant in instants):
+        if on_log:
             first = min(float(instant[instant > 0][0]) for instant in instants)
             _set_log_time(axes, first, end)
         axes.set_xlim(start, end)
@@ -171,6 +176,17 @@ def _steps_grow(instants: NDArray[np.float64]) -> bool:
     """Whether the steps are spread over decades, as on a logarithmic axis."""
     positive = instants[instants > 0]
     return positive.size > 2 and float(np.median(positive)) < 0.1 * float(positive[-1])
+
+
+def _held_from(run: xr.Dataset) -> bool:
+    """Whether force or approach, the one that is prescribed, is held over most of the time."""
+    times = run["time"].values
+    held_from = []
+    for name in ("force", "approach"):
+        values = run[name].values
+        differs = np.abs(values - values[-1]) > _STEADY * np.abs(values).max()
+        held_from.append(times[int(np.flatnonzero(differs).max(initial=-1)) + 1])
+    return bool(min(held_from) <= _SOON * times[-1])
 
 
 def _add_runs(figure: Figure, axes: Axes, names: list[str]) -> None:

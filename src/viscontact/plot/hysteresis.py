@@ -109,7 +109,7 @@ def _add_arrows(
             ends[1],
             ends[0],
             arrowprops={
-                **{"arrowstyle": "-|>", "mutation_scale": 9, "shrinkA": 0, "shrinkB": 0},
+                **{"arrowstyle": "-|>", "mutation_scale": 12, "shrinkA": 0, "shrinkB": 0},
                 **{"color": look["color"], "linewidth": 0.0},
             },
         )
