@@ -798,6 +798,22 @@ def test_case_files_material_by_bulk_modulus_and_by_name() -> None:
         ),
         ({"kind": "history", "file": "load.csv"}, vc.ForceHistory([0, 1], [0, 0.1])),
         (
+            {
+                "kind": "history",
+                "sentences": "ramp to 10 kN in 1 s; hold for 240 s; unload in 0.1 s",
+            },
+            vc.ForceHistory([0, 1, 241, 241.1], [0, 1e4, 1e4, 0]),
+        ),
+        ({"kind": "step", "approach": "0.1 mm"}, vc.step(approach=1e-4)),
+        (
+            {"kind": "history", "points": [["0 s", "0 mm"], ["1 s", "0.1 mm"]]},
+            vc.ApproachHistory([0, 1], [0, 1e-4]),
+        ),
+        (
+            {"kind": "harmonic", "mean": "2 N", "amplitude": "1 N", "period": "3 s", "cycles": 4},
+            vc.harmonic(2.0, 1.0, 3.0, 4),
+        ),
+        (
             {"kind": "step", "force": "1 N", "eccentricity_x": "-1 mm", "eccentricity_y": "2 mm"},
             vc.step(1.0, eccentricity_x=-1e-3, eccentricity_y=2e-3),
         ),
@@ -807,7 +823,7 @@ def test_case_files_material_by_bulk_modulus_and_by_name() -> None:
         ),
     ],
 )
-def test_case_files_load(section: dict[str, Any], load: vc.ForceHistory) -> None:
+def test_case_files_load(section: dict[str, Any], load: vc.LoadHistory) -> None:
     assert _read({"load": section}).load == load
 
 
@@ -824,6 +840,11 @@ def test_case_files_load(section: dict[str, Any], load: vc.ForceHistory) -> None
 )
 def test_case_files_time(section: dict[str, Any], times: Any) -> None:
     np.testing.assert_array_equal(_read({"time": section}).times, times)
+
+
+def test_case_files_adaptive_time() -> None:
+    section = {"end": "4 s", "spacing": "adaptive", "tolerance": 1e-4}
+    assert _read({"time": section}).times == vc.adaptive_times(4.0, tolerance=1e-4)
 
 
 def test_case_files_title_grid_output_and_tolerance() -> None:
@@ -852,7 +873,7 @@ OPTIONS = {
 }
 FIGURES = (
     *("pressure-map", "pressure-profile", "pressure-radial", "contact-outline"),
-    *("history", "creep"),
+    *("history", "hysteresis", "creep"),
 )
 
 
@@ -937,10 +958,6 @@ def test_exit_codes(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
         (["report", "x"], "report is not built"),
         *((["verify"], "verify is not built yet"),),
         (["plot", "x", "animation"], "animation is not built yet"),
-        (["check", "ball.yaml", "--set", "load.approach=1 mm"], "approach: is not built yet"),
-        (["check", "ball.yaml", "--set", "load.sentences=[x]"], "sentences: is not built yet"),
-        (["check", "ball.yaml", "--set", "load.kind=harmonic"], "'harmonic' is not built yet"),
-        (["check", "ball.yaml", "--set", "time.spacing=adaptive"], "'adaptive' is not built yet"),
         (["check", "ball.yaml", "--set", "indenter.shape=height-map"], "'height-map' is not built"),
         (["check", "ball.yaml", "--set", "indenter.profile=full"], "profile: is not built yet"),
         *(
