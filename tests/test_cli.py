@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import csv
+import io
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
+import time as clock
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -17,8 +20,10 @@ import pytest
 
 import viscontact as vc
 from viscontact import forecast
-from viscontact.cli import execution, figures, main
+from viscontact.cli import execution, figures, main, progress
 from viscontact.errors import ConvergenceError
+from viscontact.run import prepare_run
+from viscontact.units import in_words
 
 SPHERE = """\
 title: Zener sphere
@@ -45,6 +50,14 @@ COMMANDS = (
     *("run", "check", "show", "export", "plot", "compare", "schema", "example", "demo"),
     *("fit", "material", "report", "verify"),
 )
+
+
+class Terminal(io.StringIO):
+    """What is written to a terminal."""
+
+    def isatty(self) -> bool:
+        """Yes."""
+        return True
 
 
 @pytest.fixture
@@ -255,6 +268,85 @@ def test_interruption_keeps_the_completed_steps(
     assert f"the run stopped at {kept} of 7 instants" in capsys.readouterr().err
 
 
+ADAPTIVE = ["--set", "time={end: 5 s, spacing: adaptive, tolerance: 0.01}"]
+
+
+def test_adaptive_run_keeps_every_step_and_goes_to_the_end(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    kept = ["--set", "output.fields=[1 s, 5 s]"]
+    assert main(["run", "case.yaml", *ADAPTIVE, *kept]) == 0
+    printed = capsys.readouterr()
+    lines = printed.err.splitlines()
+    # totals are guesses until the end, which is told as it is
+    assert lines[0].startswith("step 1 of about ")
+    with vc.open_results("case") as ds:
+        count = ds.sizes["time"]
+        assert lines[-1].startswith(f"step {count}/{count}, ")
+        assert ds.field_time.values.tolist() == [1.0, 5.0]
+        assert ds.time[-1] == 5.0
+        assert 5 < count < 60
+        largest = float(ds.time_error.max())
+    assert 0 < largest <= 0.01
+    assert f"error owed to the time steps: {largest:.1e} of the pressure at most" in printed.out
+    assert main(["show", "case"]) == 0
+    shown = capsys.readouterr().out
+    assert f"error owed to the time steps: {largest:.1e}" in shown
+    assert "stopped" not in shown
+    assert (
+        main(["run", "case.yaml", "-q", "-o", "all", *ADAPTIVE, "--set", "output.fields=all"]) == 0
+    )
+    with vc.open_results("all") as ds:
+        assert ds.pressure.dims[0] == "time"
+
+
+def test_interrupted_adaptive_run_says_how_far_it_came_in_time(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    marching = _interrupting(execution.march_run, 1)
+    monkeypatch.setattr(execution, "march_run", marching)
+    # more steps are done by then than instants were asked for
+    kept = ["--set", "output.fields=[0 s, 5 s]"]
+    assert main(["run", "case.yaml", "-q", *ADAPTIVE, *kept]) == 130
+    message = capsys.readouterr().err
+    with vc.open_results("case") as ds:
+        assert ds.sizes["time"] == 3
+        reached = f"3 instants, up to t = {in_words(float(ds.time[-1]), 's')} of 5 s"
+    assert f"case keeps {reached}" in message
+    assert main(["show", "case"]) == 0
+    assert f"the run stopped at {reached}" in capsys.readouterr().out
+
+
+def test_interruption_in_the_last_step_of_an_adaptive_run_is_too_late(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    whole = execution.march_run
+
+    def marching(*arguments: Any) -> Iterator[vc.ContactState]:
+        for state in whole(*arguments):
+            if state.time == 5.0:
+                signal.raise_signal(signal.SIGINT)
+            yield state
+
+    monkeypatch.setattr(execution, "march_run", marching)
+    assert main(["run", "case.yaml", "-q", *ADAPTIVE]) == 0
+
+
+def test_bar_follows_a_total_that_changes(monkeypatch: pytest.MonkeyPatch) -> None:
+    material = vc.Material(vc.Elastic(1e6), 0.5)
+    grid = vc.Grid((32, 32), (2.4e-3, 2.4e-3))
+    [state] = vc.march(vc.Sphere(0.01), material, vc.step(0.1), grid, [0.0])
+    terminal = Terminal()
+    monkeypatch.setattr("sys.stderr", terminal)
+    with progress.shown_progress(None, quiet=False) as report:
+        for done, total in ((1, 40), (2, 30), (3, 3)):
+            report(state, done, total)
+            clock.sleep(0.15)  # the bar is drawn ten times a second
+    written = terminal.getvalue()
+    for shown in ("1/40", "2/30", "3/3"):
+        assert shown in written
+
+
 def test_full_disk_stops_the_run_in_one_message(
     folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -323,6 +415,41 @@ def test_check_foresees_grid_steps_memory_time_and_contact(
     assert [path.name for path in folder.iterdir()] == ["case.yaml"]
 
 
+def test_check_foresees_an_approach_and_adaptive_steps(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    load = ["--set", "load={kind: ramp, approach: 100 um, duration: 1 s}"]
+    assert main(["check", "case.yaml", *ADAPTIVE, *load]) == 0
+    printed = capsys.readouterr().out
+    assert "adaptive, tolerance 0.01, to t = 5 s" in printed
+    assert "Under the largest approach, with the instant compliance" in printed
+    # Hertz, E* = 4 G: F = (4/3) E* sqrt(R) delta^(3/2) = 5.33 N, a = sqrt(R delta) = 1 mm,
+    # p = (2/pi) E* sqrt(delta/R) = 2.55 MPa; the estimate is good to a few per cent.
+    found = dict(re.findall(r"(force|peak pressure|contact) +([\d.]+)", printed))
+    assert float(found["force"]) == pytest.approx(5.33, rel=0.03)
+    assert float(found["peak pressure"]) == pytest.approx(2.55, rel=0.03)
+    assert float(found["contact"]) == pytest.approx(2.0, rel=0.03)
+    assert "approach   " not in printed
+
+
+def test_forecast_counts_the_steps_within_swings_and_at_kinks() -> None:
+    material, times = vc.Material(vc.Zener(1e6, 1e6, 1e6), 0.5), [0.0, 10.0]
+    grid = vc.Grid((32, 32), (3e-3, 3e-3))
+
+    def steps(load: vc.LoadHistory, times: Any = times) -> float:
+        return forecast._step_count(prepare_run(vc.Sphere(0.01), material, load, grid, times))
+
+    assert steps(vc.step(0.1)) == 2
+    assert steps(vc.triangle(0.1, 1.0)) == 4
+    assert steps(vc.harmonic(0.1, 0.05, 1.0, cycles=10)) == 641
+    adaptive = [vc.adaptive_times(10.0, tolerance=tolerance) for tolerance in (1e-3, 1e-4)]
+    rough, fine = (steps(vc.step(0.1), each) for each in adaptive)
+    assert rough < fine < 3 * rough
+    for wanted, guess in zip(adaptive, (rough, fine), strict=True):
+        taken = len(list(vc.march(vc.Sphere(0.01), material, vc.step(0.1), grid, wanted)))
+        assert guess / 2.5 < taken < guess * 2.5
+
+
 def test_check_warns_of_a_grid_that_the_contact_will_overrun(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -383,6 +510,44 @@ def test_export_holds_every_scalar_to_the_last_digit(finished: Path, tmp_path: P
         scalars = {name for name in ds.data_vars if ds[name].dims == ("time",)}
         assert len(rows[0]) == len(scalars) + 1
     assert {row["outcome"] for row in rows} == {"converged"}
+
+
+def test_show_tells_the_loss_per_cycle_and_a_memory_that_is_not_exact(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    swing = "load={kind: harmonic, mean: 2 N, amplitude: 1 N, period: 1 s, cycles: 3}"
+    assert main(["run", "case.yaml", "--set", swing]) == 0
+    summary = capsys.readouterr().out
+    assert re.search(r"loss per cycle \[µJ\] +│ +- │ +[\d.]+ │", summary)
+    assert main(["show", "case"]) == 0
+    printed = capsys.readouterr().out
+    with vc.open_results("case") as ds:
+        # 6 steps of 5 s do not end with a cycle; the last whole one stands until the next is over
+        first, last = (in_words(float(ds.loss_per_cycle[k]), "J") for k in (2, -1))
+        assert ds.attrs["memory"].startswith("recursion, exact")
+    assert f"loss per cycle: {first} in the first cycle, {last} in the last" in printed
+    assert "memory" not in printed
+    with vc.open_results("case") as ds:
+        told = ds.load().assign_attrs(memory="sum over all earlier steps", inversion_error=1e-7)
+    told.to_netcdf("told.nc")
+    assert main(["show", "told.nc"]) == 0
+    printed = capsys.readouterr().out
+    assert "memory: sum over all earlier steps" in printed
+    assert "the law was converted numerically, within 1.0e-07 (estimated)" in printed
+
+
+def test_approach_control_is_shown_and_drawn_like_any_run(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    load = "load={kind: history, sentences: press to 90 um in 1 s; withdraw to -50 um in 1 s}"
+    assert main(["run", "case.yaml", "-q", "--set", load]) == 0
+    for figure in ("history", "hysteresis", "pressure-radial", "pressure-map"):
+        assert main(["plot", "case", figure]) == 0
+    assert main(["show", "case"]) == 0
+    with vc.open_results("case") as ds:
+        assert ds.approach[-1] == -50e-6
+        assert ds.force[-1] == 0.0
+        assert ds.outcome[-1] == vc.Outcome.NO_CONTACT
 
 
 def test_plot_draws_a_figure_into_the_run_or_where_it_is_told(

@@ -284,3 +284,57 @@ def test_creep_curves_are_the_law_of_eq_15() -> None:
 def test_creep_curve_refuses_times_it_cannot_draw(times: list[float]) -> None:
     with pytest.raises(ValueError, match=r"creep: times must be"):
         creep_curve(Maxwell(1e9, 1e11), times)
+
+
+# --- hysteresis, and time that is even or not -------------------------------------------------
+
+
+def _swinging(times: np.ndarray, force: np.ndarray, approach: np.ndarray) -> xr.Dataset:
+    """Scalars of a made-up run."""
+    steady = maxwell_sphere(times.tolist(), cells=8, fields=False)
+    steady["force"][:] = force
+    steady["approach"][:] = approach
+    return steady
+
+
+def test_hysteresis_draws_force_over_approach_in_the_units_of_its_labels() -> None:
+    t = np.linspace(0, 2, 65)
+    force = 20e3 + 10e3 * np.sin(np.pi * t)
+    approach = 2e-4 + 1e-4 * np.sin(np.pi * t - 0.3)
+    run = _swinging(t, force, approach)
+    run["loss_per_cycle"] = ("time", np.where(t < 2, np.nan, np.pi * 1e4 * 1e-4 * np.sin(0.3)))
+    figure = FIGURES["hysteresis"](run)
+    [line] = figure.axes[0].get_lines()
+    np.testing.assert_allclose(line.get_xdata(), approach * 1e6)
+    np.testing.assert_allclose(line.get_ydata(), force * 1e-3)
+    assert figure.axes[0].get_xlabel() == "Approach [µm]"
+    assert figure.axes[0].get_ylabel() == "Force [kN]"
+    # the area of the ellipse, pi F w sin(lag) = 0.928 J
+    assert figure.axes[0].get_title(loc="right") == "loss per cycle 928 mJ"
+    half = FIGURES["hysteresis"](run, times=[0.0, 1.0])
+    assert len(half.axes[0].get_lines()[0].get_xdata()) == 33
+    assert half.axes[0].get_title(loc="right") == ""
+
+
+def test_hysteresis_arrows_go_with_time() -> None:
+    t = np.linspace(0, 1, 20)
+    figure = FIGURES["hysteresis"](_swinging(t, t, 1e-3 * t))
+    arrows = figure.axes[0].texts
+    assert len(arrows) == 4
+    for arrow in arrows:
+        assert arrow.xy[0] > arrow.xyann[0]
+        assert arrow.xy[1] > arrow.xyann[1]
+
+
+@pytest.mark.parametrize(
+    ("hold", "scale"), [(0.0, "symlog"), (1.0, "symlog"), (30.0, "linear"), (100.0, "linear")]
+)
+@pytest.mark.parametrize("control", ["force", "approach"])
+def test_time_is_logarithmic_only_where_the_load_is_held_nearly_from_the_start(
+    hold: float, scale: str, control: str
+) -> None:
+    t = np.append(0.0, np.geomspace(0.01, 100, 60))
+    driven, follows = np.minimum(t, hold) if hold else np.ones_like(t), 2 + np.log10(1 + t)
+    levels = {"force": (driven, 1e-4 * follows), "approach": (follows, 1e-4 * driven)}[control]
+    figure = FIGURES["history"](_swinging(t, *levels))
+    assert {axes.get_xscale() for axes in figure.axes} == {scale}
