@@ -39,6 +39,7 @@ ABAQUS = """\
  3000., 0.25
 *Viscoelastic, time=PRONY
  0.3, 0., 10.
+** between the terms
  0.2, , 1.D2
 *Step
 *Static
@@ -202,6 +203,9 @@ def test_long_term_constants_with_test_data_need_the_long_term_value(tmp_path: P
     card = read(tmp_path, text.replace("Test Data\n", "Test Data, shrinf=0.25\n"))
     assert card.material.law.relaxation(0.0) == pytest.approx(4.8e9, rel=1e-15)
     assert any("SHRINF is not used beyond" in note for note in card.notes)
+    creep = text.replace("RELAXATION", "CREEP").replace("0.75,", "1.5,").replace("0.5,", "2,")
+    found = read(tmp_path, creep.replace("Test Data\n", "Test Data, shrinf=4\n")).material
+    assert found.law.relaxation(0.0) == pytest.approx(4.8e9, rel=1e-12)  # j_S = 1/g_R
     ended = read(tmp_path, text.replace("Test Data\n", "Test Data, shrinf=0.5\n"))
     assert ended.material.law.beyond == "last"
 
@@ -224,9 +228,9 @@ def test_combined_test_data_that_agree_are_a_constant_poissons_ratio(tmp_path: P
         ("0.3, 0.,", "300., 0.,", "term 1 must be a part of the modulus between 0 and 1, got 300."),
         ("0.3, 0.,", "-0.3, 0.,", "must be a part of the modulus between 0 and 1, got -0.3"),
         ("1.D2", "0.", "the relaxation time of term 2 must be positive, got 0.0"),
-        ("1.D2", "tau", "card.txt:11: 'tau' is not a number"),
-        ("1.D2", "1e999", "card.txt:11: '1e999' is beyond all numbers"),
-        ("0.2, , 1.D2", "0.2, 0.2", "card.txt:11: must have 3 numbers, got 2"),
+        ("1.D2", "tau", "card.txt:12: 'tau' is not a number"),
+        ("1.D2", "1e999", "card.txt:12: '1e999' is beyond all numbers"),
+        ("0.2, , 1.D2", "0.2, 0.2", "card.txt:12: must have 3 numbers, got 2"),
         ("0.2, , 1.D2", "0.7, , 1.D2", None),
         ("time=PRONY", "time=FREQUENCY DATA", "TIME=FREQUENCY DATA is not read (its frequencies a"),
         ("time=PRONY", "frequency=TABULAR", "*VISCOELASTIC, FREQUENCY is not read"),

@@ -95,6 +95,7 @@ NEIGHBOURS = {
     ("results", "dataset"),  # the file is laid out as the dataset is
     ("case", "units"),
     ("case", "materials"),  # which may be given by name
+    ("case", "cards"),  # materials of other programs
     ("case", "tables"),  # loads and materials may be measured ones
     ("cards", "tables"),  # the text of a file, whatever its encoding
     ("cards", "units"),

@@ -65,6 +65,12 @@ def test_decimal_commas_are_read_where_commas_do_not_separate(
     np.testing.assert_allclose(found["creep_compliance"], [1.25e-8, 5e-10], rtol=1e-15)
 
 
+def test_commas_in_headings_do_not_separate_where_semicolons_do(tmp_path: Path) -> None:
+    found = table(tmp_path, "strain, total [%];t [s];D [1/MPa]\n1,5;2,5;3\n")
+    assert found["time"].tolist() == [2.5]
+    assert found.left_out == ("strain, total [%]",)
+
+
 @pytest.mark.parametrize(
     "header",
     ["time [s], D [1/MPa]", "Time (s), D(t) (1/MPa)", "t/s, D / MPa^-1", "time in s,D in MPa⁻¹",
@@ -244,6 +250,8 @@ def test_sets_are_told_by_their_number_in_the_files_order(tmp_path: Path) -> Non
 def test_sets_without_numbers_are_told_by_gaps_in_temperature(tmp_path: Path) -> None:
     temperatures = [20.0, 20.3, -50.0, -49.8, 19.9]
     rows = "".join(f"{i + 1},{T}\n" for i, T in enumerate(temperatures))
+    near = "".join(f"{i},{20 + 3 * i}\n" for i in range(4))
+    assert len(table(tmp_path, f"t [s],T [degC]\n{near}").sets()) == 4
     cold, warm = table(tmp_path, f"t [s],T [degC]\n{rows}").sets()
     assert cold["time"].tolist() == [3.0, 4.0]
     assert warm["time"].tolist() == [1.0, 2.0, 5.0]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -15,7 +15,7 @@ from pydantic import ValidationError
 from viscontact.case.document import Document, read_document
 from viscontact.case.indenters import combined
 from viscontact.case.overrides import override
-from viscontact.case.problems import CaseError
+from viscontact.case.problems import CaseError, KeyPath
 from viscontact.case.schedule import kept_fields, with_instants
 from viscontact.case.sections import CaseFile
 from viscontact.case.wording import corrected, noun_problem, problem
@@ -25,6 +25,9 @@ from viscontact.indenters import Indenter
 from viscontact.load import LoadHistory
 from viscontact.material import Material
 from viscontact.stepping import AdaptiveTimes
+
+# What a run writes beside its case.
+_RUN_NAMES = ("case.yaml", "result.nc", "progress.jsonl", "state.npz")
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,6 +56,8 @@ class Case:
         Relative error of pressure and balances.
     load_file : Path or None
         The CSV of the load history, if it has one.
+    files : mapping of tuple to Path
+        Every file that the case is read from, by the key that names it.
     document : Document
         The file it is from.
     """
@@ -67,14 +72,33 @@ class Case:
     fields: str | tuple[float, ...]
     tolerance: float
     load_file: Path | None
+    files: Mapping[KeyPath, Path]
     document: Document
 
     @property
     def text(self) -> str:
-        """The case as YAML as it is run: with what was set, its load file beside it."""
-        if self.load_file is None:
+        """The case as YAML as it is run: with what was set, its files beside it."""
+        if not self.files:
             return self.document.text
-        return with_overrides(self.document.text, {("load", "file"): self.load_file.name})
+        names = self.file_names
+        return with_overrides(
+            self.document.text, {key: names[path] for key, path in self.files.items()}
+        )
+
+    @property
+    def file_names(self) -> dict[Path, str]:
+        """What each file is called beside the case as it is run: its own name if that is free."""
+        names: dict[Path, str] = {}
+        taken = {name.lower() for name in _RUN_NAMES}
+        for key, path in self.files.items():
+            if path in names:
+                continue
+            name = path.name
+            while name.lower() in taken:
+                name = f"{key[0]}-{name}"
+            names[path] = name
+            taken.add(name.lower())
+        return names
 
     def error(self, why: str) -> CaseError:
         """Return what the run refused as an error at the key it speaks of.
@@ -153,5 +177,17 @@ def _case(document: Document, found: CaseFile) -> Case:
         fields=fields,
         tolerance=found.tolerance,
         load_file=found.load.table,
+        files=_files(found),
         document=document,
     )
+
+
+def _files(found: CaseFile) -> dict[KeyPath, Path]:
+    files: dict[KeyPath, Path] = {}
+    if found.load.table is not None:
+        files[("load", "file")] = found.load.table
+    materials = {"material": found.material, "indenter_material": found.indenter_material}
+    for section, material in materials.items():
+        if material is not None:
+            files |= {(section, *key): path for key, path in material.files.items()}
+    return files

@@ -5,9 +5,6 @@ from __future__ import annotations
 #: Values of the key that says what a section is.
 VALUES: dict[str, frozenset[str]] = {
     "shape": frozenset({"height-map"}),
-    "law": frozenset(
-        {"power-law", "fractional", "fractional-maxwell", "fractional-zener", "table"}
-    ),
 }
 
 #: Keys by section, with what to do instead.
@@ -16,12 +13,7 @@ KEYS: dict[str, dict[str, str]] = {
         "profile": "give crown_radius, or leave both out for sharp ends",
         "file": "measured maps can be pressed from Python with viscontact.HeightMap",
     },
-    "material": {
-        "file": "give the terms of a creep-series or relaxation-series",
-        "quantity": "give the terms of a creep-series or relaxation-series",
-    },
 }
-KEYS["indenter_material"] = KEYS["material"]
 
 
 def refused_value(key: str, value: object, built: list[str]) -> str | None:

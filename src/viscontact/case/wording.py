@@ -10,7 +10,7 @@ from typing import Any, get_args
 from pydantic import BaseModel
 from pydantic_core import ErrorDetails
 
-from viscontact.case import indenters, loads, materials, schedule
+from viscontact.case import indenters, loads, materials, schedule, shifts
 from viscontact.case.document import Document
 from viscontact.case.problems import KeyPath, dotted
 from viscontact.case.sections import CaseFile
@@ -21,20 +21,26 @@ from viscontact.units import DIMENSIONS
 _SECTIONS: dict[str | int, type[BaseModel]] = {
     **{"time": schedule.Time, "grid": schedule.Cells, "output": schedule.Output},
 }
+# Shifts, like loads, say in `kind` what they are.
+_SHIFTS: dict[str | int, type[BaseModel]] = {
+    **{"wlf": shifts.Wlf, "arrhenius": shifts.Arrhenius, "factors": shifts.Factors},
+}
 _ALTERNATIVES: dict[str | int, type[BaseModel]] = {
     **{"sphere": indenters.Sphere, "paraboloid": indenters.Paraboloid, "cone": indenters.Cone},
     **{"flat-punch": indenters.FlatPunch, "roller": indenters.Roller},
-    **{"elastic": materials.Elastic, "maxwell": materials.Maxwell, "zener": materials.Zener},
-    **{"burgers": materials.Burgers, "creep-series": materials.CreepSeries},
-    "relaxation-series": materials.RelaxationSeries,
+    **materials.LAWS,
+    **_SHIFTS,
     **{"step": loads.Step, "ramp": loads.Ramp, "triangle": loads.Triangle},
     **{"harmonic": loads.Harmonic, "history": loads.History},
 }
+_NO_SHIFTS = {tag: model for tag, model in _ALTERNATIVES.items() if tag not in _SHIFTS}
 
 # What others call the same, where the spelling gives no hint.
 _OTHER_NAMES = {
     **{"cylinder": "roller", "ball": "sphere"},
     **{"prony": "relaxation-series", "generalized-maxwell": "relaxation-series"},
+    **{"fractional": "fractional-zener", "spring-pot": "power-law", "csv": "table"},
+    **{"abaqus": "card", "ansys": "card", "tabulated": "table"},
     **{"standard-linear-solid": "zener", "sls": "zener", "constant": "step"},
     **{"sine": "harmonic", "sinusoidal": "harmonic", "cyclic": "harmonic"},
     **{"points": "history", "sentences": "history", "file": "history"},
@@ -89,7 +95,7 @@ def corrected(data: dict[str, Any], errors: list[ErrorDetails]) -> dict[str, Any
     for error in errors:
         if error["type"] != "union_tag_invalid":
             continue
-        near = _nearest(error["ctx"]["tag"], _choices(_union_key(error)))
+        near = _nearest(error["ctx"]["tag"], _choices(error))
         if near is not None:
             changed = deepcopy(data) if changed is None else changed
             _at(changed, _key_path(data, error))[_union_key(error)] = near
@@ -187,17 +193,19 @@ def _why(key: KeyPath, model: type[BaseModel], error: ErrorDetails) -> str:
     if kind == "missing":
         return f"is missing{_example(model, str(key[-1]))}"
     if kind == "union_tag_not_found":
-        return f"is missing; it says which: {', '.join(_choices(_union_key(error)))}"
+        return f"is missing; it says which: {', '.join(_choices(error))}"
     if kind == "union_tag_invalid":
-        return _wrong_choice(str(key[-1]), context["tag"], _choices(str(key[-1])))
+        return _wrong_choice(str(key[-1]), context["tag"], _choices(error))
     if kind == "literal_error":
         choices = re.findall(r"'([^']*)'", context["expected"])
         return _wrong_choice(str(key[-1]), error["input"], choices)
     return _plain_words(error)
 
 
-def _choices(discriminator: str) -> list[str]:
-    fields = {tag: model.model_fields.get(discriminator) for tag, model in _ALTERNATIVES.items()}
+def _choices(error: ErrorDetails) -> list[str]:
+    """What the key may say that tells what a section is."""
+    models = _SHIFTS if error["loc"][-1] == "shift" else _NO_SHIFTS
+    fields = {tag: model.model_fields.get(_union_key(error)) for tag, model in models.items()}
     return [
         str(tag) for tag, field in fields.items() if field and tag in get_args(field.annotation)
     ]
@@ -217,12 +225,13 @@ def _unknown(what: str, given: object, allowed: list[str]) -> str:
 def _unknown_key(model: type[BaseModel], given: object) -> str:
     """Say what is allowed, or which other kind, law or shape has the key."""
     unknown = _unknown("key", given, sorted(model.model_fields))
+    alike = _SHIFTS if model in _SHIFTS.values() else _NO_SHIFTS
     for discriminator in ("kind", "law", "shape"):
         if discriminator not in model.model_fields:
             continue
         others = [
             str(tag)
-            for tag, other in _ALTERNATIVES.items()
+            for tag, other in alike.items()
             if str(given) in other.model_fields and discriminator in other.model_fields
         ]
         if others:

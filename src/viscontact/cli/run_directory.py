@@ -93,10 +93,9 @@ def set_up(directory: Path, case: Case) -> Path:
     try:
         directory.mkdir(parents=True, exist_ok=True)
         (directory / CASE_NAME).write_text(case.text, encoding="utf-8")
-        if case.load_file is not None and not _is_same(
-            case.load_file, directory / case.load_file.name
-        ):
-            shutil.copyfile(case.load_file, directory / case.load_file.name)
+        for file, name in case.file_names.items():
+            if not _is_same(file, directory / name):
+                shutil.copyfile(file, directory / name)
     except OSError as error:
         refuse(f"{directory}: cannot be written: {error}")
     return directory / RESULT_NAME

@@ -1,0 +1,81 @@
+"""The `shift` of a material in a case file: what temperature does to its times."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import Field
+
+from viscontact import laws
+from viscontact.case.data_file import DataFile
+from viscontact.case.quantities import MolarEnergy, Section, Temperature, TemperatureDifference
+from viscontact.tables import read_table
+
+
+class Rule(Section):
+    """A rule that gives the shift factor of each temperature."""
+
+    @abstractmethod
+    def noun(self) -> laws.Shift:
+        """Return the rule that is described."""
+
+    @property
+    def files(self) -> Mapping[tuple[str, ...], Path]:
+        """Files that it is read from, by the keys that name them."""
+        return {}
+
+
+class Wlf(Rule):
+    """The rule of Williams, Landel and Ferry: log10 a_T = -c1 (T - T_r)/(c2 + T - T_r)."""
+
+    kind: Literal["wlf"]
+    reference_temperature: Temperature = Field(description="T_r, which the law is given at")
+    c1: Annotated[float, Field(gt=0)] = Field(description="C_1 of the decimal logarithm")
+    c2: TemperatureDifference = Field(description="C_2")
+
+    def noun(self) -> laws.Shift:
+        """Return the rule."""
+        return laws.WLF(self.reference_temperature, self.c1, self.c2)
+
+
+class Arrhenius(Rule):
+    """The rule of Arrhenius: ln a_T = (E_a/R)(1/T - 1/T_r)."""
+
+    kind: Literal["arrhenius"]
+    reference_temperature: Temperature = Field(description="T_r, which the law is given at")
+    activation_energy: MolarEnergy
+
+    def noun(self) -> laws.Shift:
+        """Return the rule."""
+        return laws.Arrhenius(self.reference_temperature, self.activation_energy)
+
+
+class Factors(Rule):
+    """Shift factors as measured, in a CSV file: 1 at the temperature the law is given at."""
+
+    kind: Literal["factors"]
+    file: DataFile = Field(
+        description="CSV with a header such as: T [degC], log_aT", examples=["factors.csv"]
+    )
+
+    @property
+    def files(self) -> Mapping[tuple[str, ...], Path]:
+        """The file, by its key."""
+        return {("file",): Path(self.file)}
+
+    def noun(self) -> laws.Shift:
+        """Return the rule, straight in ln a_T between the rows."""
+        try:
+            table = read_table(self.file)
+            order = np.argsort(table["temperature"], kind="stable")
+            temperatures, factors = table["temperature"][order], table["shift_factor"][order]
+            return laws.TabulatedShift(temperatures.tolist(), factors.tolist())
+        except ValueError as error:
+            raise ValueError(f"shift.file: {error}") from error
+
+
+AnyShift = Annotated[Wlf | Arrhenius | Factors, Field(discriminator="kind")]
