@@ -539,11 +539,15 @@ def test_show_tells_the_loss_per_cycle_and_a_memory_that_is_not_exact(
 def test_approach_control_is_shown_and_drawn_like_any_run(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    load = "load={kind: history, sentences: press to 90 um in 1 s; withdraw to -50 um in 1 s}"
-    assert main(["run", "case.yaml", "-q", "--set", load]) == 0
-    for figure in ("history", "hysteresis", "pressure-radial", "pressure-map"):
+    said = "press to 90 um in 1 s; withdraw to -50 um in 1 s"
+    load = f"load={{kind: history, sentences: {said}, tilt_x: 2 mrad}}"
+    assert main(["run", "case.yaml", "-q", *ADAPTIVE, "--set", load]) == 0
+    for figure in ("history", "hysteresis", "pressure-profile", "pressure-map"):
         assert main(["plot", "case", figure]) == 0
     assert main(["show", "case"]) == 0
+    shown = capsys.readouterr().out
+    assert "tilt x" in shown
+    assert "…" not in shown  # eighty characters hold nine columns
     with vc.open_results("case") as ds:
         assert ds.approach[-1] == -50e-6
         assert ds.force[-1] == 0.0

@@ -46,6 +46,7 @@ def test_sphere_that_is_let_go_approached_as_lee_and_radok_say(tmp_path: Path) -
 
 def test_probe_feels_and_loses_the_gel_as_ting_says(tmp_path: Path) -> None:
     ds = run_as_a_user("afm-indentation", tmp_path)
+    assert main(["plot", str(tmp_path / "afm-indentation"), "pressure-radial"]) == 0
     # Ting (1966), M = 2 G/(1 - nu) = 4 G.
     bead = reference.SphereProfile(5e-6)
     exact = reference.ting_triangle(bead, 4e-7, 1.0, 2000.0, [1200.0, 800.0], [0.1, 1.0])

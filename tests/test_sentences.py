@@ -51,6 +51,7 @@ def test_the_promised_sentences_are_the_history_by_hand() -> None:
         ("ramp to 6 N at 2 N / min", [(0, 0), (180, 6)]),
         ("ramp to 6 N at 2 N per min", [(0, 0), (180, 6)]),
         ("ramp to 3 N in 1 s; ramp by -1 N in 1 s", [(0, 0), (1, 3), (2, 2)]),
+        ("ramp up to 3 N in 1 minute; step down to 2 N", [(0, 0), (60, 3), (60, 2)]),
         ("step to 3 N; hold until 300 s; unload", [(0, 3), (300, 3), (300, 0)]),
         ("step to 3 N; unload to 1 N in 2 s", [(0, 3), (2, 1)]),
         ("step to 3 N; unload by 1 N in 2 s", [(0, 3), (2, 2)]),

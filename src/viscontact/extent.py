@@ -183,7 +183,8 @@ def _reach_of_history(
     points = _corners(load, end)
     if not points:
         raise ValueError(
-            "load: the load is zero throughout, so no grid can be fitted to a contact; give a grid"
+            f"load: the {load.control} is never above zero, so no grid can be fitted to a contact; "
+            "give a grid"
         )
     found = [estimate_contact(indenter, compliance, point) for point in points]
     reach = np.array([estimate.reach for estimate in found], dtype=np.float64).max(axis=0)

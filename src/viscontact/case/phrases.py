@@ -257,14 +257,14 @@ _STILL = "hold|wait|rest|dwell|pause"
 #: All that can be said.
 FORMS = _forms(
     [
-        ("to, in", f"{_GO}|{_BACK} to LEVEL {_WITHIN} TIME"),
-        ("to, at", f"{_GO}|{_BACK} to LEVEL at RATE"),
+        ("to, in", f"{_GO}|{_BACK} [linearly] [up|down] to LEVEL {_WITHIN} TIME"),
+        ("to, at", f"{_GO}|{_BACK} [linearly] [up|down] to LEVEL at RATE"),
         ("by, in", f"{_GO} by LEVEL {_WITHIN} TIME"),
         ("back, in", f"{_BACK} by LEVEL {_WITHIN} TIME"),
         ("off, in", f"{_BACK} {_WITHIN} TIME"),
         ("off, at", f"{_BACK} at RATE"),
         ("off", f"{_BACK} [at] [once]"),
-        ("to", "step|jump to LEVEL [at] [once]"),
+        ("to", "step|jump [up|down] to LEVEL [at] [once]"),
         ("by", "step|jump by LEVEL [at] [once]"),
         ("hold for", f"{_STILL} [constant] [for] TIME"),
         ("hold until", f"{_STILL} [constant] until TIME"),
@@ -283,6 +283,6 @@ CAN_BE_SAID = (
     "hold until 300 s",
     "unload in 0.1 s",
     "oscillate by 1 kN with a period of 2 s for 10 cycles",
-    "repeat 9 times",
+    "repeat 9 times (that is, 9 times more)",
     "repeat the last 2 sentences 9 times",
 )

@@ -92,7 +92,9 @@ def _spread(count: int) -> NDArray[np.int_]:
 
 def _table(ds: xr.Dataset, rows: NDArray[np.int_]) -> Table:
     # Narrow enough for nine columns on eighty characters.
-    table = Table(box=SIMPLE_HEAD, padding=(0, 1, 0, 0), title=ds.attrs.get("title") or None)
+    table = Table(
+        box=SIMPLE_HEAD, padding=(0, 1, 0, 0), show_edge=False, title=ds.attrs.get("title") or None
+    )
     cells = []
     for name in ("time", *_COLUMNS):
         values = ds[name].values
@@ -102,10 +104,16 @@ def _table(ds: xr.Dataset, rows: NDArray[np.int_]) -> Table:
         unit = readable_unit(largest, ds[name].attrs["units"])
         heading = rf"{name.replace('_', ' ')} \[{unit.symbol}]"
         table.add_column(heading, justify="right", vertical="bottom")
-        cells.append([in_digits(float(value) / unit.factor) for value in values[rows]])
+        digits = [in_digits(float(value) / unit.factor) for value in values[rows]]
+        # Steps that a run chose begin small: "0.005" leaves room that "0.005000" would not.
+        cells.append([_trimmed(each) for each in digits] if name == "time" else digits)
     for row in zip(*cells, strict=True):
         table.add_row(*row)
     return table
+
+
+def _trimmed(digits: str) -> str:
+    return digits.rstrip("0").rstrip(".") if "." in digits and "e" not in digits else digits
 
 
 def _is_rounding(ds: xr.Dataset, tilt: str) -> bool:
