@@ -11,15 +11,9 @@ from hypothesis import strategies as st
 from pydantic_core import PydanticCustomError
 
 import viscontact as vc
+from viscontact.case.course import MOST_POINTS, Course, SentenceError, course_of
 from viscontact.case.phrases import CAN_BE_SAID
-from viscontact.case.sentences import (
-    MOST_POINTS,
-    Course,
-    SentenceError,
-    course_of,
-    read_sentences,
-    split_sentences,
-)
+from viscontact.case.sentences import read_sentences, split_sentences
 
 
 def course(*texts: str) -> Course:

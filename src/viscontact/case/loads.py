@@ -10,11 +10,12 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 
 from viscontact import load
+from viscontact.case.course import SentenceError, course_of
 from viscontact.case.levels import APPROACH_EXAMPLE, ForceOrApproach, Level, Tilt
 from viscontact.case.load_table import read_load_table
 from viscontact.case.problems import dotted
 from viscontact.case.quantities import Angle, CycleCount, Duration, Force, Instant, Offset, Section
-from viscontact.case.sentences import SentenceError, Sentences, course_of
+from viscontact.case.sentences import Sentences
 from viscontact.load import ApproachHistory, ForceHistory, LoadHistory
 from viscontact.load.history import Control
 from viscontact.units import DIMENSIONS
