@@ -42,6 +42,8 @@ __getattr__, __dir__, __all__ = _lazy.attach(
         ],
         "material": ["Material"],
         "case": ["shipped_material"],
+        "tables": ["Table", "read_table"],
+        "cards": ["Card", "read_abaqus", "read_ansys", "write_abaqus", "write_ansys"],
         "identification": [
             "IndentationRecord",
             "Isotherm",

@@ -128,6 +128,9 @@ class TableLaw(FromFile):
             return table.located(error)
         heading = table.headings["time" if match["column"] == "times" else self.quantity]
         why = table.located(ValueError(match["why"]))
+        why = why.replace(
+            "smooth out the noise", "smooth out the noise, or fit a series to the table"
+        )
         return f"{table.source.name}:{table.lines[int(match['row'])]}: column {heading!r}: {why}"
 
 
