@@ -105,7 +105,7 @@ def test_a_first_step_creeps_little():
 def test_a_swinging_load_is_never_stepped_over():
     load = harmonic(2.0, 1.0, period=1.0, cycles=3)
     taken, _ = walk(AdaptiveSteps(adaptive_times(6.0, 0.1), np.zeros(0), load, KELVIN))
-    assert max(each.duration for each in taken if each.time <= 3.0) <= 1 / 64 * (1 + 1e-9)
+    assert max(each.duration for each in taken if each.time <= 3.0) <= 1 / 128 * (1 + 1e-9)
     assert {1.0, 2.0, 3.0} <= {each.time for each in taken}
 
 

@@ -441,7 +441,7 @@ def test_forecast_counts_the_steps_within_swings_and_at_kinks() -> None:
 
     assert steps(vc.step(0.1)) == 2
     assert steps(vc.triangle(0.1, 1.0)) == 4
-    assert steps(vc.harmonic(0.1, 0.05, 1.0, cycles=10)) == 641
+    assert steps(vc.harmonic(0.1, 0.05, 1.0, cycles=10)) == 1281
     adaptive = [vc.adaptive_times(10.0, tolerance=tolerance) for tolerance in (1e-3, 1e-4)]
     rough, fine = (steps(vc.step(0.1), each) for each in adaptive)
     assert rough < fine < 3 * rough

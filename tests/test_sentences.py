@@ -89,21 +89,21 @@ def test_lengths_make_it_an_approach(said: str, expected: list[tuple[float, floa
     np.testing.assert_allclose(points(said), expected, rtol=1e-15)
 
 
-def test_swing_is_a_sine_of_64_lines_a_cycle_about_where_it_was() -> None:
+def test_swing_is_a_sine_of_128_lines_a_cycle_about_where_it_was() -> None:
     control, times, levels = course(
         "step to 3 N; hold for 1 s; oscillate by 2 N with a period of 4 s for 2 cycles"
     )
-    assert (control, len(times)) == ("force", 2 + 128)
+    assert (control, len(times)) == ("force", 2 + 256)
     t = np.array(times[2:])
     np.testing.assert_allclose(levels[2:], 3 + 2 * np.sin(2 * np.pi * (t - 1) / 4), atol=1e-14)
     # at quarters and ends exactly, so that it neither drifts nor overshoots
-    assert (levels[1 + 16], levels[1 + 48], levels[1 + 64], levels[-1]) == (5.0, 1.0, 3.0, 3.0)
+    assert (levels[1 + 32], levels[1 + 96], levels[1 + 128], levels[-1]) == (5.0, 1.0, 3.0, 3.0)
     assert times[-1] == 9.0
-    # which is the harmonic load, to what a line misses of a sine: A (pi/64)^2/2 = 1.2e-3 A
+    # which is the harmonic load, to what a line misses of a sine: A (pi/128)^2/2 = 3e-4 A
     told, swing = vc.ForceHistory(times, levels), vc.harmonic(3.0, 2.0, 4.0, 2)
     fine = np.linspace(0, 8, 5000)
     missed = np.abs(told.level_at(fine + 1) - swing.level_at(fine)).max()
-    assert 0.9 * math.pi**2 / 64**2 < missed < math.pi**2 / 64**2
+    assert 0.9 * math.pi**2 / 128**2 < missed < math.pi**2 / 128**2
 
 
 @pytest.mark.parametrize(

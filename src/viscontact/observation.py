@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from viscontact.balance import RigidPlane
 from viscontact.errors import DomainError
+from viscontact.load.history import Cycle, Moment
 from viscontact.plausibility import (
     REFUSED_CELLS,
     Doubts,
@@ -85,7 +86,7 @@ class Observer:
         self._work = 0.0
         self._before: Instant | None = None
         self._resultants = np.zeros(3)
-        self._cycles = Cycles(run.load.cycle_ends)
+        self._cycles = Cycles(run.load.load_cycles)
         self._largest_area, self._cells_at_largest = 0.0, 0
 
     def observe(self, step: Step, instant: Instant) -> ContactState:
@@ -199,16 +200,16 @@ class Observer:
 
 
 class Cycles:
-    """The work at the ends of the load's cycles.
+    """The work at the beginnings and ends of the load's cycles.
 
     Parameters
     ----------
-    ends : sequence of (float, str)
-        Instants [s] in order, and the side of a jump there, as `LoadHistory.cycle_ends`.
+    cycles : sequence of (begin, end)
+        As `LoadHistory.load_cycles`, in order.
 
     Examples
     --------
-    >>> cycles = Cycles([(0.0, "left"), (2.0, "right")])
+    >>> cycles = Cycles([((0.0, "left"), (2.0, "right"))])
     >>> cycles.last_loss
     nan
     >>> cycles.pass_by(Step(2.0, 2.0, 2.0, smooth=False), work=3.0)
@@ -216,27 +217,25 @@ class Cycles:
     3.0
     """
 
-    def __init__(self, ends: Sequence[tuple[float, str]]) -> None:
-        self._ends = list(ends)
-        self._work_at_begin: float | None = None
+    def __init__(self, cycles: Sequence[Cycle]) -> None:
+        self._cycles = list(cycles)
+        # Before a jump at time 0 no work has been done.
+        self._begun = 0.0 if cycles and cycles[0][0] == (0.0, "left") else math.nan
         self.last_loss = math.nan
-        if self._ends and self._ends[0] == (0.0, "left"):
-            self._begin(0.0)
 
     def pass_by(self, step: Step, work: float) -> None:
-        """Take note of the work [J] at the end of a step, if a cycle ends there."""
-        if not self._ends or step.time != self._ends[0][0]:
-            return
-        # Without a jump there, a step's end is on both sides of the instant.
-        if step.before_jump and self._ends[0][1] == "right":
-            return
-        if self._work_at_begin is not None:
-            self.last_loss = work - self._work_at_begin
-        self._begin(work)
+        """Take note of the work [J] at the end of a step, if a cycle ends or begins there."""
+        if self._cycles and _meets(step, self._cycles[0][1]):
+            self.last_loss = work - self._begun
+            del self._cycles[0]
+        if self._cycles and _meets(step, self._cycles[0][0]):
+            self._begun = work
 
-    def _begin(self, work: float) -> None:
-        self._work_at_begin = work
-        del self._ends[0]
+
+def _meets(step: Step, moment: Moment) -> bool:
+    """Whether a step ends at an instant; without a jump there, it does so on both its sides."""
+    time, side = moment
+    return step.time == time and not (step.before_jump and side == "right")
 
 
 def _state(

@@ -54,7 +54,7 @@ def course_of(sentences: Sequence[Sentence]) -> Course:
     -------
     Course
         Points of the history; a jump has two at one time, at time 0 only the one after it. What
-        is repeated is done so many times more. A swing is a sine of 64 lines a cycle.
+        is repeated is done so many times more. A swing is a sine of 128 lines a cycle.
 
     Raises
     ------

@@ -10,6 +10,12 @@ from typing import ClassVar, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+#: An instant [s], and which side of a jump there: "left" before it, "right" after it.
+Moment = tuple[float, str]
+
+#: Where a cycle of the load begins and ends.
+Cycle = tuple[Moment, Moment]
+
 #: What a history prescribes along z.
 Control = Literal["force", "approach"]
 
@@ -83,14 +89,14 @@ class LoadHistory(ABC):
         return math.inf
 
     @property
-    def cycle_ends(self) -> tuple[tuple[float, str], ...]:
-        """Where cycles begin and end, in turn: instants [s], and which side of a jump there."""
+    def load_cycles(self) -> tuple[Cycle, ...]:
+        """Cycles of the load, in order: where each begins and where it ends."""
         return ()
 
     @property
     def stops(self) -> NDArray[np.float64]:
         """Instants that every run has to hit: kinks, and the ends of cycles, increasing [s]."""
-        ends = [time for time, _ in self.cycle_ends]
+        ends = [time for cycle in self.load_cycles for time, _ in cycle]
         return np.unique(np.concatenate([self.kinks, ends]))
 
     @property

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import itertools
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.load import points
-from viscontact.load.history import LoadHistory
+from viscontact.load.history import Cycle, LoadHistory, Moment
 
 
 class PiecewiseHistory(LoadHistory):
@@ -53,30 +54,41 @@ class PiecewiseHistory(LoadHistory):
         return np.asarray(kinks[changed & loaded.reshape(-1, 2).any(axis=1)])
 
     @property
-    def cycle_ends(self) -> tuple[tuple[float, str], ...]:
-        """Valleys of the load: where its first rise begins, and where each fall ends."""
+    def load_cycles(self) -> tuple[Cycle, ...]:
+        """From valley to valley of one level: a first rise begins them, a fall ends each."""
+        valleys = self._valleys()
+        same = 1e-9 * max(self.largest_level, 0.0)
+        return tuple(
+            (begin, end)
+            for (low, begin), (back, end) in itertools.pairwise(valleys)
+            if abs(back - low) <= same
+        )
+
+    def _valleys(self) -> list[tuple[float, Moment]]:
+        """Levels and instants of the first rise's begin and of the end of each fall."""
         plateaus = self._plateaus()
         levels = [level for level, _, _ in plateaus]
         rises = [k for k in range(len(levels) - 1) if levels[k + 1] > levels[k]]
         if not rises:
-            return ()
-        valleys = [
-            first
+            return []
+        falls = [
+            (level, first)
             for k, (level, first, _) in enumerate(plateaus)
             if k > rises[0] and level < levels[k - 1] and (k + 1 == len(levels) or k in rises)
         ]
-        return (plateaus[rises[0]][2], *valleys) if valleys else ()
+        return [(levels[rises[0]], plateaus[rises[0]][2]), *falls]
 
-    def _plateaus(self) -> list[tuple[float, tuple[float, str], tuple[float, str]]]:
+    def _plateaus(self) -> list[tuple[float, Moment, Moment]]:
         """Successive different levels at the points, each with its first and last instant."""
-        plateaus: list[tuple[float, tuple[float, str], tuple[float, str]]] = []
+        plateaus: list[tuple[float, Moment, Moment]] = []
         for time in self.kinks.tolist():
             for side in ("left", "right"):
-                level, instant = float(self.level_at(time, side=side)), (time, side)
+                # However far a stage is withdrawn, apart is apart.
+                level, moment = max(float(self.level_at(time, side=side)), 0.0), (time, side)
                 if plateaus and plateaus[-1][0] == level:
-                    plateaus[-1] = (level, plateaus[-1][1], instant)
+                    plateaus[-1] = (level, plateaus[-1][1], moment)
                 else:
-                    plateaus.append((level, instant, instant))
+                    plateaus.append((level, moment, moment))
         return plateaus
 
     @property

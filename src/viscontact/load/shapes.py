@@ -187,7 +187,7 @@ def harmonic(
     -------
     HarmonicHistory
         Exact at every instant. It starts with a jump unless its first level is zero. Runs step
-        it at least 64 times a cycle, whatever instants are asked for.
+        it at least 128 times a cycle, whatever instants are asked for.
 
     Raises
     ------
