@@ -200,7 +200,7 @@ def test_card_gives_law_volume_and_shift(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("changes", "table", "said"),
     [
-        ({"file": "pma.csv"}, PMMA, "material.file: no such file pma.csv"),
+        ({"file": "pma.csv"}, PMMA, "material.file: no such file pma.csv; did you mean 'pmm"),
         ({"data": "tensile"}, PMMA, "material.data: unknown value 'tensile'"),
         ({"quantity": "relaxation"}, PMMA, "value 'relaxation'; did you mean 'relaxation_modulus'"),
         ({"quantity": "relaxation_modulus", "data": "deviatoric"}, PMMA,
@@ -215,6 +215,7 @@ def test_card_gives_law_volume_and_shift(tmp_path: Path) -> None:
         ({}, PMMA + "2000; -1\n", "column 'creep_compliance [1/GPa]': must be positive"),
         ({"data": "uniaxial", "poisson_ratio": None, "bulk_modulus": "0.4 GPa"},
          PMMA, "pmma.csv:2: column 'creep_compliance [1/GPa]': bulk_modulus 4e+08 Pa is too"),
+        ({"columns": {"x": "time"}}, PMMA, "material.columns: pmma.csv has no column 'x'; there"),
         ({"set": 3}, PMMA, "material.file: pmma.csv has no set 3"),
         ({"temperature": "60 degC"}, PMMA, "material.temperature: needs a shift, e.g. '{kind: wlf"),
         ({"shift": WLF}, PMMA, "material.shift: needs a temperature to shift to"),
@@ -249,7 +250,8 @@ def test_bad_table_or_shift_is_refused_at_its_key(
 @pytest.mark.parametrize(
     ("changes", "said"),
     [
-        ({"modulus_unit": "mm"}, "material.file: cannot read 'mm' as a pressure"),
+        ({"modulus_unit": "mm"}, "material.modulus_unit: cannot read 'mm' as a pressure"),
+        ({"temperature_unit": "m"}, "material.temperature_unit: cannot read 'm' as a temperature"),
         ({"temperature_unit": None}, "a.inp:6: has temperatures, and cards do not say their unit"),
         ({"name": "B"}, "material.file: a.inp: has no material 'B'; there are 'A'"),
         ({"poisson_ratio": 0.3}, "material.poisson_ratio: stands in the card; leave it out"),

@@ -214,6 +214,9 @@ def test_missing_file_and_directory_are_refused(tmp_path: Path) -> None:
         read_table(tmp_path / "none.csv")
     with pytest.raises(ValueError, match="is a directory"):
         read_table(tmp_path)
+    if Path("/dev/zero").exists():
+        with pytest.raises(ValueError, match="is no file"):
+            read_table("/dev/zero")
 
 
 @pytest.mark.parametrize(

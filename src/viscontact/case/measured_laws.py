@@ -16,6 +16,7 @@ from viscontact.case.medium import Medium
 from viscontact.laws import Law
 from viscontact.material import Material
 from viscontact.tables import Table, read_table
+from viscontact.units import parse_scale
 
 # Of the temperature that a table tells and the one that its shift refers to [K].
 _SAME_TEMPERATURE = 1.0
@@ -67,7 +68,8 @@ class TableLaw(FromFile):
             table = self._chosen(read_table(self.file, self.columns))
             times, values = table["time"].tolist(), table[self.quantity].tolist()
         except ValueError as error:
-            raise ValueError(f"file: {error}") from error
+            at = "" if str(error).startswith("columns: ") else "file: "
+            raise ValueError(f"{at}{error}") from error
         self._require_test(table)
         try:
             return self._made(times, values)
@@ -171,6 +173,7 @@ class CardLaw(FromFile):
         for key in ("poisson_ratio", "bulk_modulus"):
             if getattr(self, key) is not None:
                 raise ValueError(f"{key}: stands in the card; leave it out")
+        self._require_units()
         try:
             card = read_card(
                 self.file,
@@ -186,3 +189,12 @@ class CardLaw(FromFile):
         return self._at_temperature(
             card.material, card.shift or (self.shift.noun() if self.shift else None)
         )
+
+    def _require_units(self) -> None:
+        units = {"modulus_unit": "pressure", "time_unit": "time", "temperature_unit": "temperature"}
+        for key, dimension in units.items():
+            given = getattr(self, key)
+            try:
+                _ = given is None or parse_scale(given, dimension)
+            except ValueError as error:
+                raise ValueError(f"{key}: {error}") from error

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import difflib
 import io
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -84,21 +85,30 @@ def read_text(path: Path) -> str:
     try:
         if path.is_dir():
             raise ValueError(f"{path}: is a directory; name the file in it")
-        if path.stat().st_size > _LARGEST_FILE:
-            raise ValueError(
-                f"{path.name}: larger than {_LARGEST_FILE // 1_000_000} MB; keep fewer points"
-            )
-        data = path.read_bytes()
+        if path.exists() and not path.is_file():  # a device may have no end
+            raise ValueError(f"{path}: is no file")
+        with path.open("rb") as file:
+            data = file.read(_LARGEST_FILE + 1)
     except FileNotFoundError:
-        raise ValueError(f"no such file {path}") from None
+        raise ValueError(f"no such file {path}{_nearest(path)}") from None
     except OSError as error:
         raise ValueError(f"cannot read {path}: {error}") from error
+    if len(data) > _LARGEST_FILE:
+        raise ValueError(
+            f"{path.name}: larger than {_LARGEST_FILE // 1_000_000} MB; keep fewer points"
+        )
     text = _decoded(data)
     if text is None or any(ord(c) < 32 and c not in "\t\n\r\f\v" for c in text):
         raise ValueError(
             f"{path.name}: is no text file in UTF-8, UTF-16 or Latin-1; export it as plain text"
         )
     return text
+
+
+def _nearest(path: Path) -> str:
+    names = [entry.name for entry in path.parent.iterdir()] if path.parent.is_dir() else []
+    near = difflib.get_close_matches(path.name, names, n=1)
+    return f"; did you mean '{path.parent / near[0]}'?" if near else ""
 
 
 def _decoded(data: bytes) -> str | None:
