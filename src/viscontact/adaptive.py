@@ -120,7 +120,9 @@ class AdaptiveSteps:
         else:
             after_kink = self._time == 0 or self._time in self._kinks
             if after_kink:
-                self._duration = self._first_duration()
+                # A kink that changes little lets the steps go on as they were.
+                before = 0.0 if step.is_jump else step.duration
+                self._duration = max(self._first_duration(), before)
             self._step = self._next(smooth=not after_kink)
 
     def _next(self, smooth: bool) -> Step:

@@ -1,9 +1,10 @@
 """What the time steps cost: an estimate of the pressure's error, from step to step.
 
 Within a step the pressure is taken for linear in time. What it is not, a bulge of d² q''/12 in the
-mean over a step of length d, enters the memory and acts on as long as the body remembers it. The
-memory of a single number carries these bulges on, all with one sign: an estimate of the most they
-can have come to, not of what they cancel to.
+mean over a step of length d, enters the memory and acts on as long as the body remembers it: the
+displacement e(t) it amounts to has to be made good by a wrong pressure, J * dq = -e. Memories of a
+single number follow both, with all bulges of one sign: an estimate of the most that they can have
+come to, not of what they cancel to.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ from viscontact.schedule import Step
 FIRST = 3.0
 
 #: Curvatures are taken from the steps behind, and lag where they grow.
-SAFETY = 1.5
+SAFETY = 2.0
 
 #: Without any successor: this part of the change over the step, as under t² from rest; a first
 #: touch, which goes as t^(2/3), has a tenth.
@@ -58,9 +59,12 @@ class TimeErrors:
 
     def __init__(self, plan: MemoryPlan) -> None:
         self._compliance = plan.sketch
-        self._memory = RecursiveMemory(plan.sketch, (1,))
-        self._memory.jump()
-        self._memory.accept(np.zeros(1))
+        self._bulges = RecursiveMemory(plan.sketch, (1,))
+        self._wrong = RecursiveMemory(plan.sketch, (1,))
+        for memory in (self._bulges, self._wrong):
+            memory.jump()
+            memory.accept(np.zeros(1))
+        self._error = 0.0
         self._past: list[tuple[float, NDArray[np.float64]]] = []
         self._pending: tuple[float, float] | None = None
         self._size = 0.0
@@ -80,7 +84,7 @@ class TimeErrors:
         Returns
         -------
         StepError
-            About the first step after a kink nothing is known before the second.
+            For the first step after a kink a guess from the change over it.
         """
         # Deflections are positive: the kernel is.
         size = max(self._size, float(field.max()))
@@ -113,6 +117,8 @@ class TimeErrors:
             self._past = self._past[-1:]
         if step.is_jump:
             self._past = []
+            if self._compliance.instant > 0:  # else nothing jumps
+                self._make_good(self._wrong.jump())
         elif len(self._past) < 2:
             change = float(np.abs(field - self._past[-1][1]).max()) if self._past else 0.0
             self._pending = (step.duration, change)
@@ -120,16 +126,17 @@ class TimeErrors:
             self._settle(alone=False, bulge=error.bulge / step.duration**2)
             self._remember(step.duration, error.bulge)
         self._past = [*self._past[-1:], (step.time, field)]
-        return self._present(response)
+        return self._error / self._size if self._size > 0 else 0.0
 
     def _bulge(self, step: Step, field: NDArray[np.float64], response: Response) -> float:
         """Mean distance of the field from the path that the memory takes, within a step."""
         if step.is_jump or not self._past:
             return 0.0
         change = field - self._past[-1][1]
-        late = response.held * float(np.abs(change).max()) / 2
+        travel = float(np.abs(change).max())
+        late = response.held * travel / 2
         if not step.smooth or len(self._past) < 2:
-            return late
+            return max(late, ALONE * travel)
         before = self._past[-1][0] - self._past[-2][0]
         slopes = change / step.duration - (self._past[-1][1] - self._past[-2][1]) / before
         curvature = 2 * float(np.abs(slopes).max()) / (step.duration + before)
@@ -147,16 +154,18 @@ class TimeErrors:
         self._pending = None
 
     def _remember(self, duration: float, bulge: float) -> None:
+        """Let a bulge over a step enter the memory, and the pressure go wrong by what it does."""
         held, nothing = np.array([bulge]), np.zeros(1)
-        for value in (held, nothing):
-            self._memory.jump()
-            self._memory.accept(value)
-            if value is held:
-                self._memory.ramp(duration)
-                self._memory.accept(value)
+        self._bulges.jump()
+        self._bulges.accept(held)
+        self._bulges.ramp(duration)
+        self._bulges.accept(held)
+        self._bulges.jump()
+        self._bulges.accept(nothing)
+        self._make_good(self._wrong.ramp(duration))
 
-    def _present(self, response: Response) -> float:
-        if self._size == 0:
-            return 0.0
-        left = float(self._memory.jump().history[0])
-        return left / (response.compliance * self._size)
+    def _make_good(self, response: Response) -> None:
+        left = self._bulges.jump().history
+        wrong = -(response.history + left) / response.compliance
+        self._wrong.accept(wrong)
+        self._error = abs(float(wrong[0]))
