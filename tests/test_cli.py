@@ -688,7 +688,6 @@ def test_second_demo_replaces_the_first(folder: Path, monkeypatch: pytest.Monkey
     ("words", "said"),
     [
         (["report", "case"], "report is not built yet"),
-        (["verify", "--fast"], "verify is not built yet"),
         (["run", "case.yaml", "--resume"], "--resume is not built yet"),
     ],
 )

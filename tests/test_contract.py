@@ -869,7 +869,7 @@ OPTIONS = {
     **{"schema": (), "demo": ()},
     "example": ("-o",),
     # promised, not built yet
-    **{"report": ("DIR", "-o"), "material": (), "verify": ("--fast",)},
+    **{"report": ("DIR", "-o"), "material": (), "verify": ("--fast", "-o")},
 }
 FIGURES = (
     *("pressure-map", "pressure-profile", "pressure-radial", "contact-outline"),
@@ -956,7 +956,6 @@ def test_exit_codes(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     [
         *((["run", "ball.yaml", "--resume"], "--resume is not built yet"),),
         (["report", "x"], "report is not built"),
-        *((["verify"], "verify is not built yet"),),
         (["plot", "x", "animation"], "animation is not built yet"),
         (["check", "ball.yaml", "--set", "indenter.shape=height-map"], "'height-map' is not built"),
         (["check", "ball.yaml", "--set", "indenter.profile=full"], "profile: is not built yet"),

@@ -51,6 +51,7 @@ FLOORS = (
         "forecast",
         "case",
         "plot",
+        "verify",
     ),  # 6 people
     ("cli", "__main__"),  # 7 shell
 )
@@ -102,6 +103,7 @@ NEIGHBOURS = {
     ("tables", "units"),
     ("materials", "units"),
     ("plot", "units"),
+    ("verify", "units"),
     ("plot", "identification"),  # data, what was fitted, and what is left
     ("plot", "materials"),  # curves are drawn over the points they rest on
     ("__main__", "cli"),  # python -m viscontact

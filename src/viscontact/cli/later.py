@@ -16,10 +16,3 @@ def report(
 ) -> None:
     """One self-contained page of a run (not built yet)."""
     refuse("report is not built yet; `viscontact show` and `viscontact plot` show a run")
-
-
-def verify(
-    fast: Annotated[bool, typer.Option("--fast", help="Coarse meshes only.")] = False,
-) -> None:
-    """Compare with exact solutions (not built yet)."""
-    refuse("verify is not built yet; the exact solutions are in viscontact.reference")

@@ -1,0 +1,240 @@
+"""A verification case, what it compares, and what came of it."""
+
+from __future__ import annotations
+
+import math
+import time as clock
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
+
+#: Errors below this are the solver's tolerance, and follow no power of the cell size.
+SOLVED = 1e-8
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """What is compared, and how well it has to agree.
+
+    Attributes
+    ----------
+    name : str
+        What it is.
+    unit : str
+        Its SI unit.
+    fast_bound, bound : float
+        Largest relative error allowed on the finest mesh of the fast and of the full form [-].
+    has_order : bool
+        Whether the error is a power of the refinement; an instant found between two steps is not.
+    """
+
+    name: str
+    unit: str
+    fast_bound: float
+    bound: float
+    has_order: bool = True
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """An exact value and ours.
+
+    Attributes
+    ----------
+    exact, ours : float
+        The values, in the quantity's unit.
+    error : float
+        Their difference relative to the exact value, or to the largest of its history [-].
+    """
+
+    exact: float
+    ours: float
+    error: float
+
+
+@dataclass(frozen=True)
+class Case:
+    """One comparison with theory, at several refinements.
+
+    Attributes
+    ----------
+    name : str
+        What is pressed on what, and how.
+    reference : str
+        Author and year of the exact solution.
+    quantities : tuple of Quantity
+        What is compared.
+    levels : tuple of int
+        Refinements, ascending: cells on a radius, or steps of a cycle. The fast form takes the
+        first two.
+    compare : callable
+        From a refinement to a `Comparison` for each quantity.
+    """
+
+    name: str
+    reference: str
+    quantities: tuple[Quantity, ...]
+    levels: tuple[int, ...]
+    compare: Callable[[int], tuple[Comparison, ...]]
+
+
+@dataclass(frozen=True)
+class Result:
+    """What came of one quantity of a case.
+
+    Attributes
+    ----------
+    case, reference, quantity, unit : str
+        As in `Case` and `Quantity`.
+    exact, ours : float
+        Exact value and ours on the finest mesh, where they differ most.
+    error : float
+        Relative error there [-].
+    bound : float
+        Largest error allowed [-].
+    order : float
+        Observed exponent of the error in the refinement; NaN where there is none [-].
+    seconds : float
+        What the whole case took [s].
+    failure : str
+        Why there are no values; empty if there are.
+    """
+
+    case: str
+    reference: str
+    quantity: str
+    unit: str
+    exact: float
+    ours: float
+    error: float
+    bound: float
+    order: float
+    seconds: float
+    failure: str = ""
+
+    @property
+    def passed(self) -> bool:
+        """Whether the error is within its bound."""
+        return self.error <= self.bound
+
+
+def single(exact: float, ours: float) -> Comparison:
+    """Return the comparison of two numbers.
+
+    Examples
+    --------
+    >>> round(single(2.0, 2.02).error, 9)
+    0.01
+    """
+    exact, ours = float(exact), float(ours)
+    return Comparison(exact, ours, abs(ours - exact) / abs(exact))
+
+
+def history(exact: ArrayLike, ours: ArrayLike) -> Comparison:
+    """Return the comparison of two histories where they differ most, relative to the largest.
+
+    Parameters
+    ----------
+    exact, ours : array_like, shape (n,)
+        Values at the same instants, or places.
+
+    Returns
+    -------
+    Comparison
+        The worst pair.
+
+    Examples
+    --------
+    >>> history([1.0, 4.0], [1.2, 4.0]).error
+    0.05
+    """
+    truth, found = np.asarray(exact, dtype=float), np.asarray(ours, dtype=float)
+    apart = np.abs(found - truth)
+    worst = int(np.argmax(apart))
+    error = float(apart[worst] / np.abs(truth).max())
+    return Comparison(float(truth[worst]), float(found[worst]), round(error, 12))
+
+
+def run_case(case: Case, *, fast: bool) -> list[Result]:
+    """Run one case at its refinements.
+
+    Parameters
+    ----------
+    case : Case
+        The case.
+    fast : bool
+        Whether the two coarsest refinements are enough.
+
+    Returns
+    -------
+    list of Result
+        One for each quantity; failed ones, with the reason, if the solver stopped.
+    """
+    levels = case.levels[:2] if fast else case.levels
+    started = clock.perf_counter()
+    try:
+        with warnings.catch_warnings():
+            # Coarse meshes and punches' edges are known here; what they cost is what is measured.
+            warnings.simplefilter("ignore", AccuracyWarning)
+            found = [case.compare(level) for level in levels]
+    except (ConvergenceError, DomainError, ArithmeticError) as error:
+        nothing = Comparison(math.nan, math.nan, math.nan)
+        found, failure = [tuple(nothing for _ in case.quantities)], str(error)
+        levels = levels[-1:]
+    else:
+        failure = ""
+    seconds = clock.perf_counter() - started
+    return [
+        Result(
+            case.name,
+            case.reference,
+            quantity.name,
+            quantity.unit,
+            at_levels[-1].exact,
+            at_levels[-1].ours,
+            at_levels[-1].error,
+            quantity.fast_bound if fast else quantity.bound,
+            _order(quantity, levels, at_levels),
+            seconds,
+            failure,
+        )
+        for quantity, at_levels in zip(case.quantities, zip(*found, strict=True), strict=True)
+    ]
+
+
+def _order(quantity: Quantity, levels: tuple[int, ...], at_levels: tuple[Comparison, ...]) -> float:
+    if not quantity.has_order:
+        return math.nan
+    return observed_order(levels, [comparison.error for comparison in at_levels])
+
+
+def observed_order(levels: tuple[int, ...], errors: list[float]) -> float:
+    """Return the exponent with which errors fall, or NaN where they are the solver's.
+
+    Parameters
+    ----------
+    levels : tuple of int
+        Refinements.
+    errors : list of float
+        Relative errors at them [-].
+
+    Returns
+    -------
+    float
+        Slope of the straight line through the logarithms.
+
+    Examples
+    --------
+    >>> round(observed_order((8, 16, 32), [4e-3, 1e-3, 2.5e-4]), 9)
+    2.0
+    >>> observed_order((8, 16), [1e-9, 2e-9])
+    nan
+    """
+    if len(levels) < 2 or not min(errors) > SOLVED:
+        return math.nan
+    return float(-np.polyfit(np.log(levels), np.log(errors), 1)[0])

@@ -1,0 +1,153 @@
+"""Contacts that stay as they are or are known beforehand: what time alone costs.
+
+Space is taken off by one elastic contact on the same mesh.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact import reference
+from viscontact.grid import Grid
+from viscontact.indenters import FlatPunch, Roller
+from viscontact.laws import CreepSeries, Elastic
+from viscontact.load import ForceHistory, harmonic, step
+from viscontact.load.history import Control
+from viscontact.material import Material
+from viscontact.stepping import log_times
+from viscontact.verify.case import Case, Comparison, Quantity, history, single
+from viscontact.verify.creeping import TIME, G, fractional_zener, tabulated_creep, zener
+from viscontact.verify.indentation import FORCE, RADIUS, Marched, press, press_ball
+
+Array = NDArray[np.float64]
+
+_PUNCH = FlatPunch(5e-3)
+_GRID = Grid((18, 18), (11e-3, 11e-3))
+_PERIOD, _SWING, _MEAN = 2 * TIME, 4.0, 10.0  # s, N, N
+
+
+def _softness() -> float:
+    """Approach by force and compliance on this mesh; 1/(2 a) on an infinitely fine one [1/m]."""
+    body = Material(Elastic(2.5e8), 0.5)  # J = 1e-9/Pa
+    run = press(body, step(1.0), [0.0], _GRID, indenter=_PUNCH, tolerance=1e-10)
+    return run.states[0].approach * 1e9
+
+
+def _swinging(control: Control, compliance: complex, softness: float, steps: int) -> Marched:
+    cycles = 8  # what began it has faded to exp(-14)
+    swing = _SWING if control == "force" else _SWING * abs(compliance) * softness
+    load = (
+        harmonic(_MEAN, swing, _PERIOD, cycles)
+        if control == "force"
+        else harmonic(approach=20 * swing, amplitude=swing, period=_PERIOD, cycles=cycles)
+    )
+    times = _PERIOD * np.arange(cycles * steps + 1) / steps
+    return press(zener().material, load, times, _GRID, indenter=_PUNCH, tolerance=1e-8)
+
+
+def _amplitude(run: Marched, name: str, steps: int) -> complex:
+    """Complex amplitude over the last cycle."""
+    values = run.over_time(name)[-steps - 1 :]
+    turns = np.exp(-2j * math.pi * np.arange(steps + 1) / steps)
+    return complex(2 * np.trapezoid(values * turns) / steps)
+
+
+def _harmonic(control: Control, steps: int) -> tuple[Comparison, ...]:
+    frequency, softness = 2 * math.pi / _PERIOD, _softness()
+    compliance = reference.series_complex_compliance(frequency, 1 / (8 * G), [1 / (8 * G)], [TIME])
+    run = _swinging(control, compliance, softness, steps)
+    force, approach = (_amplitude(run, name, steps) for name in ("force", "approach"))
+    exact = reference.punch_harmonic(1 / (2 * softness), compliance, force_amplitude=abs(force))
+    return (
+        single(exact.approach_amplitude, abs(approach)),
+        single(exact.phase_lag, float(np.angle(force / approach))),
+        single(exact.loss_per_cycle, run.states[-1].loss_per_cycle),
+    )
+
+
+def _stairs(steps: int) -> tuple[Comparison, ...]:
+    del steps  # none are needed between the stairs
+    body, softness = fractional_zener(), _softness()
+    stairs, levels = np.array([0.0, 7.0, 20.0, 80.0]), np.array([10.0, 25.0, 4.0, 12.0])
+    load = ForceHistory(np.repeat(stairs, 2)[1:], np.repeat(levels, 2)[:-1])
+    times = np.array([3.0, 7.0, 15.0, 20.0, 26.0, 80.0, 300.0])
+    run = press(body.material, load, times, _GRID, indenter=_PUNCH, tolerance=1e-8)
+    exact = reference.punch_staircase(times, stairs, levels, 1 / (2 * softness), body.creep)
+    return (history(exact, run.over_time("approach")),)
+
+
+def _table(cells: int) -> tuple[Comparison, ...]:
+    """At the table's own times, which is where a table is exact."""
+    table = tabulated_creep()
+    times = np.append(0.0, np.geomspace(TIME / 1e4, 10 * TIME, 61))[:-4:3]
+    radius = float(np.cbrt(0.75 * RADIUS * FORCE * table.creep(times[-1:])[0]))
+    ours, series = (
+        press_ball(body.material, step(FORCE), times, radius, cells) for body in (table, zener())
+    )
+    return (
+        history(series.over_time("approach"), ours.over_time("approach")),
+        history(series.over_time("contact_area"), ours.over_time("contact_area")),
+    )
+
+
+def _roller(cells: int) -> tuple[Comparison, ...]:
+    """Approach, tilt and area of a growing contact are those of an elastic body of J(t)."""
+    law = CreepSeries(5.545e-10, [6.17e-11, 8.38e-11], [10.0, 133.8688])
+    roller, load = Roller(5e-3, 9.565e-3, 75e-3), step(1e4, eccentricity_x=5e-3)
+    grid = Grid((3 * cells, 3 * cells), (48e-3, 3.2e-3))
+    crept = press(Material(law, 0.38), load, log_times(1.0, 1e3, 12), grid, indenter=roller)
+    alike = Material(Elastic(1 / (2 * law(1e3))), 0.38)
+    (exact,) = press(alike, load, [0.0], grid, indenter=roller).states
+    last = crept.states[-1]
+    return (
+        single(exact.approach, last.approach),
+        single(exact.tilt_x, last.tilt_x),
+        single(exact.contact_area, last.contact_area),
+    )
+
+
+CASES = (
+    *(
+        Case(
+            f"flat punch, harmonic {control}, Zener",
+            "Ferry 1980, Sneddon 1965",
+            (
+                Quantity("approach amplitude", "m", 1e-3, 2e-4),
+                Quantity("phase lag", "rad", 1e-3, 4e-4),
+                Quantity("loss per cycle", "J", 1e-3, 1e-3),
+            ),
+            (128, 192, 256),
+            partial(_harmonic, control),
+        )
+        for control in ("force", "approach")
+    ),
+    Case(
+        "flat punch, stairs of force, fractional Zener",
+        "Boltzmann 1874, Sneddon 1965",
+        (Quantity("approach", "m", 1e-7, 1e-7),),
+        (1,),
+        _stairs,
+    ),
+    Case(
+        "ball, table of a series at its own times",
+        "Lee & Radok 1960",
+        (Quantity("approach", "m", 1e-5, 1e-5), Quantity("contact area", "m2", 1e-5, 1e-5)),
+        (12,),
+        _table,
+    ),
+    Case(
+        "eccentric roller, sudden force, PMMA",
+        "Lee & Radok 1960, correspondence",
+        (
+            Quantity("approach", "m", 1e-6, 1e-6),
+            Quantity("tilt", "rad", 1e-6, 1e-6),
+            Quantity("contact area", "m2", 1e-6, 1e-6),
+        ),
+        (16,),
+        _roller,
+    ),
+)

@@ -1,0 +1,139 @@
+"""How the cases press: grids by cells on a radius, and what a run gives over time."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.grid import Grid
+from viscontact.indenters import Indenter, Paraboloid
+from viscontact.load import LoadHistory
+from viscontact.marching import march
+from viscontact.material import Material
+from viscontact.state import ContactState, Outcome
+
+Array = NDArray[np.float64]
+
+RADIUS, FORCE = 0.01, 10.0  # of the ball [m], on it [N]
+BALL = Paraboloid(RADIUS, RADIUS)  # Hertz's sphere is a paraboloid
+
+#: Parts into which a step is divided in which contact is lost or made.
+PARTS = 40
+
+
+@dataclass(frozen=True, eq=False)
+class Marched:
+    """A run and its instants.
+
+    Attributes
+    ----------
+    grid : Grid
+        The cells.
+    states : tuple of ContactState
+        One for each instant.
+    """
+
+    grid: Grid
+    states: tuple[ContactState, ...]
+
+    def over_time(self, name: str) -> Array:
+        """One of the states' numbers at each instant."""
+        return np.array([getattr(state, name) for state in self.states], dtype=float)
+
+    @property
+    def radius(self) -> Array:
+        """Radius of the circle of the traced area [m]."""
+        return np.sqrt(self.over_time("contact_area") / math.pi)
+
+    @property
+    def central_pressure(self) -> Array:
+        """Pressure of the cell at the origin of an odd grid [Pa]."""
+        middle = tuple(n // 2 for n in self.grid.shape)
+        return np.array([state.pressure[middle] for state in self.states])
+
+    @property
+    def changes(self) -> list[tuple[float, float]]:
+        """Steps within which contact is made or lost: begin and end [s]."""
+        touching = self.over_time("outcome") == Outcome.CONVERGED
+        ends = np.flatnonzero(np.diff(touching))
+        times = self.over_time("time")
+        return [(float(times[k]), float(times[k + 1])) for k in ends]
+
+
+def grid_around(
+    semi_axes: tuple[float, float], cells: float, *, margin: float = 1.25, odd: bool = True
+) -> Grid:
+    """Return a grid with so many cells on each semi-axis of a contact [m]."""
+    count = 2 * int(margin * cells + 1) + odd
+    return Grid((count, count), (count * semi_axes[0] / cells, count * semi_axes[1] / cells))
+
+
+def press(
+    material: Material,
+    load: LoadHistory,
+    times: Iterable[float],
+    grid: Grid,
+    *,
+    indenter: Indenter = BALL,
+    indenter_material: Material | None = None,
+    tolerance: float = 1e-7,
+) -> Marched:
+    """Press an indenter and keep all states."""
+    states = march(
+        indenter,
+        material,
+        load,
+        grid,
+        list(times),
+        indenter_material=indenter_material,
+        tolerance=tolerance,
+    )
+    return Marched(grid, tuple(states))
+
+
+def press_ball(
+    material: Material,
+    load: LoadHistory,
+    times: Iterable[float],
+    radius: float,
+    cells: float,
+    *,
+    indenter_material: Material | None = None,
+    margin: float = 1.25,
+) -> Marched:
+    """Press the ball on an odd grid with so many cells on a contact radius [m]."""
+    # Not a whole number: no mesh is to hit the rim by design.
+    grid = grid_around((radius, radius), cells + 0.3, margin=margin)
+    return press(material, load, times, grid, indenter_material=indenter_material)
+
+
+def instants_of_change(
+    material: Material, load: LoadHistory, times: Array, radius: float, cells: float
+) -> list[float]:
+    """Return when contact is made and lost, found in steps divided there [s].
+
+    Parameters
+    ----------
+    material, load
+        What is pressed, and how.
+    times : ndarray
+        Instants of a first run [s].
+    radius : float
+        Largest contact radius [m].
+    cells : float
+        Cells on it.
+
+    Returns
+    -------
+    list of float
+        The middles of the parts in which the contact changes, the first touch left out.
+    """
+    first = press_ball(material, load, times, radius, cells)
+    between = [np.linspace(begin, end, PARTS + 1) for begin, end in first.changes[1:]]
+    finer = np.unique(np.concatenate([times, *between]))
+    second = press_ball(material, load, finer, radius, cells)
+    return [(begin + end) / 2 for begin, end in second.changes[1:]]

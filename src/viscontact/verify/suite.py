@@ -1,0 +1,54 @@
+"""All cases, and running them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from viscontact.verify import elastic, fixed_contact, growing, unloading
+from viscontact.verify.case import Case, Result, run_case
+
+CASES: tuple[Case, ...] = (
+    *elastic.CASES,
+    *growing.CASES,
+    *unloading.CASES,
+    *fixed_contact.CASES,
+)
+
+#: Called before each case with the case, how many are done, and how many there are.
+Progress = Callable[[Case, int, int], None]
+
+
+def run_cases(
+    *,
+    fast: bool = False,
+    cases: Sequence[Case] = CASES,
+    progress: Progress | None = None,
+) -> list[Result]:
+    """Compare with all exact solutions.
+
+    Parameters
+    ----------
+    fast : bool
+        Two coarse refinements of each case instead of three.
+    cases : sequence of Case
+        Which cases; all when left out.
+    progress : callable, optional
+        Called with (case, done, total) before each case.
+
+    Returns
+    -------
+    list of Result
+        One for each quantity of each case, in order.
+
+    Examples
+    --------
+    >>> results = run_cases(fast=True, cases=CASES[:1])
+    >>> [(result.quantity, result.passed) for result in results]
+    [('approach', True), ('central pressure', True), ('contact radius', True)]
+    """
+    results: list[Result] = []
+    for done, case in enumerate(cases):
+        if progress is not None:
+            progress(case, done, len(cases))
+        results.extend(run_case(case, fast=fast))
+    return results

@@ -1,0 +1,116 @@
+"""The table of results: as rows of words, as Markdown, as CSV."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from collections.abc import Sequence
+from dataclasses import fields
+from pathlib import Path
+
+from viscontact.units import in_digits, readable_unit
+from viscontact.verify.case import Result
+
+HEADINGS = (
+    *("case", "reference", "quantity", "exact", "ours"),
+    *("error", "bound", "order", ""),
+)
+
+#: Kinds of files that a table is written to.
+SUFFIXES = (".md", ".csv")
+
+
+def row_of_words(result: Result) -> tuple[str, ...]:
+    """Return a result as it is shown, one word for each of `HEADINGS`.
+
+    Parameters
+    ----------
+    result : Result
+        The result.
+
+    Returns
+    -------
+    tuple of str
+        Values in a readable unit; "ok", or what is wrong.
+
+    Examples
+    --------
+    >>> result = Result("cone", "Love 1939", "approach", "m", 2e-5, 2.001e-5, 5e-4, 1e-3, 1.98, 0.1)
+    >>> row_of_words(result)[3:]
+    ('20.0000 µm', '20.0100', '5.0e-04', '1e-03', '2.0', 'ok')
+    """
+    unit = readable_unit(result.exact, result.unit)
+    exact, ours = (in_digits(value / unit.factor, 6) for value in (result.exact, result.ours))
+    return (
+        result.case,
+        result.reference,
+        result.quantity,
+        f"{exact} {unit.symbol}".rstrip(),
+        ours,
+        f"{result.error:.1e}",
+        f"{result.bound:.0e}" if result.bound else "0",
+        "-" if math.isnan(result.order) else f"{result.order:.1f}",
+        "ok" if result.passed else result.failure or "FAILED",
+    )
+
+
+def as_markdown(results: Sequence[Result]) -> str:
+    """Return the table as GitHub and Sphinx read it.
+
+    Parameters
+    ----------
+    results : sequence of Result
+        The results.
+
+    Returns
+    -------
+    str
+        Lines of Markdown.
+    """
+    lines = [HEADINGS, ("---",) * len(HEADINGS), *(row_of_words(result) for result in results)]
+    return "".join(f"| {' | '.join(word.replace('|', '/') for word in line)} |\n" for line in lines)
+
+
+def as_csv(results: Sequence[Result]) -> str:
+    """Return the table as CSV, values in SI units.
+
+    Parameters
+    ----------
+    results : sequence of Result
+        The results.
+
+    Returns
+    -------
+    str
+        A row of names and one for each result.
+    """
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    names = [field.name for field in fields(Result)]
+    writer.writerow([*names, "passed"])
+    writer.writerows(
+        [*(getattr(result, name) for name in names), result.passed] for result in results
+    )
+    return text.getvalue()
+
+
+def write_table(results: Sequence[Result], path: Path) -> None:
+    """Write the table to a file.
+
+    Parameters
+    ----------
+    results : sequence of Result
+        The results.
+    path : Path
+        Where to; its suffix says how, ``.md`` or ``.csv``.
+
+    Raises
+    ------
+    ValueError
+        If the suffix is another one.
+    """
+    if path.suffix not in SUFFIXES:
+        raise ValueError(f"{path}: wanted a file that ends in .md or .csv")
+    text = as_markdown(results) if path.suffix == ".md" else as_csv(results)
+    path.write_text(text, encoding="utf-8")
