@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from verification.independent import superposed
 from viscontact.compliance import LawCompliance, SeriesCompliance
 from viscontact.laws import PowerLaw
-from viscontact.memory import RecursiveMemory, SuperposedMemory
+from viscontact.memory import RecursiveMemory, SuperposedMemory, as_exponentials
 
 ELASTIC = SeriesCompliance(2.0, (), ())
 KELVIN = SeriesCompliance(2.0, [1.5], [3.0])
@@ -186,3 +186,19 @@ def test_what_is_taken_into_the_memory_is_a_copy():
     field[0] = 99.0
     # What a held 1 has crept in 2 s, and the ramp down to 0 leaves of it: less than J(2).
     assert memory.ramp(2.0).history[0] < KELVIN(2.0)
+
+
+@pytest.mark.parametrize("exponent", [0.1, 0.3, 0.5])  # above, a step is a rise and a hold
+@pytest.mark.parametrize("instant", [0.0, 1.0])
+def test_exponentials_follow_even_ramps_of_a_power_within_the_error_they_state(exponent, instant):
+    # The first step of an even run meets the mean of J from 0 to its end, before any value of J
+    # that can be fitted there: of t^n it is 1/(n + 1) of the value, by hand.
+    step, steps = 0.1, 50
+    law = LawCompliance(PowerLaw(1.0, exponent, 1.0, instant), 1.0)
+    series, error = as_exponentials(law, step, step * steps)
+    t = step * np.arange(1, steps + 1)
+    displacements = follow(series, np.append(0.0, t), np.append(0.0, t))[1:]
+    exact = instant * t + t ** (exponent + 1) / (exponent + 1)
+    # The error is looked for at so many times that little is missed in between.
+    assert np.abs(displacements / exact - 1).max() <= 1.05 * error
+    assert error < 1e-6  # what the fit takes for good enough

@@ -17,7 +17,11 @@ TIMES_PER_DECADE = (4, 8, 16, 32)
 GOOD_ENOUGH, SAMPLES_PER_DECADE = 1e-6, 24
 
 #: Decades that the candidates reach beyond the times asked for, to either side.
-BEYOND = 1.0
+BEYOND = 2.0
+
+#: Decades from the shortest time on, in which means from 0 are fitted besides: what a step meets
+#: of its own change. Later means are those of the values fitted.
+MEANS = 1.0
 
 
 def as_exponentials(
@@ -37,14 +41,17 @@ def as_exponentials(
     series : SeriesCompliance
         With the same J(0), and no amplitude negative.
     error : float
-        Largest deviation from J between the two times, relative to J there [-]. The Boltzmann
-        integral of a growing field is off by no more, relative to itself.
+        Largest deviation from J between the two times, and from its means from 0 to them,
+        relative [-]. The Boltzmann integral of a field that grows linearly over each step, none
+        shorter than `first`, is off by no more, relative to itself.
 
     Notes
     -----
     Non-negative least squares (Lawson & Hanson 1974) over a dense set of retardation times, with
-    weights 1/J. A law without a completely monotone rate, such as a table with scatter, cannot be
-    matched by positive terms any better than its scatter, and the error says so.
+    weights 1/J. Before `first` no single value counts, but their mean does: a step meets its own
+    change by it, and a power of time has crept most of what it does there. A law without a
+    completely monotone rate, such as a table with scatter, cannot be matched by positive terms
+    any better than its scatter, and the error says so.
 
     Examples
     --------
@@ -71,9 +78,10 @@ def _fitted(
     begin, end = first / 10**BEYOND, last * 10**BEYOND
     times = np.geomspace(begin, end, int(np.ceil(np.log10(end / begin) * density)) + 1)
     samples = _log_spaced(first, last)
-    creep = compliance(samples)
+    early = samples[samples <= first * 10**MEANS]
+    creep = np.append(compliance(samples), compliance.mean(0.0 * early, early))
     weight = 1.0 / creep
-    terms = np.column_stack([-np.expm1(-samples[:, None] / times), samples / last])
+    terms = np.vstack([_terms(samples, times, last), _mean_terms(early, times, last)])
     delayed = np.maximum(creep - compliance.instant, 0.0)
     # Scaled to amplitudes of order one, which is what the solver's tolerance takes them for.
     size = float(creep[-1])
@@ -81,6 +89,19 @@ def _fitted(
     return SeriesCompliance(
         compliance.instant, found[:-1] * size, times, float(found[-1]) * size / last
     )
+
+
+def _terms(t: NDArray[np.float64], times: NDArray[np.float64], last: float) -> NDArray[np.float64]:
+    """Return what each term has crept at some times, a column each, the last one of flow."""
+    return np.column_stack([-np.expm1(-t[:, None] / times), t / last])
+
+
+def _mean_terms(
+    t: NDArray[np.float64], times: NDArray[np.float64], last: float
+) -> NDArray[np.float64]:
+    """Return the means of the terms from 0 to some times."""
+    passed = t[:, None] / times
+    return np.column_stack([1.0 + np.expm1(-passed) / passed, t / (2 * last)])
 
 
 def _log_spaced(first: float, last: float, finer: int = 1) -> NDArray[np.float64]:
@@ -92,5 +113,7 @@ def _deviation(
     compliance: ContactCompliance, series: SeriesCompliance, first: float, last: float
 ) -> float:
     between = _log_spaced(first, last, finer=7)
-    exact = compliance(between)
-    return float(np.abs(series(between) / exact - 1.0).max())
+    at_once = np.zeros(between.shape)
+    values = series(between) / compliance(between)
+    means = series.mean(at_once, between) / compliance.mean(at_once, between)
+    return float(np.abs(np.append(values, means) - 1.0).max())
