@@ -9,7 +9,7 @@ import numpy as np
 
 from viscontact.laws.curve import LogCurve
 from viscontact.laws.product_integration import Floats, Function, Load, Mean
-from viscontact.laws.volterra import Response, monotone, respond
+from viscontact.laws.volterra import Response, respond, steadied
 
 # Beyond so many decades after the first node the final value is taken for the function.
 _MOST_DECADES = 60
@@ -50,7 +50,6 @@ class Inverse:
         self._since = since
         self._decades = 0
         self._found: Response
-        self._curve: LogCurve
 
     def __call__(self, t: Floats) -> Floats:
         """Return g at times >= 0 [s], inf included."""
@@ -79,7 +78,7 @@ class Inverse:
         reach = max(end, 10 * self._since, 10 * self._first)
         decades = min(math.ceil(math.log10(reach / self._first)), _MOST_DECADES + 1)
         if decades > self._decades:
-            self._found = respond(
+            found = respond(
                 self._function,
                 self._mean,
                 self._first * 10.0**decades,
@@ -88,9 +87,10 @@ class Inverse:
                 kinks=self._kinks,
                 load=self._load,
             )
-            self._curve = monotone(self._found.curve, self._trend)
+            bound = self._function if self._load is None else None
+            self._found = steadied(found, self._trend, bound)
             self._decades = decades
-        return self._curve
+        return self._found.curve
 
     def error(self, start: float, end: float) -> float:
         """Return the estimated relative error of g between two times [s]."""

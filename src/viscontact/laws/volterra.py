@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from viscontact.laws.curve import LogCurve
+from viscontact.laws.curve import Before, LogCurve
 from viscontact.laws.product_integration import (
     Floats,
     Function,
@@ -106,7 +106,8 @@ def invert(function: Function, mean: Mean, instants: ArrayLike) -> tuple[Floats,
     early = float(instants[instants > 0].min())
     found = respond(function, mean, late, first=_first_node(function, early, late), since=early)
     trend = 1 if found.curve.values[-1] > found.curve.values[0] else -1
-    return monotone(found.curve, trend)(instants), found.error(early, late)
+    found = steadied(found, trend, function)
+    return found.curve(instants), found.error(early, late)
 
 
 def respond(
@@ -180,20 +181,46 @@ def _extrapolated(rough: Floats, better: Floats) -> Floats:
     return np.asarray(better + np.interp(at_nodes, at_nodes[::2], change / 3))
 
 
-def monotone(curve: LogCurve, trend: int) -> LogCurve:
-    """Return a solution that should grow (trend 1) or fall (-1), free of swings about nothing.
+def steadied(found: Response, trend: int, function: Function | None) -> Response:
+    """Return a solution that should grow (trend 1) or fall (-1), free of swings.
 
-    Rounding swings about a plateau, and extrapolation about what has relaxed to nothing.
+    Rounding swings about a plateau, and extrapolation about what has relaxed to nothing: by next
+    to nothing. But a function that no body of springs and dashpots has, such as a table that is
+    kinked or steep, has an inverse that truly swings. What is taken off it counts as doubt.
+
+    Parameters
+    ----------
+    found : Response
+        The solution.
+    trend : int
+        Its direction.
+    function : callable, optional
+        f if r is 1: f(t) g(t) is then at most 1, for whichever of them falls.
+
+    Returns
+    -------
+    Response
+        Monotone, with the doubts; at most 1, as a monotone g that falls lies between 0 and 1/f.
     """
-    times, values, known = curve.times, curve.values, curve.at_once is not None
-    if curve.at_once is not None:
-        times, values = np.append(0.0, times), np.append(curve.at_once, values)
+    times, values, known = found.curve.times, found.curve.values, found.curve.at_once is not None
+    if found.curve.at_once is not None:
+        times, values = np.append(0.0, times), np.append(found.curve.at_once, values)
+    if function is not None:
+        with np.errstate(divide="ignore"):  # what has relaxed to nothing bounds nothing
+            values = np.fmin(values, 1.0 / function(times))
     # From the end backwards: a swing then spoils those before it, which are larger, by no more
     # than itself.
     values = np.maximum(values, np.finfo(np.float64).tiny)
     running = np.minimum if trend > 0 else np.maximum
     steady = running.accumulate(values[::-1])[::-1]
-    return LogCurve(times, steady, before="value" if known else curve.exponent, beyond="power")
+    before: Before = "value" if known else found.curve.exponent
+    curve = LogCurve(times, steady, before=before, beyond="power")
+    at_nodes = curve(found.nodes)
+    falls = trend < 0 and function is not None
+    scale = 1.0 / function(found.nodes) if falls and function is not None else at_nodes
+    taken_off = np.nan_to_num(np.abs(at_nodes - found.curve(found.nodes)) / scale, nan=np.inf)
+    doubts = np.nan_to_num(found.doubts, nan=np.inf) + taken_off
+    return Response(curve, found.nodes, np.minimum(doubts, 1.0) if falls else doubts)
 
 
 def onset(function: Function, change: float = _FIRST_CHANGE) -> float:
