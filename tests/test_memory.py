@@ -166,6 +166,23 @@ def test_without_instant_compliance_a_wrong_value_is_forgotten(exponent, growth)
     assert (found[10:] < 0.02).all()
 
 
+@pytest.mark.parametrize("length", np.geomspace(0.01, 1e3, 26))
+def test_a_held_displacement_relaxes_in_one_step_of_any_length(length):
+    # Maxwell, J = 1 + t, M = exp(-t); Zener of M(0)/M(inf) = 11: M = (1 + 10 exp(-11 t/100))/11.
+    laws = [
+        (SeriesCompliance(1.0, (), (), 1.0), math.exp(-length)),
+        (SeriesCompliance(1.0, [10.0], [100.0]), (1 + 10 * math.exp(-11 * length / 100)) / 11),
+    ]
+    for law, exact in laws:
+        memory = RecursiveMemory(law, (1,))
+        memory.jump()
+        memory.accept(np.ones(1))  # and so the displacement is J(0) = 1
+        response = memory.ramp(length)
+        left = float((1.0 - response.history[0]) / response.compliance)
+        assert left == pytest.approx(exact, abs=0.08)
+        assert left > 0  # a body that is held down is never let go
+
+
 def solved(compliance, times, wanted):
     """Values whose displacements are those wanted, step by step from rest."""
     memory, values = SuperposedMemory(compliance, (1,), times), [0.0]

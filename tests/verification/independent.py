@@ -62,18 +62,20 @@ def mean_creep(compliance, start, length):
     return compliance.instant + delayed + compliance.fluidity * (start + length / 2)
 
 
-def rise(compliance, duration):
+def rise(compliance, duration, after_jump):
     """How long a value rises in a step, before it is held; what the package says it does.
 
     All the step, unless what the body then owes to the old value, J(T) less the mean of J,
-    exceeds what it gives at once, J(0): then as long as the two are equal. Without J(0), half of
-    the mean of J stands in its place.
+    exceeds what it gives at once, J(0), or two thirds of it in a first step after a jump: then as
+    long as these are equal. Without J(0), half of the mean of J stands in their place.
     """
+
+    limit = compliance.instant * (2 / 3 if after_jump else 1)
 
     def owed(part):
         held = duration * (1 - part)
         new = mean_creep(compliance, held, duration * part)
-        return compliance(duration) - new - (compliance.instant or new / 2)
+        return compliance(duration) - new - (limit or new / 2)
 
     if owed(1.0) <= 0:
         return duration
@@ -85,7 +87,8 @@ def superposed(compliance, times, fields):
     end = times[-1]
     total = compliance(end - times[0]) * fields[0]
     for i in range(1, len(times)):
-        length = rise(compliance, times[i] - times[i - 1]) if times[i] > times[i - 1] else 0.0
+        step, after_jump = times[i] - times[i - 1], i == 1 or times[i - 1] == times[i - 2]
+        length = rise(compliance, step, after_jump) if step > 0 else 0.0
         mean = mean_creep(compliance, end - times[i - 1] - length, length)
         total = total + mean * (fields[i] - fields[i - 1])
     return total

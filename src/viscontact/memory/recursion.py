@@ -54,12 +54,14 @@ class RecursiveMemory(Memory):
         flowing = self._fluidity > 0
         self._fields = np.zeros((len(self._amplitudes) + flowing, *shape))
         self._value = np.zeros(shape)
+        self._jumped = self._next_jumps = False
         self._decay = np.ones(len(self._fields))
         self._old_weight = np.zeros(len(self._fields))
         self._new_weight = np.zeros(len(self._fields))
 
     def jump(self) -> Response:
         """Response to a jump; see `Memory.jump`."""
+        self._next_jumps = True
         self._decay = np.ones(len(self._fields))
         self._old_weight = np.zeros(len(self._fields))
         self._new_weight = np.zeros(len(self._fields))
@@ -67,7 +69,8 @@ class RecursiveMemory(Memory):
 
     def ramp(self, duration: float) -> Response:
         """Response to a change over a step of the given time; see `Memory.ramp`."""
-        rise = longest_smooth_rise(self._compliance, duration)
+        rise = longest_smooth_rise(self._compliance, duration, after_jump=self._jumped)
+        self._next_jumps = False
         decays = np.exp(-duration / self._times)
         self._decay = np.append(decays, np.ones(len(self._fields) - len(decays)))
         self._old_weight, self._new_weight = self._weights(duration, rise)
@@ -93,6 +96,7 @@ class RecursiveMemory(Memory):
 
     def accept(self, value: NDArray[np.float64]) -> None:
         """Take the new value of the field into the memory and close the step."""
+        self._jumped = self._next_jumps
         for field, decay, old, new in zip(
             self._fields, self._decay, self._old_weight, self._new_weight, strict=True
         ):

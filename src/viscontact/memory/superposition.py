@@ -60,19 +60,22 @@ class SuperposedMemory(Memory):
         self._count = 0
         self._value = np.zeros(shape)
         self._time = 0.0
+        self._jumped = self._next_jumps = False
         self._next = (0.0, 0.0)
         self._ahead = np.zeros((0, self._increments.shape[1]))
         self._ahead_from = 0
 
     def jump(self) -> Response:
         """Response to a jump; see `Memory.jump`."""
+        self._next_jumps = True
         past = self._past_until(self._time, rise=0.0)
         met = self._compliance.instant
         return Response(past - met * self._value, met, resolved=True)
 
     def ramp(self, duration: float) -> Response:
         """Response to a change over a step of the given time; see `Memory.ramp`."""
-        rise = longest_smooth_rise(self._compliance, duration)
+        rise = longest_smooth_rise(self._compliance, duration, after_jump=self._jumped)
+        self._next_jumps = False
         met = self._compliance.mean(duration - rise, duration)
         crept = self._compliance(duration) - self._compliance.instant
         resolved = is_resolved(crept, self._compliance.instant, whole=rise == duration)
@@ -81,6 +84,7 @@ class SuperposedMemory(Memory):
 
     def accept(self, value: NDArray[np.float64]) -> None:
         """Take the new value of the field into the memory and close the step."""
+        self._jumped = self._next_jumps
         if self._count == len(self._began):
             self._make_room()
         row, (end, rise) = self._count, self._next
