@@ -148,3 +148,10 @@ def test_a_steep_fall_after_a_power_is_still_a_fall():
     """The power through points 1e6 apart would leave the first one too steeply for a cubic."""
     curve = LogCurve([1.0, 2.0, 4.0], [1.0, 1e-6, 1e-7], before="power", beyond="power")
     assert (np.diff(curve(np.geomspace(0.5, 8.0, 500))) <= 0).all()
+
+
+def test_the_rate_of_a_steep_curve_is_found_far_before_its_tail():
+    # Beyond t = 2 it falls as t^-32: at 1e-11 s, where it is held, that is no number.
+    steep = LogCurve([1.0, 1.5, 2.0], [1e9, 5e8, 5e4], beyond="power")
+    with np.errstate(all="raise"):
+        assert steep.rate(np.array([1e-11]), np.array([1e-11])) == [0.0]

@@ -121,7 +121,8 @@ class LogCurve:
         v = np.log(t / self.times[piece])
         body = ((3 * c3 * v + 2 * c2) * v + c1) / t
         late = np.log(t / self.times[-1])
-        tail = (self._line + self._fade * self.values[-1] * np.exp(self._fade * late)) / t
+        with np.errstate(over="ignore", invalid="ignore"):  # a steep one, far before its piece
+            tail = (self._line + self._fade * self.values[-1] * np.exp(self._fade * late)) / t
         return np.where(where < self.times[0], head, np.where(where >= self.times[-1], tail, body))
 
     def mean(self, start: ArrayLike, end: ArrayLike) -> Floats:
