@@ -74,7 +74,7 @@ def harmonic_part(times, values, frequency):
     [
         pytest.param("zener", 50.0, marks=pytest.mark.slow),
         ("zener", 200.0),
-        ("zener", 2000.0),
+        pytest.param("zener", 2000.0, marks=pytest.mark.slow),
         ("relaxation_series", 300.0),
     ],
 )
@@ -170,7 +170,13 @@ def staircase(**aside):
 
 
 @pytest.mark.parametrize("name", [name for name in BODIES if name != "solid_ball_on_a_fluid"])
-@pytest.mark.parametrize("instants", [[120.0], [3.0, 7.0, 20.0, 26.0, 80.0, 200.0]], ids=len)
+@pytest.mark.parametrize(
+    "instants",
+    [
+        pytest.param([120.0], id="one", marks=pytest.mark.slow),
+        pytest.param([3.0, 7.0, 20.0, 26.0, 80.0, 200.0], id="six"),
+    ],
+)
 def test_staircase_of_forces_is_superposed(softness, name, instants):
     """Boltzmann: w = sum of dF_i J(t - t_i)/(2 a), in a few steps as in one.
 

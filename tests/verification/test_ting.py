@@ -60,7 +60,7 @@ def test_stage_in_and_out_at_constant_speed(name):
     np.testing.assert_allclose(run.approach, exact.approach(times), atol=1e-12 * PEAK)
 
 
-@pytest.mark.parametrize("name", TERMS)
+@pytest.mark.parametrize("name", ["zener", "relaxation_series"])
 def test_contact_is_lost_when_ting_says(name):
     """Long before the stage is back. Bracketed by steps of 1/4000 of the way: exact to these."""
     exact = reference.ting_triangle(SPHERE, PEAK, RISE, *TERMS[name])
