@@ -107,7 +107,7 @@ class Observer:
         contact = instant.pressure > 0
         rim = trace_rim(self._run.grid, contact, instant.gap, self._outline)
         resultants = self._plane.sums(instant.pressure) * self._run.grid.cell_area
-        self._work += self._work_of(step, instant, resultants)
+        self._work += self._work_of(instant, resultants)
         self._cycles.pass_by(step, self._work)
         self._collect_doubts(step, instant, rim)
         state = _state(step, instant, rim, resultants, self._work, self._cycles.last_loss)
@@ -185,18 +185,25 @@ class Observer:
         largest = max(load.largest_level, np.finfo(float).tiny)
         return (float(levels[0]) - max(float(levels[1]), 0.0)) / largest
 
-    def _work_of(self, step: Step, instant: Instant, resultants: NDArray[np.float64]) -> float:
-        """Work over a step: trapezium rule on the motion; across a jump exact.
+    def _work_of(self, instant: Instant, resultants: NDArray[np.float64]) -> float:
+        """Work over a step, exact for a held force and for all that is elastic.
 
-        Across a jump only J(0) answers, so the work is that of an elastic body, whose
-        reciprocity makes it independent of the path: half the change of J(0) p·K p.
+        The trapezium rule on force and approach is exact where the force is held. It is not where
+        an elastic contact grows or shrinks, as the two are no straight function of each other:
+        it would gain energy in a cycle. The same rule on pressure and displacement, which move
+        with the body wherever there is pressure, is exact there, by reciprocity, however the
+        pressure changes. It counts by the part of the work that is elastic.
         """
-        if step.is_jump:
-            change = instant.energy - (self._before.energy if self._before else 0.0)
-            return self._run.compliance.instant * change
-        assert self._before is not None  # every run starts with a jump
-        travel = instant.motion - self._before.motion
-        return float((self._resultants + resultants) @ travel / 2)
+        before = self._before
+        if before is None:
+            return self._run.compliance.instant * instant.energy
+        elastic = self._run.compliance.instant * (instant.energy - before.energy)
+        mean = (before.pressure + instant.pressure) / 2
+        by_fields = float((mean * (instant.displacement - before.displacement)).sum())
+        by_fields *= self._run.grid.cell_area
+        by_motion = float((self._resultants + resultants) @ (instant.motion - before.motion) / 2)
+        part = min(max(elastic / by_fields, 0.0), 1.0) if by_fields != 0 else 0.0
+        return by_motion + part * (by_fields - by_motion)
 
 
 class Cycles:
@@ -235,7 +242,8 @@ class Cycles:
 def _meets(step: Step, moment: Moment) -> bool:
     """Whether a step ends at an instant; without a jump there, it does so on both its sides."""
     time, side = moment
-    return step.time == time and not (step.before_jump and side == "right")
+    other = (step.before_jump and side == "right") or (step.is_jump and side == "left")
+    return step.time == time and not other
 
 
 def _state(
