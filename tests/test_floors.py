@@ -75,6 +75,7 @@ NEIGHBOURS = {
     ("instants", "schedule"),  # what is meant to be a kink
     ("run", "stepping"),
     ("run", "instants"),
+    ("admission", "extent"),  # where a load is largest
     ("run", "admission"),  # what is refused
     ("run", "schedule"),  # where its steps come from
     ("run", "adaptive"),

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.compliance import ContactCompliance
+from viscontact.extent import largest_load
 from viscontact.grid import Grid
 from viscontact.hull import refuse_outside
 from viscontact.indenters import Indenter
@@ -61,13 +62,32 @@ def check_jumps(compliance: ContactCompliance, load: LoadHistory, end: float) ->
         )
 
 
+def check_touch(
+    compliance: ContactCompliance, open_gap: NDArray[np.float64], grid: Grid, load: LoadHistory
+) -> None:
+    """Refuse a clamped tilt that presses at time 0 already on a law that cannot follow."""
+    point = load.at(0.0)
+    if compliance.instant > 0 or point.approach is None:
+        return
+    slopes = (point.tilt_x or 0.0) * grid.x[:, None], (point.tilt_y or 0.0) * grid.y[None, :]
+    if (open_gap < point.approach + slopes[0] + slopes[1]).any():
+        raise ValueError(
+            f"load: tilted by {point.tilt_x or 0.0:g} rad along x and {point.tilt_y or 0.0:g} rad "
+            "along y the stage presses from time 0 on, but the law has no instant compliance, so "
+            "the surface could not follow; begin with a smaller approach, or give the law an "
+            "instant compliance"
+        )
+
+
 def check_balance(open_gap: NDArray[np.float64], grid: Grid, load: LoadHistory, end: float) -> None:
     """Refuse a resultant that acts outside the hull of what can touch."""
     solid = np.isfinite(open_gap)
     if not solid.any():
         raise ValueError("grid: no cell lies under the indenter; use a finer or larger grid")
-    # A point without load counts where the load grows from it or falls to it.
-    instants = np.append(load.kinks[load.kinks < end], end)
+    # A point without load counts where the load grows from it or falls to it; a swing from zero
+    # to zero has its load between.
+    swing = [largest_load(load, end)[0]] if np.isfinite(load.longest_step) else []
+    instants = np.unique([*load.kinks[load.kinks < end], *swing, end])
     levels = np.maximum(load.level_at(instants, side="left"), load.level_at(instants))
     before, after = np.append(0.0, levels[:-1]), np.append(levels[1:], 0.0)
     for time in instants[(before > 0) | (levels > 0) | (after > 0)].tolist():

@@ -15,6 +15,7 @@ from viscontact.admission import (
     check_kinds,
     check_magnitudes,
     check_numbers,
+    check_touch,
 )
 from viscontact.compliance import ContactCompliance
 from viscontact.extent import auto_grid
@@ -140,6 +141,7 @@ def prepare_run(
     if grid is None:
         grid = auto_grid(indenter, material, load, end=end, indenter_material=indenter_material)
     open_gap = indenter.gap(grid.x[:, None], grid.y[None, :])
+    check_touch(compliance, open_gap, grid, load)
     check_balance(open_gap, grid, load, end)
     return Run(
         indenter,

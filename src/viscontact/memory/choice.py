@@ -30,7 +30,9 @@ class MemoryPlan:
     compliance : ContactCompliance
         J(t) as it is used.
     instants : ndarray
-        Planned ends of the steps [s].
+        Planned ends of the steps; empty where the run chooses them [s].
+    steps : int
+        How many steps are expected.
     method : str
         In words.
     error : float
@@ -42,6 +44,7 @@ class MemoryPlan:
 
     compliance: ContactCompliance
     instants: NDArray[np.float64]
+    steps: int
     method: str
     error: float
     sketch: SeriesCompliance
@@ -51,7 +54,7 @@ class MemoryPlan:
         """Fields that a memory keeps: one for each exponential, or one for each step."""
         if isinstance(self.compliance, SeriesCompliance):
             return len(self.compliance.times) + (self.compliance.fluidity > 0)
-        return len(self.instants)
+        return self.steps
 
     def memory(self, shape: tuple[int, ...]) -> Memory:
         """Return an empty memory for a field of a shape."""
@@ -88,7 +91,7 @@ def plan_memory(
     """
     if isinstance(compliance, SeriesCompliance):
         exact = "recursion, exact for a series law"
-        return MemoryPlan(compliance, instants, exact, 0.0, compliance)
+        return MemoryPlan(compliance, instants, len(instants), exact, 0.0, compliance)
     durations = np.diff(instants)
     first = float(durations.min(initial=np.inf, where=durations > 0))
     if math.isinf(first):
@@ -98,9 +101,9 @@ def plan_memory(
     steps = len(instants)
     if steps <= MOST_STEPS and 8.0 * steps * numbers <= ROOM:
         method = "sum over all earlier steps, with the law as it stands"
-        return MemoryPlan(compliance, instants, method, 0.0, series)
+        return MemoryPlan(compliance, instants, steps, method, 0.0, series)
     method = (
         f"sum of {len(series.times)} exponentials, within {error:.1e} of the law's creep "
         f"compliance from {first:.3g} s to {last:.3g} s"
     )
-    return MemoryPlan(series, instants, method, error, series)
+    return MemoryPlan(series, instants, steps, method, error, series)
