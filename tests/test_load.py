@@ -382,6 +382,15 @@ def test_lines_over_the_longest_step_of_a_harmonic_load_miss_it_by_the_chord_of_
     assert missed == pytest.approx(5 * (1 - math.cos(math.pi / 128)), rel=2e-3)
 
 
+def test_harmonic_force_that_is_rounding_is_no_load():
+    # Near its trough mean - mean cos(a) is mean a²/2: 3e-13 of the largest force 1.2e-6 rad away.
+    swing = harmonic(mean=3.0, amplitude=3.0, period=2.0, cycles=2, phase=-math.pi / 2)
+    assert swing.level_at(2.0 * (1 + 1.2e-6 / (2 * math.pi))) == 0.0
+    assert swing.level_at(2.0 * (1 + 1.2e-5 / (2 * math.pi))) > 0.0
+    hardly = harmonic(mean=3.0, amplitude=3.0, period=2.0, cycles=2, phase=1.2e-6 - math.pi / 2)
+    assert hardly.jumps.size == 0
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
@@ -392,6 +401,7 @@ def test_lines_over_the_longest_step_of_a_harmonic_load_miss_it_by_the_chord_of_
         ({"amplitude": math.nan}, "amplitude must be a finite number in N"),
         ({"mean": None}, "mean is missing; give mean= in N or approach= in m"),
         ({"eccentricity_x": 1.0, "tilt_x": 0.0}, "contradict each other"),
+        ({"tilt_x": [1e-3]}, r"harmonic: tilt_x must be a finite number in rad"),
     ],
 )
 def test_bad_harmonic_loads_are_refused(arguments, message):

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.load import points
+from viscontact.load.force import NEGLIGIBLE
 from viscontact.load.history import Control, Cycle, LoadHistory, LoadPoint
 
 #: Steps of a cycle when nothing finer is asked for. A line through a 128th of a sine misses it by
@@ -82,9 +83,10 @@ class HarmonicHistory(LoadHistory):
         angle = 2 * math.pi * (turns - np.floor(turns)) + self.phase
         level = self.mean + self.amplitude * np.sin(angle)
         started = instants >= 0 if points.side_of_jump(side) == "right" else instants > 0
-        before = 0.0 if self.control == "force" else min(self._first_level, 0.0)
-        lowest = 0.0 if self.control == "force" else -math.inf
-        return np.where(started, np.maximum(level, lowest), before)
+        if self.control == "force":
+            counts = started & (level >= NEGLIGIBLE * self.largest_level)
+            return np.where(counts, level, 0.0)
+        return np.where(started, level, min(self._first_level, 0.0))
 
     @property
     def _first_level(self) -> float:
@@ -103,7 +105,7 @@ class HarmonicHistory(LoadHistory):
     @property
     def jumps(self) -> NDArray[np.float64]:
         """Time 0, unless the level starts at zero [s]."""
-        return np.zeros(1) if self._first_level > 0 else np.zeros(0)
+        return np.zeros(1) if self.level_at(0.0) > 0 else np.zeros(0)
 
     @property
     def longest_step(self) -> float:

@@ -251,9 +251,13 @@ def _scalar_tail(
     if control == "approach":
         _refuse_eccentric_approach(eccentricity_x, eccentricity_y)
     given = (eccentricity_x, eccentricity_y, tilt_x, tilt_y)
-    # One point's worth of a history, with the checks it makes.
-    checked = points.tail(1, *given)
-    return dict(zip(points.TAIL, checked, strict=True))
+    # One point's worth of a history, with the checks it makes; a list of one is no scalar, though.
+    points.tail(1, *given)
+    units = ("m", "m", "rad", "rad")
+    return {
+        name: None if value is None else finite_number(f"harmonic: {name}", value, unit)
+        for name, value, unit in zip(points.TAIL, given, units, strict=True)
+    }
 
 
 def _refuse_eccentric_approach(eccentricity_x: float, eccentricity_y: float) -> None:
