@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from viscontact.stepping import log_times, uniform_times
+from viscontact.stepping import AdaptiveTimes, adaptive_times, log_times, uniform_times
 
 numbers_of_steps = st.integers(1, 400)
 
@@ -76,3 +76,14 @@ def test_first_must_be_a_positive_time(first):
 def test_first_must_come_before_the_end(first):
     with pytest.raises(ValueError, match=rf"first must be earlier than end, got first={first} s"):
         log_times(first, 10.0, 10)
+
+
+@pytest.mark.parametrize("make", [AdaptiveTimes, adaptive_times])
+def test_adaptive_times_are_checked_however_they_are_made(make):
+    assert make(10, 0.1) == AdaptiveTimes(end=10.0, tolerance=0.1)
+    for end in (-1.0, math.inf, "10 s"):
+        with pytest.raises(ValueError, match="end must be a positive, finite time"):
+            make(end, 1e-3)
+    for tolerance in (0.0, 0.2, math.nan, "1 %"):
+        with pytest.raises(ValueError, match=r"tolerance must lie between 1e-6 and 0\.1"):
+            make(10.0, tolerance)

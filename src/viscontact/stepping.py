@@ -83,13 +83,25 @@ class AdaptiveTimes:
     Attributes
     ----------
     end : float
-        The last instant [s].
+        The last instant, positive [s].
     tolerance : float
-        Relative error of pressure and approach that the steps may cause [-].
+        Relative error of pressure and approach that the steps may cause, between 1e-6 and 0.1 [-].
+
+    Raises
+    ------
+    ValueError
+        If the end is not a positive, finite time or the tolerance out of range.
     """
 
     end: float
     tolerance: float
+
+    def __post_init__(self) -> None:
+        allowed = as_real(self.tolerance)
+        if allowed is None or not 1e-6 <= allowed <= 0.1:
+            raise ValueError(f"tolerance must lie between 1e-6 and 0.1, got {self.tolerance!r}")
+        object.__setattr__(self, "tolerance", allowed)
+        object.__setattr__(self, "end", _instant("end", self.end))
 
 
 def adaptive_times(end: float, tolerance: float) -> AdaptiveTimes:
@@ -118,10 +130,7 @@ def adaptive_times(end: float, tolerance: float) -> AdaptiveTimes:
     >>> adaptive_times(100.0, tolerance=1e-3)
     AdaptiveTimes(end=100.0, tolerance=0.001)
     """
-    allowed = as_real(tolerance)
-    if allowed is None or not 1e-6 <= allowed <= 0.1:
-        raise ValueError(f"tolerance must lie between 1e-6 and 0.1, got {tolerance!r}")
-    return AdaptiveTimes(_instant("end", end), allowed)
+    return AdaptiveTimes(end, tolerance)
 
 
 def _instant(name: str, value: object) -> float:
