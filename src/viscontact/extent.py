@@ -209,7 +209,10 @@ def _largest_compliance(
         return float(compliance(end))
     latest = compliance.settled_after
     if math.isinf(latest) or (isinstance(compliance, SeriesCompliance) and compliance.fluidity > 0):
-        raise ValueError("end: the law flows without end, so say when the run ends, in s")
+        raise ValueError(
+            "end: the law does not say when its creep is over (or flows without end); give end=, "
+            "when the run ends, in s"
+        )
     if isinstance(compliance, SeriesCompliance):
         return compliance.instant + float(np.sum(compliance.amplitudes))
     return float(compliance(latest))
