@@ -166,6 +166,27 @@ def test_without_instant_compliance_a_wrong_value_is_forgotten(exponent, growth)
     assert (found[10:] < 0.02).all()
 
 
+@pytest.mark.parametrize("delayed", [0.0, 1.0, 10.0])
+def test_a_resolved_step_after_a_jump_errs_by_less_than_two_percent(delayed):
+    # Maxwell, M = exp(-t); Zener with J1 = delayed, M = (1 + J1 exp(-(1 + J1) t))/(1 + J1).
+    law = SeriesCompliance(1.0, [delayed], [1.0], fluidity=0.0 if delayed else 1.0)
+    for memory in (RecursiveMemory(law, (1,)), SuperposedMemory(law, (1,))):
+        resolved = {}
+        for length in np.geomspace(1e-3, 10.0, 400):
+            memory = type(memory)(law, (1,))
+            memory.jump()
+            memory.accept(np.ones(1))
+            response = memory.ramp(length)
+            left = float((1.0 - response.history[0]) / response.compliance)
+            fast = (1 + delayed) * length if delayed else length
+            exact = (1 + delayed * math.exp(-fast)) / (1 + delayed) if delayed else math.exp(-fast)
+            resolved[length] = (response.resolved, abs(left - exact))
+        longest = max(length for length, (short, _) in resolved.items() if short)
+        assert law(longest) - 1.0 == pytest.approx(0.5, rel=0.03)
+        assert max(error for short, error in resolved.values() if short) < 0.02
+        assert max(error for _, error in resolved.values()) > 0.05
+
+
 @pytest.mark.parametrize("length", np.geomspace(0.01, 1e3, 26))
 def test_a_held_displacement_relaxes_in_one_step_of_any_length(length):
     # Maxwell, J = 1 + t, M = exp(-t); Zener of M(0)/M(inf) = 11: M = (1 + 10 exp(-11 t/100))/11.

@@ -74,10 +74,8 @@ class RecursiveMemory(Memory):
         decays = np.exp(-duration / self._times)
         self._decay = np.append(decays, np.ones(len(self._fields) - len(decays)))
         self._old_weight, self._new_weight = self._weights(duration, rise)
-        # What creeps within the step, by a line through it, is to stay a part of J(0).
-        crept = self._amplitudes @ np.minimum(duration / self._times / 2, 1.0)
-        crept += self._fluidity * duration / 2
-        resolved = is_resolved(float(crept), self._instant, whole=rise == duration)
+        crept = self._compliance(duration) - self._instant
+        resolved = is_resolved(crept, self._instant, whole=rise == duration)
         return self._response(resolved=resolved, held=1 - rise / duration)
 
     def _weights(

@@ -12,8 +12,9 @@ from scipy.optimize import brentq
 from viscontact.compliance import ContactCompliance
 
 #: A step that creeps more than this part of J(0) is long against the law. At this part a single
-#: step after a jump errs by less than 1 % of the pressure, for a Maxwell and a Zener body alike.
-RESOLVED = 0.25
+#: step after a jump errs by less than 2 % of the pressure that the jump has left, for a Maxwell
+#: and a Zener body alike.
+RESOLVED = 0.5
 
 #: In a first step after a jump, what is owed to the old value is kept to this part of J(0). So a
 #: Maxwell body's relaxation is met within 0.07 of what it began with, by a single step of any
@@ -97,7 +98,7 @@ def is_resolved(crept: float, instant: float, *, whole: bool) -> bool:
     Parameters
     ----------
     crept : float
-        What creeps within the step [1/Pa].
+        What creeps within the step, J at its end less J(0) [1/Pa].
     instant : float
         J(0) [1/Pa].
     whole : bool
@@ -111,7 +112,7 @@ def is_resolved(crept: float, instant: float, *, whole: bool) -> bool:
 
     Examples
     --------
-    >>> is_resolved(0.1, 1.0, whole=True), is_resolved(0.5, 1.0, whole=True)
+    >>> is_resolved(0.4, 1.0, whole=True), is_resolved(0.6, 1.0, whole=True)
     (True, False)
     """
     return whole if instant == 0 else crept <= RESOLVED * instant
