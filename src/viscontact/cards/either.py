@@ -15,6 +15,22 @@ _ABAQUS = re.compile(r"^[ \t]*\*[ \t]*(?:material|elastic|viscoelastic)\b", re.I
 _ANSYS = re.compile(r"^[ \t]*(?:tb|mp)[ \t]*,", re.I | re.M)
 
 
+def is_card(text: str) -> bool:
+    """Return whether a text has the commands of an Abaqus or Ansys card.
+
+    Parameters
+    ----------
+    text : str
+        Content of a file.
+
+    Examples
+    --------
+    >>> is_card("MP,EX,1,6.0"), is_card("time [s], E [MPa]")
+    (True, False)
+    """
+    return any(pattern.search(text) for pattern in (_ABAQUS, _ANSYS))
+
+
 def read_cards(
     path: str | PathLike[str],
     *,

@@ -3,7 +3,7 @@
 from viscontact.case.problems import CaseError
 from viscontact.case.reader import Case, read_case
 from viscontact.case.sections import case_schema
-from viscontact.case.single_material import read_material, shipped_material
+from viscontact.case.single_material import read_material, read_section, shipped_material
 
 __all__ = [
     "Case",
@@ -11,5 +11,6 @@ __all__ = [
     "case_schema",
     "read_case",
     "read_material",
+    "read_section",
     "shipped_material",
 ]

@@ -10,7 +10,7 @@ from typing import Any, Literal
 from pydantic import Field
 
 from viscontact import laws
-from viscontact.cards import read_card
+from viscontact.cards import Card, read_card
 from viscontact.case.data_file import DataFile
 from viscontact.case.medium import Medium
 from viscontact.laws import Law
@@ -65,7 +65,7 @@ class TableLaw(FromFile):
         if self.quantity == "relaxation_modulus" and self.data == "deviatoric":
             raise ValueError("data: moduli are shear or uniaxial; deviatoric is a compliance")
         try:
-            table = self._chosen(read_table(self.file, self.columns))
+            table = self._chosen(read_table(self.file, self.columns)).ascending("time")
             times, values = table["time"].tolist(), table[self.quantity].tolist()
         except ValueError as error:
             at = "" if str(error).startswith("columns: ") else "file: "
@@ -168,14 +168,11 @@ class CardLaw(FromFile):
         """Return the card's law."""
         return self.noun().law
 
-    def noun(self) -> Material:
-        """Return the card's material, at the run's temperature."""
-        for key in ("poisson_ratio", "bulk_modulus"):
-            if getattr(self, key) is not None:
-                raise ValueError(f"{key}: stands in the card; leave it out")
+    def card(self) -> Card:
+        """Return the card as it stands in the file."""
         self._require_units()
         try:
-            card = read_card(
+            return read_card(
                 self.file,
                 modulus_unit=self.modulus_unit,
                 time_unit=self.time_unit,
@@ -184,6 +181,18 @@ class CardLaw(FromFile):
             )
         except ValueError as error:
             raise ValueError(f"file: {error}") from error
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What stands in the card and is not used."""
+        return self.card().notes
+
+    def noun(self) -> Material:
+        """Return the card's material, at the run's temperature."""
+        for key in ("poisson_ratio", "bulk_modulus"):
+            if getattr(self, key) is not None:
+                raise ValueError(f"{key}: stands in the card; leave it out")
+        card = self.card()
         if card.shift is not None and self.shift is not None:
             raise ValueError("shift: stands in the card; leave it out")
         return self._at_temperature(

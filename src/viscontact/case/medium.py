@@ -51,6 +51,11 @@ class Medium(Section):
         found = {} if self.shift is None else self.shift.files
         return {("shift", *key): path for key, path in found.items()}
 
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What stands in those files and is not used."""
+        return ()
+
     def _at_temperature(self, material: Material, shift: Shift | None) -> Material:
         """Return the material at the run's temperature, with what is said of its range."""
         factor = 1.0

@@ -58,6 +58,8 @@ class Case:
         The CSV of the load history, if it has one.
     files : mapping of tuple to Path
         Every file that the case is read from, by the key that names it.
+    notes : tuple of str
+        What stands in those files and is not used.
     document : Document
         The file it is from.
     """
@@ -73,6 +75,7 @@ class Case:
     tolerance: float
     load_file: Path | None
     files: Mapping[KeyPath, Path]
+    notes: tuple[str, ...]
     document: Document
 
     @property
@@ -178,6 +181,7 @@ def _case(document: Document, found: CaseFile) -> Case:
         tolerance=found.tolerance,
         load_file=found.load.table,
         files=_files(found),
+        notes=(*found.material.notes, *(of_indenter.notes if of_indenter else ())),
         document=document,
     )
 

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import difflib
+from collections.abc import Mapping
 from os import PathLike
 from pathlib import Path
+from typing import Any
 
 from pydantic import ConfigDict, ValidationError
 
 from viscontact.case.document import Document, read_document
 from viscontact.case.library import MATERIALS
 from viscontact.case.materials import AnyMaterial
+from viscontact.case.medium import Medium
 from viscontact.case.problems import CaseError
 from viscontact.case.quantities import Section
 from viscontact.case.wording import problem
@@ -82,9 +85,43 @@ def read_material(path: str | PathLike[str]) -> Material:
         raise CaseError(
             f"{path}: holds no material; a case file has a section material: with its law"
         )
-    folder = {"folder": str(document.path.parent)}
+    return _alone(document, document.path.parent).noun()
+
+
+def read_section(section: Mapping[str, Any], place: str | PathLike[str]) -> Medium:
+    """Read a `material` section that comes from no case file.
+
+    Parameters
+    ----------
+    section : mapping
+        Its keys, and texts, numbers and lists as a case file has them. Files are named from the
+        working directory.
+    place : path-like
+        What messages begin with.
+
+    Returns
+    -------
+    Medium
+        The section, checked; its ``noun()`` is the material.
+
+    Raises
+    ------
+    CaseError
+        If it cannot be understood; all problems at once, each with its key.
+
+    Examples
+    --------
+    >>> keys = {"law": "elastic", "shear_modulus": "1 MPa", "poisson_ratio": 0.5}
+    >>> read_section(keys, "typed").noun().law
+    Elastic(shear_modulus=1000000.0)
+    """
+    return _alone(Document(Path(place), "", {"material": dict(section)}, {}), Path())
+
+
+def _alone(document: Document, folder: Path) -> Medium:
     try:
-        return _Alone.model_validate(document.data, context=folder).material.noun()
+        context = {"folder": str(folder)}
+        return _Alone.model_validate(document.data, context=context).material
     except ValidationError as error:
         found = dict.fromkeys(problem(document, each) for each in error.errors())
         raise CaseError(*found) from error

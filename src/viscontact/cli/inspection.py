@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from rich.console import Console
+from rich.markup import escape
 from rich.table import Table
 
 from viscontact.cli.messages import refuse
@@ -32,6 +33,8 @@ def print_forecast(prepared: Prepared) -> None:
     console.print(f"{prepared.case.document.path}: {verdict}", highlight=False, soft_wrap=True)
     for line in doubts:
         console.print(f"[yellow]warning:[/] {line}")
+    for line in prepared.case.notes:
+        console.print(f"note: {escape(line)}", highlight=False, soft_wrap=True)
     console.print(_listed(_needs(prepared, expected)))
     if expected.estimate is not None:
         control = prepared.run.load.control

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import difflib
 import math
-from dataclasses import dataclass
 from pathlib import Path
 from textwrap import indent, wrap
 
@@ -15,43 +13,17 @@ from rich.console import Console
 from rich.table import Table
 
 from viscontact import materials
-from viscontact.case import CaseError, read_material, shipped_material
 from viscontact.cli.figures import plot_package, save
 from viscontact.cli.messages import refuse
-from viscontact.laws import SeriesLaw
+from viscontact.cli.shown_material import Shown
+from viscontact.laws import WLF, Arrhenius, Shift
 from viscontact.material import Material
 from viscontact.materials import Entry
 from viscontact.units import in_digits, in_words, readable_unit
 
-# A law that says nothing about its times is shown over these [s].
-_ANY_TIMES = (1e-3, 1e6)
 _WIDTH = 78
-
-
-@dataclass(frozen=True)
-class _Shown:
-    """A material with its name, and its entry if it is from the library."""
-
-    name: str
-    material: Material
-    entry: Entry | None = None
-
-    @property
-    def measured(self) -> tuple[float, float] | None:
-        """First and last time on which the constants rest, as far as known [s]."""
-        if self.entry is not None:
-            return self.entry.measured
-        until = self.material.known_until
-        return (0.0, until) if math.isfinite(until) else None
-
-    def times(self) -> tuple[float, float]:
-        """First and last time worth a look [s]: a decade more than is known."""
-        first, last = self.measured or _own_times(self.material)
-        # Whole decades, so that a table has round times.
-        low = math.floor(math.log10(first or last * 1e-4) + 1e-9)
-        high = math.ceil(math.log10(last) - 1e-9)
-        margin = 1 if self.measured else 0
-        return 10.0 ** (low - margin), 10.0 ** (max(high, low + 1) + margin)
+# Suffixes of what --to writes.
+_WRITTEN = {".inp": "abaqus", ".mac": "ansys", ".cdb": "ansys", ".csv": "csv"}
 
 
 def list_library(output: Path | None = None) -> None:
@@ -83,42 +55,51 @@ def list_library(output: Path | None = None) -> None:
     print("viscontact material NAME tells all of one; -o FIG.png draws it against its source")
 
 
-def show_material(which: str, output: Path | None) -> None:
+def show_material(shown: Shown, output: Path | None) -> None:
     """Print, and draw if a file is named, one material.
 
     Parameters
     ----------
-    which : str
-        A shipped name, or a file.
+    shown : Shown
+        The material.
     output : Path or None
         The figure's file.
     """
-    shown = _found(which)
+    if output is not None and (form := _WRITTEN.get(output.suffix.lower())):
+        refuse(f"{output}: -o alone is a figure (.png, .pdf or .svg); add --to {form}")
     if shown.entry is not None:
         _print_entry(shown.entry)
     else:
         print(f"{shown.name}: {_volume(shown.material)}")
+        _print_about(shown)
     Console().print(_values(shown))
     if output is not None:
         _draw(shown, output)
 
 
-def _found(which: str) -> _Shown:
-    if which in materials.names():
-        return _Shown(which, shipped_material(which), materials.entry(which))
-    path = Path(which)
-    if not path.exists() and not path.suffix:
-        near = [name for name in materials.names() if which.lower() in name]
-        near = near or difflib.get_close_matches(which, materials.names(), n=1)
-        hint = f"; did you mean {' or '.join(near)}?" if near else "."
-        refuse(
-            f"no shipped material and no file is called {which!r}{hint} "
-            f"There are {', '.join(materials.names())}"
-        )
-    try:
-        return _Shown(which, read_material(path))
-    except CaseError as error:
-        refuse(*error.problems)
+def _print_about(shown: Shown) -> None:
+    """Print what a file says besides."""
+    if shown.card_name:
+        print(f"  material      {shown.card_name}")
+    if shown.shift is not None:
+        print(f"  temperature   {_shift(shown.shift)}")
+    measured = shown.measured
+    if measured is not None:
+        print(f"  range         {' to '.join(in_words(t, 's') for t in measured)}")
+    for note in shown.notes:
+        print(f"  note          {note}")
+
+
+def _shift(shift: Shift) -> str:
+    if isinstance(shift, WLF):
+        rule = f"WLF, C1 = {shift.c1:.6g} and C2 = {shift.c2:.6g} K"
+    elif isinstance(shift, Arrhenius):
+        rule = f"Arrhenius, {shift.activation_energy / 1e3:.6g} kJ/mol"
+    else:
+        rule = type(shift).__name__
+    reference = getattr(shift, "reference_temperature", None)
+    at = "" if reference is None else f"{reference - 273.15:.6g} °C; "
+    return f"{at}times shift by {rule}"
 
 
 def _print_entry(entry: Entry) -> None:
@@ -152,7 +133,7 @@ def _volume(material: Material) -> str:
     return f"{type(material.law).__name__}, bulk modulus {in_words(material.bulk_modulus, 'Pa')}"
 
 
-def _values(shown: _Shown) -> Table:
+def _values(shown: Shown) -> Table:
     """Compliance, modulus and contact compliance at each decade."""
     first, last = shown.times()
     low, high = round(math.log10(first)), round(math.log10(last))
@@ -192,14 +173,7 @@ def _within(time: float, measured: tuple[float, float] | None) -> bool:
     return measured is None or measured[0] * 0.999 <= time <= measured[1] * 1.001
 
 
-def _own_times(material: Material) -> tuple[float, float]:
-    """Over what times a law made of exponentials changes [s]."""
-    law = material.law
-    times = law.creep_series().times if isinstance(law, SeriesLaw) else ()
-    return (min(times) / 100, max(times) * 100) if times else _ANY_TIMES
-
-
-def _draw(shown: _Shown, output: Path) -> None:
+def _draw(shown: Shown, output: Path) -> None:
     plot = plot_package()
     entry = shown.entry
 
@@ -208,7 +182,7 @@ def _draw(shown: _Shown, output: Path) -> None:
             material.law,
             shown.times(),
             measured=shown.measured,
-            points=entry.points if entry else (),
+            points=shown.points,
             title=entry.title if entry else shown.name,
         )
 

@@ -7,24 +7,96 @@ from typing import Annotated
 
 import typer
 
+from viscontact.cli.messages import refuse
+
 
 def material(
     which: Annotated[
         str | None,
         typer.Argument(
             metavar="[NAME|FILE]",
-            help="A shipped material, or a case file; lists the shipped ones if left out.",
+            help="A shipped material, a case file, a measured table or an Abaqus or Ansys card; "
+            "lists the shipped ones if left out.",
         ),
     ] = None,
     output: Annotated[
         Path | None,
-        typer.Option("-o", "--output", metavar="FIG.png", help="Draw it: .png, .pdf or .svg."),
+        typer.Option(
+            "-o",
+            "--output",
+            metavar="FILE",
+            help="Draw it: .png, .pdf or .svg; with --to, write it there.",
+        ),
+    ] = None,
+    to: Annotated[
+        str | None,
+        typer.Option("--to", metavar="FORM", help="Write it instead: abaqus, ansys or csv."),
+    ] = None,
+    data: Annotated[
+        str | None,
+        typer.Option(
+            "--data",
+            metavar="TEST",
+            help="Of a table: shear (G, 1/G), uniaxial (E, 1/E) or deviatoric (Phi), where the "
+            "headings do not say.",
+        ),
+    ] = None,
+    poisson_ratio: Annotated[
+        float | None,
+        typer.Option("--poisson-ratio", metavar="NU", help="Of a table's body, constant."),
+    ] = None,
+    bulk_modulus: Annotated[
+        str | None,
+        typer.Option("--bulk-modulus", metavar="K", help="Instead, elastic, such as '4 GPa'."),
+    ] = None,
+    number: Annotated[
+        float | None, typer.Option("--set", metavar="N", help="Which set of a table.")
+    ] = None,
+    modulus_unit: Annotated[
+        str | None,
+        typer.Option(
+            "--modulus-unit", metavar="UNIT", help="Of a card's moduli; MPa of what is written."
+        ),
+    ] = None,
+    time_unit: Annotated[
+        str | None,
+        typer.Option(
+            "--time-unit", metavar="UNIT", help="Of a card's times; s of what is written."
+        ),
+    ] = None,
+    temperature_unit: Annotated[
+        str | None,
+        typer.Option("--temperature-unit", metavar="UNIT", help="Of a card's shift: degC, K."),
+    ] = None,
+    name: Annotated[
+        str | None,
+        typer.Option("--name", metavar="NAME", help="Which material of a card, or its number."),
     ] = None,
 ) -> None:
-    """Show creep and relaxation of a law, and where a shipped one is from."""
+    """Show creep and relaxation of a law, and where a shipped one is from; or write it."""
+    from viscontact.cli.material_files import Typed, find_material
     from viscontact.cli.material_tables import list_library, show_material
+    from viscontact.cli.material_writing import FORMS, write_material
 
+    if to is not None and to not in FORMS:
+        refuse(f"--to: must be one of {', '.join(FORMS)}, got {to!r}")
     if which is None:
+        if to is not None:
+            refuse(f"--to {to}: name one material, e.g. pmma-paper")
         list_library(output)
+        return
+    typed = Typed(
+        data=data,
+        poisson_ratio=poisson_ratio,
+        bulk_modulus=bulk_modulus,
+        set=number,
+        modulus_unit=modulus_unit,
+        time_unit=time_unit,
+        temperature_unit=temperature_unit,
+        name=name,
+    )
+    shown = find_material(which, typed, writes=to is not None)
+    if to is None:
+        show_material(shown, output)
     else:
-        show_material(which, output)
+        write_material(shown, to, typed, output)

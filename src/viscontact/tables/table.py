@@ -135,6 +135,16 @@ class Table:
             self.source, columns, self.data, self.headings, self.lines[which], self.left_out
         )
 
+    def ascending(self, quantity: str) -> Table:
+        """Return the table from its end, if a column falls from row to row; else itself.
+
+        Instruments that begin with the slowest cycle write their rows so. Rows in no order are
+        left as they are.
+        """
+        values = self[quantity]
+        falls = len(self) > 1 and bool(np.all(np.diff(values) < 0))
+        return self._rows(np.arange(len(self))[::-1]) if falls else self
+
     def located(self, error: ValueError) -> str:
         """Return a refusal that counts rows from 0 in lines of the file.
 
