@@ -29,19 +29,21 @@ positive = st.floats(0.1, 10.0)
 
 
 @st.composite
-def laws(draw):
-    """Solids and fluids of one to three times, and powers of time."""
+def laws(draw, strength=1.0):
+    """Solids and fluids of one to three times, and powers of time; how much they creep."""
     if draw(st.integers(0, 4)) == 0:
-        return vc.PowerLaw(1e-6 * draw(positive), draw(st.floats(0.1, 0.9)), 1.0, instant=1e-6)
+        return vc.PowerLaw(
+            1e-6 * strength * draw(positive), draw(st.floats(0.1, 0.9)), 1.0, instant=1e-6
+        )
     count = draw(st.integers(1, 3))
-    amplitudes = [1e-6 * draw(positive) for _ in range(count)]
+    amplitudes = [1e-6 * strength * draw(positive) for _ in range(count)]
     times = [10.0 ** draw(st.floats(-2, 2)) for _ in range(count)]
     return vc.CreepSeries(1e-6, amplitudes, times, fluidity=draw(st.sampled_from([0.0, 1e-7])))
 
 
 @st.composite
-def materials(draw):
-    return vc.Material(draw(laws()), draw(st.floats(0.0, 0.5)))
+def materials(draw, strength=1.0):
+    return vc.Material(draw(laws(strength)), draw(st.floats(0.0, 0.5)))
 
 
 @st.composite
@@ -71,9 +73,12 @@ def close(found, exact, bound=BOUND):
 
 
 @settings(max_examples=25)
-@given(material=materials(), one=levels(), other=levels(), share=st.floats(0.1, 0.9))
+@given(material=materials(0.02), one=levels(), other=levels(), share=st.floats(0.1, 0.9))
 def test_forces_on_a_fixed_contact_are_superposed(material, one, other, share):
-    """Boltzmann: approach and pressure of F1 + F2 are the sums of those of F1 and of F2."""
+    """Boltzmann: approach and pressure of F1 + F2 are the sums of those of F1 and of F2.
+
+    In steps that are short against the law; over longer ones the rule is another after a jump.
+    """
     first = vc.ForceHistory(one[0], 1e3 * share * one[1])
     second = vc.ForceHistory(other[0], 1e3 * (1 - share) * other[1])
     knots = np.unique(np.concatenate([one[0], other[0]]))
