@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from viscontact.balance import RigidPlane
 from viscontact.errors import DomainError
-from viscontact.load.history import Cycle, Moment
+from viscontact.load.history import Cycle, LoadPoint, Moment
 from viscontact.plausibility import (
     REFUSED_CELLS,
     Doubts,
@@ -85,6 +85,7 @@ class Observer:
         self._open: dict[str, str] = {}
         self._work = 0.0
         self._before: Instant | None = None
+        self._point: LoadPoint | None = None
         self._resultants = np.zeros(3)
         self._cycles = Cycles(run.load.load_cycles)
         self._largest_area, self._cells_at_largest = 0.0, 0
@@ -107,7 +108,7 @@ class Observer:
         contact = instant.pressure > 0
         rim = trace_rim(self._run.grid, contact, instant.gap, self._outline)
         resultants = self._plane.sums(instant.pressure) * self._run.grid.cell_area
-        self._work += self._work_of(instant, resultants)
+        self._work += self._work_of(step, instant, resultants)
         self._cycles.pass_by(step, self._work)
         self._collect_doubts(step, instant, rim)
         state = _state(step, instant, rim, resultants, self._work, self._cycles.last_loss)
@@ -185,25 +186,25 @@ class Observer:
         largest = max(load.largest_level, np.finfo(float).tiny)
         return (float(levels[0]) - max(float(levels[1]), 0.0)) / largest
 
-    def _work_of(self, instant: Instant, resultants: NDArray[np.float64]) -> float:
-        """Work over a step, exact for a held force and for all that is elastic.
+    def _work_of(self, step: Step, instant: Instant, resultants: NDArray[np.float64]) -> float:
+        """Work over a step: exact while the load is held, and for all that is elastic.
 
-        The trapezium rule on force and approach is exact where the force is held. It is not where
-        an elastic contact grows or shrinks, as the two are no straight function of each other:
-        it would gain energy in a cycle. The same rule on pressure and displacement, which move
-        with the body wherever there is pressure, is exact there, by reciprocity, however the
-        pressure changes. It counts by the part of the work that is elastic.
+        Under a held load the force is constant, or nothing travels: force times approach is exact.
+        Where the load moves it is not, as an elastic contact's force is no straight function of
+        its approach; a cycle in long steps would gain energy. Mean pressure times change of
+        displacement, which moves with the body wherever there is pressure, is exact there by
+        reciprocity, however far the step goes.
         """
-        before = self._before
-        if before is None:
+        before, point_before = self._before, self._point
+        self._point = self._run.load.at(step.time, side=step.side)
+        if before is None:  # every run starts with a jump
             return self._run.compliance.instant * instant.energy
-        elastic = self._run.compliance.instant * (instant.energy - before.energy)
+        if self._point == point_before:
+            travel = instant.motion - before.motion
+            return float((self._resultants + resultants) @ travel / 2)
         mean = (before.pressure + instant.pressure) / 2
-        by_fields = float((mean * (instant.displacement - before.displacement)).sum())
-        by_fields *= self._run.grid.cell_area
-        by_motion = float((self._resultants + resultants) @ (instant.motion - before.motion) / 2)
-        part = min(max(elastic / by_fields, 0.0), 1.0) if by_fields != 0 else 0.0
-        return by_motion + part * (by_fields - by_motion)
+        moved = instant.displacement - before.displacement
+        return float(np.einsum("ij,ij->", mean, moved)) * self._run.grid.cell_area
 
 
 class Cycles:

@@ -46,8 +46,8 @@ class ContactState:
     peak_pressure, mean_pressure : float
         Largest cell pressure, and force over area [Pa].
     work : float
-        Work of the load on the contact since the start, exact across jumps and of second order
-        in the step elsewhere [J].
+        Work of the load on the contact since the start; exact for an elastic body, across jumps
+        and in the first instant, of second order in the step elsewhere [J].
     loss_per_cycle : float
         Work that the last whole cycle of the load has cost; NaN before the first is over [J].
     time_error : float
