@@ -118,3 +118,13 @@ def test_a_long_or_large_run_is_remembered_by_few_exponentials_and_says_so(steps
     assert 0 < plan.error < 1e-6
     assert f"{plan.error:.1e}" in plan.method
     assert plan.fields_kept < 60
+
+
+def test_a_measured_creep_compliance_is_used_as_it_is_and_a_modulus_converted():
+    # Steps that no body of springs and dashpots has: the inverse is next to unknown, J is given.
+    times, steep = [1.0, 2.0, 3.0, 4.0], [1e-9, 1.001e-9, 9e-9, 9.01e-9]
+    creep = Material(TabulatedCreep(times, steep), 0.3)
+    relaxation = Material(TabulatedRelaxation(times, [9e8, 8.99e8, 1e8, 0.99e8]), 0.3)
+    assert creep.law.inversion_error > 0.1
+    assert creep.contact_compliance().inversion_error == 0.0
+    assert relaxation.contact_compliance().inversion_error == relaxation.law.inversion_error > 0.0

@@ -84,7 +84,8 @@ class ContactCompliance(ABC):
         Raises
         ------
         ValueError
-            If a time is negative or NaN, or J(0) = 0.
+            If a time is negative or NaN, or M(t) starts with a Dirac impulse, as beside a dashpot
+            without instant compliance.
         """
         return over_times(self._relaxation, t)
 
@@ -127,7 +128,7 @@ class ContactCompliance(ABC):
 
     @property
     def inversion_error(self) -> float:
-        """Estimated relative error of what was interconverted by numbers [-]; 0 if exact."""
+        """Estimated relative error of J where it was interconverted by numbers [-]; 0 if exact."""
         return 0.0
 
     @abstractmethod
@@ -273,8 +274,8 @@ class LawCompliance(ContactCompliance):
 
     @property
     def inversion_error(self) -> float:
-        """Estimated relative error of what was interconverted by numbers [-]; 0 if exact."""
-        return self.law.inversion_error
+        """Estimated relative error of J where it was interconverted by numbers [-]; 0 if exact."""
+        return self.law.creep_error
 
     def __add__(self, other: ContactCompliance) -> ContactCompliance:
         """Return the compliance of two bodies pressed on each other."""
@@ -325,7 +326,7 @@ class SummedCompliance(ContactCompliance):
 
     @property
     def inversion_error(self) -> float:
-        """Estimated relative error of what was interconverted by numbers [-]; 0 if exact."""
+        """Estimated relative error of J where it was interconverted by numbers [-]; 0 if exact."""
         return max(part.inversion_error for part in self.parts)
 
     def __add__(self, other: ContactCompliance) -> ContactCompliance:

@@ -80,6 +80,11 @@ class BesideSpring(Law):
         """Estimated relative error of what is solved by numbers, creep or relaxation [-]."""
         return max(self._error, self.law.inversion_error)
 
+    @property
+    def creep_error(self) -> float:
+        """Of Phi alone, which is solved by numbers from that of the law [-]."""
+        return max(self._error, self.law.creep_error)
+
     @cached_property
     def _error(self) -> float:
         end = self.law.measured_until

@@ -170,6 +170,11 @@ class TabulatedCreep(Law):
         return self._error
 
     @property
+    def creep_error(self) -> float:
+        """Of Phi, which is measured: 0 [-]."""
+        return 0.0
+
+    @property
     def _begins_at_nothing(self) -> bool:
         return self.times[0] == self.compliance[0] == 0
 

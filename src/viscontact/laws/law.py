@@ -71,8 +71,8 @@ class Law(ABC):
         Raises
         ------
         ValueError
-            If a time is negative or NaN, or if the law has no instant compliance: G(t) then
-            starts with a Dirac impulse.
+            If a time is negative or NaN, or if G(t) starts with a Dirac impulse, as beside a
+            dashpot alone. That of a spring-pot is inf at 0 only.
         """
         return over_times(self._relaxation, t)
 
@@ -177,6 +177,11 @@ class Law(ABC):
     def inversion_error(self) -> float:
         """Estimated relative error of what is interconverted by numbers [-]; 0 in closed form."""
         return 0.0
+
+    @property
+    def creep_error(self) -> float:
+        """Of Phi alone, which is all that a contact sees [-]; 0 where it is given."""
+        return self.inversion_error
 
     @abstractmethod
     def _creep(self, t: NDArray[np.float64]) -> NDArray[np.float64]: ...
