@@ -112,12 +112,13 @@ def simulate(
     material : Material
         Material of the half-space.
     load : LoadHistory
-        Force, eccentricity and prescribed tilts over time.
+        Force or approach, eccentricity and prescribed tilts over time.
     grid : Grid, optional
         Cells that carry the pressure; `auto_grid` chooses when left out.
-    times : array_like, optional
+    times : array_like or AdaptiveTimes, optional
         Instants of the result, strictly increasing, none before 0 [s]; chosen from load and
-        law when left out.
+        law when left out. With `adaptive_times` the run chooses its steps, and ``time`` holds
+        those it took.
     indenter_material : Material, optional
         Material of the indenter; rigid when left out.
     tolerance : float

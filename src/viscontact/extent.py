@@ -135,7 +135,7 @@ def auto_grid(
     material : Material
         Material of the half-space.
     load : LoadHistory
-        Force, eccentricity and prescribed tilts over time.
+        Force or approach, eccentricity and prescribed tilts over time.
     tolerance : float
         Aimed-at relative error of peak pressure, area and approach.
     end : float, optional
