@@ -14,6 +14,7 @@ from viscontact.cli.figures import plot_package
 from viscontact.cli.messages import refuse, say
 from viscontact.errors import AccuracyWarning
 from viscontact.identification import (
+    Fit,
     IndentationRecord,
     Isotherm,
     MasterCurve,
@@ -28,6 +29,7 @@ from viscontact.identification import (
 )
 from viscontact.indenters import Cone, FlatPunch, Indenter, Sphere
 from viscontact.laws import WLF
+from viscontact.material import Material
 from viscontact.tables import Table, read_table
 from viscontact.units import parse_quantity
 
@@ -116,6 +118,7 @@ def _found(table: Table, wishes: Wishes) -> tuple[str, _Drawing]:
         storage, loss = measured["storage"], measured["loss"]
         fit = fit_dynamic(points, storage, loss, **options)  # type: ignore[arg-type]
     print(table.located(ValueError(repr(fit))))
+    fit = _with_volume(fit, wishes)
     return material_section(fit), _Drawing("fitted_series", fit)
 
 
@@ -132,7 +135,7 @@ def _from_sets(table: Table, sets: tuple[Table, ...], wishes: Wishes) -> tuple[s
     curve = build_master_curve(isotherms, reference)
     rules = _rules(curve)
     _print_shifts(curve, rules)
-    fit = fit_master_curve(curve, **options)
+    fit = _with_volume(fit_master_curve(curve, **options), wishes)
     print(f"\nAt {_celsius(reference)}:\n{fit!r}")
     drawing = _Drawing("master_curve", curve, fit=fit, rules=rules)
     if wishes.temperature is None:
@@ -192,10 +195,22 @@ def _options(table: Table, wishes: Wishes) -> dict[str, object]:
             f"{table.source.name}: uniaxial data need --poisson-ratio, such as 0.38, or "
             "--bulk-modulus, such as '4 GPa'"
         )
-    return options | {
-        "poisson_ratio": wishes.poisson_ratio,
-        "bulk_modulus": _bulk_modulus(wishes),
-    }
+    return options | (_volume(wishes) if data == "uniaxial" else {})
+
+
+def _volume(wishes: Wishes) -> dict[str, float | None]:
+    return {"poisson_ratio": wishes.poisson_ratio, "bulk_modulus": _bulk_modulus(wishes)}
+
+
+def _with_volume(fit: Fit, wishes: Wishes) -> Fit:
+    """Return the fit with what is known of the volume, which data in shear say nothing of."""
+    volume = _volume(wishes)
+    if fit.data == "uniaxial" or not any(value is not None for value in volume.values()):
+        return fit
+    material = Material(fit.law, volume["poisson_ratio"], bulk_modulus=volume["bulk_modulus"])
+    return dataclasses.replace(
+        fit, poisson_ratio=material.poisson_ratio, bulk_modulus=material.bulk_modulus
+    )
 
 
 def _columns(table: Table) -> tuple[NDArray[np.float64], dict[str, NDArray[np.float64]]]:

@@ -22,6 +22,7 @@ from viscontact.materials import Entry
 from viscontact.units import in_digits, in_words, readable_unit
 
 _WIDTH = 78
+_DEPTH = 1e-6
 # Suffixes of what --to writes.
 _WRITTEN = {".inp": "abaqus", ".mac": "ansys", ".cdb": "ansys", ".csv": "csv"}
 
@@ -160,8 +161,9 @@ def _values(shown: Shown) -> Table:
 
 
 def _in_unit(values: NDArray[np.float64], unit: str) -> tuple[str, list[str]]:
-    # By the middle of what spans many decades.
-    middle = float(np.exp(np.mean(np.log(np.maximum(values, 1e-300)))))
+    # By the middle of what spans many decades, without what a fluid has left in the end.
+    good = values[values > _DEPTH * values.max()]
+    middle = float(np.exp(np.mean(np.log(good))))
     if unit == "1/Pa":
         modulus = readable_unit(1.0 / middle, "Pa")
         return f"1/{modulus.symbol}", [in_digits(float(v) * modulus.factor) for v in values]
