@@ -98,3 +98,24 @@ def test_relative_change_knows_zero():
     assert relative_change(0.0, 0.0) == 0.0
     assert relative_change(0.0, 2.0) == 1.0
     assert relative_change(4.0, 3.0) == 0.25
+
+
+def test_a_law_that_is_remembered_or_converted_badly_is_doubted(monkeypatch):
+    # Ten times the compliance within a factor 1.5 in time: no positive exponentials do that.
+    times, jump = [1.0, 2.0, 3.0, 4.0], [1e-9, 1.001e-9, 9e-9, 9.01e-9]
+    ball, load, grid = vc.Sphere(1e-3), vc.step(1e-3), vc.Grid((32, 32), (1.6e-5, 1.6e-5))
+    creep = vc.Material(vc.TabulatedCreep(times, jump), 0.5)
+    drop = vc.TabulatedRelaxation([1.0, 1.05, 1.1, 4.0], [5e8, 4.99e8, 5.5e6, 5.49e6])
+    modulus = vc.Material(drop, 0.5)
+
+    def kinds(material):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always", vc.AccuracyWarning)
+            vc.simulate(ball, material, load, grid, [0.0, 0.5, 1.0], fields="none")
+        words = ("remembered are off by", "converted from the law's modulus")
+        return [sum(word in str(w.message) for w in caught) for word in words]
+
+    assert kinds(creep) == [0, 0]  # the sum over all steps takes it as it stands
+    assert kinds(modulus) == [0, 1]
+    monkeypatch.setattr("viscontact.memory.choice.ROOM", 0)
+    assert kinds(creep) == [1, 0]

@@ -18,6 +18,7 @@ from viscontact.plausibility import (
     Geometry,
     data_doubts,
     geometry_doubts,
+    law_doubts,
     mesh_doubts,
     relative_change,
     step_doubts,
@@ -82,7 +83,7 @@ class Observer:
         self._outline = trace_outline(run.indenter, run.grid)
         self._geometry = Geometry(run.indenter, run.open_gap, run.grid.cell_size)
         self._doubts = Doubts()
-        self._open: dict[str, str] = {}
+        self._open = law_doubts(run.memory.error, run.compliance.inversion_error)
         self._work = 0.0
         self._before: Instant | None = None
         self._point: LoadPoint | None = None

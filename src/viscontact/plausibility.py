@@ -19,6 +19,9 @@ STEEP_SLOPE, WIDE_CONTACT, DEEP_APPROACH = 0.3, 0.3, 0.1
 #: Relative change of force or peak pressure that a step long against the law must not hide.
 NOTABLE_CHANGE = 0.25
 
+#: A creep compliance that may be off by more than this part is not the material's any more.
+DOUBTFUL_LAW = 0.01
+
 
 @dataclass(frozen=True)
 class Geometry:
@@ -174,6 +177,41 @@ def data_doubts(time: float, measured_until: float) -> dict[str, str]:
             "there on its law is an extrapolation"
         )
     }
+
+
+def law_doubts(memory_error: float, inversion_error: float) -> dict[str, str]:
+    """Doubts about a creep compliance that is not quite the one of the law as given.
+
+    Parameters
+    ----------
+    memory_error : float
+        Largest relative deviation of the exponentials that the past is remembered by [-].
+    inversion_error : float
+        Estimated relative error of a creep compliance converted from a modulus [-].
+
+    Returns
+    -------
+    dict of str to str
+        Sentences by kind of doubt; empty if there is none.
+
+    Examples
+    --------
+    >>> list(law_doubts(0.1, 0.0)), list(law_doubts(1e-3, 0.02)), law_doubts(1e-3, 1e-3)
+    (['memory'], ['conversion'], {})
+    """
+    doubts: dict[str, str] = {}
+    if memory_error > DOUBTFUL_LAW:
+        doubts["memory"] = (
+            f"the exponentials by which the past is remembered are off by up to "
+            f"{memory_error:.0%} of the law's creep compliance; take fewer steps or cells, so "
+            "that all steps are kept, or a law without scatter and sharp bends, such as a fit"
+        )
+    if inversion_error > DOUBTFUL_LAW:
+        doubts["conversion"] = (
+            f"the creep compliance converted from the law's modulus may be off by "
+            f"{inversion_error:.0%} (estimated); smooth the modulus or add rows, or give creep"
+        )
+    return doubts
 
 
 def relative_change(before: float, after: float) -> float:
