@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
+from mpmath import mp
 from scipy.special import exp1
 
 from viscontact.laws import CreepSeries
@@ -155,3 +156,16 @@ def test_the_rate_of_a_steep_curve_is_found_far_before_its_tail():
     steep = LogCurve([1.0, 1.5, 2.0], [1e9, 5e8, 5e4], beyond="power")
     with np.errstate(all="raise"):
         assert steep.rate(np.array([1e-11]), np.array([1e-11])) == [0.0]
+
+
+@pytest.mark.parametrize("exponent", [-1.5, -3.0, -40.0, -693.0])
+@pytest.mark.parametrize("ratio", [1 + 1e-9, 1.01, 3.0, 1e6])
+def test_mean_of_a_steep_fall_is_that_of_its_integral(exponent, ratio):
+    # From 1 to b it is (b^(n+1) - 1)/((n+1)(b - 1)), however little is left at b.
+    with mp.workdps(40):
+        b = mp.mpf(ratio)
+        exact = float((b ** (exponent + 1) - 1) / ((exponent + 1) * (b - 1)))
+    with np.errstate(over="raise", invalid="raise"):
+        mean = mean_power(exponent, np.array(1.0), np.array(ratio))
+    # The ratio as a difference from 1 has lost 1e-16 / 1e-9 of its digits before it comes here.
+    assert mean == pytest.approx(exact, rel=1e-12)

@@ -266,3 +266,11 @@ def test_tables_are_hashable_and_survive_as_plain_data(kind):
     law = sampled(kind, 1, before="slope", beyond="last")
     assert rebuild(describe(law)) == law
     assert hash(rebuild(describe(law))) == hash(law)
+
+
+def test_a_modulus_that_falls_off_a_cliff_is_converted_without_ado():
+    # A thousandth within 1 % of the time, and so on beyond: a power of -690.
+    law = TabulatedRelaxation([1.0, 1.01, 10.0, 10.1], [1e9, 1e6, 0.99e6, 1e3])
+    t = np.logspace(-1, 1, 41)
+    assert (np.diff(law(t)) >= 0).all()
+    assert (2 * law(t) * law.relaxation(t) <= 1 + law.inversion_error).all()

@@ -248,14 +248,17 @@ def narrow_mean(
 def mean_power(exponent: float, start: Floats, end: Floats) -> Floats:
     """Return the mean of t^n over intervals of time, t^n where they have no length.
 
-    With n > -1 where they begin at 0, it is b^n times (1 - r^(n+1)) / ((n+1)(1 - r)) with r = a/b,
-    both differences of which lose nothing however close a and b are.
+    It is b^n times (1 - r^(n+1)) / ((n+1)(1 - r)) with r = a/b, both differences of which lose
+    nothing however close a and b are; below n = -1, where b^n may vanish beside r^n, the same
+    with a and b in each other's place. Infinite from 0 on if n <= -1.
     """
-    length = end - start
+    length, power = end - start, exponent + 1
     part = np.where(length > 0, length, 1.0) / np.where(length > 0, end, 1.0)
     with np.errstate(divide="ignore"):  # from 0 on
         log_ratio = np.log1p(-np.minimum(part, 1.0))  # ln(a/b)
-        powers = end**exponent
-    power = exponent + 1
-    grown = -log_ratio if power == 0 else -np.expm1(power * log_ratio) / power
-    return np.asarray(powers * np.where(length > 0, grown / part, 1.0))
+        powers = (start if power < 0 else end) ** exponent
+    if power < 0:
+        part = np.where(length > 0, length, 1.0) / np.where(start > 0, start, 1.0)
+        log_ratio = -log_ratio
+    grown = log_ratio if power == 0 else np.expm1(power * log_ratio) / power
+    return np.asarray(powers * np.where(length > 0, np.abs(grown) / part, 1.0))

@@ -206,7 +206,8 @@ def steadied(found: Response, trend: int, function: Function | None) -> Response
     if found.curve.at_once is not None:
         times, values = np.append(0.0, times), np.append(found.curve.at_once, values)
     if function is not None:
-        with np.errstate(divide="ignore"):  # what has relaxed to nothing bounds nothing
+        # What has relaxed to nothing bounds nothing.
+        with np.errstate(divide="ignore", over="ignore"):
             values = np.fmin(values, 1.0 / function(times))
     # From the end backwards: a swing then spoils those before it, which are larger, by no more
     # than itself.
