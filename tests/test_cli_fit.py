@@ -139,3 +139,22 @@ def test_a_bad_value_is_named_by_its_line_in_the_file(tmp_path, capsys):
 def test_a_file_that_is_not_there_is_refused(tmp_path, capsys):
     assert main(["fit", str(tmp_path / "no.csv"), "--data", "shear"]) == 2
     assert "no.csv" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("options", "named"),
+    [
+        (["--fluid"], "--fluid does not go with an indentation record"),
+        (["--data", "shear", "--reference", "20 degC"], "--data, --reference does not go with"),
+        (["--terms", "0"], "terms"),
+    ],
+)
+def test_options_that_an_indentation_record_has_no_use_for_are_refused(
+    tmp_path, capsys, options, named
+):
+    t = np.linspace(0.0, 4.0, 9)
+    heads = ("time [s]", "approach [um]", "force [uN]")
+    file = written(tmp_path / "record.csv", heads, t, t, t**1.5)
+    command = ["fit", str(file), "--indenter", "sphere 5 um", "--poisson-ratio", "0.5"]
+    assert main([*command, *options]) == 2
+    assert named in capsys.readouterr().err

@@ -157,6 +157,7 @@ def _from_indentation(table: Table, wishes: Wishes) -> tuple[str, _Drawing]:
             f"{table.source.name}: an indentation record needs --poisson-ratio, such as 0.4, or "
             "--bulk-modulus"
         )
+    _refuse_idle(table, wishes)
     record = IndentationRecord(
         _indenter(wishes.indenter), table["time"], table["approach"], table["force"]
     )
@@ -165,7 +166,7 @@ def _from_indentation(table: Table, wishes: Wishes) -> tuple[str, _Drawing]:
         fit = fit_indentation(
             record,
             wishes.law,
-            terms=wishes.terms or 1,
+            terms=1 if wishes.terms is None else wishes.terms,
             poisson_ratio=wishes.poisson_ratio,
             bulk_modulus=_bulk_modulus(wishes),
         )
@@ -173,6 +174,22 @@ def _from_indentation(table: Table, wishes: Wishes) -> tuple[str, _Drawing]:
         say(f"warning: {warning.message}")
     print(repr(fit))
     return material_section(fit), _Drawing("fitted_indentation", fit)
+
+
+def _refuse_idle(table: Table, wishes: Wishes) -> None:
+    """Refuse options that an indentation record has no use for, rather than pass them over."""
+    options = {
+        "--data": wishes.data is not None,
+        "--fluid": wishes.fluid,
+        "--reference": wishes.reference is not None,
+        "--temperature": wishes.temperature is not None,
+    }
+    idle = [option for option, given in options.items() if given]
+    if idle:
+        raise ValueError(
+            f"{table.source.name}: {', '.join(idle)} does not go with an indentation record; leave "
+            "it out (its law is chosen by --law)"
+        )
 
 
 def _read(file: Path) -> Table:
