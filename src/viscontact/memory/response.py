@@ -53,7 +53,7 @@ class Response:
 class Memory(ABC):
     """The running Boltzmann integral u(t) = ∫ J(t - t') dq(t') of one field q.
 
-    Memories are the only objects that remember. Ask one for the `ramp` (or `jump`) that comes
+    What a body remembers is in its memories alone. Ask one for the `ramp` (or `jump`) that comes
     next, as often as you like; find the new value, and tell it with `accept`.
     """
 
@@ -144,11 +144,10 @@ def longest_smooth_rise(
     longest whose old weight is within J(0), which halves an error at least. After a jump to a
     displacement that is then held, the new value is (J(0) - old weight)/(new weight) of the old
     one: there the old weight is kept to two thirds of J(0), since something is always left. With
-    J(0) = 0 (a
-    first-kind equation: Linz 1985, Analytical and Numerical Methods for Volterra Equations) it is
-    the longest that halves an error: the whole step for J like t^n with n up to 1/2, where the
-    trapezoidal rule is known to be stable and of second order; for a dashpot, whose rule does not
-    damp, two thirds of it.
+    J(0) = 0 (a first-kind equation: Linz 1985, Analytical and Numerical Methods for Volterra
+    Equations) it is the longest that halves an error: the whole step for J like t^n with n up to
+    1/2, where the trapezoidal rule is known to be stable and of second order; for a dashpot,
+    whose rule does not damp, two thirds of it.
 
     Examples
     --------

@@ -62,7 +62,7 @@ def read_table(path: str | PathLike[str], columns: Mapping[str, str | None] | No
     header = read_header(path.name, rows[:2], columns or {})
     body = rows[header.rows :]
     if not body:
-        raise ValueError(f"{path.name} has a header and no rows")
+        raise ValueError(f"{path.name} has a header and no rows; export the measured values too")
     values = _values(path.name, header, body)
     names = [column.meaning.quantity for column in header.columns]
     return Table(
