@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from viscontact.compliance import SeriesCompliance
+from viscontact.load import ramp, step
 from viscontact.memory import RecursiveMemory, plan_memory
 from viscontact.schedule import Step
 from viscontact.time_error import ALONE, FIRST, SAFETY, TimeErrors
@@ -18,14 +19,14 @@ FIELD = np.array([[0.5, 1.0]])
 
 def follow(values, duration=1.0, compliance=FLUID):
     """Estimates and exact errors along a field that takes the values step by step."""
-    errors = TimeErrors(plan_memory(compliance, np.arange(len(values)) * duration, 2))
+    errors = TimeErrors(plan_memory(compliance, np.arange(len(values)) * duration, 2), step(1.0))
     memory = RecursiveMemory(compliance, FIELD.shape)
     estimates = []
     for k, value in enumerate(values):
-        step = Step(k * duration, duration if k else 0.0, None, smooth=k > 1)
+        each = Step(k * duration, duration if k else 0.0, None, smooth=k > 1)
         response = memory.ramp(duration) if k else memory.jump()
         field = value * FIELD
-        estimates.append(errors.after(step, field, response, errors.of_step(step, field, response)))
+        estimates.append(errors.after(each, field, response, errors.of_step(each, field, response)))
         memory.accept(field)
     return np.array(estimates), response.compliance
 
@@ -63,19 +64,34 @@ def test_the_estimate_is_of_second_order_in_the_step():
 
 
 def test_a_first_step_without_a_successor_counts_by_its_change():
-    errors = TimeErrors(plan_memory(FLUID, np.arange(3.0), 2))
+    errors = TimeErrors(plan_memory(FLUID, np.arange(3.0), 2), step(1.0))
     memory = RecursiveMemory(FLUID, FIELD.shape)
-    for step, value in (
+    for each, value in (
         (Step(0.0, 0.0, 0.0, smooth=False), 0.0),
         (Step(1.0, 1.0, 1.0, smooth=False), 1.0),
         (Step(2.0, 1.0, 2.0, smooth=False), 1.0),
     ):
-        response = memory.jump() if step.is_jump else memory.ramp(step.duration)
-        measured = errors.of_step(step, value * FIELD, response)
-        estimate = errors.after(step, value * FIELD, response, measured)
+        response = memory.jump() if each.is_jump else memory.ramp(each.duration)
+        measured = errors.of_step(each, value * FIELD, response)
+        estimate = errors.after(each, value * FIELD, response, measured)
         memory.accept(value * FIELD)
     assert estimate == pytest.approx(ALONE * 0.01 / response.compliance, rel=1e-12)
 
 
 def test_an_elastic_body_has_no_error_of_time():
     assert follow(np.arange(8.0) ** 2, compliance=SeriesCompliance(1.0, [], []))[0].max() == 0.0
+
+
+def test_what_touches_first_is_measured_against_what_the_load_will_come_to():
+    """A tenth of the way up a ramp the deflection has a root of ten yet to grow, at least."""
+    parts = []
+    for load, time in ((step(1.0), 1.0), (ramp(1.0, 10.0), 1.0)):
+        errors = TimeErrors(plan_memory(FLUID, np.arange(3.0), 2), load)
+        memory = RecursiveMemory(FLUID, FIELD.shape)
+        for each in (Step(0.0, 0.0, 0.0, smooth=False), Step(time, 1.0, 1.0, smooth=False)):
+            response = memory.jump() if each.is_jump else memory.ramp(each.duration)
+            measured = errors.of_step(each, each.time * FIELD, response)
+            errors.after(each, each.time * FIELD, response, measured)
+            memory.accept(each.time * FIELD)
+        parts.append(measured.relative)
+    assert parts[0] / parts[1] == pytest.approx(math.sqrt(10.0), rel=1e-12)

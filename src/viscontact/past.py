@@ -76,7 +76,7 @@ class Past:
         self._shape = half_space.fold(run.open_gap)
         self._memory = run.memory.memory((2, *half_space.shape))  # of pressure and of deflection
         self._force_memory = RecursiveMemory(run.memory.sketch, (1,))
-        self._errors = TimeErrors(run.memory)
+        self._errors = TimeErrors(run.memory, run.load)
         self._scale = 1e-12 * max(run.grid.cell_size)
         self._twins: list[Twin] = []
         self._motion = np.zeros(3)

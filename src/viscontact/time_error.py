@@ -9,11 +9,13 @@ come to, not of what they cancel to.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.load import LoadHistory
 from viscontact.memory import MemoryPlan, RecursiveMemory, Response
 from viscontact.schedule import Step
 
@@ -38,9 +40,9 @@ class StepError:
     bulge : float
         Mean distance of the deflection from the path the memory takes [Pa m].
     relative : float
-        What it adds to the pressure's error, relative to the largest deflection so far [-].
+        What it adds to the pressure's error, relative to that size [-].
     size : float
-        That largest deflection [Pa m].
+        Largest deflection to be expected [Pa m].
     """
 
     bulge: float
@@ -55,9 +57,15 @@ class TimeErrors:
     ----------
     plan : MemoryPlan
         How the run remembers.
+    load : LoadHistory
+        What presses. Errors are relative to what the deflection will come to under its largest
+        level, guessed by a root, which no shape's deflection grows slower than: a first touch is
+        alike at every scale, and relative to itself its error would never be small.
     """
 
-    def __init__(self, plan: MemoryPlan) -> None:
+    def __init__(self, plan: MemoryPlan, load: LoadHistory) -> None:
+        self._load = load
+        self._level = 0.0
         self._compliance = plan.sketch
         self._bulges = RecursiveMemory(plan.sketch, (1,))
         self._wrong = RecursiveMemory(plan.sketch, (1,))
@@ -87,7 +95,7 @@ class TimeErrors:
             For the first step after a kink a guess from the change over it.
         """
         # Deflections are positive: the kernel is.
-        size = max(self._size, float(field.max()))
+        size = max(self._size, float(field.max()) * self._to_come(step))
         if step.is_jump or size == 0:
             return StepError(0.0, 0.0, size)
         bulge = self._bulge(step, field, response)
@@ -109,9 +117,9 @@ class TimeErrors:
         Returns
         -------
         float
-            Relative to the largest deflection of the run so far [-].
+            Relative to the largest deflection to be expected [-].
         """
-        self._size = error.size
+        self._size, self._level = error.size, self._level_after(step)
         if not step.smooth or step.is_jump:
             self._settle(alone=True)
             self._past = self._past[-1:]
@@ -127,6 +135,15 @@ class TimeErrors:
             self._remember(step.duration, error.bulge)
         self._past = [*self._past[-1:], (step.time, field)]
         return self._error / self._size if self._size > 0 else 0.0
+
+    def _to_come(self, step: Step) -> float:
+        """By how much the deflection will still grow with the load, at least."""
+        level = self._level_after(step)
+        return math.sqrt(self._load.largest_level / level) if level > 0 else 1.0
+
+    def _level_after(self, step: Step) -> float:
+        """Largest level of the load so far, the step's end included [N or m]."""
+        return max(self._level, float(self._load.level_at(step.time, side=step.side)))
 
     def _bulge(self, step: Step, field: NDArray[np.float64], response: Response) -> float:
         """Mean distance of the field from the path that the memory takes, within a step."""
