@@ -9,7 +9,6 @@ come to, not of what they cancel to.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -26,9 +25,12 @@ FIRST = 3.0
 #: Curvatures are taken from the steps behind, and lag where they grow.
 SAFETY = 2.0
 
-#: Without any successor: this part of the change over the step, as under t² from rest; a first
-#: touch, which goes as t^(2/3), has a tenth.
-ALONE = 1 / 6
+#: Without any successor: this part of the change over the step, as the central pressure after a
+#: first touch, which goes as t^(1/3), has; under t² from rest it is a sixth.
+ALONE = 1 / 4
+
+#: By this power of the load's level what it does is taken to grow.
+GROWTH = 1 / 4
 
 
 @dataclass(frozen=True)
@@ -40,9 +42,9 @@ class StepError:
     bulge : float
         Mean distance of the deflection from the path the memory takes [Pa m].
     relative : float
-        What it adds to the pressure's error, relative to that size [-].
+        What it adds to the pressure's error, relative to the largest still to come [-].
     size : float
-        Largest deflection to be expected [Pa m].
+        Largest deflection so far [Pa m].
     """
 
     bulge: float
@@ -58,9 +60,10 @@ class TimeErrors:
     plan : MemoryPlan
         How the run remembers.
     load : LoadHistory
-        What presses. Errors are relative to what the deflection will come to under its largest
-        level, guessed by a root, which no shape's deflection grows slower than: a first touch is
-        alike at every scale, and relative to itself its error would never be small.
+        What presses. A first touch is alike at every scale: relative to what it has come to
+        itself, its error would never be small. So a step is judged relative to what is still to
+        come under the largest level, guessed by the fourth root of the level: a sphere's pressure
+        grows as the third root of the force, a cone's not at all.
     """
 
     def __init__(self, plan: MemoryPlan, load: LoadHistory) -> None:
@@ -95,12 +98,13 @@ class TimeErrors:
             For the first step after a kink a guess from the change over it.
         """
         # Deflections are positive: the kernel is.
-        size = max(self._size, float(field.max()) * self._to_come(step))
+        size = max(self._size, float(field.max()))
         if step.is_jump or size == 0:
             return StepError(0.0, 0.0, size)
         bulge = self._bulge(step, field, response)
         crept = self._compliance(step.duration) - self._compliance.instant
-        return StepError(bulge, bulge * crept / (response.compliance * size), size)
+        to_come = size * self._growth_to_come(step)
+        return StepError(bulge, bulge * crept / (response.compliance * to_come), size)
 
     def after(
         self, step: Step, field: NDArray[np.float64], response: Response, error: StepError
@@ -117,7 +121,7 @@ class TimeErrors:
         Returns
         -------
         float
-            Relative to the largest deflection to be expected [-].
+            Relative to the largest deflection of the run so far [-].
         """
         self._size, self._level = error.size, self._level_after(step)
         if not step.smooth or step.is_jump:
@@ -136,10 +140,10 @@ class TimeErrors:
         self._past = [*self._past[-1:], (step.time, field)]
         return self._error / self._size if self._size > 0 else 0.0
 
-    def _to_come(self, step: Step) -> float:
-        """By how much the deflection will still grow with the load, at least."""
+    def _growth_to_come(self, step: Step) -> float:
+        """By how much pressure and deflection will still grow with the load, at least."""
         level = self._level_after(step)
-        return math.sqrt(self._load.largest_level / level) if level > 0 else 1.0
+        return (self._load.largest_level / level) ** GROWTH if level > 0 else 1.0
 
     def _level_after(self, step: Step) -> float:
         """Largest level of the load so far, the step's end included [N or m]."""
