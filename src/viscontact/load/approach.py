@@ -19,8 +19,9 @@ class ApproachHistory(PiecewiseHistory):
 
     The approach is 0 where the undeformed bodies just touch. Before the first point it is 0, or the
     first value where that is negative, and tilts have their first values; after the last one all
-    is held. So a history that starts with an approach above 0 starts with a jump. Where the approach is so small that nothing touches (a body withdrawn
-    from its dent, say), force and pressure are zero, and the contact may return later.
+    is held. So a history that starts with an approach above 0 starts with a jump. Where the
+    approach is so small that nothing touches (a body withdrawn from its dent, say), force and
+    pressure are zero, and the contact may return later.
 
     Parameters
     ----------
