@@ -6,7 +6,14 @@ import numpy as np
 import pytest
 
 import viscontact as vc
-from viscontact.plausibility import DOUBTFUL_CELLS, Doubts, mesh_doubts, relative_change
+from viscontact.laws import TabulatedCreep, TabulatedRelaxation, Zener
+from viscontact.plausibility import (
+    DOUBTFUL_CELLS,
+    Doubts,
+    mesh_doubts,
+    passivity_doubts,
+    relative_change,
+)
 
 rubber = vc.Material(vc.Elastic(1e6), 0.5)  # J = 1/(4 MPa)
 
@@ -119,3 +126,24 @@ def test_a_law_that_is_remembered_or_converted_badly_is_doubted(monkeypatch):
     assert kinds(modulus) == [0, 1]
     monkeypatch.setattr("viscontact.memory.choice.ROOM", 0)
     assert kinds(creep) == [1, 0]
+
+
+@pytest.mark.parametrize(
+    ("times", "compliance"), [([1, 10, 100], [1, 3, 10]), ([0.1, 10], [1e-9, 4e-8])]
+)
+def test_a_table_that_would_gain_energy_is_doubted(times, compliance):
+    law = TabulatedCreep(times, compliance)
+    assert law.complex_modulus(np.geomspace(0.1, 100, 50)).imag.min() < 0
+    (text,) = passivity_doubts(law, 100.0).values()
+    assert "no material gains energy; add rows" in text
+
+
+@pytest.mark.parametrize("rows", [2, 5, 20])
+def test_a_table_of_a_material_is_not_doubted(rows):
+    zener, times = Zener(1e9, 1e8, 1e8), np.geomspace(1e-3, 1e3, 6 * rows + 1)
+    for law in (
+        TabulatedCreep([0.0, *times], [zener(0.0), *zener(times)]),
+        TabulatedRelaxation([0.0, *times], [zener.relaxation(0.0), *zener.relaxation(times)]),
+        zener,
+    ):
+        assert passivity_doubts(law, 100.0) == {}

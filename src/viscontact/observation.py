@@ -20,6 +20,7 @@ from viscontact.plausibility import (
     geometry_doubts,
     law_doubts,
     mesh_doubts,
+    passivity_doubts,
     relative_change,
     step_doubts,
     touch_doubts,
@@ -84,6 +85,9 @@ class Observer:
         self._geometry = Geometry(run.indenter, run.open_gap, run.grid.cell_size)
         self._doubts = Doubts()
         self._open = law_doubts(run.memory.error, run.compliance.inversion_error)
+        for body in (run.material, run.indenter_material):
+            if body is not None:
+                self._open |= passivity_doubts(body.law, float(run.times[-1]))
         self._work = 0.0
         self._before: Instant | None = None
         self._point: LoadPoint | None = None

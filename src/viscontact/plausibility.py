@@ -8,7 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.indenters import Indenter
+from viscontact.laws import Law, TabulatedCreep, TabulatedRelaxation
 from viscontact.rim import Rim
+
+#: A table's loss modulus may fall below zero by this part of the modulus, at so many frequencies.
+NEGATIVE_LOSS, FREQUENCIES = 0.02, 25
 
 #: Fewer cells across the largest contact than this are doubtful, or refused.
 DOUBTFUL_CELLS, REFUSED_CELLS = 10, 4
@@ -212,6 +216,49 @@ def law_doubts(memory_error: float, inversion_error: float) -> dict[str, str]:
             f"{inversion_error:.0%} (estimated); smooth the modulus or add rows, or give creep"
         )
     return doubts
+
+
+def passivity_doubts(law: Law, end: float) -> dict[str, str]:
+    """Doubt about a measured law that would give energy back, and more than it was given.
+
+    A table of few steep rows leaves so much open between them that its loss modulus can be negative
+    at some frequency, which no material's is.
+
+    Parameters
+    ----------
+    law : Law
+        A law; only tables are looked at, since formulas are passive.
+    end : float
+        End of the run [s].
+
+    Returns
+    -------
+    dict of str to str
+        Sentences by kind of doubt; empty if there is none.
+
+    Examples
+    --------
+    >>> list(passivity_doubts(TabulatedCreep([1, 10, 100], [1, 3, 10]), 100.0))
+    ['passivity']
+    >>> list(passivity_doubts(TabulatedCreep([0, 1, 10, 100], [1, 1.1, 1.2, 1.3]), 100.0))
+    []
+    """
+    if not isinstance(law, TabulatedCreep | TabulatedRelaxation) or end <= 0:
+        return {}
+    rows = [time for time in law.times if 0 < time <= end]
+    # A bend at the first row is felt at frequencies above it, too.
+    frequencies = np.geomspace(1.0 / end, 10.0 / min([*rows, end / 10]), FREQUENCIES)
+    modulus = law.complex_modulus(frequencies)
+    part = modulus.imag / np.abs(modulus)
+    if part.min() > -NEGATIVE_LOSS:
+        return {}
+    return {
+        "passivity": (
+            f"at {frequencies[part.argmin()]:.3g} rad/s the measured table has a loss modulus of "
+            f"{part.min():.0%} of its modulus, and no material gains energy; add rows (ten a "
+            "decade, and one at 0 s), or fit a series to them"
+        )
+    }
 
 
 def relative_change(before: float, after: float) -> float:
