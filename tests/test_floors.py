@@ -32,6 +32,7 @@ FLOORS = (
         "adaptive",
         "prediction",
         "plausibility",
+        "material_doubts",
         "extent",
         "instants",
         "admission",
@@ -82,6 +83,7 @@ NEIGHBOURS = {
     ("run", "extent"),  # the grid when none is given
     ("observation", "run"),  # which instants are kept
     ("observation", "schedule"),  # the step that ended
+    ("observation", "material_doubts"),
     ("observation", "plausibility"),  # which warnings it deserves
     ("past", "run"),
     ("past", "schedule"),  # a step to be taken

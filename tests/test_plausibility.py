@@ -7,11 +7,11 @@ import pytest
 
 import viscontact as vc
 from viscontact.laws import TabulatedCreep, TabulatedRelaxation, Zener
+from viscontact.material_doubts import passivity_doubts
 from viscontact.plausibility import (
     DOUBTFUL_CELLS,
     Doubts,
     mesh_doubts,
-    passivity_doubts,
     relative_change,
 )
 

@@ -12,15 +12,13 @@ from numpy.typing import NDArray
 from viscontact.balance import RigidPlane
 from viscontact.errors import DomainError
 from viscontact.load.history import Cycle, LoadPoint, Moment
+from viscontact.material_doubts import data_doubts, law_doubts, passivity_doubts
 from viscontact.plausibility import (
     REFUSED_CELLS,
     Doubts,
     Geometry,
-    data_doubts,
     geometry_doubts,
-    law_doubts,
     mesh_doubts,
-    passivity_doubts,
     relative_change,
     step_doubts,
     touch_doubts,

@@ -8,11 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.indenters import Indenter
-from viscontact.laws import Law, TabulatedCreep, TabulatedRelaxation
 from viscontact.rim import Rim
-
-#: A table's loss modulus may fall below zero by this part of the modulus, at so many frequencies.
-NEGATIVE_LOSS, FREQUENCIES = 0.02, 25
 
 #: Fewer cells across the largest contact than this are doubtful, or refused.
 DOUBTFUL_CELLS, REFUSED_CELLS = 10, 4
@@ -22,9 +18,6 @@ STEEP_SLOPE, WIDE_CONTACT, DEEP_APPROACH = 0.3, 0.3, 0.1
 
 #: Relative change of force or peak pressure that a step long against the law must not hide.
 NOTABLE_CHANGE = 0.25
-
-#: A creep compliance that may be off by more than this part is not the material's any more.
-DOUBTFUL_LAW = 0.01
 
 
 @dataclass(frozen=True)
@@ -149,114 +142,6 @@ def touch_doubts(duration: float, share: float) -> dict[str, str]:
         "touch": (
             f"the load grows from nothing to {share:.0%} of its largest in a single step of "
             f"{duration:.3g} s; use several steps there, as the pressure starts with a root of time"
-        )
-    }
-
-
-def data_doubts(time: float, measured_until: float) -> dict[str, str]:
-    """Doubt about a run that goes beyond the times at which the material was measured.
-
-    Parameters
-    ----------
-    time : float
-        Instant of the run [s].
-    measured_until : float
-        Last time of the data [s].
-
-    Returns
-    -------
-    dict of str to str
-        Sentences by kind of doubt; empty if there is none.
-
-    Examples
-    --------
-    >>> list(data_doubts(11.0, measured_until=10.0)), list(data_doubts(9.0, measured_until=10.0))
-    (['data'], [])
-    """
-    if time <= measured_until * (1 + 1e-9):
-        return {}
-    return {
-        "data": (
-            f"the run goes beyond {measured_until:.4g} s, where the material's data end; from "
-            "there on its law is an extrapolation"
-        )
-    }
-
-
-def law_doubts(memory_error: float, inversion_error: float) -> dict[str, str]:
-    """Doubts about a creep compliance that is not quite the one of the law as given.
-
-    Parameters
-    ----------
-    memory_error : float
-        Largest relative deviation of the exponentials that the past is remembered by [-].
-    inversion_error : float
-        Estimated relative error of a creep compliance converted from a modulus [-].
-
-    Returns
-    -------
-    dict of str to str
-        Sentences by kind of doubt; empty if there is none.
-
-    Examples
-    --------
-    >>> list(law_doubts(0.1, 0.0)), list(law_doubts(1e-3, 0.02)), law_doubts(1e-3, 1e-3)
-    (['memory'], ['conversion'], {})
-    """
-    doubts: dict[str, str] = {}
-    if memory_error > DOUBTFUL_LAW:
-        doubts["memory"] = (
-            f"the exponentials by which the past is remembered are off by up to "
-            f"{memory_error:.0%} of the law's creep compliance; take fewer steps or cells, so "
-            "that all steps are kept, or a law without scatter and sharp bends, such as a fit"
-        )
-    if inversion_error > DOUBTFUL_LAW:
-        doubts["conversion"] = (
-            f"the creep compliance converted from the law's modulus may be off by "
-            f"{inversion_error:.0%} (estimated); smooth the modulus or add rows, or give creep"
-        )
-    return doubts
-
-
-def passivity_doubts(law: Law, end: float) -> dict[str, str]:
-    """Doubt about a measured law that would give energy back, and more than it was given.
-
-    A table of few steep rows leaves so much open between them that its loss modulus can be negative
-    at some frequency, which no material's is.
-
-    Parameters
-    ----------
-    law : Law
-        A law; only tables are looked at, since formulas are passive.
-    end : float
-        End of the run [s].
-
-    Returns
-    -------
-    dict of str to str
-        Sentences by kind of doubt; empty if there is none.
-
-    Examples
-    --------
-    >>> list(passivity_doubts(TabulatedCreep([1, 10, 100], [1, 3, 10]), 100.0))
-    ['passivity']
-    >>> list(passivity_doubts(TabulatedCreep([0, 1, 10, 100], [1, 1.1, 1.2, 1.3]), 100.0))
-    []
-    """
-    if not isinstance(law, TabulatedCreep | TabulatedRelaxation) or end <= 0:
-        return {}
-    rows = [time for time in law.times if 0 < time <= end]
-    # A bend at the first row is felt at frequencies above it, too.
-    frequencies = np.geomspace(1.0 / end, 10.0 / min([*rows, end / 10]), FREQUENCIES)
-    modulus = law.complex_modulus(frequencies)
-    part = modulus.imag / np.abs(modulus)
-    if part.min() > -NEGATIVE_LOSS:
-        return {}
-    return {
-        "passivity": (
-            f"at {frequencies[part.argmin()]:.3g} rad/s the measured table has a loss modulus of "
-            f"{part.min():.0%} of its modulus, and no material gains energy; add rows (ten a "
-            "decade, and one at 0 s), or fit a series to them"
         )
     }
 
