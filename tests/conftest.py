@@ -1,6 +1,47 @@
-"""Hypothesis draws the same examples in every run and on every machine."""
+"""Hypothesis draws the same examples in every run; campaigns report their figures at the end."""
 
+from collections.abc import Callable, Iterator
+
+import pytest
 from hypothesis import settings
 
 settings.register_profile("reproducible", derandomize=True, deadline=None)
 settings.load_profile("reproducible")
+
+CAMPAIGN = "campaign"  # the name under which a report carries a campaign's line to the summary
+
+
+@pytest.fixture
+def campaign(record_property: Callable[[str, object], None]) -> Callable[[str], None]:
+    """Return `campaign(line)`, which adds a line of figures to the end of pytest's output.
+
+    The lines travel with the test's report, so that they arrive from a process of pytest-xdist
+    too; a test that fails after it has reported still shows its lines.
+    """
+
+    def report(line: str) -> None:
+        record_property(CAMPAIGN, line)
+
+    return report
+
+
+def campaign_lines(terminalreporter: pytest.TerminalReporter) -> Iterator[str]:
+    """Yield the lines that campaigns have reported, once each, in the order of the tests."""
+    reports = [
+        report
+        for outcome in ("passed", "failed", "xfailed", "xpassed")
+        for report in terminalreporter.stats.get(outcome, [])
+        if isinstance(report, pytest.TestReport) and report.when == "call"
+    ]
+    for report in sorted(reports, key=lambda report: report.nodeid):
+        for name, line in report.user_properties:
+            if name == CAMPAIGN:
+                yield str(line)
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    lines = list(campaign_lines(terminalreporter))
+    if lines:
+        terminalreporter.section("campaigns")
+    for line in lines:
+        terminalreporter.write_line(line)
