@@ -20,7 +20,8 @@ PACKAGE = Path(viscontact.__file__).parent
 
 # The floors from the ground up. A new module gets its place here; think twice before it is high.
 FLOORS = (
-    ("errors", "real", "grid", "load", "indenters", "laws"),  # 0 words: they do not know each other
+    # 0 words: they do not know each other
+    ("errors", "real", "carried", "grid", "load", "indenters", "laws"),
     ("compliance", "material", "influence", "memory", "state", "rim", "hull"),  # 1 single ideas
     ("convolution", "balance", "bedding", "half_space"),  # 2 operators on fields
     ("contact_problem", "search", "contact"),  # 3 equilibrium at one instant
@@ -37,8 +38,11 @@ FLOORS = (
         "instants",
         "admission",
         "run",
+        "cycles",
         "observation",
+        "solved_step",
         "past",
+        "step_by_step",
         "marching",
     ),
     ("description", "dataset", "results"),  # 5 labels and files
@@ -90,11 +94,16 @@ NEIGHBOURS = {
     ("past", "prediction"),  # starts from a prediction,
     ("past", "time_error"),  # makes an error,
     ("past", "observation"),  # and ends at an instant
+    ("cycles", "schedule"),
+    ("observation", "cycles"),  # what they cost
+    ("step_by_step", "run"),
+    ("step_by_step", "schedule"),  # the loop goes through the schedule's steps,
+    ("step_by_step", "past"),  # takes each,
+    ("step_by_step", "solved_step"),  # or takes it as it was solved before,
+    ("step_by_step", "observation"),  # and observes where it ended
     ("marching", "run"),
     ("marching", "stepping"),
-    ("marching", "schedule"),  # the loop goes through the schedule's steps,
-    ("marching", "past"),  # takes each,
-    ("marching", "observation"),  # and observes where it ended
+    ("marching", "step_by_step"),
     ("dataset", "description"),  # the case travels with the result
     ("results", "dataset"),  # the file is laid out as the dataset is
     ("case", "units"),
@@ -289,7 +298,7 @@ FORGED = {
 }
 SOUND = {
     "downward": ("marching", "from viscontact.contact import solve"),
-    "listed neighbour": ("marching", "from .schedule import Step"),
+    "listed neighbour": ("step_by_step", "from .schedule import Step"),
     "own part": ("laws", "from viscontact.laws.series import CreepSeries"),
     "late in the shell": ("cli", "def f():\n    import viscontact\n    import rich"),
     "version": ("dataset", "from viscontact import __version__"),

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from dataclasses import asdict
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
+from viscontact.carried import Carried
 from viscontact.compliance import ContactCompliance
 from viscontact.load import LoadHistory
 from viscontact.schedule import Step, kink_meant
@@ -110,6 +112,22 @@ class AdaptiveSteps:
         self._duration = max(self._duration, self._growth * step.duration)
         self._advance(step)
         return True
+
+    def carried(self) -> Carried:
+        """What has to be kept to go on from here."""
+        return {
+            "time": self._time,
+            "duration": self._duration,
+            "growth": self._growth,
+            "step": None if self._step is None else asdict(self._step),
+        }
+
+    def restore(self, carried: Carried) -> None:
+        """Go on from what was `carried` on the same way."""
+        self._time, self._duration, self._growth = (
+            carried[name] for name in ("time", "duration", "growth")
+        )
+        self._step = None if carried["step"] is None else Step(**carried["step"])
 
     def _advance(self, step: Step) -> None:
         self._time = step.time

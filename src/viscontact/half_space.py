@@ -158,6 +158,26 @@ class HalfSpace:
             self._last = self._patch(*roomy)
         return self._last
 
+    @property
+    def kept_patch(self) -> tuple[int, int, int, int]:
+        """First and last rows and columns, as slices have them, of the patch that is kept."""
+        rows, columns = self._last.rows, self._last.columns
+        return rows.start, rows.stop, columns.start, columns.stop
+
+    def keep_patch(self, span: tuple[int, int, int, int]) -> None:
+        """Keep the patch that another half-space over the same grid had kept.
+
+        Parameters
+        ----------
+        span : tuple of int
+            Its `kept_patch`.
+        """
+        if span == self.kept_patch:
+            return
+        rows, columns = slice(*span[:2]), slice(*span[2:])
+        is_whole = (rows, columns) == (self.whole.rows, self.whole.columns)
+        self._last = self.whole if is_whole else self._patch(rows, columns)
+
     def _patch(self, rows: slice, columns: slice) -> Patch:
         grid = self.grid
         shape = (rows.stop - rows.start, columns.stop - columns.start)

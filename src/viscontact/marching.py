@@ -7,17 +7,14 @@ from collections.abc import Callable, Iterator, Sequence
 
 from numpy.typing import ArrayLike
 
-from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
+from viscontact.errors import AccuracyWarning
 from viscontact.grid import Grid
-from viscontact.half_space import HalfSpace
 from viscontact.indenters import Indenter
 from viscontact.load import LoadHistory
 from viscontact.material import Material
-from viscontact.observation import Instant, Observer
-from viscontact.past import Past
-from viscontact.run import Run, Steps, prepare_run
-from viscontact.schedule import Step
-from viscontact.state import ContactState, Outcome
+from viscontact.run import Run, prepare_run
+from viscontact.state import ContactState
+from viscontact.step_by_step import March
 from viscontact.stepping import AdaptiveTimes
 
 #: Called after each instant asked for: the state, how many are done, how many there are; with
@@ -134,51 +131,11 @@ def march_run(run: Run, progress: Progress | None = None) -> Iterator[ContactSta
     ConvergenceError, DomainError
         As in `march`.
     """
-    observer, done = Observer(run), 0
-    end = float(run.times[-1])
-    steps = run.steps()
-    for step, instant in _instants(run, steps):
-        state = observer.observe(step, instant)
-        if step.asked is not None:
-            done += 1
-            state = observer.judge(state, last=step.asked >= end)
-            for text in state.warnings:
-                warnings.warn(text, AccuracyWarning, stacklevel=2)
-            if progress is not None:
-                progress(state, done, done + steps.left)
-            yield state
-        if instant.outcome is Outcome.NOT_CONVERGED:
-            raise ConvergenceError(_not_converged(run, step, instant))
-    observer.refuse_coarse_mesh()
-
-
-def _instants(run: Run, steps: Steps) -> Iterator[tuple[Step, Instant]]:
-    """Solve step after step; what the body remembers is all in its past."""
-    past = Past(run, HalfSpace(run.grid, mirrored=run.is_mirrored, threads=run.threads))
-    while (step := steps.upcoming()) is not None:
-        trial = past.trial(step)
-        failed = trial.outcome is Outcome.NOT_CONVERGED
-        if not (failed or steps.accepts(trial.error.relative)):
+    for taken in March(run):
+        if taken.state is None:
             continue
-        instant = past.accept(step, trial)
-        _refuse_rim(run, step, instant)
-        yield step, instant
-
-
-def _refuse_rim(run: Run, step: Step, instant: Instant) -> None:
-    pressure = instant.pressure
-    if not (pressure[[0, -1]].any() or pressure[:, [0, -1]].any()):
-        return
-    raise DomainError(
-        f"grid: the contact reaches the grid's rim at t = {step.time:.6g} s; "
-        f"enlarge grid.size, now {run.grid.size[0]:.4g} m x {run.grid.size[1]:.4g} m"
-    )
-
-
-def _not_converged(run: Run, step: Step, instant: Instant) -> str:
-    return (
-        f"the contact solver stopped at t = {step.time:.6g} s with residual "
-        f"{instant.residual:.2g} after {instant.iterations} iterations, short of the tolerance "
-        f"{run.tolerance:g}; likely causes: a resultant that hardly fits under the body, a grid "
-        f"too coarse for the contact, or a tolerance near rounding"
-    )
+        for text in taken.state.warnings:
+            warnings.warn(text, AccuracyWarning, stacklevel=2)
+        if progress is not None:
+            progress(taken.state, taken.done, taken.done + taken.left)
+        yield taken.state

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.balance import RigidPlane
+from viscontact.carried import Carried
+from viscontact.cycles import Cycles
 from viscontact.errors import DomainError
-from viscontact.load.history import Cycle, LoadPoint, Moment
+from viscontact.load.history import LoadPoint
 from viscontact.material_doubts import data_doubts, law_doubts, passivity_doubts
 from viscontact.plausibility import (
     REFUSED_CELLS,
@@ -155,6 +156,34 @@ class Observer:
             f"{nx} x {ny} or a smaller grid.size"
         )
 
+    def carried(self) -> Carried:
+        """What has to be kept to go on from here; asked for after an `observe`."""
+        return {
+            "said": self._doubts.said,
+            "open": self._open,
+            "work": self._work,
+            "before": None if self._before is None else vars(self._before),
+            "point": None if self._point is None else vars(self._point),
+            "resultants": self._resultants,
+            "cycles": self._cycles.carried(),
+            "largest_area": self._largest_area,
+            "cells_at_largest": self._cells_at_largest,
+        }
+
+    def restore(self, carried: Carried) -> None:
+        """Go on from what was `carried`, in the same run."""
+        self._doubts.said = dict(carried["said"])
+        self._open, self._work = dict(carried["open"]), carried["work"]
+        before, point = carried["before"], carried["point"]
+        self._before = (
+            None if before is None else Instant(**before | {"outcome": Outcome(before["outcome"])})
+        )
+        self._point = None if point is None else LoadPoint(**point)
+        self._resultants = carried["resultants"]
+        self._cycles.restore(carried["cycles"])
+        self._largest_area = carried["largest_area"]
+        self._cells_at_largest = carried["cells_at_largest"]
+
     def _collect_doubts(self, step: Step, instant: Instant, rim: Rim) -> None:
         self._open = data_doubts(step.time, self._run.measured_until) | self._open
         if instant.outcome is Outcome.NO_CONTACT:
@@ -208,46 +237,6 @@ class Observer:
         mean = (before.pressure + instant.pressure) / 2
         moved = instant.displacement - before.displacement
         return float(np.einsum("ij,ij->", mean, moved)) * self._run.grid.cell_area
-
-
-class Cycles:
-    """The work at the beginnings and ends of the load's cycles.
-
-    Parameters
-    ----------
-    cycles : sequence of (begin, end)
-        As `LoadHistory.load_cycles`, in order.
-
-    Examples
-    --------
-    >>> cycles = Cycles([((0.0, "left"), (2.0, "right"))])
-    >>> cycles.last_loss
-    nan
-    >>> cycles.pass_by(Step(2.0, 2.0, 2.0, smooth=False), work=3.0)
-    >>> cycles.last_loss
-    3.0
-    """
-
-    def __init__(self, cycles: Sequence[Cycle]) -> None:
-        self._cycles = list(cycles)
-        # Before a jump at time 0 no work has been done.
-        self._begun = 0.0 if cycles and cycles[0][0] == (0.0, "left") else math.nan
-        self.last_loss = math.nan
-
-    def pass_by(self, step: Step, work: float) -> None:
-        """Take note of the work [J] at the end of a step, if a cycle ends or begins there."""
-        if self._cycles and _meets(step, self._cycles[0][1]):
-            self.last_loss = work - self._begun
-            del self._cycles[0]
-        if self._cycles and _meets(step, self._cycles[0][0]):
-            self._begun = work
-
-
-def _meets(step: Step, moment: Moment) -> bool:
-    """Whether a step ends at an instant; without a jump there, it does so on both its sides."""
-    time, side = moment
-    other = (step.before_jump and side == "right") or (step.is_jump and side == "left")
-    return step.time == time and not other
 
 
 def _state(

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.balance import Support
+from viscontact.carried import Carried
 from viscontact.contact import ContactSolution, solve_contact
 from viscontact.contact_problem import ContactProblem, Guess
 from viscontact.half_space import HalfSpace
@@ -27,6 +28,31 @@ HISTORY_COUNTS = 1e-3
 #: Samples each way within a cell when the body's lowest point is looked for; even, so that a
 #: point on a cell's edge or corner is among them.
 TOUCH_SAMPLES = 16
+
+
+@dataclass(frozen=True, eq=False)
+class Posed:
+    """What a step meets, before it is solved.
+
+    Attributes
+    ----------
+    point : LoadPoint
+        The load at its end.
+    force : float
+        Prescribed force, 0 where an approach is prescribed [N].
+    response : Response
+        Of the memory to the step.
+    drive : float
+        What the elastic twin moves with, as in `Twin`.
+    problem : ContactProblem
+        What is to be solved.
+    """
+
+    point: LoadPoint
+    force: float
+    response: Response
+    drive: float
+    problem: ContactProblem
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,6 +109,36 @@ class Past:
 
     def trial(self, step: Step) -> Trial:
         """Solve a step, without taking it."""
+        posed = self._posed(step)
+        solution, outcome = self._solved(step, posed)
+        return self._tried(step, posed, solution, outcome)
+
+    def repeat(self, step: Step, solution: ContactSolution, outcome: Outcome) -> Trial:
+        """The trial of a step whose solution is known."""
+        return self._tried(step, self._posed(step), solution, outcome)
+
+    def carried(self) -> Carried:
+        """What has to be kept to go on from here; asked for after an `accept`."""
+        return {
+            "memory": self._memory.carried(),
+            "force_memory": self._force_memory.carried(),
+            "errors": self._errors.carried(),
+            "scale": self._scale,
+            "twins": [vars(twin) for twin in self._twins],
+            "motion": self._motion,
+        }
+
+    def restore(self, carried: Carried) -> None:
+        """Go on from what was `carried`, in the same run."""
+        self._memory.restore(carried["memory"])
+        self._force_memory.restore(carried["force_memory"])
+        self._errors.restore(carried["errors"])
+        self._scale = carried["scale"]
+        self._twins = [Twin(**twin) for twin in carried["twins"]]
+        self._motion = carried["motion"]
+
+    def _posed(self, step: Step) -> Posed:
+        """Ask the memories what the step will meet."""
         point = self._run.load.at(step.time, side=step.side)
         force = point.force or 0.0
         response, force_response = (
@@ -96,11 +152,16 @@ class Past:
             self._half_space.share(Support.of(point)),
             self._scale,
         )
-        solution, outcome = self._solved(step, point, problem, response, drive)
+        return Posed(point, force, response, drive, problem)
+
+    def _tried(
+        self, step: Step, posed: Posed, solution: ContactSolution, outcome: Outcome
+    ) -> Trial:
         values = np.stack([solution.found.pressure, solution.found.deflection])
-        twin = Twin(step.time, drive, response.of(values), solution.found.motion)
+        response = posed.response
+        twin = Twin(step.time, posed.drive, response.of(values), solution.found.motion)
         error = self._errors.of_step(step, values[1], response)
-        return Trial(solution, values, force, response, twin, outcome, error)
+        return Trial(solution, values, posed.force, response, twin, outcome, error)
 
     def accept(self, step: Step, trial: Trial) -> Instant:
         """Take a step that has been solved."""
@@ -118,21 +179,15 @@ class Past:
         """The twins that tell where the next one will be."""
         return self._twins[-POINTS:] if step.smooth else self._twins[-1:]
 
-    def _solved(
-        self,
-        step: Step,
-        point: LoadPoint,
-        problem: ContactProblem,
-        response: Response,
-        drive: float,
-    ) -> tuple[ContactSolution, Outcome]:
+    def _solved(self, step: Step, posed: Posed) -> tuple[ContactSolution, Outcome]:
+        point, problem, response = posed.point, posed.problem, posed.response
         if point.force == 0:
             untouched = not response.history[1].any()
             return self._at_touch(problem, untouched=untouched), Outcome.NO_CONTACT
         given = problem.support.with_prescribed(self._motion)
         if point.force is None and self._is_clear(problem, given):
             return _without_pressure(problem, self._half_space, given), Outcome.NO_CONTACT
-        guess = _guess(predict(self._known(step), step.time, drive), response)
+        guess = _guess(predict(self._known(step), step.time, posed.drive), response)
         tolerance = self._run.tolerance
         solution = solve_contact(problem, self._half_space, guess, tolerance=tolerance)
         if not solution.converged:

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.carried import Carried
 from viscontact.load import LoadHistory
 
 #: An instant this close to a kink of the load, relative to it, is meant to be the kink.
@@ -94,6 +95,14 @@ class FixedSteps:
         del error
         self._taken += 1
         return True
+
+    def carried(self) -> Carried:
+        """What has to be kept to go on from here."""
+        return {"taken": self._taken}
+
+    def restore(self, carried: Carried) -> None:
+        """Go on from what was `carried` on the same way."""
+        self._taken = carried["taken"]
 
 
 def _instants_wanted(times: NDArray[np.float64], load: LoadHistory) -> dict[float, float | None]:

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.carried import Carried
 from viscontact.load import LoadHistory
 from viscontact.memory import MemoryPlan, RecursiveMemory, Response
 from viscontact.schedule import Step
@@ -139,6 +140,29 @@ class TimeErrors:
             self._remember(step.duration, error.bulge)
         self._past = [*self._past[-1:], (step.time, field)]
         return self._error / self._size if self._size > 0 else 0.0
+
+    def carried(self) -> Carried:
+        """What has to be kept to go on from here."""
+        return {
+            "bulges": self._bulges.carried(),
+            "wrong": self._wrong.carried(),
+            "past": [{"time": time, "field": field} for time, field in self._past],
+            "pending": None if self._pending is None else list(self._pending),
+            "error": self._error,
+            "size": self._size,
+            "level": self._level,
+        }
+
+    def restore(self, carried: Carried) -> None:
+        """Go on from what was `carried` under the same load by the same law."""
+        self._bulges.restore(carried["bulges"])
+        self._wrong.restore(carried["wrong"])
+        self._past = [(point["time"], point["field"]) for point in carried["past"]]
+        pending = carried["pending"]
+        self._pending = None if pending is None else (pending[0], pending[1])
+        self._error, self._size, self._level = (
+            carried[name] for name in ("error", "size", "level")
+        )
 
     def _growth_to_come(self, step: Step) -> float:
         """By how much pressure and deflection will still grow with the load, at least."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.carried import Carried
 from viscontact.compliance import SeriesCompliance
 from viscontact.memory.response import Memory, Response, is_resolved, longest_smooth_rise
 
@@ -102,6 +103,15 @@ class RecursiveMemory(Memory):
             field += old * self._value
             field += new * value
         self._value = value.copy()
+
+    def carried(self) -> Carried:
+        """The internal fields and the last value; see `Memory.carried`."""
+        return {"fields": self._fields.copy(), "value": self._value, "jumped": self._jumped}
+
+    def restore(self, carried: Carried) -> None:
+        """Go on from what was carried; see `Memory.restore`."""
+        self._fields = carried["fields"].copy()
+        self._value, self._jumped = carried["value"], carried["jumped"]
 
     def _response(self, *, resolved: bool, held: float = 0.0) -> Response:
         history = self._old_weight.sum() * self._value

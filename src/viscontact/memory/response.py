@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
+from viscontact.carried import Carried
 from viscontact.compliance import ContactCompliance
 
 #: A step that creeps more than this part of J(0) is long against the law. At this part a single
@@ -90,6 +91,14 @@ class Memory(ABC):
         value : ndarray
             The field at the end of the `jump` or `ramp` asked for last.
         """
+
+    @abstractmethod
+    def carried(self) -> Carried:
+        """What has to be kept to go on from here; asked for after an `accept`."""
+
+    @abstractmethod
+    def restore(self, carried: Carried) -> None:
+        """Go on from what was `carried`, by a memory of the same law and shape."""
 
 
 def is_resolved(crept: float, instant: float, *, whole: bool) -> bool:

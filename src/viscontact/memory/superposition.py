@@ -11,6 +11,7 @@ from math import isclose
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.carried import Carried
 from viscontact.compliance import ContactCompliance
 from viscontact.memory.response import Memory, Response, is_resolved, longest_smooth_rise
 
@@ -94,6 +95,32 @@ class SuperposedMemory(Memory):
         self._time = end
         self._count += 1
 
+    def carried(self) -> Carried:
+        """All increments so far, and the sums that have been made ahead; see `Memory.carried`."""
+        return {
+            "increments": self._increments[: self._count],
+            "began": self._began[: self._count],
+            "ended": self._ended[: self._count],
+            "value": self._value,
+            "time": self._time,
+            "jumped": self._jumped,
+            "ahead": self._ahead,
+            "ahead_from": self._ahead_from,
+        }
+
+    def restore(self, carried: Carried) -> None:
+        """Go on from what was carried; see `Memory.restore`."""
+        self._count = len(carried["began"])
+        while len(self._began) < self._count:
+            self._make_room()
+        self._increments[: self._count] = carried["increments"]
+        self._began[: self._count] = carried["began"]
+        self._ended[: self._count] = carried["ended"]
+        self._value, self._time, self._jumped = (
+            carried[name] for name in ("value", "time", "jumped")
+        )
+        self._ahead, self._ahead_from = carried["ahead"], carried["ahead_from"]
+
     def _past_until(self, end: float, *, rise: float) -> NDArray[np.float64]:
         step = self._count
         is_planned = step < len(self._planned) and isclose(self._planned[step], end, rel_tol=1e-9)
@@ -119,7 +146,7 @@ class SuperposedMemory(Memory):
         return np.asarray(weights @ self._increments[first : self._count])
 
     def _make_room(self) -> None:
-        more = self._count // 2
+        more = len(self._began) // 2
         self._increments = np.append(
             self._increments, np.zeros((more, self._increments.shape[1])), axis=0
         )
