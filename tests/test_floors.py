@@ -34,6 +34,7 @@ FLOORS = (
         "prediction",
         "plausibility",
         "material_doubts",
+        "geometry_doubts",
         "extent",
         "instants",
         "admission",
@@ -88,6 +89,7 @@ NEIGHBOURS = {
     ("observation", "run"),  # which instants are kept
     ("observation", "schedule"),  # the step that ended
     ("observation", "material_doubts"),
+    ("observation", "geometry_doubts"),
     ("observation", "plausibility"),  # which warnings it deserves
     ("past", "run"),
     ("past", "schedule"),  # a step to be taken

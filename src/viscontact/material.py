@@ -13,7 +13,7 @@ from viscontact.compliance import (
     SeriesCompliance,
     SummedCompliance,
 )
-from viscontact.laws import BesideSpring, Law, SeriesLaw
+from viscontact.laws import BesideSpring, Law, SeriesLaw, TabulatedCreep, TabulatedRelaxation
 from viscontact.laws.arguments import compressibility, positive, store
 from viscontact.laws.interconversion import relaxation_from_creep
 
@@ -34,6 +34,9 @@ class Material:
     measured_until : float, optional
         Last time that the law was measured or fitted at [s]; a run that goes beyond warns. A
         table knows its own.
+    thickness : float, optional
+        Of the body, from its surface to what it rests on [m]. It is computed as a half-space all
+        the same; a contact whose half width exceeds a fifth of it is warned of.
 
     Raises
     ------
@@ -53,6 +56,7 @@ class Material:
     _: KW_ONLY
     bulk_modulus: float | None = None
     measured_until: float | None = None
+    thickness: float | None = None
 
     def __post_init__(self) -> None:
         if not isinstance(self.law, Law):
@@ -64,12 +68,20 @@ class Material:
         if self.measured_until is not None:
             until = positive("Material.measured_until", self.measured_until, "s")
             store(self, measured_until=until)
+        if self.thickness is not None:
+            store(self, thickness=positive("Material.thickness", self.thickness, "m"))
 
     @property
     def known_until(self) -> float:
         """Last time on which the law rests on data [s]; inf for a formula."""
         own = math.inf if self.measured_until is None else self.measured_until
         return min(own, self.law.measured_until)
+
+    @property
+    def known_from(self) -> float:
+        """First time on which the law rests on data [s]; 0 for a formula."""
+        law = self.law.law if isinstance(self.law, BesideSpring) else self.law
+        return law.times[0] if isinstance(law, TabulatedCreep | TabulatedRelaxation) else 0.0
 
     def contact_compliance(self) -> ContactCompliance:
         """Return the contact compliance J(t) of a half-space of this material.

@@ -5,12 +5,16 @@ from __future__ import annotations
 import numpy as np
 
 from viscontact.laws import Law, TabulatedCreep, TabulatedRelaxation
+from viscontact.load import LoadHistory
 
 #: A table's loss modulus may fall below zero by this part of the modulus, at so many frequencies.
 NEGATIVE_LOSS, FREQUENCIES = 0.02, 25
 
 #: A creep compliance that may be off by more than this part is not the material's any more.
 DOUBTFUL_LAW = 0.01
+
+#: Part of the largest load that may have come later than the data can tell its creep.
+EARLY_PART = 0.25
 
 
 def data_doubts(time: float, measured_until: float) -> dict[str, str]:
@@ -39,6 +43,47 @@ def data_doubts(time: float, measured_until: float) -> dict[str, str]:
         "data": (
             f"the run goes beyond {measured_until:.4g} s, where the material's data end; from "
             "there on its law is an extrapolation"
+        )
+    }
+
+
+def early_doubts(
+    measured_from: float, load: LoadHistory, time: float, side: str = "right"
+) -> dict[str, str]:
+    """Doubt about an instant so soon after the load that no data tell the material's creep yet.
+
+    Parameters
+    ----------
+    measured_from : float
+        First time of the data [s]; 0 if they begin with the instant compliance, or for a formula.
+    load : LoadHistory
+        What presses.
+    time : float
+        Instant of the run [s].
+    side : {"left", "right"}
+        Side of a jump at that instant.
+
+    Returns
+    -------
+    dict of str to str
+        Sentences by kind of doubt; empty if there is none.
+
+    Examples
+    --------
+    >>> from viscontact.load import step
+    >>> list(early_doubts(1.0, step(5.0), 0.5)), list(early_doubts(1.0, step(5.0), 1.0))
+    (['early'], [])
+    """
+    begin = time - measured_from * (1 - 1e-9)
+    before = float(load.level_at(begin)) if begin >= 0 else 0.0
+    came = abs(float(load.level_at(time, side=side)) - before)
+    if measured_from <= 0 or came <= EARLY_PART * load.largest_level:
+        return {}
+    return {
+        "early": (
+            f"at t = {time:.4g} s {came / load.largest_level:.0%} of the load has come within "
+            f"less than {measured_from:.4g} s, where the material's data begin; before that its "
+            "law is an extrapolation. Give the data an earlier row, or load more slowly"
         )
     }
 

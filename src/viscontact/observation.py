@@ -12,13 +12,13 @@ from viscontact.balance import RigidPlane
 from viscontact.carried import Carried
 from viscontact.cycles import Cycles
 from viscontact.errors import DomainError
+from viscontact.geometry_doubts import Geometry, geometry_doubts
 from viscontact.load.history import LoadPoint
-from viscontact.material_doubts import data_doubts, law_doubts, passivity_doubts
+from viscontact.material_doubts import data_doubts, early_doubts, law_doubts, passivity_doubts
 from viscontact.plausibility import (
     REFUSED_CELLS,
     Doubts,
-    Geometry,
-    geometry_doubts,
+    cells_across_spots,
     mesh_doubts,
     relative_change,
     step_doubts,
@@ -81,18 +81,25 @@ class Observer:
         self._run = run
         self._plane = RigidPlane(run.grid.x, run.grid.y, run.grid.cell_size)
         self._outline = trace_outline(run.indenter, run.grid)
-        self._geometry = Geometry(run.indenter, run.open_gap, run.grid.cell_size)
+        bodies = [body for body in (run.material, run.indenter_material) if body is not None]
+        self._geometry = Geometry(
+            run.indenter,
+            run.open_gap,
+            run.grid,
+            thickness=min(body.thickness or math.inf for body in bodies),
+            indenter_gives=run.indenter_material is not None,
+        )
         self._doubts = Doubts()
         self._open = law_doubts(run.memory.error, run.compliance.inversion_error)
-        for body in (run.material, run.indenter_material):
-            if body is not None:
-                self._open |= passivity_doubts(body.law, float(run.times[-1]))
+        self._measured_from = max(body.known_from for body in bodies)
+        for body in bodies:
+            self._open |= passivity_doubts(body.law, float(run.times[-1]))
         self._work = 0.0
         self._before: Instant | None = None
         self._point: LoadPoint | None = None
         self._resultants = np.zeros(3)
         self._cycles = Cycles(run.load.load_cycles)
-        self._largest_area, self._cells_at_largest = 0.0, 0
+        self._largest_area, self._cells_at_largest, self._spots_at_largest = 0.0, 0, 0.0
 
     def observe(self, step: Step, instant: Instant) -> ContactState:
         """Describe the end of a step.
@@ -118,6 +125,7 @@ class Observer:
         state = _state(step, instant, rim, resultants, self._work, self._cycles.last_loss)
         if state.contact_area > self._largest_area:
             self._largest_area, self._cells_at_largest = state.contact_area, state.cells_across
+            self._spots_at_largest = cells_across_spots(contact)
         self._before, self._resultants = instant, resultants
         return state
 
@@ -136,7 +144,9 @@ class Observer:
         ContactState
             With its warnings.
         """
-        mesh = mesh_doubts(self._cells_at_largest) if last and self._largest_area else {}
+        mesh = {}
+        if last and self._largest_area:
+            mesh = mesh_doubts(self._cells_at_largest, self._spots_at_largest)
         return replace(state, warnings=self._doubts.new(self._open, mesh))
 
     def refuse_coarse_mesh(self) -> None:
@@ -168,6 +178,7 @@ class Observer:
             "cycles": self._cycles.carried(),
             "largest_area": self._largest_area,
             "cells_at_largest": self._cells_at_largest,
+            "spots_at_largest": self._spots_at_largest,
         }
 
     def restore(self, carried: Carried) -> None:
@@ -183,12 +194,15 @@ class Observer:
         self._cycles.restore(carried["cycles"])
         self._largest_area = carried["largest_area"]
         self._cells_at_largest = carried["cells_at_largest"]
+        self._spots_at_largest = carried["spots_at_largest"]
 
     def _collect_doubts(self, step: Step, instant: Instant, rim: Rim) -> None:
         self._open = data_doubts(step.time, self._run.measured_until) | self._open
         if instant.outcome is Outcome.NO_CONTACT:
             return
-        self._open = geometry_doubts(self._geometry, rim, instant.motion) | self._open
+        early = early_doubts(self._measured_from, self._run.load, step.time, step.side)
+        found = geometry_doubts(self._geometry, rim, instant.motion, instant.displacement)
+        self._open = early | found | self._open
         if self._before is not None and not step.is_jump:
             self._open = self._doubts_of_step(step, self._before, instant) | self._open
 

@@ -2,85 +2,21 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.indenters import Indenter
-from viscontact.rim import Rim
-
 #: Fewer cells across the largest contact than this are doubtful, or refused.
 DOUBTFUL_CELLS, REFUSED_CELLS = 10, 4
 
-#: Small-strain theory is doubtful beyond these: slope, contact half width / R, approach / R.
-STEEP_SLOPE, WIDE_CONTACT, DEEP_APPROACH = 0.3, 0.3, 0.1
+#: Fewer cells across the spots that a contact consists of, in the mean, are doubtful. Counted
+#: along grid lines, where a disc of d cells has a mean chord of pi/4 d: 4 are a disc of 5 cells.
+DOUBTFUL_SPOTS = 4.0
 
 #: Relative change of force or peak pressure that a step long against the law must not hide.
 NOTABLE_CHANGE = 0.25
-
-
-@dataclass(frozen=True)
-class Geometry:
-    """What the doubts about geometry need to know.
-
-    Attributes
-    ----------
-    indenter : Indenter
-        The shape; its radius of curvature is the measure of depth and width.
-    open_gap : ndarray, shape (nx, ny)
-        Initial gap [m], +inf outside the outline.
-    cell_size : tuple of float
-        Edge lengths of a cell [m].
-    """
-
-    indenter: Indenter
-    open_gap: NDArray[np.float64]
-    cell_size: tuple[float, float]
-
-
-def geometry_doubts(geometry: Geometry, rim: Rim, motion: NDArray[np.float64]) -> dict[str, str]:
-    """Doubts about small strains and about where the body ends.
-
-    Parameters
-    ----------
-    geometry : Geometry
-        The undeformed shape on its grid.
-    rim : Rim
-        The contact and its extents.
-    motion : ndarray, shape (3,)
-        Approach [m] and tilts [rad].
-
-    Returns
-    -------
-    dict of str to str
-        Sentences by kind of doubt; empty if there is none.
-    """
-    doubts: dict[str, str] = {}
-    open_gap, half_width = geometry.open_gap[rim.rows, rim.columns], min(rim.length, rim.width) / 2
-    slope = _steepest_slope(open_gap, rim.contact, motion, geometry.cell_size)
-    if slope > STEEP_SLOPE:
-        doubts["slope"] = (
-            f"the indenter's slope within the contact reaches {slope:.2g}; "
-            f"small-strain half-space theory is meant for slopes below {STEEP_SLOPE:g}"
-        )
-    radius = geometry.indenter.radius_of_curvature
-    if half_width > WIDE_CONTACT * radius:
-        doubts["width"] = (
-            f"the contact's half width is {half_width / radius:.2g} of the indenter's radius of "
-            f"curvature; half-space theory is meant for less than {WIDE_CONTACT:g}"
-        )
-    if motion[0] > DEEP_APPROACH * radius:
-        doubts["approach"] = (
-            f"the approach is {motion[0] / radius:.2g} of the indenter's radius of curvature; "
-            f"small-strain theory is meant for less than {DEEP_APPROACH:g}"
-        )
-    if _touches_end(open_gap, rim.contact):
-        doubts["end"] = (
-            "the contact reaches the end of the indenter's profile: pressure is singular there "
-            "and the peak pressure depends on the mesh"
-        )
-    return doubts
 
 
 def step_doubts(duration: float, change: float) -> dict[str, str]:
@@ -151,13 +87,15 @@ def relative_change(before: float, after: float) -> float:
     return abs(after - before) / max(abs(after), abs(before), np.finfo(float).tiny)
 
 
-def mesh_doubts(cells_across: int) -> dict[str, str]:
+def mesh_doubts(cells_across: int, across_spots: float = math.inf) -> dict[str, str]:
     """Doubt about a coarse mesh.
 
     Parameters
     ----------
     cells_across : int
         Cells across the run's largest contact, along its shorter way.
+    across_spots : float
+        Cells across the spots that it consists of, from `cells_across_spots`.
 
     Returns
     -------
@@ -166,17 +104,59 @@ def mesh_doubts(cells_across: int) -> dict[str, str]:
 
     Examples
     --------
-    >>> list(mesh_doubts(8)), list(mesh_doubts(30))
-    (['mesh'], [])
+    >>> list(mesh_doubts(8)), list(mesh_doubts(30)), list(mesh_doubts(30, across_spots=1.5))
+    (['mesh'], [], ['spots'])
     """
-    if cells_across >= DOUBTFUL_CELLS:
+    if cells_across < DOUBTFUL_CELLS:
+        return {
+            "mesh": (
+                f"only {cells_across} cells lie across the largest contact, "
+                f"{DOUBTFUL_CELLS} or more are wanted; use a finer or smaller grid"
+            )
+        }
+    if across_spots >= DOUBTFUL_SPOTS:
         return {}
     return {
-        "mesh": (
-            f"only {cells_across} cells lie across the largest contact, "
-            f"{DOUBTFUL_CELLS} or more are wanted; use a finer or smaller grid"
+        "spots": (
+            f"the largest contact consists of spots or strips that are {across_spots:.1f} cells "
+            f"across in the mean, {DOUBTFUL_SPOTS:g} or more are wanted: their pressure and area "
+            "depend on the mesh; use a finer grid"
         )
     }
+
+
+def cells_across_spots(contact: NDArray[np.bool_]) -> float:
+    """Mean number of cells in a row within a contact, along the axis where it is smaller.
+
+    Parameters
+    ----------
+    contact : ndarray of bool, shape (nx, ny)
+        Cells under pressure.
+
+    Returns
+    -------
+    float
+        Cells; 0 without contact.
+
+    Notes
+    -----
+    The mean chord. It sees what the extents of a contact hide: a rough surface's spots, or a
+    strip that lies askew on the grid.
+
+    Examples
+    --------
+    >>> spots = np.zeros((8, 8), dtype=bool)
+    >>> spots[1:3, 1:6] = spots[5:7, 1:6] = True
+    >>> cells_across_spots(spots)
+    2.0
+    """
+    cells = int(contact.sum())
+    if not cells:
+        return 0.0
+    begun = [
+        int(line[0].sum()) + int((line[1:] & ~line[:-1]).sum()) for line in (contact, contact.T)
+    ]
+    return cells / max(begun)
 
 
 @dataclass
@@ -203,29 +183,3 @@ class Doubts:
         }
         self.said.update(fresh)
         return tuple(fresh.values())
-
-
-def _steepest_slope(
-    open_gap: NDArray[np.float64],
-    contact: NDArray[np.bool_],
-    motion: NDArray[np.float64],
-    cell_size: tuple[float, float],
-) -> float:
-    steepest = 0.0
-    for axis in (0, 1):
-        shape = np.moveaxis(open_gap, axis, 0)
-        touched = np.moveaxis(contact, axis, 0)
-        pairs = touched[1:] & touched[:-1]
-        slope = (shape[1:][pairs] - shape[:-1][pairs]) / cell_size[axis]
-        steepest = max(steepest, float(np.abs(slope - motion[1 + axis]).max(initial=0.0)))
-    return steepest
-
-
-def _touches_end(open_gap: NDArray[np.float64], contact: NDArray[np.bool_]) -> bool:
-    outside = np.isinf(open_gap)
-    return bool(
-        (contact[1:] & outside[:-1]).any()
-        or (contact[:-1] & outside[1:]).any()
-        or (contact[:, 1:] & outside[:, :-1]).any()
-        or (contact[:, :-1] & outside[:, 1:]).any()
-    )
