@@ -34,7 +34,9 @@ FLOORS = (
         "prediction",
         "plausibility",
         "material_doubts",
+        "sampling_doubts",
         "geometry_doubts",
+        "estimate",
         "extent",
         "instants",
         "admission",
@@ -46,7 +48,7 @@ FLOORS = (
         "step_by_step",
         "marching",
     ),
-    ("description", "dataset", "results"),  # 5 labels and files
+    ("description", "dataset", "results", "recording"),  # 5 labels and files
     (
         "examples",
         "units",
@@ -90,6 +92,8 @@ NEIGHBOURS = {
     ("observation", "schedule"),  # the step that ended
     ("observation", "material_doubts"),
     ("observation", "geometry_doubts"),
+    ("geometry_doubts", "sampling_doubts"),  # what the grid does not see
+    ("extent", "estimate"),  # of the contact that has to fit
     ("observation", "plausibility"),  # which warnings it deserves
     ("past", "run"),
     ("past", "schedule"),  # a step to be taken
@@ -107,7 +111,7 @@ NEIGHBOURS = {
     ("marching", "stepping"),
     ("marching", "step_by_step"),
     ("dataset", "description"),  # the case travels with the result
-    ("results", "dataset"),  # the file is laid out as the dataset is
+    ("recording", "dataset"),  # the file is laid out as the dataset is
     ("case", "units"),
     ("case", "materials"),  # which may be given by name
     ("case", "cards"),  # materials of other programs

@@ -18,7 +18,7 @@ from viscontact.cli.summary import print_summary
 from viscontact.dataset import run_attributes
 from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
 from viscontact.marching import march_run
-from viscontact.results import ResultWriter
+from viscontact.recording.result_writer import ResultWriter
 from viscontact.state import ContactState
 
 
@@ -110,12 +110,16 @@ def _write_states(result: Path, prepared: Prepared, record: Record, *, quiet: bo
     ):
         # They travel with the states, and the summary prints them.
         warnings.simplefilter("ignore", AccuracyWarning)
+        if not result.exists():
+            writer.publish()
         for state in march_run(run, progress):
             writer.append(state)
+            writer.publish()
             record.states.append(state.without_fields())
             if interruption.requested and state.time < run.times[-1]:
                 record.interrupted = True
                 return
+        writer.finish()
 
 
 def _kept(result: Path, prepared: Prepared, record: Record) -> str:

@@ -1,0 +1,102 @@
+"""Files that change their place at once, and stay changed after a power cut."""
+
+from __future__ import annotations
+
+import os
+from contextlib import suppress
+from pathlib import Path
+
+
+def flush_to_disk(path: Path) -> None:
+    """Wait until what was written to a file is on the disk.
+
+    Parameters
+    ----------
+    path : Path
+        The file; nobody in this process holds it open.
+    """
+    # Windows flushes only what may be written.
+    descriptor = os.open(path, os.O_RDWR)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
+
+
+def flush_directory(directory: Path) -> None:
+    """Wait until the names in a directory are on the disk; Windows does so by itself.
+
+    Parameters
+    ----------
+    directory : Path
+        The directory.
+    """
+    if os.name == "nt":
+        return
+    descriptor = os.open(directory, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
+
+
+def replace(fresh: Path, path: Path) -> None:
+    """Put a file in another one's place, all at once and durably.
+
+    Parameters
+    ----------
+    fresh : Path
+        The new file, closed and complete, on the same file system.
+    path : Path
+        Its place; at any moment the old file or the new one is there, even if the power is cut.
+
+    Raises
+    ------
+    PermissionError
+        On Windows, while a program has the file open that is there.
+    """
+    flush_to_disk(fresh)
+    fresh.replace(path)
+    flush_directory(path.parent)
+
+
+def swap(fresh: Path, path: Path, aside: Path) -> bool:
+    """Put a file in another one's place, and that one in its.
+
+    Parameters
+    ----------
+    fresh : Path
+        The new file, closed and complete.
+    path : Path
+        Its place; at any moment the old file or the new one is there.
+    aside : Path
+        A name for the time between, in the same directory; what has it is removed.
+
+    Returns
+    -------
+    bool
+        Whether the old file now has the name of the new one; False where the file system knows
+        no second names, and the old file is gone.
+
+    Raises
+    ------
+    PermissionError
+        On Windows, while a program has the file open that is there.
+    """
+    flush_to_disk(fresh)
+    aside.unlink(missing_ok=True)
+    try:
+        os.link(path, aside)
+    except OSError:
+        fresh.replace(path)
+        flush_directory(path.parent)
+        return False
+    try:
+        fresh.replace(path)
+    except BaseException:
+        with suppress(OSError):
+            aside.unlink()
+        raise
+    aside.replace(fresh)
+    flush_directory(path.parent)
+    return True

@@ -1,0 +1,229 @@
+"""What a result's file holds, and how its rows are written and copied."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal, NamedTuple, Self
+
+import netCDF4
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.dataset import (
+    COORDINATES,
+    FIELDS,
+    OUTCOME_FLAGS,
+    SCALARS,
+    Variable,
+    field_axis,
+)
+from viscontact.grid import Grid
+from viscontact.instants import field_instants
+from viscontact.state import ContactState
+
+#: Memory that rows on their way from one file to another may take [bytes].
+BLOCK = 2**23
+
+
+class Extent(NamedTuple):
+    """How many rows there are along each of a result's growing dimensions.
+
+    Attributes
+    ----------
+    rows : int
+        Rows of scalars, along ``time``.
+    field_rows : int
+        Rows of fields, along the axis of the fields.
+    """
+
+    rows: int
+    field_rows: int
+
+
+@dataclass(frozen=True, eq=False)
+class Layout:
+    """Dimensions and variables of a result's file.
+
+    Attributes
+    ----------
+    grid : Grid
+        Grid of the fields.
+    axis : str or None
+        The dimension over which fields are kept, ``time`` or ``field_time``; None without fields.
+    """
+
+    grid: Grid
+    axis: str | None
+
+    @classmethod
+    def of(cls, grid: Grid, times: NDArray[np.float64], fields: str | Sequence[float]) -> Self:
+        """Return the layout of a run's result.
+
+        Parameters
+        ----------
+        grid : Grid
+            Grid of the fields.
+        times : ndarray
+            Instants of the run [s].
+        fields : "all", "none" or sequence of float
+            Instants [s] whose fields are kept.
+
+        Examples
+        --------
+        >>> grid = Grid((4, 4), (1.0, 1.0))
+        >>> Layout.of(grid, np.array([0.0, 1.0]), [1.0]).axis
+        'field_time'
+        """
+        return cls(grid, field_axis(fields) if field_instants(fields, times).size else None)
+
+    @property
+    def columns(self) -> dict[str, tuple[Variable, tuple[str, ...]]]:
+        """Each variable with its dimensions, in the order of the file."""
+        columns = {name: (variable, (name,)) for name, variable in COORDINATES.items()}
+        columns |= {name: (variable, ("time",)) for name, variable in SCALARS.items()}
+        found: dict[str, tuple[Variable, tuple[str, ...]]] = dict(columns)
+        if self.axis is None:
+            return found
+        if self.axis != "time":
+            found[self.axis] = (Variable("s", "time of the stored fields"), (self.axis,))
+        axes = (self.axis, "x", "y")
+        return found | {name: (variable, axes) for name, variable in FIELDS.items()}
+
+    def extent_of(self, file: netCDF4.Dataset) -> Extent:
+        """Return how many rows a file of this layout has."""
+        lengths = [len(file.dimensions[axis]) if axis else 0 for axis in ("time", self.axis)]
+        return Extent(*lengths)
+
+
+def created(path: Path, layout: Layout, attributes: Mapping[str, Any]) -> netCDF4.Dataset:
+    """Create a result without rows; what was at its place is replaced.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    layout : Layout
+        What it is to hold.
+    attributes : mapping
+        Global attributes.
+
+    Returns
+    -------
+    netCDF4.Dataset
+        Open for appending.
+    """
+    file = netCDF4.Dataset(str(path), "w", format="NETCDF4")
+    file.set_auto_maskandscale(False)
+    file.setncatts(attributes)
+    file.createDimension("time", None)
+    for name, centres in (("x", layout.grid.x), ("y", layout.grid.y)):
+        file.createDimension(name, len(centres))
+    if layout.axis not in (None, "time"):
+        file.createDimension(layout.axis, None)
+    for name, (variable, dimensions) in layout.columns.items():
+        _create(file, name, variable, dimensions)
+    file["x"][:], file["y"][:] = layout.grid.x, layout.grid.y
+    file["outcome"].setncatts(OUTCOME_FLAGS)
+    return file
+
+
+def _create(
+    file: netCDF4.Dataset, name: str, variable: Variable, dimensions: tuple[str, ...]
+) -> None:
+    options: dict[str, Any] = {"fill_value": np.nan} if variable.kind == "f8" else {}
+    if name in FIELDS:
+        chunks = (1, *(len(file.dimensions[axis]) for axis in dimensions[1:]))
+        options |= {"zlib": True, "complevel": 1, "shuffle": True, "chunksizes": chunks}
+    file.createVariable(name, variable.kind, dimensions, **options).setncatts(variable.attributes)
+
+
+def opened(path: Path, mode: Literal["r", "a"]) -> netCDF4.Dataset:
+    """Open a result as plain numbers, ``"r"`` for reading or ``"a"`` for appending.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    mode : str
+        As for `netCDF4.Dataset`.
+
+    Raises
+    ------
+    OSError
+        If it cannot be opened.
+    """
+    file = netCDF4.Dataset(str(path), mode)
+    # Else NaN, the fill value, would travel as a mask.
+    file.set_auto_maskandscale(False)
+    return file
+
+
+def write_scalars(file: netCDF4.Dataset, row: int, states: Sequence[ContactState]) -> None:
+    """Write the scalars of states, and their instants, from a row on.
+
+    Parameters
+    ----------
+    file : netCDF4.Dataset
+        Open for appending.
+    row : int
+        Row of the first state.
+    states : sequence of ContactState
+        States in order; their fields are not needed.
+    """
+    if not states:
+        return
+    for name, variable in {"time": COORDINATES["time"], **SCALARS}.items():
+        values = np.array([getattr(state, name) for state in states], dtype=variable.kind)
+        file.variables[name][row : row + len(states)] = values
+
+
+def write_fields(file: netCDF4.Dataset, layout: Layout, row: int, state: ContactState) -> None:
+    """Write the fields of a state, and their instant, into a row.
+
+    Parameters
+    ----------
+    file : netCDF4.Dataset
+        Open for appending.
+    layout : Layout
+        Its layout, with fields.
+    row : int
+        The row of the fields.
+    state : ContactState
+        The state.
+    """
+    for name in FIELDS:
+        file.variables[name][row] = getattr(state, name)
+    if layout.axis not in (None, "time"):
+        file.variables[layout.axis][row] = state.time
+
+
+def copy_rows(
+    source: netCDF4.Dataset, target: netCDF4.Dataset, layout: Layout, begin: Extent, end: Extent
+) -> None:
+    """Copy rows from one result to another of the same layout, a few at a time.
+
+    Parameters
+    ----------
+    source, target : netCDF4.Dataset
+        From where, and where to; the second one open for appending.
+    layout : Layout
+        Their layout.
+    begin, end : Extent
+        The first rows to be copied, and those behind the last.
+    """
+    for name, (_, dimensions) in layout.columns.items():
+        if dimensions[0] in ("x", "y"):
+            continue
+        along_fields = name in FIELDS or name == layout.axis != "time"
+        first, last = (where.field_rows if along_fields else where.rows for where in (begin, end))
+        for rows in _blocks(first, last, layout.grid.shape if name in FIELDS else ()):
+            target.variables[name][rows] = source.variables[name][rows]
+
+
+def _blocks(first: int, last: int, shape: tuple[int, ...]) -> Iterator[slice]:
+    """Yield rows in pieces that fit into the memory meant for them."""
+    size = max(1, BLOCK // (8 * int(np.prod(shape))))
+    for row in range(first, last, size):
+        yield slice(row, min(row + size, last))

@@ -1,0 +1,38 @@
+"""Whether somebody reads a file."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+
+if sys.platform != "win32":
+    import fcntl
+
+
+def is_unread(path: Path) -> bool:
+    """Whether nobody has an HDF5 file open, as far as that can be known.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+
+    Returns
+    -------
+    bool
+        True if it may be written to. HDF5 locks what it reads; where it does not, because the
+        file system cannot or the user forbids it, nobody knows, and the answer is False.
+    """
+    if sys.platform == "win32":
+        return True  # what is open there cannot have been moved out of the readers' way
+    if os.environ.get("HDF5_USE_FILE_LOCKING", "").upper() in ("FALSE", "0"):
+        return False
+    descriptor = os.open(path, os.O_RDONLY)
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        return False
+    finally:
+        os.close(descriptor)
+    return True

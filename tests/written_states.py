@@ -1,0 +1,61 @@
+"""States made of known numbers, and what a file of them has to hold: nothing is solved here."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import netCDF4
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact import Grid
+from viscontact.dataset import FIELDS, SCALARS
+from viscontact.state import ContactState, Outcome
+
+GRID = Grid((6, 5), (2e-3, 1e-3))
+TIMES = np.arange(12) / 7.0
+SOME = [0.0, float(TIMES[4]), float(TIMES[5]), float(TIMES[11])]
+NUMBERS = [name for name in SCALARS if name not in ("outcome", "iterations", "cells_across")]
+
+
+def state(row: int, grid: Grid = GRID, times: NDArray[np.float64] = TIMES) -> ContactState:
+    """The state of a row: reproducible numbers with all their bits, NaN and warnings among them."""
+    random = np.random.default_rng(row)
+    fields = {name: random.standard_normal(grid.shape) for name in FIELDS}
+    fields["gap"][0, 0] = np.inf
+    scalars = {name: float(value) for name, value in zip(NUMBERS, random.random(99), strict=False)}
+    if row % 3 == 0:
+        scalars |= {"eccentricity_x": np.nan, "loss_per_cycle": np.nan}
+    return ContactState(
+        time=float(times[row]),
+        **fields,
+        **scalars,
+        iterations=int(random.integers(99)),
+        cells_across=row,
+        outcome=Outcome(row % 2),
+        warnings=(f"doubt {row}: 5 µm", "another") if row % 4 == 1 else (),
+    )
+
+
+def faults_of(path: Path, at_least: int, some: list[float] | None, grid: Grid = GRID) -> list[str]:
+    """Compare every bit of a file with the rows it should hold; return what differs.
+
+    Asked for with `some`, fields are those of these instants only; else those of all.
+    """
+    with netCDF4.Dataset(str(path)) as file:
+        file.set_auto_maskandscale(False)
+        rows = len(file.dimensions["time"])
+        states = [state(row, grid) for row in range(rows)]
+        kept = [each for each in states if some is None or each.time in some]
+        truth = {name: [getattr(each, name) for each in states] for name in ("time", *SCALARS)}
+        truth |= {name: [getattr(each, name) for each in kept] for name in FIELDS}
+        if some is not None:
+            truth["field_time"] = [each.time for each in kept]
+        faults = [f"{rows} rows"] if rows < at_least else []
+        for name, expected in truth.items():
+            found = file.variables[name][:]
+            same = np.array(expected, found.dtype).reshape(found.shape) if len(kept) else found
+            if len(found) != len(expected) or found.tobytes() != same.tobytes():
+                faults.append(name)
+        said = "\n".join(text for each in states for text in each.warnings)
+        return faults + (["warnings"] if file.getncattr("warnings") != said else [])
