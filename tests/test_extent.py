@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 import viscontact as vc
 from viscontact import reference
-from viscontact.extent import estimate_contact
+from viscontact.estimate import estimate_contact
 
 rubber = vc.Material(vc.Elastic(1e6), 0.5)
 creeping = vc.Material(vc.Zener(1e6, 1e5, 1e5), 0.4)

@@ -48,7 +48,7 @@ FLOORS = (
         "step_by_step",
         "marching",
     ),
-    ("description", "dataset", "results", "recording"),  # 5 labels and files
+    ("description", "dataset", "results"),  # 5 labels and files
     (
         "examples",
         "units",
@@ -111,7 +111,7 @@ NEIGHBOURS = {
     ("marching", "stepping"),
     ("marching", "step_by_step"),
     ("dataset", "description"),  # the case travels with the result
-    ("recording", "dataset"),  # the file is laid out as the dataset is
+    ("results", "dataset"),  # the file is laid out as the dataset is
     ("case", "units"),
     ("case", "materials"),  # which may be given by name
     ("case", "cards"),  # materials of other programs

@@ -3,118 +3,23 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import fft
 
-from viscontact.balance import Support
 from viscontact.compliance import ContactCompliance, SeriesCompliance
-from viscontact.contact import solve_contact
-from viscontact.contact_problem import ContactProblem
+from viscontact.estimate import estimate_contact, level_of
 from viscontact.grid import Grid
-from viscontact.half_space import HalfSpace
 from viscontact.indenters import Indenter
 from viscontact.load import LoadHistory, LoadPoint
 from viscontact.material import Material
-from viscontact.rim import trace_rim
-
-#: Cells of a coarse solve along each axis, and how far it has to converge.
-COARSE_CELLS, COARSE_TOLERANCE = 48, 1e-4
-
-#: The coarse grid fits when the contact's reach is this part of its half size.
-TIGHTEST, LOOSEST = 0.85, 0.5
 
 #: Room around the contact in the grid that is returned.
 MARGIN = 1.3
 
-MAX_TRIES = 60
-
 #: A load that swings shows its crest within so many of its longest steps.
 SWING_STEPS = 128
-
-
-@dataclass(frozen=True)
-class ContactEstimate:
-    """A coarse elastic answer.
-
-    Attributes
-    ----------
-    length, width : float
-        Extents of the contact along x and y [m].
-    approach : float
-        Approach [m].
-    peak_pressure : float
-        Largest pressure [Pa].
-    centre_x, centre_y : float
-        Middle of the contact [m].
-    force : float
-        Integral of the pressure [N].
-    """
-
-    length: float
-    width: float
-    approach: float
-    peak_pressure: float
-    centre_x: float
-    centre_y: float
-    force: float
-
-    @property
-    def reach(self) -> tuple[float, float]:
-        """Farthest distances of the contact from the origin along x and y [m]."""
-        return abs(self.centre_x) + self.length / 2, abs(self.centre_y) + self.width / 2
-
-
-def estimate_contact(
-    indenter: Indenter, contact_compliance: float, point: LoadPoint
-) -> ContactEstimate:
-    """Solve an elastic contact coarsely, on a grid that is fitted to it.
-
-    Parameters
-    ----------
-    indenter : Indenter
-        Shape of the pressed body.
-    contact_compliance : float
-        J of an elastic body in its place [1/Pa].
-    point : LoadPoint
-        Force, eccentricities and prescribed tilts.
-
-    Returns
-    -------
-    ContactEstimate
-        To a few per cent.
-
-    Raises
-    ------
-    ValueError
-        If no grid can be fitted: the force acts outside what can touch, say.
-
-    Examples
-    --------
-    >>> from viscontact.indenters import Sphere
-    >>> from viscontact.load import step
-    >>> found = estimate_contact(Sphere(0.01), 1e-9, step(100.0).at(0.0))
-    >>> round(found.length / 2 * 1e3, 1)  # Hertz: (3 * 100 * 0.01 * 1e-9 / 4)**(1/3) = 0.909 mm
-    0.9
-    """
-    size = np.full(2, _first_size(indenter, contact_compliance, point))
-    for _ in range(MAX_TRIES):
-        grid = Grid((COARSE_CELLS, COARSE_CELLS), (float(size[0]), float(size[1])))
-        found = _coarse_contact(indenter, contact_compliance, point, grid)
-        if found is None:
-            size = size * 2
-            continue
-        part = np.array(found.reach) / (size / 2)
-        if ((part >= LOOSEST) & (part <= TIGHTEST)).all():
-            return found
-        # A contact of a few cells says little about its size: do not trust it beyond a factor 4.
-        size = size * np.clip(part / 0.68, 0.25, 2.0)
-    raise ValueError(
-        "grid: no fitting grid was found for this load; the force may act outside what can "
-        "touch, or the contact runs on without end. Give a grid, or move the force in"
-    )
 
 
 def auto_grid(
@@ -247,54 +152,3 @@ def largest_load(load: LoadHistory, end: float) -> tuple[float, LoadPoint]:
         instants += steps[steps < end].tolist()
     points = [(time, load.at(time, side=side)) for time in instants for side in ("left", "right")]
     return max(points, key=lambda timed: level_of(timed[1]))
-
-
-def level_of(point: LoadPoint) -> float:
-    """Return what presses: the force [N] or, where that is prescribed, the approach [m].
-
-    Examples
-    --------
-    >>> level_of(LoadPoint(None, 0.0, 0.0, None, None, approach=1e-6))
-    1e-06
-    """
-    level = point.approach if point.force is None else point.force
-    assert level is not None  # one of the two is given
-    return level
-
-
-def _first_size(indenter: Indenter, compliance: float, point: LoadPoint) -> float:
-    radius = indenter.radius_of_curvature
-    level, is_round = level_of(point), math.isfinite(radius) and radius > 0
-    if point.force is None:
-        scale = math.sqrt(radius * level) if is_round else level
-    else:
-        scale = math.sqrt(level * compliance)
-        if is_round:
-            scale = (0.75 * level * radius * compliance) ** (1 / 3)
-    return 4 * max(scale, abs(point.eccentricity_x), abs(point.eccentricity_y))
-
-
-def _coarse_contact(
-    indenter: Indenter, compliance: float, point: LoadPoint, grid: Grid
-) -> ContactEstimate | None:
-    """Contact on this grid; None if it does not fit on it."""
-    open_gap = indenter.gap(grid.x[:, None], grid.y[None, :])
-    if not np.isfinite(open_gap).any():
-        return None
-    problem = ContactProblem(open_gap, compliance, Support.of(point), 1e-12 * max(grid.size))
-    solution = solve_contact(problem, HalfSpace(grid), tolerance=COARSE_TOLERANCE)
-    contact = solution.found.pressure > 0
-    touching_rim = contact[[0, -1]].any() or contact[:, [0, -1]].any()
-    if touching_rim or not solution.converged:
-        return None
-    rim = trace_rim(grid, contact, solution.gap)
-    rows, columns = np.flatnonzero(contact.any(axis=1)), np.flatnonzero(contact.any(axis=0))
-    return ContactEstimate(
-        max(rim.length, grid.cell_size[0]),
-        max(rim.width, grid.cell_size[1]),
-        float(solution.found.motion[0]),
-        float(solution.found.pressure.max()),
-        float(grid.x[rows[[0, -1]]].mean()),
-        float(grid.y[columns[[0, -1]]].mean()),
-        float(solution.found.pressure.sum()) * grid.cell_area,
-    )

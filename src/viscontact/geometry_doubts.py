@@ -1,19 +1,18 @@
-"""Doubts about a contact's geometry: small strains, bodies that end, and what the grid misses."""
+"""Doubts about a contact's geometry: strains too large, and bodies that end."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage
 
 from viscontact.grid import Grid
-from viscontact.indenters import CombinedIndenter, HeightMap, Indenter
+from viscontact.indenters import Indenter
 from viscontact.rim import Rim
+from viscontact.sampling_doubts import Sampling, sampling_doubts
 
 #: Small-strain theory is doubtful beyond these: slope, contact half width / R, approach / R, and
 #: for a body without a radius approach / half width, which a cone of that slope has at 0.47.
@@ -24,12 +23,6 @@ FEW_CELLS = 4
 
 #: A body counts as deep if the contact's half width is no larger part of its thickness.
 THIN_BODY = 0.2
-
-#: A map's peak that lies between the grid's points may be missed by this part of the approach.
-MISSED_PEAK = 0.1
-
-#: Samples along each axis, of three times the grid, where a body is looked for beyond it.
-BEYOND_SAMPLES = 48
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,6 +41,8 @@ class Geometry:
         Of the thinner body; inf if none is told [m].
     indenter_gives : bool
         Whether the indenter is deformable, and so taken for a half-space as well.
+    foreseen : bool
+        Whether the contact is an estimate of what is to come, and spoken of as such.
     """
 
     indenter: Indenter
@@ -55,43 +50,15 @@ class Geometry:
     grid: Grid
     thickness: float = math.inf
     indenter_gives: bool = False
+    foreseen: bool = False
+
+    @property
+    def _verbs(self) -> tuple[str, str]:
+        return ("will be about", "will reach") if self.foreseen else ("is", "reaches")
 
     @cached_property
-    def beyond(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-        """Points of the body outside the grid: x, y and gap [m]."""
-        found = [_outside(self.grid, *lines) for lines in self._sampled_lines()]
-        x, y = (np.concatenate(coordinates) for coordinates in zip(*found, strict=True))
-        gap = self.indenter.gap(x, y)
-        solid = np.isfinite(gap)
-        return x[solid], y[solid], gap[solid]
-
-    @cached_property
-    def missed(self) -> NDArray[np.float64]:
-        """How far a map's points stand out between the grid's points, by cells [m]."""
-        missed = np.zeros(self.grid.shape)
-        for part in _maps(self.indenter):
-            x, y = (lines.ravel() for lines in np.meshgrid(part.x, part.y, indexing="ij"))
-            places = [
-                (along - lines[0]) / cell
-                for along, lines, cell in zip(
-                    (x, y), (self.grid.x, self.grid.y), self.grid.cell_size, strict=True
-                )
-            ]
-            # Outside the grid, and beside the body's end, nothing can be said.
-            seen = ndimage.map_coordinates(
-                np.nan_to_num(self.open_gap, posinf=np.nan), places, order=1, cval=np.nan
-            )
-            known = np.isfinite(seen)
-            cells = tuple(np.rint(place[known]).astype(np.intp) for place in places)
-            np.maximum.at(missed, cells, seen[known] - self.indenter.gap(x[known], y[known]))
-        return missed
-
-    def _sampled_lines(self) -> Iterator[tuple[NDArray[np.float64], NDArray[np.float64]]]:
-        lx, ly = self.grid.size
-        part = np.linspace(-1.5, 1.5, BEYOND_SAMPLES + 1)
-        yield lx * part, ly * part
-        for part_map in _maps(self.indenter):
-            yield part_map.x, part_map.y
+    def _sampling(self) -> Sampling:
+        return Sampling(self.indenter, self.open_gap, self.grid)
 
 
 def geometry_doubts(
@@ -121,7 +88,7 @@ def geometry_doubts(
     return (
         strain_doubts(geometry, rim, motion)
         | body_doubts(geometry, rim)
-        | _missed_doubts(geometry, rim, motion, displacement)
+        | sampling_doubts(geometry._sampling, rim, motion, displacement)
     )
 
 
@@ -141,15 +108,16 @@ def strain_doubts(geometry: Geometry, rim: Rim, motion: NDArray[np.float64]) -> 
     doubts: dict[str, str] = {}
     open_gap = geometry.open_gap[rim.rows, rim.columns]
     half_width, radius = _half_width(rim), geometry.indenter.radius_of_curvature
+    be, reach = geometry._verbs
     slope = _steepest_slope(open_gap, rim.contact, motion, geometry.grid.cell_size)
     if slope > STEEP_SLOPE:
         doubts["slope"] = (
-            f"the indenter's slope within the contact reaches {slope:.2g}; "
+            f"the indenter's slope within the contact {reach} {slope:.2g}; "
             f"small-strain half-space theory is meant for slopes below {STEEP_SLOPE:g}"
         )
     if half_width > WIDE_CONTACT * radius:
         doubts["width"] = (
-            f"the contact's half width is {half_width / radius:.2g} of the indenter's radius of "
+            f"the contact's half width {be} {half_width / radius:.2g} of the indenter's radius of "
             f"curvature; half-space theory is meant for less than {WIDE_CONTACT:g}"
         )
     measure, named, most = radius, "indenter's radius of curvature", DEEP_APPROACH
@@ -160,7 +128,7 @@ def strain_doubts(geometry: Geometry, rim: Rim, motion: NDArray[np.float64]) -> 
     known = math.isfinite(radius) or (slope <= STEEP_SLOPE and _spans(rim.contact, FEW_CELLS))
     if known and motion[0] > most * measure:
         doubts["approach"] = (
-            f"the approach is {motion[0] / measure:.2g} of the {named}; "
+            f"the approach {be} {motion[0] / measure:.2g} of the {named}; "
             f"small-strain theory is meant for less than {most:g}"
         )
     return doubts
@@ -180,10 +148,10 @@ def body_doubts(geometry: Geometry, rim: Rim) -> dict[str, str]:
         Sentences by kind of doubt; empty if there is none.
     """
     doubts: dict[str, str] = {}
-    half_width = _half_width(rim)
+    half_width, (be, reach) = _half_width(rim), geometry._verbs
     if _touches_end(geometry.open_gap[rim.rows, rim.columns], rim.contact):
         doubts["end"] = (
-            "the contact reaches the end of the indenter's profile: pressure is singular there "
+            f"the contact {reach} the end of the indenter's profile: pressure is singular there "
             "and the peak pressure depends on the mesh"
         )
     if geometry.indenter_gives and _ends_within(geometry, rim, half_width):
@@ -194,35 +162,9 @@ def body_doubts(geometry: Geometry, rim: Rim) -> dict[str, str]:
         )
     if half_width > THIN_BODY * geometry.thickness:
         doubts["thickness"] = (
-            f"the contact's half width is {half_width / geometry.thickness:.2g} of the body's "
+            f"the contact's half width {be} {half_width / geometry.thickness:.2g} of the body's "
             f"thickness of {geometry.thickness:.3g} m; half-space theory is meant for less than "
             f"{THIN_BODY:g}, beyond it what the body rests on counts"
-        )
-    return doubts
-
-
-def _missed_doubts(
-    geometry: Geometry,
-    rim: Rim,
-    motion: NDArray[np.float64],
-    displacement: NDArray[np.float64],
-) -> dict[str, str]:
-    doubts: dict[str, str] = {}
-    missed = float(geometry.missed[rim.rows, rim.columns][rim.contact].max(initial=0.0))
-    if missed > MISSED_PEAK * motion[0]:
-        doubts["map"] = (
-            f"between the grid's points the height map stands out by up to {missed:.3g} m, "
-            f"{missed / motion[0]:.0%} of the approach, which the grid does not see; use cells as "
-            "small as the map's, or a smoother map"
-        )
-    x, y, gap = geometry.beyond
-    # Pressure is all within the grid, so displacement falls from its rim outwards.
-    rim_displacement = max(displacement[[0, -1]].max(), displacement[:, [0, -1]].max())
-    reached = float((motion[0] + motion[1] * x + motion[2] * y - gap).max(initial=-math.inf))
-    if reached > rim_displacement * (1 + 1e-9):
-        doubts["beyond"] = (
-            "the body would touch outside the grid, too, where nothing is computed: the contact "
-            "carries a part of the load only; enlarge grid.size"
         )
     return doubts
 
@@ -233,21 +175,6 @@ def _spans(contact: NDArray[np.bool_], cells: int) -> bool:
 
 def _half_width(rim: Rim) -> float:
     return min(rim.length, rim.width) / 2
-
-
-def _outside(
-    grid: Grid, x: NDArray[np.float64], y: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Points of a mesh that lie outside a grid."""
-    points = np.meshgrid(x, y, indexing="ij")
-    lx, ly = grid.size
-    outside = (np.abs(points[0]) > lx / 2) | (np.abs(points[1]) > ly / 2)
-    return points[0][outside], points[1][outside]
-
-
-def _maps(indenter: Indenter) -> tuple[HeightMap, ...]:
-    parts = indenter.parts if isinstance(indenter, CombinedIndenter) else (indenter,)
-    return tuple(part for part in parts if isinstance(part, HeightMap))
 
 
 def _ends_within(geometry: Geometry, rim: Rim, distance: float) -> bool:

@@ -9,7 +9,14 @@ from typing import Any
 
 from pydantic import Field, model_validator
 
-from viscontact.case.quantities import Duration, Modulus, PoissonRatio, Section, Temperature
+from viscontact.case.quantities import (
+    Duration,
+    Length,
+    Modulus,
+    PoissonRatio,
+    Section,
+    Temperature,
+)
 from viscontact.case.shifts import AnyShift
 from viscontact.laws import Law, Shift
 from viscontact.material import Material
@@ -24,6 +31,11 @@ class Medium(Section):
     )
     measured_until: Duration | None = Field(
         default=None, description="last time the law is known for; a run that goes beyond warns"
+    )
+    thickness: Length | None = Field(
+        default=None,
+        description="of the body; it is computed as a half-space, and a run whose contact has a "
+        "half width beyond a fifth of it warns",
     )
     temperature: Temperature | None = Field(
         default=None, description="of the run; the law is shifted to it by shift"
@@ -75,6 +87,7 @@ class Medium(Section):
             bulk_modulus=material.bulk_modulus,
             # What is known of the law as it is written shifts with it.
             measured_until=None if until is None else factor * until,
+            thickness=self.thickness,
         )
 
     @property

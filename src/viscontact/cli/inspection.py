@@ -8,10 +8,9 @@ from rich.table import Table
 
 from viscontact.cli.messages import refuse
 from viscontact.cli.preparation import Prepared
-from viscontact.extent import ContactEstimate
+from viscontact.estimate import ContactEstimate
 from viscontact.forecast import Forecast, forecast
-from viscontact.indenters import Indenter
-from viscontact.plausibility import DEEP_APPROACH, DOUBTFUL_CELLS, WIDE_CONTACT
+from viscontact.plausibility import DOUBTFUL_CELLS
 from viscontact.run import Run
 from viscontact.units import in_digits, in_words
 
@@ -28,11 +27,11 @@ def print_forecast(prepared: Prepared) -> None:
         expected = forecast(prepared.run)
     except ValueError as error:
         refuse(*prepared.case.error(str(error)).problems)
-    console, doubts = Console(), _doubts(expected, prepared.run.indenter)
+    console, doubts = Console(), _doubts(expected)
     verdict = "can be read, but:" if doubts else "no problems found"
     console.print(f"{prepared.case.document.path}: {verdict}", highlight=False, soft_wrap=True)
     for line in doubts:
-        console.print(f"[yellow]warning:[/] {line}")
+        console.print(f"[yellow]warning:[/] {escape(line)}")
     for line in prepared.case.notes:
         console.print(f"note: {escape(line)}", highlight=False, soft_wrap=True)
     console.print(_listed(_needs(prepared, expected)))
@@ -93,10 +92,10 @@ def _expectations(
     ]
 
 
-def _doubts(expected: Forecast, indenter: Indenter) -> list[str]:
+def _doubts(expected: Forecast) -> list[str]:
     """What a run would warn of, as far as the coarse solve can tell."""
     if expected.estimate is None:
-        return []
+        return list(expected.doubts.values())
     doubts = []
     if not expected.fits:
         reach = " and ".join(in_words(far, "m", 3) for far in expected.estimate.reach)
@@ -109,23 +108,7 @@ def _doubts(expected: Forecast, indenter: Indenter) -> list[str]:
             f"fewer than {DOUBTFUL_CELLS} cells across the contact; use more cells or a smaller "
             "grid.size"
         )
-    return doubts + _strain_doubts(expected.estimate, indenter)
-
-
-def _strain_doubts(found: ContactEstimate, indenter: Indenter) -> list[str]:
-    radius, half_width = indenter.radius_of_curvature, min(found.length, found.width) / 2
-    doubts = []
-    if half_width > WIDE_CONTACT * radius:
-        doubts.append(
-            f"the contact's half width will be about {half_width / radius:.2g} of the indenter's "
-            f"radius of curvature; half-space theory is meant for less than {WIDE_CONTACT:g}"
-        )
-    if found.approach > DEEP_APPROACH * radius:
-        doubts.append(
-            f"the approach will be about {found.approach / radius:.2g} of the indenter's radius of "
-            f"curvature; small-strain theory is meant for less than {DEEP_APPROACH:g}"
-        )
-    return doubts
+    return doubts + list(expected.doubts.values())
 
 
 def _duration(seconds: float) -> str:

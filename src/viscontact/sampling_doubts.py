@@ -1,0 +1,162 @@
+"""Doubts about what a grid does not see of a body: peaks between its points, and those beyond."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from viscontact.grid import Grid
+from viscontact.indenters import CombinedIndenter, HeightMap, Indenter
+from viscontact.rim import Rim
+
+#: A map's peak that lies between the grid's points may be missed by this part of the approach.
+MISSED_PEAK = 0.1
+
+#: Samples along each axis, of three times the grid, where a body is looked for beyond it.
+BEYOND_SAMPLES = 48
+
+
+@dataclass(frozen=True, eq=False)
+class Sampling:
+    """A body and the points at which a grid sees it.
+
+    Attributes
+    ----------
+    indenter : Indenter
+        The body.
+    open_gap : ndarray, shape (nx, ny)
+        Its initial gap on the grid [m], +inf outside the outline.
+    grid : Grid
+        The cells.
+    """
+
+    indenter: Indenter
+    open_gap: NDArray[np.float64]
+    grid: Grid
+
+    @cached_property
+    def beyond(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """Points of the body outside the grid: x, y and gap [m]."""
+        found = [_outside(self.grid, *lines) for lines in self._sampled_lines()]
+        x, y = (np.concatenate(coordinates) for coordinates in zip(*found, strict=True))
+        gap = self.indenter.gap(x, y)
+        solid = np.isfinite(gap)
+        return x[solid], y[solid], gap[solid]
+
+    @cached_property
+    def missed(self) -> NDArray[np.float64]:
+        """How far a map's points stand out between the grid's points, by cells [m]."""
+        missed = np.zeros(self.grid.shape)
+        for part in _maps(self.indenter):
+            x, y = (lines.ravel() for lines in np.meshgrid(part.x, part.y, indexing="ij"))
+            places = [
+                (along - lines[0]) / cell
+                for along, lines, cell in zip(
+                    (x, y), (self.grid.x, self.grid.y), self.grid.cell_size, strict=True
+                )
+            ]
+            # Outside the grid, and beside the body's end, nothing can be said.
+            seen = ndimage.map_coordinates(
+                np.nan_to_num(self.open_gap, posinf=np.nan), places, order=1, cval=np.nan
+            )
+            known = np.isfinite(seen)
+            cells = tuple(np.rint(place[known]).astype(np.intp) for place in places)
+            np.maximum.at(missed, cells, seen[known] - self.indenter.gap(x[known], y[known]))
+        return missed
+
+    def _sampled_lines(self) -> Iterator[tuple[NDArray[np.float64], NDArray[np.float64]]]:
+        lx, ly = self.grid.size
+        part = np.linspace(-1.5, 1.5, BEYOND_SAMPLES + 1)
+        yield lx * part, ly * part
+        for part_map in _maps(self.indenter):
+            yield part_map.x, part_map.y
+
+
+def map_doubts(missed: float, approach: float) -> dict[str, str]:
+    """Doubt about a height map that is finer than the grid.
+
+    Parameters
+    ----------
+    missed : float
+        How far the map stands out between the grid's points within the contact [m].
+    approach : float
+        Approach [m].
+
+    Returns
+    -------
+    dict of str to str
+        Sentences by kind of doubt; empty if there is none.
+
+    Examples
+    --------
+    >>> list(map_doubts(2e-6, approach=1e-5)), list(map_doubts(2e-8, approach=1e-5))
+    (['map'], [])
+    """
+    if missed <= MISSED_PEAK * approach:
+        return {}
+    return {
+        "map": (
+            f"between the grid's points the height map stands out by up to {missed:.3g} m, which "
+            f"the grid does not see; the approach is {approach:.3g} m. Use cells as small as the "
+            "map's, or a smoother map"
+        )
+    }
+
+
+def sampling_doubts(
+    sampling: Sampling,
+    rim: Rim,
+    motion: NDArray[np.float64],
+    displacement: NDArray[np.float64],
+) -> dict[str, str]:
+    """Doubts about what the grid does not see of the body under load.
+
+    Parameters
+    ----------
+    sampling : Sampling
+        The body and the grid.
+    rim : Rim
+        The contact.
+    motion : ndarray, shape (3,)
+        Approach [m] and tilts [rad].
+    displacement : ndarray, shape (nx, ny)
+        Displacement of the surface [m].
+
+    Returns
+    -------
+    dict of str to str
+        Sentences by kind of doubt; empty if there is none.
+    """
+    missed = float(sampling.missed[rim.rows, rim.columns][rim.contact].max(initial=0.0))
+    doubts = map_doubts(missed, float(motion[0]))
+    x, y, gap = sampling.beyond
+    # Pressure is all within the grid, so displacement falls from its rim outwards.
+    rim_displacement = max(displacement[[0, -1]].max(), displacement[:, [0, -1]].max())
+    reached = float((motion[0] + motion[1] * x + motion[2] * y - gap).max(initial=-math.inf))
+    if reached > rim_displacement * (1 + 1e-9):
+        doubts["beyond"] = (
+            "the body would touch outside the grid, too, where nothing is computed: the contact "
+            "carries a part of the load only; enlarge grid.size"
+        )
+    return doubts
+
+
+def _outside(
+    grid: Grid, x: NDArray[np.float64], y: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Points of a mesh that lie outside a grid."""
+    points = np.meshgrid(x, y, indexing="ij")
+    lx, ly = grid.size
+    outside = (np.abs(points[0]) > lx / 2) | (np.abs(points[1]) > ly / 2)
+    return points[0][outside], points[1][outside]
+
+
+def _maps(indenter: Indenter) -> tuple[HeightMap, ...]:
+    parts = indenter.parts if isinstance(indenter, CombinedIndenter) else (indenter,)
+    return tuple(part for part in parts if isinstance(part, HeightMap))
