@@ -168,12 +168,13 @@ class Observer:
 
     def carried(self) -> Carried:
         """What has to be kept to go on from here; asked for after an `observe`."""
+        before = self._before
         return {
             "said": self._doubts.said,
             "open": self._open,
             "work": self._work,
-            "before": None if self._before is None else vars(self._before),
-            "point": None if self._point is None else vars(self._point),
+            "before": before and vars(before) | {"outcome": int(before.outcome)},
+            "point": self._point and vars(self._point),
             "resultants": self._resultants,
             "cycles": self._cycles.carried(),
             "largest_area": self._largest_area,

@@ -1,0 +1,102 @@
+"""Plain data in a file: arrays as NumPy writes them, all else as JSON, both checked when read."""
+
+from __future__ import annotations
+
+import json
+import zipfile
+import zlib
+from typing import Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.carried import Carried
+
+#: Where the outline lies among the arrays, and what stands in it for an array.
+_OUTLINE, _ARRAY = "outline", "__array__"
+
+#: What reading says of bytes that are not what was written.
+_DAMAGE = (ValueError, KeyError, TypeError, EOFError, OSError, zipfile.BadZipFile, zlib.error)
+
+
+def write_plain(file: BinaryIO, carried: Carried) -> None:
+    """Write plain data as an ``.npz`` archive.
+
+    Parameters
+    ----------
+    file : binary file
+        Where to.
+    carried : dict
+        Arrays, numbers, texts and None, in lists and dicts.
+
+    Examples
+    --------
+    >>> import io
+    >>> file = io.BytesIO()
+    >>> write_plain(file, {"work": 1.5, "past": [None, "left"]})
+    >>> read_plain(file)
+    {'work': 1.5, 'past': [None, 'left']}
+    """
+    arrays: list[NDArray[Any]] = []
+    outline = json.dumps(_outlined(carried, arrays))
+    named = {f"a{index}": array for index, array in enumerate(arrays)}
+    np.savez(file, allow_pickle=False, **{_OUTLINE: np.array(outline)}, **named)
+
+
+def read_plain(file: BinaryIO) -> Carried:
+    """Read what `write_plain` has written.
+
+    Parameters
+    ----------
+    file : binary file
+        Where from; its length and checksums are looked at.
+
+    Returns
+    -------
+    dict
+        The same data, to the last bit.
+
+    Raises
+    ------
+    ValueError
+        If anything in it is not as it was written.
+
+    Examples
+    --------
+    >>> import io
+    >>> read_plain(io.BytesIO(b"half a file"))
+    Traceback (most recent call last):
+    ...
+    ValueError: it is damaged, or was written by something else
+    """
+    file.seek(0)
+    try:
+        # Without pickles: reading a file must never run what is in it.
+        with np.load(file, allow_pickle=False) as archive:
+            read = _filled(json.loads(str(archive[_OUTLINE])), archive)
+    except _DAMAGE as error:
+        raise ValueError("it is damaged, or was written by something else") from error
+    if not isinstance(read, dict):
+        raise ValueError("it is damaged, or was written by something else")
+    return read
+
+
+def _outlined(value: Any, arrays: list[NDArray[Any]]) -> Any:
+    if isinstance(value, np.ndarray):
+        arrays.append(value)
+        return {_ARRAY: len(arrays) - 1}
+    if isinstance(value, dict):
+        return {key: _outlined(each, arrays) for key, each in value.items()}
+    if isinstance(value, list | tuple):
+        return [_outlined(each, arrays) for each in value]
+    return value.item() if isinstance(value, np.generic) else value
+
+
+def _filled(value: Any, archive: Any) -> Any:
+    if isinstance(value, dict) and _ARRAY in value:
+        return archive[f"a{value[_ARRAY]}"]
+    if isinstance(value, dict):
+        return {key: _filled(each, archive) for key, each in value.items()}
+    if isinstance(value, list):
+        return [_filled(each, archive) for each in value]
+    return value
