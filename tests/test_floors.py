@@ -56,6 +56,7 @@ FLOORS = (
         "cards",
         "materials",
         "identification",
+        "foresight",
         "forecast",
         "case",
         "plot",
@@ -94,6 +95,7 @@ NEIGHBOURS = {
     ("observation", "geometry_doubts"),
     ("geometry_doubts", "sampling_doubts"),  # what the grid does not see
     ("extent", "estimate"),  # of the contact that has to fit
+    ("forecast", "foresight"),  # of doubts
     ("observation", "plausibility"),  # which warnings it deserves
     ("past", "run"),
     ("past", "schedule"),  # a step to be taken

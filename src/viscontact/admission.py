@@ -15,6 +15,10 @@ from viscontact.indenters import Indenter
 from viscontact.load import LoadHistory
 from viscontact.material import Material
 
+#: Instants at which a law is looked at before it is used, and a fall that is not rounding or the
+#: error of a conversion.
+CREEP_SAMPLES, NOTABLE_FALL = 200, 0.01
+
 
 def check_kinds(
     indenter: object, material: object, load: object, grid: object, indenter_material: object
@@ -50,6 +54,24 @@ def check_magnitudes(
     for name, value in [*magnitudes, *(("grid.size", size) for size in sizes)]:
         if value and not 1e-30 <= value <= 1e30:
             raise ValueError(f"{name}: {value:.3g} in SI units is beyond what can be computed with")
+
+
+def check_creep(compliance: ContactCompliance, times: NDArray[np.float64]) -> None:
+    """Refuse a law that is no creep within the run [s]: no number, negative, or falling."""
+    end = float(times[-1])
+    # Steps between the instants asked for are as short as they like.
+    instants = times[:: max(1, len(times) // CREEP_SAMPLES)]
+    if end > 0:
+        instants = np.union1d(instants, np.geomspace(1e-6 * end, end, CREEP_SAMPLES))
+    values = np.asarray(compliance(instants))
+    wrong = ~(np.isfinite(values) & (values >= 0))
+    wrong[1:] |= values[1:] < (1 - NOTABLE_FALL) * values[:-1]
+    if wrong.any():
+        raise ValueError(
+            f"material: its law gives a contact compliance of {values[wrong][0]:.4g} /Pa at t = "
+            f"{instants[wrong][0]:.4g} s; creep is a number, not negative, and never falls. "
+            "Mend the law"
+        )
 
 
 def check_jumps(compliance: ContactCompliance, load: LoadHistory, end: float) -> None:

@@ -15,12 +15,9 @@ from scipy import fft
 
 from viscontact.estimate import ContactEstimate, estimate_contact, level_of
 from viscontact.extent import largest_load
-from viscontact.geometry_doubts import Geometry, body_doubts, strain_doubts
+from viscontact.foresight import foreseen_doubts
 from viscontact.grid import Grid
-from viscontact.material import Material
-from viscontact.material_doubts import data_doubts, early_doubts, law_doubts, passivity_doubts
 from viscontact.run import Run
-from viscontact.sampling_doubts import Sampling, map_doubts
 from viscontact.schedule import FixedSteps
 
 #: Bytes of the program itself, and arrays of the grid's size that a run holds at a time, both
@@ -37,9 +34,6 @@ ADAPTIVE_STEPS, ELASTIC_STEPS = 25.0, 7.0
 
 #: A larger grid is not timed but extrapolated.
 _TIMED_CELLS = 2**18
-
-#: So many of a run's first instants are looked at for a load that comes before the data do.
-_FIRST_INSTANTS = 200
 
 
 @dataclass(frozen=True)
@@ -124,7 +118,7 @@ def forecast(run: Run) -> Forecast:
         cells_along=along,
         cells_across=across,
         fits=all(r < size / 2 for r, size in zip(reach, run.grid.size, strict=True)),
-        doubts=_material_doubts(run) | ({} if estimate is None else _contact_doubts(run, estimate)),
+        doubts=foreseen_doubts(run, estimate),
     )
 
 
@@ -216,43 +210,6 @@ def _telling_compliance(run: Run, time: float) -> tuple[float, str]:
     if run.compliance.instant > 0:
         return float(run.compliance.instant), "the instant compliance"
     return float(run.compliance(time)), "the compliance of that instant"
-
-
-def _bodies(run: Run) -> list[Material]:
-    return [body for body in (run.material, run.indenter_material) if body is not None]
-
-
-def _contact_doubts(run: Run, found: ContactEstimate) -> dict[str, str]:
-    geometry = Geometry(
-        run.indenter,
-        found.open_gap,
-        found.rim.grid,
-        thickness=min(body.thickness or math.inf for body in _bodies(run)),
-        indenter_gives=run.indenter_material is not None,
-        foreseen=True,
-    )
-    on_grid = Sampling(run.indenter, run.open_gap, run.grid)
-    within_x = np.abs(run.grid.x - found.centre_x) <= found.length / 2
-    within_y = np.abs(run.grid.y - found.centre_y) <= found.width / 2
-    missed = float(on_grid.missed[np.ix_(within_x, within_y)].max(initial=0.0))
-    return (
-        strain_doubts(geometry, found.rim, found.motion)
-        | body_doubts(geometry, found.rim)
-        | map_doubts(missed, found.approach)
-    )
-
-
-def _material_doubts(run: Run) -> dict[str, str]:
-    end = float(run.times[-1])
-    doubts = law_doubts(run.memory.error, run.compliance.inversion_error)
-    for body in _bodies(run):
-        doubts |= passivity_doubts(body.law, end)
-    first = max(body.known_from for body in _bodies(run))
-    kinks = run.load.kinks[run.load.kinks <= end]
-    for time in np.union1d(kinks, run.times[:_FIRST_INSTANTS]).tolist():
-        if run.load.level_at(time) > 0:
-            doubts = early_doubts(first, run.load, time) | doubts
-    return doubts | data_doubts(end, run.measured_until)
 
 
 def _seconds(run: Run) -> float:

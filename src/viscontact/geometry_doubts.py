@@ -108,6 +108,9 @@ def strain_doubts(geometry: Geometry, rim: Rim, motion: NDArray[np.float64]) -> 
     doubts: dict[str, str] = {}
     open_gap = geometry.open_gap[rim.rows, rim.columns]
     half_width, radius = _half_width(rim), geometry.indenter.radius_of_curvature
+    # A roller's length is no measure of its width, and may be less.
+    extents = zip((rim.length, rim.width), geometry.indenter.curvatures, strict=True)
+    wide = max(extent / 2 * curvature for extent, curvature in extents)
     be, reach = geometry._verbs
     slope = _steepest_slope(open_gap, rim.contact, motion, geometry.grid.cell_size)
     if slope > STEEP_SLOPE:
@@ -115,9 +118,9 @@ def strain_doubts(geometry: Geometry, rim: Rim, motion: NDArray[np.float64]) -> 
             f"the indenter's slope within the contact {reach} {slope:.2g}; "
             f"small-strain half-space theory is meant for slopes below {STEEP_SLOPE:g}"
         )
-    if half_width > WIDE_CONTACT * radius:
+    if wide > WIDE_CONTACT:
         doubts["width"] = (
-            f"the contact's half width {be} {half_width / radius:.2g} of the indenter's radius of "
+            f"the contact's half width {be} {wide:.2g} of the indenter's radius of "
             f"curvature; half-space theory is meant for less than {WIDE_CONTACT:g}"
         )
     measure, named, most = radius, "indenter's radius of curvature", DEEP_APPROACH

@@ -82,6 +82,39 @@ def touch_doubts(duration: float, share: float) -> dict[str, str]:
     }
 
 
+def release_doubts(duration: float, share: float) -> dict[str, str]:
+    """Doubt about a load that falls to nothing in one step of a creeping body.
+
+    The contact shrinks over it, and a straight line through one step gives the rim, which was left
+    early, a load for too long: the dent that stays is off by up to a third.
+
+    Parameters
+    ----------
+    duration : float
+        Length of the step [s].
+    share : float
+        Force at its beginning, over the largest of the history.
+
+    Returns
+    -------
+    dict of str to str
+        Sentences by kind of doubt; empty if there is none.
+
+    Examples
+    --------
+    >>> list(release_doubts(0.1, share=1.0)), list(release_doubts(0.1, share=0.1))
+    (['release'], [])
+    """
+    if share <= NOTABLE_CHANGE:
+        return {}
+    return {
+        "release": (
+            f"the load falls from {share:.0%} of its largest to nothing in a single step of "
+            f"{duration:.3g} s; use several steps there, as the dent that stays depends on them"
+        )
+    }
+
+
 def relative_change(before: float, after: float) -> float:
     """Change over the larger of two values; zero if both are."""
     return abs(after - before) / max(abs(after), abs(before), np.finfo(float).tiny)

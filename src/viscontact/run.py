@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact.adaptive import AdaptiveSteps
 from viscontact.admission import (
     check_balance,
+    check_creep,
     check_jumps,
     check_kinds,
     check_magnitudes,
@@ -136,6 +137,7 @@ def prepare_run(
     instants = run_instants(times, fields, load, compliance)
     end = float(instants[-1])
     field_instants(fields, instants)
+    check_creep(compliance, instants)
     check_magnitudes(compliance, load, grid, end)
     check_jumps(compliance, load, end)
     if grid is None:

@@ -15,7 +15,10 @@ from viscontact.grid import Grid
 from viscontact.indenters import CombinedIndenter, HeightMap, Indenter
 from viscontact.rim import Rim
 
-#: A map's peak that lies between the grid's points may be missed by this part of the approach.
+#: What may stand out of the line between two points of the grid, as a slope, over the mean strain
+#: of the contact (approach / half width). Flattening a wave of height h and length l takes a
+#: pressure of pi h / (l J) (Johnson 1985, Contact Mechanics, eq. 13.7); waves of two cells count.
+#: A sphere on 10 cells across is below it.
 MISSED_PEAK = 0.1
 
 #: Samples along each axis, of three times the grid, where a body is looked for beyond it.
@@ -78,15 +81,17 @@ class Sampling:
             yield part_map.x, part_map.y
 
 
-def map_doubts(missed: float, approach: float) -> dict[str, str]:
+def map_doubts(missed: float, cell: float, strain: float) -> dict[str, str]:
     """Doubt about a height map that is finer than the grid.
 
     Parameters
     ----------
     missed : float
         How far the map stands out between the grid's points within the contact [m].
-    approach : float
-        Approach [m].
+    cell : float
+        Edge of a cell, the longer one [m].
+    strain : float
+        Approach over the contact's half width [-].
 
     Returns
     -------
@@ -95,16 +100,16 @@ def map_doubts(missed: float, approach: float) -> dict[str, str]:
 
     Examples
     --------
-    >>> list(map_doubts(2e-6, approach=1e-5)), list(map_doubts(2e-8, approach=1e-5))
+    >>> list(map_doubts(1e-6, 1e-5, strain=0.1)), list(map_doubts(1e-8, 1e-5, strain=0.1))
     (['map'], [])
     """
-    if missed <= MISSED_PEAK * approach:
+    if missed <= 0 or math.pi / 2 * missed <= MISSED_PEAK * strain * cell:
         return {}
     return {
         "map": (
-            f"between the grid's points the height map stands out by up to {missed:.3g} m, which "
-            f"the grid does not see; the approach is {approach:.3g} m. Use cells as small as the "
-            "map's, or a smoother map"
+            f"between the grid's points the height map stands out by up to {missed:.3g} m, with "
+            "peaks of pressure that the grid does not see; use cells smaller than the map's, or a "
+            "smoother map"
         )
     }
 
@@ -134,7 +139,8 @@ def sampling_doubts(
         Sentences by kind of doubt; empty if there is none.
     """
     missed = float(sampling.missed[rim.rows, rim.columns][rim.contact].max(initial=0.0))
-    doubts = map_doubts(missed, float(motion[0]))
+    strain = 2 * float(motion[0]) / max(min(rim.length, rim.width), np.finfo(float).tiny)
+    doubts = map_doubts(missed, max(sampling.grid.cell_size), strain)
     x, y, gap = sampling.beyond
     # Pressure is all within the grid, so displacement falls from its rim outwards.
     rim_displacement = max(displacement[[0, -1]].max(), displacement[:, [0, -1]].max())

@@ -1,0 +1,96 @@
+"""What a run will warn of, as far as it can be told before its first step."""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+import numpy as np
+
+from viscontact.estimate import ContactEstimate
+from viscontact.geometry_doubts import Geometry, body_doubts, strain_doubts
+from viscontact.material import Material
+from viscontact.material_doubts import data_doubts, early_doubts, law_doubts, passivity_doubts
+from viscontact.plausibility import release_doubts, touch_doubts
+from viscontact.run import Run
+from viscontact.sampling_doubts import Sampling, map_doubts
+from viscontact.schedule import FixedSteps
+
+#: So many of a run's first instants are looked at for a load that comes before the data do.
+FIRST_INSTANTS = 200
+
+
+def foreseen_doubts(run: Run, estimate: ContactEstimate | None) -> dict[str, str]:
+    """Doubts about the material, the steps and the estimated contact of a run.
+
+    Parameters
+    ----------
+    run : Run
+        A run that has been checked.
+    estimate : ContactEstimate or None
+        Its largest contact, coarsely; None without a load.
+
+    Returns
+    -------
+    dict of str to str
+        Sentences by kind of doubt, as a run would say them; empty if there is none. Those about
+        the mesh are left to who knows whether the grid fits.
+    """
+    doubts = _material_doubts(run) | _step_doubts(run)
+    return doubts if estimate is None else doubts | _contact_doubts(run, estimate)
+
+
+def _bodies(run: Run) -> list[Material]:
+    return [body for body in (run.material, run.indenter_material) if body is not None]
+
+
+def _contact_doubts(run: Run, found: ContactEstimate) -> dict[str, str]:
+    geometry = Geometry(
+        run.indenter,
+        found.open_gap,
+        found.rim.grid,
+        thickness=min(body.thickness or math.inf for body in _bodies(run)),
+        indenter_gives=run.indenter_material is not None,
+        foreseen=True,
+    )
+    on_grid = Sampling(run.indenter, run.open_gap, run.grid)
+    within_x = np.abs(run.grid.x - found.centre_x) <= found.length / 2
+    within_y = np.abs(run.grid.y - found.centre_y) <= found.width / 2
+    missed = float(on_grid.missed[np.ix_(within_x, within_y)].max(initial=0.0))
+    strain = 2 * found.approach / min(found.length, found.width)
+    return (
+        strain_doubts(geometry, found.rim, found.motion)
+        | body_doubts(geometry, found.rim)
+        | map_doubts(missed, max(run.grid.cell_size), strain)
+    )
+
+
+def _material_doubts(run: Run) -> dict[str, str]:
+    end = float(run.times[-1])
+    doubts = law_doubts(run.memory.error, run.compliance.inversion_error)
+    for body in _bodies(run):
+        doubts |= passivity_doubts(body.law, end)
+    first = max(body.known_from for body in _bodies(run))
+    kinks = run.load.kinks[run.load.kinks <= end]
+    for time in np.union1d(kinks, run.times[:FIRST_INSTANTS]).tolist():
+        if run.load.level_at(time) > 0:
+            doubts = early_doubts(first, run.load, time) | doubts
+    return doubts | data_doubts(end, run.measured_until)
+
+
+def _step_doubts(run: Run) -> dict[str, str]:
+    """Of given steps that take much of the load on or off at once; adaptive ones see to it."""
+    end, load = float(run.times[-1]), run.load
+    if run.adaptive is not None or run.compliance(end) == run.compliance.instant:
+        return {}
+    doubts: dict[str, str] = {}
+    for begin, step in itertools.pairwise(FixedSteps(run.times, load).steps):
+        if step.is_jump:
+            continue
+        before = float(load.level_at(begin.time, side=begin.side))
+        after = float(load.level_at(step.time, side=step.side))
+        if before <= 0 < after:
+            doubts = touch_doubts(step.duration, after / load.largest_level) | doubts
+        if after <= 0 < before and load.control == "force":
+            doubts = release_doubts(step.duration, before / load.largest_level) | doubts
+    return doubts
