@@ -48,7 +48,7 @@ FLOORS = (
         "step_by_step",
         "marching",
     ),
-    ("description", "dataset", "results"),  # 5 labels and files
+    ("description", "dataset", "results", "recording"),  # 5 labels and files
     (
         "examples",
         "units",
@@ -113,7 +113,9 @@ NEIGHBOURS = {
     ("marching", "stepping"),
     ("marching", "step_by_step"),
     ("dataset", "description"),  # the case travels with the result
-    ("results", "dataset"),  # the file is laid out as the dataset is
+    ("recording", "dataset"),  # the file is laid out as the dataset is
+    ("recording", "description"),  # whose a record is
+    ("recording", "results"),  # what the result is called
     ("case", "units"),
     ("case", "materials"),  # which may be given by name
     ("case", "cards"),  # materials of other programs

@@ -73,6 +73,9 @@ def read_plain(file: BinaryIO) -> Carried:
     try:
         # Without pickles: reading a file must never run what is in it.
         with np.load(file, allow_pickle=False) as archive:
+            # Before any header is believed, lest a damaged one asks for all memory there is.
+            if archive.zip.testzip() is not None:
+                raise ValueError("a checksum is wrong")
             read = _filled(json.loads(str(archive[_OUTLINE])), archive)
     except _DAMAGE as error:
         raise ValueError("it is damaged, or was written by something else") from error

@@ -1,0 +1,173 @@
+"""What is recorded of a run, and what takes it up again from what is saved."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from viscontact.carried import Carried
+from viscontact.dataset import run_attributes
+from viscontact.description import describe, describe_run
+from viscontact.recording.checkpoint import STATE_NAME, Checkpoint, load_checkpoint
+from viscontact.recording.differences import differences
+from viscontact.recording.result_writer import ResultWriter
+from viscontact.recording.soundness import REMEDY
+from viscontact.recording.step_log import LOG_NAME
+from viscontact.recording.stored_run import stored_run
+from viscontact.results import RESULT_NAME
+from viscontact.run import Run
+from viscontact.step_by_step import March
+
+
+class ChangedCaseError(ValueError):
+    """A run that cannot be gone on with, because it is another one now.
+
+    Attributes
+    ----------
+    changes : tuple of str
+        What differs, a line each.
+    """
+
+    def __init__(self, changes: Sequence[str]) -> None:
+        super().__init__("; ".join(changes))
+        self.changes = tuple(changes)
+
+
+@dataclass(frozen=True)
+class Recorded:
+    """What is recorded of which run.
+
+    Attributes
+    ----------
+    directory : Path
+        Where.
+    run : Run
+        The run.
+    fields : "all", "none" or sequence of float
+        Instants [s] whose fields are kept.
+    title : str
+        The result's title.
+    """
+
+    directory: Path
+    run: Run
+    fields: str | Sequence[float]
+    title: str = ""
+
+    @property
+    def case(self) -> dict[str, Any]:
+        """The run in plain words: what must be the same to go on with it."""
+        described = {**describe_run(self.run), "fields": describe(self.fields)}
+        plain: dict[str, Any] = json.loads(json.dumps(described))
+        return plain
+
+    @property
+    def attributes(self) -> dict[str, Any]:
+        """Attributes of the result."""
+        fields = json.dumps(self.case["fields"])
+        return {"title": self.title, **run_attributes(self.run), "fields": fields}
+
+
+def saved_state(recorded: Recorded) -> Checkpoint:
+    """Load what is saved of a run.
+
+    Parameters
+    ----------
+    recorded : Recorded
+        The run.
+
+    Raises
+    ------
+    FileNotFoundError
+        If nothing is saved.
+    ChangedCaseError
+        If what is saved is of another case.
+    ValueError
+        If it cannot be read.
+    """
+    saved = load_checkpoint(recorded.directory / STATE_NAME)
+    if changes := differences(saved.case, recorded.case):
+        raise ChangedCaseError(changes)
+    return saved
+
+
+def restored_march(recorded: Recorded, saved: Checkpoint) -> March:
+    """Return the march as it was when its state was saved.
+
+    Parameters
+    ----------
+    recorded : Recorded
+        The run.
+    saved : Checkpoint
+        Its state.
+
+    Raises
+    ------
+    ValueError
+        If the two do not fit together.
+    """
+    try:
+        return March(recorded.run, saved.march or None)
+    except (KeyError, IndexError, TypeError, ValueError, AttributeError) as error:
+        path = recorded.directory / STATE_NAME
+        raise ValueError(f"{path}: does not fit the run it says it is of; {REMEDY}") from error
+
+
+def new_writer(recorded: Recorded) -> ResultWriter:
+    """Return the writer of a new result.
+
+    Parameters
+    ----------
+    recorded : Recorded
+        The run.
+    """
+    return ResultWriter(
+        recorded.directory / RESULT_NAME,
+        recorded.run.grid,
+        recorded.run.times,
+        fields=recorded.fields,
+        attributes=recorded.attributes,
+    )
+
+
+def same_writer(recorded: Recorded, position: Carried) -> ResultWriter:
+    """Return the writer of a result that is there, at a position of its.
+
+    Parameters
+    ----------
+    recorded : Recorded
+        The run.
+    position : dict
+        From `ResultWriter.position`.
+
+    Raises
+    ------
+    ValueError
+        If the result is another run's, cannot be read, or has not come that far.
+    """
+    path = recorded.directory / RESULT_NAME
+    if path.is_file() and stored_run(path).case != recorded.case:
+        raise ValueError(f"{path} is of another run than {STATE_NAME} beside it; {REMEDY}")
+    return ResultWriter.resume(
+        path,
+        recorded.run.grid,
+        recorded.run.times,
+        position,
+        fields=recorded.fields,
+        attributes=recorded.attributes,
+    )
+
+
+def remove_traces(directory: Path) -> None:
+    """Remove what nobody needs once a run is over.
+
+    Parameters
+    ----------
+    directory : Path
+        The run's.
+    """
+    for name in (STATE_NAME, LOG_NAME):
+        (directory / name).unlink(missing_ok=True)

@@ -1,0 +1,297 @@
+"""A run and its directory: marched, recorded, and gone on with after whatever stopped it."""
+
+from __future__ import annotations
+
+import time as clock
+import uuid
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, nullcontext, suppress
+from typing import Self
+
+from viscontact.carried import Carried
+from viscontact.marching import Progress
+from viscontact.recording.checkpoint import STATE_NAME, Checkpoint, save_checkpoint
+from viscontact.recording.progress import ProgressLog
+from viscontact.recording.recorded import (
+    Recorded,
+    new_writer,
+    remove_traces,
+    restored_march,
+    same_writer,
+    saved_state,
+)
+from viscontact.recording.result_writer import START
+from viscontact.recording.step_log import LOG_NAME, StepLog, logged_steps
+from viscontact.state import ContactState, Outcome
+from viscontact.step_by_step import March, Taken
+
+PROGRESS_NAME = "progress.jsonl"
+
+#: Between two checkpoints lie at least this time [s] and this many times what one takes.
+PAUSE, SHARE = 1.0, 20.0
+
+#: How a step's writing is kept together, should the caller be able to disturb it.
+Undisturbed = Callable[[], AbstractContextManager[object]]
+
+
+class RunRecord:
+    """A run on its way into its directory.
+
+    After each step the directory holds all that it takes to go on from there: what the run carried
+    at the last checkpoint, and the steps solved since. Checkpoints, which put the result in its
+    place too, come after the first instant, after the last, and in between once a second or less
+    often, so that they take a twentieth of the time at most.
+
+    Parameters
+    ----------
+    recorded : Recorded
+        What is recorded.
+    on_begin : callable, optional
+        Called once, when the run has become the directory's: what else belongs there is to be
+        written then.
+    undisturbed : callable, optional
+        Makes a context within which nothing interrupts: whatever has to be written together is
+        written in one.
+
+    Attributes
+    ----------
+    instants : int
+        How many instants are recorded, a last one that has failed included.
+    kept : int
+        How many of them `resume` would find.
+    published : int
+        How many the result shows.
+    reached : float or None
+        The last one [s].
+    resumed : int
+        How many there were when the run was taken up; 0 for a new one.
+    """
+
+    def __init__(
+        self,
+        recorded: Recorded,
+        on_begin: Callable[[], None] | None = None,
+        undisturbed: Undisturbed = nullcontext,
+    ) -> None:
+        token = uuid.uuid4().hex
+        start = Checkpoint(recorded.case, token, 0, 0, None, dict(START), {})
+        self._set_up(recorded, start, March(recorded.run), on_begin, undisturbed)
+        self._writer = new_writer(recorded)
+
+    @classmethod
+    def resume(
+        cls,
+        recorded: Recorded,
+        on_begin: Callable[[], None] | None = None,
+        undisturbed: Undisturbed = nullcontext,
+    ) -> Self:
+        """Take up a run where it was stopped.
+
+        Parameters
+        ----------
+        recorded : Recorded
+            What is recorded, as before.
+        on_begin, undisturbed : callable, optional
+            As for a new run.
+
+        Raises
+        ------
+        FileNotFoundError
+            If nothing is saved.
+        ChangedCaseError
+            If what is saved is of another case.
+        ValueError
+            If a file that is needed is damaged or somebody else's; nothing has been changed then.
+        OSError
+            If something cannot be written; what was saved is still there.
+        """
+        saved = saved_state(recorded)
+        march = restored_march(recorded, saved)
+        record = cls.__new__(cls)
+        record._set_up(recorded, saved, march, on_begin, undisturbed)
+        # Before the first checkpoint the directory may still hold what an earlier run has left.
+        is_new = saved.steps == 0
+        record._writer = new_writer(recorded) if is_new else same_writer(recorded, saved.result)
+        try:
+            record._take_up(None if is_new else saved.lines)
+        except BaseException:
+            record.close()
+            raise
+        return record
+
+    def _set_up(
+        self,
+        recorded: Recorded,
+        saved: Checkpoint,
+        march: March,
+        on_begin: Callable[[], None] | None,
+        undisturbed: Undisturbed,
+    ) -> None:
+        self._recorded, self._march = recorded, march
+        self._case, self._token = saved.case, saved.token
+        self._on_begin, self._undisturbed = on_begin, undisturbed
+        self._steps = saved.steps
+        self._lines: ProgressLog | None = None
+        self._log: StepLog | None = None
+        self._due = 0.0
+        self.instants = self.kept = self.published = self.resumed = int(saved.result["rows"])
+        self.reached = saved.reached
+
+    def _take_up(self, lines: int | None) -> None:
+        """Take the steps again that had been solved since the checkpoint."""
+        path = self._recorded.directory / PROGRESS_NAME
+        self._lines = ProgressLog(path) if lines is None else ProgressLog.resume(path, lines)
+        if self._on_begin is not None:
+            self._on_begin()
+        log = self._recorded.directory / LOG_NAME
+        for solved in logged_steps(log, self._token, self._steps):
+            self._write(self._march.repeat(solved))
+        self.kept = self.resumed = self.instants
+        if self._steps:
+            self.checkpoint()
+        else:
+            self._start_log()
+
+    def states(self, progress: Progress | None = None) -> Iterator[ContactState]:
+        """March on, and record each step before it is shown.
+
+        Parameters
+        ----------
+        progress : callable, optional
+            Called with (state, done, total) after each instant.
+
+        Yields
+        ------
+        ContactState
+            One for each of the run's instants that are left.
+
+        Raises
+        ------
+        ConvergenceError, DomainError
+            As in `march`; what has been recorded stays.
+        OSError
+            If something cannot be written; likewise.
+        """
+        for taken in self._march:
+            with self._undisturbed():
+                self._record(taken)
+            if taken.state is None:
+                continue
+            if progress is not None:
+                progress(taken.state, taken.done, taken.done + taken.left)
+            yield taken.state
+
+    def checkpoint(self) -> None:
+        """Put the result in its place, and save what it takes to go on.
+
+        Raises
+        ------
+        OSError
+            If something cannot be written; what was saved last is still there.
+        """
+        if self._lines is None:
+            return
+        began = clock.monotonic()
+        with self._undisturbed():
+            if self._publish():
+                # The log must not be behind the state, not even after a power cut.
+                self._lines.flush_to_disk()
+                self._save(self._march.carried())
+                self.kept = self.instants
+        now = clock.monotonic()
+        self._due = now + max(PAUSE, SHARE * (now - began))
+
+    def publish(self) -> None:
+        """Put the result in its place, where the march may be within a step.
+
+        Raises
+        ------
+        OSError
+            If that fails; what was published last is still there.
+        """
+        if self._lines is not None:
+            with self._undisturbed():
+                self._publish()
+
+    def finish(self) -> None:
+        """Put the result in its place, complete; nothing is needed any more to go on.
+
+        Raises
+        ------
+        OSError
+            If that fails; the run can be resumed.
+        """
+        with self._undisturbed():
+            self._writer.finish()
+            self.published = self.instants
+            self.close()
+            remove_traces(self._recorded.directory)
+
+    def close(self) -> None:
+        """Close all files; never fails, and further calls do nothing."""
+        self._writer.close()
+        for file in (self._lines, self._log):
+            if file is not None:
+                with suppress(OSError):
+                    file.close()
+
+    def _record(self, taken: Taken) -> None:
+        """Log the step before anything else, so that it is never solved again."""
+        failed = taken.solved.outcome is Outcome.NOT_CONVERGED
+        if failed and not self._steps:
+            return  # there is nothing to keep, and what was there stays
+        if self._lines is None:
+            self._begin()
+        if not failed:
+            assert self._log is not None  # begun
+            self._log.append(taken.solved)
+            self.kept += taken.state is not None
+        self._write(taken)
+        # Nobody wants to go on after a step that has failed.
+        if not failed and clock.monotonic() >= self._due:
+            self.checkpoint()
+
+    def _write(self, taken: Taken) -> None:
+        self._steps += 1
+        if taken.state is None:
+            return
+        assert self._lines is not None  # begun
+        self._writer.append(taken.state)
+        self._lines.append(taken.state)
+        self.instants += 1
+        self.reached = taken.state.time
+
+    def _begin(self) -> None:
+        """Make the directory this run's, as late as possible: what was there stays until then."""
+        directory = self._recorded.directory
+        (directory / LOG_NAME).unlink(missing_ok=True)
+        # From here on the run can be resumed, and no other.
+        self._save({})
+        if self._on_begin is not None:
+            self._on_begin()
+        self._lines = ProgressLog(directory / PROGRESS_NAME)
+
+    def _publish(self) -> bool:
+        done = self._writer.publish()
+        if done:
+            self.published = self.instants
+        return done
+
+    def _save(self, march: Carried) -> None:
+        checkpoint = Checkpoint(
+            self._case,
+            self._token,
+            self._steps,
+            0 if self._lines is None else self._lines.count,
+            self.reached,
+            self._writer.position,
+            march,
+        )
+        save_checkpoint(self._recorded.directory / STATE_NAME, checkpoint)
+        self._start_log()
+
+    def _start_log(self) -> None:
+        if self._log is not None:
+            self._log.close()
+        path = self._recorded.directory / LOG_NAME
+        self._log = StepLog(path, self._token, self._steps)
