@@ -64,6 +64,51 @@ def settle_on_bedding(
     return stiffness * overlap, given + motion
 
 
+def nearest_balanced(
+    pressure: NDArray[np.float64],
+    cells: NDArray[np.bool_],
+    support: Support,
+    plane: RigidPlane,
+    cell_area: float,
+) -> NDArray[np.float64]:
+    """The non-negative pressure with the wanted resultants that is nearest to a given one.
+
+    A plane is added and tension cut off: the body settles on springs that are stressed already.
+
+    Parameters
+    ----------
+    pressure : ndarray, shape (nx, ny)
+        Pressure, tension among it [Pa].
+    cells : ndarray of bool, shape (nx, ny)
+        Cells that may carry pressure; together they must be able to carry the load.
+    support : Support
+        Wanted resultants; a plane has no part in motions that are prescribed.
+    plane : RigidPlane
+        The planes of these cells.
+    cell_area : float
+        Area of a cell [m²].
+
+    Returns
+    -------
+    ndarray, shape (nx, ny)
+        Pressure, zero on all other cells [Pa], balanced to a few digits at least.
+
+    Examples
+    --------
+    Two newtons at the middle one of three cells of 1 m², one of which pulls; the first and the
+    last have to carry alike:
+
+    >>> row = RigidPlane(np.array([-1.0, 0.0, 1.0]), np.zeros(1), (1.0, 1.0))
+    >>> pressure, cells = np.array([[3.0], [-2.0], [-1.0]]), np.ones((3, 1), dtype=bool)
+    >>> nearest_balanced(pressure, cells, Support((2.0, 0.0, None)), row, 1.0).round(9).tolist()
+    [[1.0], [0.0], [1.0]]
+    """
+    tension = np.where(cells, -pressure, np.inf)
+    target = support.targets / cell_area
+    _, balanced = _settled(tension, np.zeros(3), target, plane, support.free, cells.astype(float))
+    return balanced
+
+
 def _balanced(
     gap: NDArray[np.float64],
     target: NDArray[np.float64],

@@ -8,7 +8,8 @@ together. Each pass
 3. projects what would change force or moments out of it and of the last direction;
 4. makes both a Polak-Ribiere+ direction (not reset when cells come or go) and steps along it to the
    least energy;
-5. cuts off tension and restores the balances by a plane factor, where anything was cut.
+5. cuts off tension and restores the balances by a plane factor, or a plane added where no factor
+   does it, where anything was cut.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.balance import restore_balance
+from viscontact.bedding import nearest_balanced
 from viscontact.contact_problem import ContactProblem, Guess
 from viscontact.half_space import Patch
 
@@ -111,7 +113,7 @@ class Search:
         self._active = np.zeros(0, dtype=bool)
         self._residual = self._direction = np.zeros(0)
         self._slope = 0.0
-        self.gave_up = not (self._is_admissible() or self._make_admissible())
+        self.gave_up = not (self._is_admissible() or self._make_admissible(start.pressure))
 
     def run(self, tolerance: float, max_iterations: int) -> None:
         """Iterate until the tolerance is met, or no progress is made.
@@ -179,23 +181,35 @@ class Search:
             return
         length = -_inner(self._residual, direction) / curvature
         self.now = _moved(before, length, direction, change)
-        if float(self.now.pressure.min()) >= 0 or self._make_admissible():
+        if float(self.now.pressure.min()) >= 0 or self._make_admissible(self.now.pressure):
             return
-        # What is left after the cut cannot be balanced: go only as far as nothing is cut.
-        falling = length * direction < 0
-        room = before.pressure[falling] / -(length * direction[falling])
-        self.now = _moved(before, length * float(room.min()), direction, change)
+        # No plane factor balances what is left after the cut; adding a plane and cutting does, as
+        # all active cells together can carry the load.
         self._slope = 0.0
+        support, plane, area = self.problem.support, self.patch.plane, self.patch.cell_area
+        nearest = nearest_balanced(self.now.pressure, self._active, support, plane, area)
+        if not self._make_admissible(nearest):
+            self._go_until_cut(before, length, change)
+
+    def _go_until_cut(self, before: Guess, length: float, change: NDArray[np.float64]) -> None:
+        """Go only as far as the first cells lose their pressure, and nothing is out of balance."""
+        step = length * self._direction
+        room = np.divide(before.pressure, -step, out=np.full(step.shape, np.inf), where=step < 0)
+        part = float(room.min())
+        moved = _moved(before, length * part, self._direction, change)
+        # Exactly none: with a trifle that rounding left them no later step would get anywhere.
+        pressure = np.where(room == part, 0.0, np.maximum(moved.pressure, 0.0))
+        self.now = replace(moved, pressure=pressure)
 
     def _is_admissible(self) -> bool:
         sums = self.patch.plane.sums(self.now.pressure) * self.patch.cell_area
         off = self.problem.support.imbalance(sums, self.patch.arm)
         return float(self.now.pressure.min()) >= 0 and off < BALANCED
 
-    def _make_admissible(self) -> bool:
+    def _make_admissible(self, pressure: NDArray[np.float64]) -> bool:
         """Cut off tension and restore the balances; whether that could be done."""
         problem, patch = self.problem, self.patch
-        pressure = np.where(np.isfinite(problem.open_gap), self.now.pressure, 0.0)
+        pressure = np.where(np.isfinite(problem.open_gap), pressure, 0.0)
         restored = restore_balance(
             np.maximum(pressure, 0.0), problem.support, patch.plane, patch.cell_area, patch.arm
         )
