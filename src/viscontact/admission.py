@@ -58,7 +58,8 @@ def check_magnitudes(
 
 def check_creep(compliance: ContactCompliance, times: NDArray[np.float64]) -> None:
     """Refuse a law that is no creep within the run [s]: no number, negative, or falling."""
-    end = float(times[-1])
+    # A memory in exponentials is fitted to ten times the first step at least.
+    end = max(float(times[-1]), 10 * float(np.diff(times).min(initial=times[-1])))
     # Steps between the instants asked for are as short as they like.
     instants = times[:: max(1, len(times) // CREEP_SAMPLES)]
     if end > 0:

@@ -21,8 +21,8 @@ from viscontact.rim import Rim
 #: A sphere on 10 cells across is below it.
 MISSED_PEAK = 0.1
 
-#: Samples along each axis, of three times the grid, where a body is looked for beyond it.
-BEYOND_SAMPLES = 48
+#: Where a body is looked for beyond the grid, as part of its size: evenly near it, then ever wider.
+NEAR, FAR = np.linspace(0.0, 1.5, 25), np.geomspace(1.6, 30.0, 32)
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,7 +75,8 @@ class Sampling:
 
     def _sampled_lines(self) -> Iterator[tuple[NDArray[np.float64], NDArray[np.float64]]]:
         lx, ly = self.grid.size
-        part = np.linspace(-1.5, 1.5, BEYOND_SAMPLES + 1)
+        one_side = np.concatenate([NEAR, FAR])
+        part = np.concatenate([-one_side[:0:-1], one_side])
         yield lx * part, ly * part
         for part_map in _maps(self.indenter):
             yield part_map.x, part_map.y
