@@ -264,6 +264,33 @@ def test_bad_card_is_refused_at_its_key(changes: dict[str, Any], said: str, tmp_
     assert said in problem(tmp_path, given, {"a.inp": CARD})
 
 
+@pytest.mark.parametrize("material", [MAXWELL, TABLE, CARDED | {"temperature": "40 degC"}])
+def test_thickness_is_told_beside_any_law(material: dict[str, Any], tmp_path: Path) -> None:
+    files = {"pmma.csv": PMMA, "a.inp": CARD}
+    case = read(
+        tmp_path,
+        material | {"thickness": "10 mm"},
+        files,
+        indenter_material=MAXWELL | {"thickness": "2 cm"},
+    )
+    assert case.material.thickness == 0.01
+    assert case.indenter_material is not None
+    assert case.indenter_material.thickness == 0.02
+    assert read(tmp_path, material, files).material.thickness is None
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ("0 mm", "material.thickness: must be more than zero, got '0 mm'"),
+        ("5 N", "material.thickness: cannot read '5 N' as a length"),
+        (5, "material.thickness: 5 has no unit"),
+    ],
+)
+def test_thickness_is_a_length(given: object, said: str, tmp_path: Path) -> None:
+    assert said in problem(tmp_path, MAXWELL | {"thickness": given})
+
+
 def test_material_alone_may_be_a_table(tmp_path: Path) -> None:
     (tmp_path / "pmma.csv").write_text(PMMA, encoding="utf-8")
     (tmp_path / "material.yaml").write_text(write(TABLE), encoding="utf-8")

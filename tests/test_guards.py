@@ -525,3 +525,13 @@ def test_check_foretells_what_the_run_says(
     assert "can be read, but:" in printed
     assert words in printed
     assert (others[0] if others else words) in warned(capsys, settings)
+
+
+@pytest.mark.usefixtures("case")
+def test_check_foretells_a_load_taken_off_in_one_step(capsys: pytest.CaptureFixture[str]) -> None:
+    off = "load={kind: history, points: [[0 s, 4 N], [3 s, 4 N], [4 s, 0 N]]}"
+    words = "falls from 100% of its largest to nothing in a single step of 1 s"
+    assert words in checked(capsys, off, "time.steps=5")
+    assert words not in checked(capsys, off)
+    jump = "load={kind: history, points: [[0 s, 4 N], [3 s, 4 N], [3 s, 0 N]]}"
+    assert "no problems found" in checked(capsys, jump, "time.steps=5")

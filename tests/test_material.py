@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import json
 
 import numpy as np
 import pytest
@@ -10,7 +11,18 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from viscontact.compliance import SeriesCompliance
-from viscontact.laws import Burgers, CreepSeries, Elastic, Maxwell, RelaxationSeries, Zener
+from viscontact.description import describe, rebuild
+from viscontact.laws import (
+    BesideSpring,
+    Burgers,
+    CreepSeries,
+    Elastic,
+    Maxwell,
+    RelaxationSeries,
+    TabulatedCreep,
+    TabulatedRelaxation,
+    Zener,
+)
 from viscontact.material import Material
 
 T = np.array([0.0, 0.01, 0.7, 3.0, 40.0, 1e4])
@@ -169,6 +181,12 @@ def test_materials_are_frozen_hashable_and_rebuilt_from_their_fields():
         (lambda: Material(Elastic(1.0), float("nan")), r"poisson_ratio must lie .*got nan"),
         (lambda: Material(Elastic(1.0), "0,3"), "poisson_ratio: must be one number"),
         (lambda: Material(Elastic(1.0), bulk_modulus=0.0), r"bulk_modulus: .*got 0\.0 Pa"),
+        (lambda: Material(Elastic(1.0), 0.3, thickness=0.0), r"Material\.thickness: .*got 0\.0 m"),
+        (lambda: Material(Elastic(1.0), 0.3, thickness=np.inf), r"Material\.thickness: .*got inf"),
+        (
+            lambda: Material(Elastic(1.0), 0.3, thickness="1 cm"),
+            r"Material\.thickness: .*one number",
+        ),
         (lambda: Material(1e9, 0.3), r"Material\.law: must be a creep law"),
         (lambda: SeriesCompliance(-1.0, [], []), r"SeriesCompliance\.instant"),
         (lambda: SeriesCompliance(1.0, [1.0], []), "equal lengths"),
@@ -183,3 +201,35 @@ def test_bad_arguments_are_refused_with_name_and_value(make, message):
 def test_bulk_modulus_is_taken_by_keyword_only():
     with pytest.raises(TypeError):
         Material(Elastic(1.0), None, 2.0)
+
+
+def test_thickness_is_told_by_keyword_and_changes_no_compliance():
+    thin = Material(Zener(3.0, 0.4, 7.0), 0.3, thickness=0.01)
+    assert thin.thickness == 0.01
+    endless = Material(Zener(3.0, 0.4, 7.0), 0.3)
+    assert endless.thickness is None
+    assert thin.contact_compliance()(T).tolist() == endless.contact_compliance()(T).tolist()
+
+
+def test_material_travels_with_its_thickness_and_older_descriptions_are_read():
+    thin = Material(Maxwell(3.0, 7.0), 0.3, thickness=0.01)
+    assert rebuild(json.loads(json.dumps(describe(thin)))) == thin
+    # As results before it have it: without the key.
+    older = {
+        "type": "Material",
+        "law": {"type": "Maxwell", "shear_modulus": 3.0, "viscosity": 7.0},
+        "poisson_ratio": 0.3,
+        "bulk_modulus": None,
+        "measured_until": 5.0,
+    }
+    assert rebuild(older) == Material(Maxwell(3.0, 7.0), 0.3, measured_until=5.0)
+
+
+def test_table_knows_from_when_on_it_rests_on_data():
+    table = TabulatedCreep([0.5, 1.0, 10.0], [1.0, 2.0, 3.0])
+    modulus = TabulatedRelaxation([0.1, 1.0, 10.0], [3.0, 2.0, 1.0])
+    assert Material(table, 0.3).known_from == 0.5
+    assert Material(modulus, 0.3).known_from == 0.1
+    assert Material(BesideSpring(modulus, 1.0), 0.3).known_from == 0.1
+    assert Material(TabulatedCreep([0.0, 1.0, 10.0], [1.0, 2.0, 3.0]), 0.3).known_from == 0.0
+    assert Material(Maxwell(3.0, 7.0), 0.3).known_from == 0.0

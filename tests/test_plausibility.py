@@ -11,6 +11,7 @@ from viscontact.material_doubts import passivity_doubts
 from viscontact.plausibility import (
     DOUBTFUL_CELLS,
     Doubts,
+    cells_across_spots,
     mesh_doubts,
     relative_change,
 )
@@ -99,6 +100,25 @@ def test_each_kind_is_said_once():
 def test_mesh_doubts_begin_below_their_bound():
     assert mesh_doubts(DOUBTFUL_CELLS) == {}
     assert "only 9 cells" in mesh_doubts(DOUBTFUL_CELLS - 1)["mesh"]
+
+
+def test_spots_are_measured_by_their_chords():
+    x = np.arange(120) - 59.5
+    disc = x[:, None] ** 2 + x[None, :] ** 2 < 40**2
+    # A disc's mean chord is pi/4 of its diameter; counted in cells, to a half of one at each end.
+    assert cells_across_spots(disc) == pytest.approx(np.pi / 4 * 80, rel=0.02)
+    # A strip two cells wide, askew, that spans the whole grid both ways.
+    strip = np.abs(x[:, None] - x[None, :]) < 1.5
+    assert strip.any(axis=0).all()
+    assert strip.any(axis=1).all()
+    assert cells_across_spots(strip) == pytest.approx(3, abs=0.1)
+    # One long way and one short: the short one counts.
+    assert cells_across_spots(np.abs(x[:, None]) < 2 + 0 * x) == 4
+    assert cells_across_spots(np.zeros((4, 4), dtype=bool)) == 0
+
+
+def test_askew_strip_is_doubted_though_its_extents_hold_many_cells():
+    assert list(mesh_doubts(120, across_spots=3.0)) == ["spots"]
 
 
 def test_relative_change_knows_zero():

@@ -16,7 +16,7 @@ from viscontact.indenters import CombinedIndenter, HeightMap, Indenter
 from viscontact.rim import Rim
 
 #: What may stand out of the line between two points of the grid, as a slope, over the mean strain
-#: of the contact (approach / half width). Flattening a wave of height h and length l takes a
+#: of the contact (approach / half width). Flattening a wave of amplitude h and length l takes a
 #: pressure of pi h / (l J) (Johnson 1985, Contact Mechanics, eq. 13.7); waves of two cells count.
 #: A sphere on 10 cells across is below it.
 MISSED_PEAK = 0.1
