@@ -66,6 +66,7 @@ def test_cut_anywhere_the_log_goes_on_with_the_same_lines(kept: int, tmp_path: P
         path.write_bytes(whole[:end])
         with ProgressLog.resume(path, kept) as log:
             assert log.count == kept
+            assert path.read_bytes() == whole[: ends[kept]]
             for row in range(kept, 6):
                 log.append(state(row))
         assert path.read_bytes() == whole

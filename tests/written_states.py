@@ -1,8 +1,9 @@
-"""States made of known numbers, and what a file of them has to hold: nothing is solved here."""
+"""States made of known numbers, written to a file and looked for there: nothing is solved."""
 
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import netCDF4
 import numpy as np
@@ -10,11 +11,13 @@ from numpy.typing import NDArray
 
 from viscontact import Grid
 from viscontact.dataset import FIELDS, SCALARS
+from viscontact.recording.result_writer import ResultWriter
 from viscontact.state import ContactState, Outcome
 
 GRID = Grid((6, 5), (2e-3, 1e-3))
 TIMES = np.arange(12) / 7.0
 SOME = [0.0, float(TIMES[4]), float(TIMES[5]), float(TIMES[11])]
+GIVEN = {"title": "µ", "tolerance": 1e-6}
 NUMBERS = [name for name in SCALARS if name not in ("outcome", "iterations", "cells_across")]
 
 
@@ -37,7 +40,9 @@ def state(row: int, grid: Grid = GRID, times: NDArray[np.float64] = TIMES) -> Co
     )
 
 
-def faults_of(path: Path, at_least: int, some: list[float] | None, grid: Grid = GRID) -> list[str]:
+def faults_of(
+    path: Path, at_least: int, some: list[float] | None, times: NDArray[np.float64] = TIMES
+) -> list[str]:
     """Compare every bit of a file with the rows it should hold; return what differs.
 
     Asked for with `some`, fields are those of these instants only; else those of all.
@@ -45,17 +50,39 @@ def faults_of(path: Path, at_least: int, some: list[float] | None, grid: Grid = 
     with netCDF4.Dataset(str(path)) as file:
         file.set_auto_maskandscale(False)
         rows = len(file.dimensions["time"])
-        states = [state(row, grid) for row in range(rows)]
+        states = [state(row, times=times) for row in range(rows)]
         kept = [each for each in states if some is None or each.time in some]
         truth = {name: [getattr(each, name) for each in states] for name in ("time", *SCALARS)}
-        truth |= {name: [getattr(each, name) for each in kept] for name in FIELDS}
-        if some is not None:
+        if some != []:
+            truth |= {name: [getattr(each, name) for each in kept] for name in FIELDS}
+        if some:
             truth["field_time"] = [each.time for each in kept]
         faults = [f"{rows} rows"] if rows < at_least else []
         for name, expected in truth.items():
             found = file.variables[name][:]
-            same = np.array(expected, found.dtype).reshape(found.shape) if len(kept) else found
-            if len(found) != len(expected) or found.tobytes() != same.tobytes():
+            if found.tobytes() != np.array(expected, found.dtype).tobytes():
                 faults.append(name)
         said = "\n".join(text for each in states for text in each.warnings)
         return faults + (["warnings"] if file.getncattr("warnings") != said else [])
+
+
+def begun(path: Path, fields: Any = SOME) -> ResultWriter:
+    """A writer of a new result."""
+    return ResultWriter(path, GRID, TIMES, fields=fields, attributes=GIVEN)
+
+
+def resumed(path: Path, position: dict[str, Any], fields: Any = SOME) -> ResultWriter:
+    """A writer that goes on."""
+    return ResultWriter.resume(path, GRID, TIMES, position, fields=fields, attributes=GIVEN)
+
+
+def write(writer: ResultWriter, end: int = len(TIMES)) -> None:
+    """Append and publish rows up to one."""
+    for row in range(writer.position["rows"], end):
+        writer.append(state(row))
+        assert writer.publish()
+
+
+def names(path: Path) -> list[str]:
+    """What lies in a file's directory."""
+    return sorted(each.name for each in path.parent.iterdir())

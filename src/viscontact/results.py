@@ -56,7 +56,11 @@ def open_results(path: str | Path) -> xr.Dataset:
     file = file / RESULT_NAME if file.is_dir() else file
     if not file.is_file():
         raise FileNotFoundError(f"no result at {file}")
-    try:
-        return xr.open_dataset(file, engine="netcdf4")
-    except (OSError, ValueError) as error:
-        raise ValueError(f"{file} cannot be read as a netCDF result: {error}") from error
+    while True:
+        opened_at = file.stat().st_ino
+        try:
+            return xr.open_dataset(file, engine="netcdf4")
+        except (OSError, ValueError) as error:
+            # A run that goes on may have put a newer file there in this very moment.
+            if file.stat().st_ino == opened_at:
+                raise ValueError(f"{file} cannot be read as a netCDF result: {error}") from error

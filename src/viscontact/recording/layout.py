@@ -126,6 +126,7 @@ def created(path: Path, layout: Layout, attributes: Mapping[str, Any]) -> netCDF
         _create(file, name, variable, dimensions)
     file["x"][:], file["y"][:] = layout.grid.x, layout.grid.y
     file["outcome"].setncatts(OUTCOME_FLAGS)
+    _keep_little(file)
     return file
 
 
@@ -157,7 +158,15 @@ def opened(path: Path, mode: Literal["r", "a"]) -> netCDF4.Dataset:
     file = netCDF4.Dataset(str(path), mode)
     # Else NaN, the fill value, would travel as a mask.
     file.set_auto_maskandscale(False)
+    _keep_little(file)
     return file
+
+
+def _keep_little(file: netCDF4.Dataset) -> None:
+    """Let HDF5 write fields when they come: else some dozen rows wait, and closing takes long."""
+    for name in FIELDS:
+        if name in file.variables:
+            file.variables[name].set_var_chunk_cache(size=1, nelems=1, preemption=1.0)
 
 
 def write_scalars(file: netCDF4.Dataset, row: int, states: Sequence[ContactState]) -> None:

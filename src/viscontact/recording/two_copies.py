@@ -54,7 +54,12 @@ class TwoCopies:
             Global attributes.
         """
         self.discard()
-        self._file = created(self._working, self._layout, attributes)
+        try:
+            self._file = created(self._working, self._layout, attributes)
+        except BaseException:
+            with suppress(OSError):
+                self._working.unlink(missing_ok=True)
+            raise
 
     def take_over(self, extent: Extent) -> None:
         """Go on with what is published.
