@@ -1,14 +1,47 @@
-"""What differs between two descriptions of a run, in words."""
+"""What differs between two descriptions of a run."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 #: Longer values are cut.
 _LONGEST = 60
 
 
-def differences(before: Any, now: Any, where: str = "") -> tuple[str, ...]:
+class _Nothing:
+    def __str__(self) -> str:
+        return "not there"
+
+
+#: Stands for a value where there is none.
+NOTHING = _Nothing()
+
+
+class Difference(NamedTuple):
+    """A place where two descriptions differ.
+
+    Attributes
+    ----------
+    where : str
+        The keys that lead there.
+    before, now : object
+        What stands there; `NOTHING` if there is no such place.
+
+    Examples
+    --------
+    >>> str(Difference("load.force", "10 kN", "20 kN"))
+    'load.force: was 10 kN, is now 20 kN'
+    """
+
+    where: str
+    before: Any
+    now: Any
+
+    def __str__(self) -> str:
+        return f"{self.where}: was {_shown(self.before)}, is now {_shown(self.now)}"
+
+
+def differences(before: Any, now: Any, where: str = "") -> tuple[Difference, ...]:
     """Compare two pieces of plain data.
 
     Parameters
@@ -16,22 +49,23 @@ def differences(before: Any, now: Any, where: str = "") -> tuple[str, ...]:
     before, now : object
         Dicts, lists, texts and numbers.
     where : str
-        Where they stand, for the lines.
+        Where they stand.
 
     Returns
     -------
-    tuple of str
-        A line for each place where they differ; empty if they are the same.
+    tuple of Difference
+        The places where they differ; empty if they are the same.
 
     Examples
     --------
-    >>> differences({"load": {"force": [0.0, 4.0]}}, {"load": {"force": [0.0, 5.0]}})
-    ('load.force[2]: was 4.0, is now 5.0',)
+    >>> [found] = differences({"load": {"force": [0.0, 4.0]}}, {"load": {"force": [0.0, 5.0]}})
+    >>> str(found)
+    'load.force[2]: was 4.0, is now 5.0'
     """
     if isinstance(before, dict) and isinstance(now, dict):
         keys = [*before, *(key for key in now if key not in before)]
         inner = [(f"{where}.{key}".removeprefix("."), key) for key in keys]
-        pairs = [(place, before.get(key, _NOTHING), now.get(key, _NOTHING)) for place, key in inner]
+        pairs = [(place, before.get(key, NOTHING), now.get(key, NOTHING)) for place, key in inner]
     elif isinstance(before, list) and isinstance(now, list) and len(before) == len(now):
         pairs = [
             (f"{where}[{number}]", one, other)
@@ -40,16 +74,8 @@ def differences(before: Any, now: Any, where: str = "") -> tuple[str, ...]:
     elif _is_same(before, now):
         return ()
     else:
-        return (f"{where}: was {_shown(before)}, is now {_shown(now)}",)
-    return tuple(line for place, one, other in pairs for line in differences(one, other, place))
-
-
-class _Nothing:
-    def __repr__(self) -> str:
-        return "not there"
-
-
-_NOTHING = _Nothing()
+        return (Difference(where, before, now),)
+    return tuple(found for place, one, other in pairs for found in differences(one, other, place))
 
 
 def _is_same(one: Any, other: Any) -> bool:
@@ -58,5 +84,5 @@ def _is_same(one: Any, other: Any) -> bool:
 
 
 def _shown(value: Any) -> str:
-    text = f"{len(value)} entries" if isinstance(value, list) else repr(value)
+    text = f"{len(value)} entries" if isinstance(value, list) else str(value)
     return text if len(text) <= _LONGEST else text[: _LONGEST - 3] + "..."

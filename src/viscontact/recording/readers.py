@@ -1,4 +1,4 @@
-"""Whether somebody reads a file."""
+"""Whether somebody has a file besides us."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ if sys.platform != "win32":
 
 
 def is_unread(path: Path) -> bool:
-    """Whether nobody has an HDF5 file open, as far as that can be known.
+    """Whether nobody has an HDF5 file open or by another name, as far as that can be known.
 
     Parameters
     ----------
@@ -24,6 +24,8 @@ def is_unread(path: Path) -> bool:
         True if it may be written to. HDF5 locks what it reads; where it does not, because the
         file system cannot or the user forbids it, nobody knows, and the answer is False.
     """
+    if path.stat().st_nlink > 1:
+        return False  # a link that somebody has made to keep it as it was
     if sys.platform == "win32":
         return True  # what is open there cannot have been moved out of the readers' way
     if os.environ.get("HDF5_USE_FILE_LOCKING", "").upper() in ("FALSE", "0"):

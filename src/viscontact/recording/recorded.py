@@ -12,7 +12,7 @@ from viscontact.carried import Carried
 from viscontact.dataset import run_attributes
 from viscontact.description import describe, describe_run
 from viscontact.recording.checkpoint import STATE_NAME, Checkpoint, load_checkpoint
-from viscontact.recording.differences import differences
+from viscontact.recording.differences import Difference, differences
 from viscontact.recording.result_writer import ResultWriter
 from viscontact.recording.soundness import REMEDY
 from viscontact.recording.step_log import LOG_NAME
@@ -27,12 +27,12 @@ class ChangedCaseError(ValueError):
 
     Attributes
     ----------
-    changes : tuple of str
-        What differs, a line each.
+    changes : tuple of Difference
+        What differs.
     """
 
-    def __init__(self, changes: Sequence[str]) -> None:
-        super().__init__("; ".join(changes))
+    def __init__(self, changes: Sequence[Difference]) -> None:
+        super().__init__("; ".join(map(str, changes)))
         self.changes = tuple(changes)
 
 

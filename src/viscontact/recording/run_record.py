@@ -6,6 +6,7 @@ import time as clock
 import uuid
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, nullcontext, suppress
+from pathlib import Path
 from typing import Self
 
 from viscontact.carried import Carried
@@ -38,31 +39,27 @@ class RunRecord:
     """A run on its way into its directory.
 
     After each step the directory holds all that it takes to go on from there: what the run carried
-    at the last checkpoint, and the steps solved since. Checkpoints, which put the result in its
-    place too, come after the first instant, after the last, and in between once a second or less
-    often, so that they take a twentieth of the time at most.
+    at the last checkpoint, and the steps solved since. A checkpoint puts the result in its place
+    too. It comes after the first step, and then once a second or less often, so that checkpoints
+    take a twentieth of the time at most.
 
     Parameters
     ----------
     recorded : Recorded
         What is recorded.
     on_begin : callable, optional
-        Called once, when the run has become the directory's: what else belongs there is to be
-        written then.
+        Called once, when the directory is the run's: to write what else belongs there.
     undisturbed : callable, optional
-        Makes a context within which nothing interrupts: whatever has to be written together is
-        written in one.
+        Makes a context within which nothing interrupts, for what has to be written together.
 
     Attributes
     ----------
-    instants : int
-        How many instants are recorded, a last one that has failed included.
     kept : int
-        How many of them `resume` would find.
+        How many instants are recorded, as `resume` would find them.
     published : int
-        How many the result shows.
+        How many the result shows; a last one that has failed among them.
     reached : float or None
-        The last one [s].
+        The last one that is kept [s].
     resumed : int
         How many there were when the run was taken up; 0 for a new one.
     """
@@ -134,25 +131,26 @@ class RunRecord:
         self._lines: ProgressLog | None = None
         self._log: StepLog | None = None
         self._due = 0.0
-        self.instants = self.kept = self.published = self.resumed = int(saved.result["rows"])
+        self._instants = self.kept = self.published = self.resumed = int(saved.result["rows"])
         self.reached = saved.reached
 
     def _take_up(self, lines: int | None) -> None:
         """Take the steps again that had been solved since the checkpoint."""
         path = self._recorded.directory / PROGRESS_NAME
-        self._lines = ProgressLog(path) if lines is None else ProgressLog.resume(path, lines)
+        self._lines = _new_lines(path) if lines is None else ProgressLog.resume(path, lines)
         if self._on_begin is not None:
             self._on_begin()
         log = self._recorded.directory / LOG_NAME
         for solved in logged_steps(log, self._token, self._steps):
-            self._write(self._march.repeat(solved))
-        self.kept = self.resumed = self.instants
+            self._write(taken := self._march.repeat(solved))
+            self.reached = self.reached if taken.state is None else taken.state.time
+        self.kept = self.resumed = self._instants
         if self._steps:
             self.checkpoint()
         else:
             self._start_log()
 
-    def states(self, progress: Progress | None = None) -> Iterator[ContactState]:
+    def steps(self, progress: Progress | None = None) -> Iterator[ContactState | None]:
         """March on, and record each step before it is shown.
 
         Parameters
@@ -162,8 +160,9 @@ class RunRecord:
 
         Yields
         ------
-        ContactState
-            One for each of the run's instants that are left.
+        ContactState or None
+            One for each of the run's steps that are left; None for an inner one that nobody asked
+            for.
 
         Raises
         ------
@@ -175,9 +174,7 @@ class RunRecord:
         for taken in self._march:
             with self._undisturbed():
                 self._record(taken)
-            if taken.state is None:
-                continue
-            if progress is not None:
+            if taken.state is not None and progress is not None:
                 progress(taken.state, taken.done, taken.done + taken.left)
             yield taken.state
 
@@ -197,7 +194,7 @@ class RunRecord:
                 # The log must not be behind the state, not even after a power cut.
                 self._lines.flush_to_disk()
                 self._save(self._march.carried())
-                self.kept = self.instants
+                self.kept = self._instants
         now = clock.monotonic()
         self._due = now + max(PAUSE, SHARE * (now - began))
 
@@ -223,7 +220,7 @@ class RunRecord:
         """
         with self._undisturbed():
             self._writer.finish()
-            self.published = self.instants
+            self.published = self._instants
             self.close()
             remove_traces(self._recorded.directory)
 
@@ -245,7 +242,8 @@ class RunRecord:
         if not failed:
             assert self._log is not None  # begun
             self._log.append(taken.solved)
-            self.kept += taken.state is not None
+            if taken.state is not None:
+                self.kept, self.reached = self.kept + 1, taken.state.time
         self._write(taken)
         # Nobody wants to go on after a step that has failed.
         if not failed and clock.monotonic() >= self._due:
@@ -258,8 +256,7 @@ class RunRecord:
         assert self._lines is not None  # begun
         self._writer.append(taken.state)
         self._lines.append(taken.state)
-        self.instants += 1
-        self.reached = taken.state.time
+        self._instants += 1
 
     def _begin(self) -> None:
         """Make the directory this run's, as late as possible: what was there stays until then."""
@@ -269,12 +266,12 @@ class RunRecord:
         self._save({})
         if self._on_begin is not None:
             self._on_begin()
-        self._lines = ProgressLog(directory / PROGRESS_NAME)
+        self._lines = _new_lines(directory / PROGRESS_NAME)
 
     def _publish(self) -> bool:
         done = self._writer.publish()
         if done:
-            self.published = self.instants
+            self.published = self._instants
         return done
 
     def _save(self, march: Carried) -> None:
@@ -295,3 +292,9 @@ class RunRecord:
             self._log.close()
         path = self._recorded.directory / LOG_NAME
         self._log = StepLog(path, self._token, self._steps)
+
+
+def _new_lines(path: Path) -> ProgressLog:
+    # A link there is replaced, not written through.
+    path.unlink(missing_ok=True)
+    return ProgressLog(path)
