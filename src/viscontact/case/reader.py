@@ -26,8 +26,8 @@ from viscontact.load import LoadHistory
 from viscontact.material import Material
 from viscontact.stepping import AdaptiveTimes
 
-# What a run writes beside its case.
-_RUN_NAMES = ("case.yaml", "result.nc", "progress.jsonl", "state.npz")
+# What a run writes beside its case; names that begin with a dot are its own, too.
+_RUN_NAMES = ("case.yaml", "result.nc", "progress.jsonl", "state.npz", "steps.log")
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,7 +97,7 @@ class Case:
             if path in names:
                 continue
             name = path.name
-            while name.lower() in taken:
+            while name.lower() in taken or name.startswith("."):
                 name = f"{key[0]}-{name}"
             names[path] = name
             taken.add(name.lower())
