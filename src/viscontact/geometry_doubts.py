@@ -21,7 +21,9 @@ STEEP_SLOPE, WIDE_CONTACT, DEEP_APPROACH, DEEP_PUNCH = 0.3, 0.3, 0.1, 0.5
 #: Cells across a contact whose extents can be measured against the approach.
 FEW_CELLS = 4
 
-#: A body counts as deep if the contact's half width is no larger part of its thickness.
+#: A body counts as deep if the contact's half width is no larger part of its thickness. At that
+#: bound an incompressible layer bonded to a rigid base carries 28 % more under a sphere at the same
+#: approach (Dimitriadis et al. 2002, Biophys. J. 82, 2798).
 THIN_BODY = 0.2
 
 
@@ -155,7 +157,8 @@ def body_doubts(geometry: Geometry, rim: Rim) -> dict[str, str]:
     if _touches_end(geometry.open_gap[rim.rows, rim.columns], rim.contact):
         doubts["end"] = (
             f"the contact {reach} the end of the indenter's profile: pressure is singular there "
-            "and the peak pressure depends on the mesh"
+            "and the peak pressure depends on the mesh. The half-space goes on beyond it: a body "
+            "that ends there as well gives way more"
         )
     if geometry.indenter_gives and _ends_within(geometry, rim, half_width):
         doubts["end_face"] = (
