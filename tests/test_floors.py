@@ -136,7 +136,7 @@ REFERENCE_RESTS_ON, REFERENCE_SEEN_FROM = 1, 6
 # Other people's packages, and the lowest floor that may import them.
 OTHERS = {
     "numpy": 0, "scipy": 0,
-    "xarray": 5, "netCDF4": 5,
+    "xarray": 5, "netCDF4": 5, "filelock": 5,
     "pint": 6, "pydantic": 6, "pydantic_core": 6, "ruamel": 6,
     "matplotlib": 6, "contourpy": 6, "plotly": 6,
     "typer": 7, "click": 7, "rich": 7,
