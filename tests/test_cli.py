@@ -11,7 +11,8 @@ import signal
 import subprocess
 import sys
 import time as clock
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -19,9 +20,10 @@ import numpy as np
 import pytest
 
 import viscontact as vc
-from viscontact import forecast
+from viscontact import forecast, past
 from viscontact.cli import execution, figures, main, progress
 from viscontact.errors import ConvergenceError
+from viscontact.recording.step_log import StepLog
 from viscontact.run import prepare_run
 from viscontact.units import in_words
 
@@ -84,7 +86,8 @@ def test_run_writes_a_result_that_is_the_simulation(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["run", "case.yaml"]) == 0
-    assert sorted(path.name for path in Path("case").iterdir()) == ["case.yaml", "result.nc"]
+    kept = sorted(path.name for path in Path("case").iterdir())
+    assert kept == ["case.yaml", "progress.jsonl", "result.nc"]
     assert Path("case/case.yaml").read_text(encoding="utf-8") == SPHERE
     material = vc.Material(vc.Zener(10e6, 10e6, 10e6), 0.5)
     grid, times = vc.Grid((32, 32), (3e-3, 3e-3)), vc.uniform_times(5.0, 6)
@@ -232,15 +235,38 @@ def test_run_without_grid_chooses_one(folder: Path) -> None:
         assert ds.cells_across.max() >= 20
 
 
-def _interrupting(march: Any, times: int) -> Any:
-    def marching(*arguments: Any) -> Iterator[vc.ContactState]:
-        for count, state in enumerate(march(*arguments), start=1):
-            if count == 3:
-                for _ in range(times):
-                    signal.raise_signal(signal.SIGINT)
-            yield state
+def _in_third_step(monkeypatch: pytest.MonkeyPatch, act: Callable[[], None]) -> None:
+    """Do something while the third step of a run is being solved."""
+    solve, solved = past.solve_contact, []
 
-    return marching
+    def solving(*arguments: Any, **options: Any) -> Any:
+        solved.append(1)
+        if len(solved) == 3:
+            act()
+        return solve(*arguments, **options)
+
+    monkeypatch.setattr(past, "solve_contact", solving)
+
+
+def _presses(times: int) -> None:
+    for _ in range(times):
+        signal.raise_signal(signal.SIGINT)
+
+
+def _at_instant(
+    monkeypatch: pytest.MonkeyPatch, wanted: Callable[[vc.ContactState, int], bool]
+) -> None:
+    """Press Ctrl-C when an instant is being reported."""
+
+    @contextmanager
+    def shown(*arguments: Any, **options: Any) -> Iterator[Any]:
+        def report(state: vc.ContactState, done: int, total: int) -> None:
+            if wanted(state, done):
+                _presses(1)
+
+        yield report
+
+    monkeypatch.setattr(execution, "shown_progress", shown)
 
 
 @pytest.mark.parametrize(("presses", "kept"), [(1, 3), (2, 2)])
@@ -252,8 +278,7 @@ def test_interruption_keeps_the_completed_steps(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     # Once during the third step: it is finished. Twice: it is given up.
-    marching = _interrupting(execution.march_run, presses)
-    monkeypatch.setattr(execution, "march_run", marching)
+    _in_third_step(monkeypatch, lambda: _presses(presses))
     handler = signal.getsignal(signal.SIGINT)
     assert main(["run", "case.yaml", "-q"]) == 130
     assert signal.getsignal(signal.SIGINT) is handler
@@ -303,8 +328,7 @@ def test_adaptive_run_keeps_every_step_and_goes_to_the_end(
 def test_interrupted_adaptive_run_says_how_far_it_came_in_time(
     folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    marching = _interrupting(execution.march_run, 1)
-    monkeypatch.setattr(execution, "march_run", marching)
+    _at_instant(monkeypatch, lambda state, done: done == 3)
     # more steps are done by then than instants were asked for
     kept = ["--set", "output.fields=[0 s, 5 s]"]
     assert main(["run", "case.yaml", "-q", *ADAPTIVE, *kept]) == 130
@@ -320,15 +344,7 @@ def test_interrupted_adaptive_run_says_how_far_it_came_in_time(
 def test_interruption_in_the_last_step_of_an_adaptive_run_is_too_late(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    whole = execution.march_run
-
-    def marching(*arguments: Any) -> Iterator[vc.ContactState]:
-        for state in whole(*arguments):
-            if state.time == 5.0:
-                signal.raise_signal(signal.SIGINT)
-            yield state
-
-    monkeypatch.setattr(execution, "march_run", marching)
+    _at_instant(monkeypatch, lambda state, done: state.time == 5.0)
     assert main(["run", "case.yaml", "-q", *ADAPTIVE]) == 0
 
 
@@ -350,26 +366,30 @@ def test_bar_follows_a_total_that_changes(monkeypatch: pytest.MonkeyPatch) -> No
 def test_full_disk_stops_the_run_in_one_message(
     folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def full(*arguments: Any) -> Iterator[vc.ContactState]:
+    def full(*arguments: Any) -> None:
         raise OSError(28, "No space left on device")
-        yield
 
-    monkeypatch.setattr(execution, "march_run", full)
+    monkeypatch.setattr(StepLog, "append", full)
     assert main(["run", "case.yaml", "-q"]) == 1
-    assert "No space left on device" in capsys.readouterr().err
+    first, *rest = capsys.readouterr().err.splitlines()
+    assert "No space left on device" in first
+    # not even the first step could be kept: the same command again is all there is to do
+    assert rest == [
+        "case keeps 0 of 7 instants",
+        "once that is mended: viscontact run case.yaml --quiet",
+    ]
 
 
 def test_run_without_a_single_instant_does_not_block_its_directory(
     folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def hopeless(*arguments: Any) -> Iterator[vc.ContactState]:
+    def hopeless(*arguments: Any, **options: Any) -> None:
         raise ConvergenceError("no equilibrium")
-        yield
 
     Path("mine").mkdir()
     Path("mine/notes.txt").write_text("keep", encoding="utf-8")
     with monkeypatch.context() as patched:
-        patched.setattr(execution, "march_run", hopeless)
+        patched.setattr(past, "solve_contact", hopeless)
         assert main(["run", "case.yaml", "-q", "-o", "mine"]) == 1
         assert "mine keeps 0 of 7 instants" in capsys.readouterr().err
     assert main(["run", "case.yaml", "-q", "-o", "mine"]) == 0
@@ -380,10 +400,10 @@ def test_run_without_a_single_instant_does_not_block_its_directory(
 def test_fault_of_ours_is_a_line_and_not_a_traceback(
     folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def faulty(*arguments: Any) -> None:
+    def faulty(*arguments: Any, **options: Any) -> None:
         raise ZeroDivisionError("so it goes")
 
-    monkeypatch.setattr(execution, "march_run", faulty)
+    monkeypatch.setattr(past, "solve_contact", faulty)
     assert main(["run", "case.yaml", "-q"]) == 1
     message = capsys.readouterr().err
     assert "unexpected ZeroDivisionError: so it goes" in message
@@ -684,18 +704,11 @@ def test_second_demo_replaces_the_first(folder: Path, monkeypatch: pytest.Monkey
     assert [main(["demo", "-q"]), main(["demo", "-q"])] == [0, 0]
 
 
-@pytest.mark.parametrize(
-    ("words", "said"),
-    [
-        (["report", "case"], "report is not built yet"),
-        (["run", "case.yaml", "--resume"], "--resume is not built yet"),
-    ],
-)
 def test_what_is_not_built_is_refused_by_name(
-    words: list[str], said: str, folder: Path, capsys: pytest.CaptureFixture[str]
+    folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert main(words) == 2
-    assert said in capsys.readouterr().err
+    assert main(["report", "case"]) == 2
+    assert "report is not built yet" in capsys.readouterr().err
     assert [path.name for path in folder.iterdir()] == ["case.yaml"]
 
 

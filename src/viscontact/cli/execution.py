@@ -2,32 +2,26 @@
 
 from __future__ import annotations
 
-import time as clock
-import warnings
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Sequence
+from contextlib import closing, contextmanager, suppress
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
-from viscontact.cli.interruption import watched_interruption
-from viscontact.cli.messages import INTERRUPTED, stop
+from viscontact.cli.interruption import Interruption, watched_interruption
+from viscontact.cli.messages import INTERRUPTED, refuse, say, stop
 from viscontact.cli.preparation import Prepared, prepare
 from viscontact.cli.progress import shown_progress
-from viscontact.cli.run_directory import chosen_directory, refuse_occupied, set_up
+from viscontact.cli.run_directory import chosen_directory, taken, write_case
+from viscontact.cli.run_request import RunRequest
 from viscontact.cli.stored import progress_made
 from viscontact.cli.summary import print_summary
-from viscontact.dataset import run_attributes
-from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
-from viscontact.marching import march_run
-from viscontact.recording.result_writer import ResultWriter
-from viscontact.state import ContactState
-
-
-@dataclass
-class Record:
-    """The states of a run without their fields, as they come."""
-
-    states: list[ContactState] = field(default_factory=list)
-    interrupted: bool = False
+from viscontact.cli.taking_up import Standing, refuse_changed, standing
+from viscontact.errors import ConvergenceError, DomainError
+from viscontact.recording.recorded import ChangedCaseError, Recorded, remove_traces
+from viscontact.recording.run_record import RunRecord
+from viscontact.results import RESULT_NAME
+from viscontact.units import in_words
 
 
 def execute(
@@ -35,6 +29,7 @@ def execute(
     output: Path | None = None,
     *,
     overwrite: bool = False,
+    resume: bool = False,
     settings: Sequence[str] | None = None,
     threads: int = 1,
     quiet: bool = False,
@@ -49,6 +44,8 @@ def execute(
         The run's directory; beside the file when left out.
     overwrite : bool
         Replace the result that the directory holds.
+    resume : bool
+        Go on with it; start where there is none, and do nothing where it is finished.
     settings : sequence of str, optional
         The values of ``--set``.
     threads : int
@@ -67,63 +64,166 @@ def execute(
         With code 2 if refused before anything was created, 1 if stopped during the run, 130
         if interrupted.
     """
-    prepared = prepare(path, settings or [], threads)
-    directory = chosen_directory(path, output)
-    refuse_occupied(directory, prepared.case, overwrite=overwrite)
-    result = set_up(directory, prepared.case)
-    record, started = Record(), clock.perf_counter()
-    _march_into(result, prepared, record, quiet=quiet)
-    if not quiet:
-        print_summary(prepared.run, record.states, directory, clock.perf_counter() - started)
+    if overwrite and resume:
+        refuse("--resume goes on with a run and --overwrite begins it anew: give one of them")
+    request = RunRequest(path, output, overwrite, resume, tuple(settings or ()), threads, quiet)
+    with watched_interruption() as interruption:
+        with _before_the_first_step():
+            attempt = _attempt(request, interruption)
+            # Looked at before anything is created, and again once no other run can change it.
+            stands = attempt.standing()
+        directory = attempt.recorded.directory
+        if stands is not Standing.FINISHED:
+            with taken(directory):
+                stands = attempt.standing()
+                if stands is not Standing.FINISHED:
+                    _run(attempt, stands)
+                    return directory
+    _say_finished(attempt)
     return directory
 
 
-def _march_into(result: Path, prepared: Prepared, record: Record, *, quiet: bool) -> None:
-    """March and write; whatever ends it early, the completed steps stay."""
+@dataclass(frozen=True)
+class _Attempt:
+    """What a run was asked for, what it is, what is recorded of it, and who may stop it."""
+
+    request: RunRequest
+    prepared: Prepared
+    recorded: Recorded
+    interruption: Interruption
+
+    def standing(self) -> Standing:
+        return standing(self.request, self.recorded, self.prepared.case)
+
+    def say(self, line: str) -> None:
+        if not self.request.quiet:
+            say(line)
+
+    def made(self, instants: int, reached: float | None) -> str:
+        run = self.recorded.run
+        return progress_made(instants, reached, run.times.tolist(), run.adaptive)
+
+
+def _attempt(request: RunRequest, interruption: Interruption) -> _Attempt:
+    directory = chosen_directory(request.case, request.output)
+    prepared = prepare(request.case, request.settings, request.threads)
+    recorded = Recorded(directory, prepared.run, prepared.case.fields, prepared.case.title)
+    return _Attempt(request, prepared, recorded, interruption)
+
+
+def _run(attempt: _Attempt, stands: Standing) -> None:
+    """Begin or go on, to the end; the directory is this run's alone."""
+    with _before_the_first_step():
+        record = _begun(attempt) if stands is Standing.NEW else _taken_up(attempt)
+    with closing(record):
+        _march(attempt, record)
+    if not attempt.request.quiet:
+        print_summary(attempt.recorded.directory)
+
+
+def _begun(attempt: _Attempt) -> RunRecord:
+    recorded, postponed = attempt.recorded, attempt.interruption.postponed
+    if attempt.request.resume:
+        attempt.say(f"{recorded.directory}: nothing is saved there yet; starting at the beginning")
     try:
-        _write_states(result, prepared, record, quiet=quiet)
+        with postponed():
+            return RunRecord(recorded, partial(_write_case, attempt), postponed)
+    except OSError as error:
+        refuse(f"{recorded.directory}: cannot be written: {error}")
+
+
+def _taken_up(attempt: _Attempt) -> RunRecord:
+    recorded, postponed = attempt.recorded, attempt.interruption.postponed
+    try:
+        with postponed():
+            record = RunRecord.resume(recorded, partial(_write_case, attempt), postponed)
+    except ChangedCaseError as error:
+        refuse_changed(recorded.directory, attempt.prepared.case, error.changes)
+    except ValueError as error:
+        refuse(str(error))
+    except OSError as error:
+        stop(
+            f"{recorded.directory}: the run cannot go on: {error}",
+            f"what it keeps is as it was; once that is mended: {attempt.request.resuming}",
+        )
+    made = attempt.made(record.resumed, record.reached)
+    at = "" if record.reached is None else f", t = {in_words(record.reached, 's')}"
+    attempt.say(f"{recorded.directory}: going on after {made}{'' if ', up to t =' in made else at}")
+    return record
+
+
+def _write_case(attempt: _Attempt) -> None:
+    write_case(attempt.recorded.directory, attempt.prepared.case)
+
+
+def _march(attempt: _Attempt, record: RunRecord) -> None:
+    """March and record; whatever ends it early, the completed steps stay."""
+    try:
+        with attempt.interruption.marching():
+            is_whole = _is_marched_to_the_end(attempt, record)
     except (ConvergenceError, DomainError) as error:
-        problems = prepared.case.error(str(error)).problems
-        stop(*problems, _kept(result, prepared, record))
-    except (OSError, RuntimeError, MemoryError) as error:
-        # netCDF raises RuntimeError where the disk is full
-        why = str(error) or type(error).__name__
-        stop(f"{result}: the run stopped: {why}", _kept(result, prepared, record))
+        _publish(record)
+        # Going on would end in the same way.
+        remedy = "with that changed, run it again" + (" with --overwrite" if record.kept else "")
+        stop(*attempt.prepared.case.error(str(error)).problems, _kept(attempt, record), remedy)
+    except (OSError, MemoryError) as error:
+        _publish(record)
+        why = f"{attempt.recorded.directory}: the run stopped: {str(error) or type(error).__name__}"
+        stop(why, _kept(attempt, record), f"once that is mended: {_remedy(attempt, record)}")
     except KeyboardInterrupt:
-        record.interrupted = True
-    if record.interrupted:
-        advice = ["continuing with --resume is not built yet; start again with --overwrite"]
-        kept = _kept(result, prepared, record)
-        stop("interrupted", kept, *(advice if record.states else ()), code=INTERRUPTED)
+        _publish(record)
+        is_whole = False
+    if not is_whole:
+        lines = ("interrupted", _kept(attempt, record), f"go on with: {_remedy(attempt, record)}")
+        stop(*lines, code=INTERRUPTED)
 
 
-def _write_states(result: Path, prepared: Prepared, record: Record, *, quiet: bool) -> None:
-    run, case = prepared.run, prepared.case
-    attributes = {"title": case.title, **run_attributes(run)}
-    with (
-        watched_interruption() as interruption,
-        ResultWriter(
-            result, run.grid, run.times, fields=case.fields, attributes=attributes
-        ) as writer,
-        shown_progress(None if run.adaptive else len(run.times), quiet=quiet) as progress,
-        warnings.catch_warnings(),
-    ):
-        # They travel with the states, and the summary prints them.
-        warnings.simplefilter("ignore", AccuracyWarning)
-        if not result.exists():
-            writer.publish()
-        for state in march_run(run, progress):
-            writer.append(state)
-            writer.publish()
-            record.states.append(state.without_fields())
-            if interruption.requested and state.time < run.times[-1]:
-                record.interrupted = True
-                return
-        writer.finish()
+def _is_marched_to_the_end(attempt: _Attempt, record: RunRecord) -> bool:
+    """March until the end, or until somebody wants it to stop, and leave everything saved."""
+    run = attempt.recorded.run
+    total = None if run.adaptive else len(run.times)
+    with shown_progress(total, record.resumed, quiet=attempt.request.quiet) as progress:
+        for state in record.steps(progress):
+            is_last = state is not None and state.time >= run.times[-1]
+            if attempt.interruption.requested and not is_last:
+                record.checkpoint()
+                return False
+        record.finish()
+    return True
 
 
-def _kept(result: Path, prepared: Prepared, record: Record) -> str:
-    reached = record.states[-1].time if record.states else None
-    run = prepared.run
-    made = progress_made(len(record.states), reached, run.times.tolist(), run.adaptive)
-    return f"{result.parent} keeps {made}"
+def _publish(record: RunRecord) -> None:
+    # What is not in the result is in the log, and comes with the next attempt.
+    with suppress(OSError):
+        record.publish()
+
+
+def _kept(attempt: _Attempt, record: RunRecord) -> str:
+    made = attempt.made(record.kept, record.reached)
+    late = ""
+    if record.published < record.kept:
+        late = f"; {RESULT_NAME} shows {record.published} of them until the run goes on"
+    return f"{attempt.recorded.directory} keeps {made}{late}"
+
+
+def _remedy(attempt: _Attempt, record: RunRecord) -> str:
+    """The command to type next; without a step there is nothing to go on from."""
+    return attempt.request.resuming if record.kept else attempt.request.repeating
+
+
+def _say_finished(attempt: _Attempt) -> None:
+    directory, run = attempt.recorded.directory, attempt.recorded.run
+    with suppress(OSError):
+        remove_traces(directory)
+    attempt.say(
+        f"{directory}: is finished already, up to t = {in_words(float(run.times[-1]), 's')}; "
+        "--overwrite computes it anew"
+    )
+
+
+@contextmanager
+def _before_the_first_step() -> Iterator[None]:
+    try:
+        yield
+    except KeyboardInterrupt:
+        stop("interrupted before the first step; nothing has been changed", code=INTERRUPTED)

@@ -13,6 +13,7 @@ import xarray as xr
 from numpy.typing import NDArray
 from rich.box import SIMPLE_HEAD
 from rich.console import Console
+from rich.markup import escape
 from rich.table import Table
 
 from viscontact.cli.accuracy import accuracy_lines
@@ -48,7 +49,7 @@ def print_history(ds: xr.Dataset, *, everything: bool = False) -> None:
     for line in _footers(ds):
         console.print(line, highlight=False)
     if ended := early_end(ds):
-        console.print(f"[yellow]{ended}[/]", highlight=False)
+        console.print(f"[yellow]{escape(ended)}[/]", highlight=False, soft_wrap=True)
     for line in str(ds.attrs.get("warnings", "")).splitlines():
         console.print(f"[yellow]warning:[/] {line}")
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from contextlib import suppress
 from typing import NoReturn
 
 import typer
@@ -12,7 +13,9 @@ DONE, STOPPED, REFUSED, INTERRUPTED = 0, 1, 2, 130
 
 def say(line: str) -> None:
     """Print a line on stderr, where messages do not mix with results."""
-    print(line, file=sys.stderr, flush=True)
+    # Whoever closed it, or the terminal, does not want to know; a run goes on.
+    with suppress(OSError):
+        print(line, file=sys.stderr, flush=True)
 
 
 def refuse(*lines: str) -> NoReturn:

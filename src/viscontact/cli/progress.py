@@ -20,13 +20,15 @@ _LINE_PART, _LINE_SECONDS = 0.1, 30.0
 
 
 @contextmanager
-def shown_progress(total: int | None, *, quiet: bool) -> Iterator[Report]:
+def shown_progress(total: int | None, done: int = 0, *, quiet: bool) -> Iterator[Report]:
     """Show how a run goes on.
 
     Parameters
     ----------
     total : int or None
         Number of instants; None where the run chooses its steps, so that all totals are guesses.
+    done : int
+        How many are done already: they say nothing about the time that is left.
     quiet : bool
         Show nothing.
 
@@ -39,12 +41,12 @@ def shown_progress(total: int | None, *, quiet: bool) -> Iterator[Report]:
         yield lambda state, done, total: None
     elif sys.stderr.isatty():
         with _bar() as bar:
-            task = bar.add_task("", total=total, details="")
+            task = bar.add_task("", total=total, completed=done, details="")
             yield lambda state, done, total: bar.update(
                 task, completed=done, total=total, details=_details(state)
             )
     else:
-        yield _PlainLines(guessed=total is None)
+        yield _PlainLines(done, guessed=total is None)
 
 
 def _bar() -> Progress:
@@ -61,17 +63,18 @@ def _bar() -> Progress:
 class _PlainLines:
     """A line now and then."""
 
-    def __init__(self, *, guessed: bool) -> None:
+    def __init__(self, before: int, *, guessed: bool) -> None:
+        self._before = before
         self._of = " of about " if guessed else "/"
         self._started = self._said_at = clock.perf_counter()
-        self._next = 1
+        self._next = before + 1
 
     def __call__(self, state: ContactState, done: int, total: int) -> None:
         now = clock.perf_counter()
         if done < self._next and done < total and now - self._said_at < _LINE_SECONDS:
             return
         self._next, self._said_at = done + max(1, round(total * _LINE_PART)), now
-        left = (now - self._started) / done * (total - done)
+        left = (now - self._started) / (done - self._before) * (total - done)
         of = self._of if done < total else "/"
         say(f"step {done}{of}{total}, about {left:.0f} s left, {_details(state)}")
 

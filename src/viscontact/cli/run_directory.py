@@ -1,17 +1,24 @@
-"""The directory of a run: what it may be, and what is put there."""
+"""The directory of a run: what it may be, what is put there, and that only one run writes to it."""
 
 from __future__ import annotations
 
-import shutil
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
-import netCDF4
-
 from viscontact.case import Case
+from viscontact.case.yaml_source import parse
 from viscontact.cli.messages import refuse
+from viscontact.cli.stored import CASE_NAME
+from viscontact.recording.checkpoint import STATE_NAME
+from viscontact.recording.exchange import replace
+from viscontact.recording.lock import DirectoryInUse, locked
+from viscontact.recording.run_record import PROGRESS_NAME
+from viscontact.recording.step_log import LOG_NAME
+from viscontact.recording.stored_run import stored_run
 from viscontact.results import RESULT_NAME
 
-CASE_NAME = "case.yaml"
+_NAMES = (CASE_NAME, RESULT_NAME, STATE_NAME, LOG_NAME, PROGRESS_NAME)
 
 
 def chosen_directory(case: Path, output: Path | None) -> Path:
@@ -31,6 +38,30 @@ def chosen_directory(case: Path, output: Path | None) -> Path:
     return case.with_suffix("")
 
 
+def refuse_no_directory(directory: Path) -> None:
+    """Refuse what cannot be the directory of a run.
+
+    Parameters
+    ----------
+    directory : Path
+        Where the run is to go.
+
+    Raises
+    ------
+    typer.Exit
+        With code 2.
+    """
+    try:
+        directory.exists()
+    except OSError as error:  # such as a name that is too long
+        refuse(f"{directory}: cannot be a directory: {error}")
+    if directory.exists() and not directory.is_dir():
+        refuse(f"{directory}: is a file, not a directory; choose another one with -o DIR")
+    for path in (directory / name for name in _NAMES):
+        if path.is_dir():
+            refuse(f"{path}: is a directory, where a run has a file; choose another -o DIR")
+
+
 def refuse_occupied(directory: Path, case: Case, *, overwrite: bool) -> None:
     """Refuse a directory in which something of the user's would be lost.
 
@@ -48,67 +79,122 @@ def refuse_occupied(directory: Path, case: Case, *, overwrite: bool) -> None:
     typer.Exit
         With code 2.
     """
-    try:
-        directory.exists()
-    except OSError as error:  # such as a name that is too long
-        refuse(f"{directory}: cannot be a directory: {error}")
-    kept, result = directory / CASE_NAME, directory / RESULT_NAME
-    if directory.exists() and not directory.is_dir():
-        refuse(f"{directory}: is a file, not a directory; choose another one with -o DIR")
+    kept, is_runs = directory / CASE_NAME, _is_of_a_run(directory)
     # What a run has left that was stopped in its first step is nothing to lose.
-    overwrite = overwrite or (result.exists() and not _holds_an_instant(result))
-    if result.exists() and not overwrite:
+    if not overwrite and _holds_an_instant(directory / RESULT_NAME):
         refuse(
-            f"{directory}: holds a result already; replace it with --overwrite, choose another "
-            "directory with -o DIR, or continue it with --resume (not built yet)"
+            f"{directory}: holds a result already; continue it with --resume, replace it with "
+            "--overwrite, or choose another directory with -o DIR"
         )
-    if not kept.exists():
-        return
-    if _is_same(kept, case.document.path):
-        refuse(f"{directory}: {kept} is the case file itself; choose another directory with -o DIR")
-    if not overwrite:
+    if is_same_file(kept, case.document.path):
+        if not (is_runs and _says_the_same(kept, case)):
+            refuse(
+                f"{directory}: {kept} is the case file itself; choose another directory with -o DIR"
+            )
+    elif kept.exists() and not (is_runs or overwrite):
         refuse(f"{kept}: is there already; choose another directory with -o DIR, or --overwrite")
+    _refuse_other_data(directory, case, kept if is_runs else None)
 
 
-def set_up(directory: Path, case: Case) -> Path:
-    """Create the directory with the case as it is run.
+def write_case(directory: Path, case: Case) -> None:
+    """Write the case as it is run, and the files it names, each all at once.
 
     Parameters
     ----------
     directory : Path
-        Where the run goes.
+        The run's.
     case : Case
         The case.
 
-    Returns
-    -------
-    Path
-        Where its result belongs.
+    Raises
+    ------
+    OSError
+        If that fails; what was there is whole.
+    """
+    if not is_same_file(directory / CASE_NAME, case.document.path):
+        _write(directory / CASE_NAME, case.text.encode())
+    for file, name in case.file_names.items():
+        if not is_same_file(file, directory / name):
+            _write(directory / name, file.read_bytes())
+
+
+@contextmanager
+def taken(directory: Path) -> Iterator[None]:
+    """Make the directory, and keep other runs out of it for as long as the block goes on.
+
+    Parameters
+    ----------
+    directory : Path
+        The run's.
 
     Raises
     ------
     typer.Exit
-        With code 2, if the directory cannot be made.
+        With code 2, if it cannot be written to, or another run is at work there.
     """
-    try:
-        directory.mkdir(parents=True, exist_ok=True)
-        (directory / CASE_NAME).write_text(case.text, encoding="utf-8")
-        for file, name in case.file_names.items():
-            if not _is_same(file, directory / name):
-                shutil.copyfile(file, directory / name)
-    except OSError as error:
-        refuse(f"{directory}: cannot be written: {error}")
-    return directory / RESULT_NAME
+    is_new = not directory.exists()
+    with ExitStack() as held:
+        try:
+            directory.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            refuse(f"{directory}: cannot be made: {error}")
+        try:
+            held.enter_context(locked(directory))
+        except (DirectoryInUse, OSError) as error:
+            refuse(str(error))
+        yield
+    if is_new:
+        # Nothing came of it if it is empty.
+        with suppress(OSError):
+            directory.rmdir()
 
 
-def _is_same(one: Path, other: Path) -> bool:
+def is_same_file(one: Path, other: Path) -> bool:
+    """Whether two paths, links followed, name one file that is there."""
     return one.exists() and other.exists() and one.samefile(other)
+
+
+def _write(path: Path, content: bytes) -> None:
+    """Replace a file; a link in its place is replaced too, lest another file be written to."""
+    if not path.is_symlink() and path.is_file() and path.read_bytes() == content:
+        return
+    fresh = path.with_name(f".{path.name}.new")
+    fresh.unlink(missing_ok=True)
+    try:
+        fresh.write_bytes(content)
+        replace(fresh, path)
+    except BaseException:
+        with suppress(OSError):
+            fresh.unlink()
+        raise
+
+
+def _is_of_a_run(directory: Path) -> bool:
+    """Whether a run has begun there, be it that it came to nothing."""
+    return any((directory / name).exists() for name in (RESULT_NAME, STATE_NAME, PROGRESS_NAME))
 
 
 def _holds_an_instant(result: Path) -> bool:
     """Whether a result has anything to lose; a file that cannot be read may have."""
+    if not result.exists():
+        return result.is_symlink()
     try:
-        with netCDF4.Dataset(str(result)) as file:
-            return "time" not in file.dimensions or len(file.dimensions["time"]) > 0
-    except OSError:
+        return stored_run(result).rows > 0
+    except ValueError:
         return True
+
+
+def _says_the_same(kept: Path, case: Case) -> bool:
+    return bool(parse(kept.read_text(encoding="utf-8"))[0] == parse(case.text)[0])
+
+
+def _refuse_other_data(directory: Path, case: Case, earlier: Path | None) -> None:
+    """Refuse to replace a file by a table of its name, unless an earlier run has put it there."""
+    replaceable = earlier.read_text(encoding="utf-8") if earlier and earlier.exists() else ""
+    for file, name in case.file_names.items():
+        there = directory / name
+        if is_same_file(file, there) or not (there.exists() or there.is_symlink()):
+            continue
+        if there.is_file() and (name in replaceable or there.read_bytes() == file.read_bytes()):
+            continue
+        refuse(f"{there}: is there already, and is not {file}; choose another directory, -o DIR")

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from viscontact.cli.messages import refuse
+from viscontact.cli.messages import INTERRUPTED, stop
 
 CaseFile = Annotated[Path, typer.Argument(metavar="CASE.yaml", help="The case file.")]
 Settings = Annotated[
@@ -27,18 +27,31 @@ def run(
         bool, typer.Option("--overwrite", help="Replace the result that DIR holds.")
     ] = False,
     resume: Annotated[
-        bool, typer.Option("--resume", help="Continue a run (not built yet).")
+        bool, typer.Option("--resume", help="Go on with the run that DIR holds.")
     ] = False,
     settings: Settings = None,
     threads: Threads = 1,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Only errors.")] = False,
 ) -> None:
     """Run a case and write its result to a directory."""
-    from viscontact.cli.execution import execute
+    from viscontact.cli.interruption import watched_interruption
 
-    if resume:
-        refuse("--resume is not built yet; start the run again, with --overwrite if DIR exists")
-    execute(case, output, overwrite=overwrite, settings=settings, threads=threads, quiet=quiet)
+    try:
+        # From here on, so that a request to end is met with an orderly end while all is imported.
+        with watched_interruption():
+            from viscontact.cli.execution import execute
+
+            execute(
+                case,
+                output,
+                overwrite=overwrite,
+                resume=resume,
+                settings=settings,
+                threads=threads,
+                quiet=quiet,
+            )
+    except KeyboardInterrupt:
+        stop("interrupted", code=INTERRUPTED)
 
 
 def check(case: CaseFile, settings: Settings = None) -> None:

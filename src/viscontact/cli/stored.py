@@ -3,16 +3,22 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import xarray as xr
 
 from viscontact.cli.messages import refuse
+from viscontact.cli.run_request import RunRequest
 from viscontact.dataset import SCALARS
+from viscontact.recording.checkpoint import STATE_NAME
 from viscontact.results import RESULT_NAME, open_results
 from viscontact.units import in_words
+
+#: The case as it is run, in its directory.
+CASE_NAME = "case.yaml"
 
 
 @contextmanager
@@ -58,7 +64,8 @@ def early_end(ds: xr.Dataset) -> str:
     Returns
     -------
     str
-        A sentence; empty for a run that is complete, or does not say what it was to be.
+        A sentence, with the command that goes on where that is possible; empty for a run that is
+        complete, or does not say what it was to be.
     """
     try:
         case = json.loads(ds.attrs["case"])
@@ -69,7 +76,8 @@ def early_end(ds: xr.Dataset) -> str:
     reached = float(ds["time"][-1])
     if reached >= end:
         return ""
-    return f"the run stopped at {progress_made(ds.sizes['time'], reached, times, adaptive)}"
+    made = progress_made(ds.sizes["time"], reached, times, adaptive)
+    return f"the run stopped at {made}{_way_on(ds)}"
 
 
 def progress_made(
@@ -103,6 +111,17 @@ def progress_made(
     if reached is None:
         return "0 instants"
     return f"{done} instants, up to t = {in_words(reached, 's')} of {in_words(times[-1], 's')}"
+
+
+def _way_on(ds: xr.Dataset) -> str:
+    source = ds.encoding.get("source")
+    directory = Path(str(source)).parent
+    if source is None or not (directory / STATE_NAME).is_file():
+        return ""
+    with suppress(ValueError):  # on another drive
+        directory = Path(os.path.relpath(directory))
+    request = RunRequest(directory / CASE_NAME, directory)
+    return f"; go on with: {request.resuming}"
 
 
 def _unreadable(path: Path, error: Exception) -> str:

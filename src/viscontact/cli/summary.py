@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import json
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator
 from pathlib import Path
 
+import xarray as xr
 from rich.console import Console
+from rich.markup import escape
 from rich.table import Table
 
 from viscontact.cli.accuracy import accuracy_lines
 from viscontact.dataset import SCALARS
-from viscontact.run import Run
-from viscontact.state import ContactState
+from viscontact.recording.run_record import PROGRESS_NAME
+from viscontact.results import RESULT_NAME, open_results
 from viscontact.units import in_digits, in_words, is_rounding_tilt, readable_unit
 
 _ROWS = (
@@ -24,50 +27,54 @@ _ROWS = (
 _NEGLIGIBLE = 1e-12
 
 
-def print_summary(
-    run: Run, states: Sequence[ContactState], directory: Path, seconds: float
-) -> None:
-    """Print what a run found, what it took, and what to doubt.
+def print_summary(directory: Path) -> None:
+    """Print what a finished run found, what it took, and what to doubt.
 
     Parameters
     ----------
-    run : Run
-        The run.
-    states : sequence of ContactState
-        All states of the run.
     directory : Path
-        Where its result is.
-    seconds : float
-        What it took [s].
+        Where its result is: all of it, whichever process has computed what.
     """
+    with open_results(directory) as ds:
+        _print(ds, directory)
+
+
+def _print(ds: xr.Dataset, directory: Path) -> None:
     console = Console()
-    console.print(_table(states))
-    iterations = sum(state.iterations for state in states)
-    residual = max(state.residual for state in states)
+    console.print(_table(ds))
+    count, seconds = ds.sizes["time"], float(ds.attrs["wall_time"])
     console.print(
-        f"{len(states)} instants in {in_words(seconds, 's', 3)}, {iterations} iterations, "
-        f"residual at most {residual:.1e}"
+        f"{count} instants in {in_words(seconds, 's', 3)}, {int(ds['iterations'].sum())} "
+        f"iterations, residual at most {float(ds['residual'].max()):.1e}"
     )
-    errors = _values(states, "time_error")
-    for line in accuracy_lines(errors, run.memory.method, run.compliance.inversion_error):
+    attributes = (str(ds.attrs["memory"]), float(ds.attrs["inversion_error"]))
+    for line in accuracy_lines(ds["time_error"].values, *attributes):
         console.print(line, highlight=False)
-    for state in states:
-        for text in state.warnings:
-            console.print(f"[yellow]warning:[/] t = {in_words(state.time, 's')}: {text}")
-    console.print(f"{directory / 'result.nc'}", soft_wrap=True, highlight=False)
+    for line in _warnings(directory / PROGRESS_NAME):
+        console.print(f"[yellow]warning:[/] {escape(line)}")
+    console.print(f"{directory / RESULT_NAME}", soft_wrap=True, highlight=False)
 
 
-def _table(states: Sequence[ContactState]) -> Table:
-    first, last = states[0], states[-1]
+def _warnings(lines: Path) -> Iterator[str]:
+    """What was doubted, and when: the result tells only what."""
+    with lines.open(encoding="utf-8") as file:
+        for line in file:
+            state = json.loads(line)
+            for text in state["warnings"]:
+                yield f"t = {in_words(state['time'], 's')}: {text}"
+
+
+def _table(ds: xr.Dataset) -> Table:
+    first, last = (float(ds["time"][index]) for index in (0, -1))
     table = Table()
     table.add_column("")
-    for heading in (f"t = {in_words(first.time, 's')}", f"t = {in_words(last.time, 's')}"):
+    for heading in (f"t = {in_words(first, 's')}", f"t = {in_words(last, 's')}"):
         table.add_column(heading, justify="right")
     table.add_column("largest", justify="right")
     for name in _ROWS:
-        values = _values(states, name)
+        values = ds[name].values.tolist()
         largest = max((abs(value) for value in values if math.isfinite(value)), default=0.0)
-        if not _is_rounding(states, name, largest):
+        if not _is_rounding(ds, name, largest):
             unit = readable_unit(largest, SCALARS[name].units)
             table.add_row(
                 f"{name.replace('_', ' ')} [{unit.symbol}]".replace("[", r"\["),
@@ -77,12 +84,8 @@ def _table(states: Sequence[ContactState]) -> Table:
     return table
 
 
-def _values(states: Sequence[ContactState], name: str) -> list[float]:
-    return [getattr(state, name) for state in states]
-
-
-def _is_rounding(states: Sequence[ContactState], name: str, largest: float) -> bool:
+def _is_rounding(ds: xr.Dataset, name: str, largest: float) -> bool:
     if name.startswith("tilt"):
-        lengths, approaches = _values(states, "contact_length"), _values(states, "approach")
-        return is_rounding_tilt(_values(states, name), lengths, approaches)
+        lengths, approaches = ds["contact_length"].values, ds["approach"].values
+        return is_rounding_tilt(ds[name].values, lengths, approaches)
     return largest <= (_NEGLIGIBLE if name.startswith("eccentricity") else 0.0)

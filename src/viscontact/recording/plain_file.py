@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import struct
 import zipfile
 import zlib
 from typing import Any, BinaryIO
@@ -16,7 +17,11 @@ from viscontact.carried import Carried
 _OUTLINE, _ARRAY = "outline", "__array__"
 
 #: What reading says of bytes that are not what was written.
-_DAMAGE = (ValueError, KeyError, TypeError, EOFError, OSError, zipfile.BadZipFile, zlib.error)
+_DAMAGE = (
+    *(ValueError, LookupError, TypeError, OverflowError, EOFError, OSError),
+    *(zipfile.BadZipFile, zlib.error, struct.error),
+    RuntimeError,  # an archive that seems to be encrypted, or of a kind not known
+)
 
 
 def write_plain(file: BinaryIO, carried: Carried) -> None:

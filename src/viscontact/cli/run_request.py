@@ -1,0 +1,75 @@
+"""What `run` is asked for."""
+
+from __future__ import annotations
+
+import os
+import shlex
+import subprocess
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+
+@dataclass(frozen=True)
+class RunRequest:
+    """The words behind ``viscontact run``.
+
+    Attributes
+    ----------
+    case : Path
+        The case file.
+    output : Path or None
+        The run's directory; beside the file when left out.
+    overwrite : bool
+        Replace the result that the directory holds.
+    resume : bool
+        Go on with it.
+    settings : tuple of str
+        The values of ``--set``.
+    threads : int
+        Threads of one Fourier transform.
+    quiet : bool
+        Print errors only.
+    """
+
+    case: Path
+    output: Path | None = None
+    overwrite: bool = False
+    resume: bool = False
+    settings: tuple[str, ...] = ()
+    threads: int = 1
+    quiet: bool = False
+
+    @property
+    def resuming(self) -> str:
+        """The command that goes on with the run, to be copied into a shell.
+
+        Examples
+        --------
+        >>> RunRequest(Path("my case.yaml"), settings=("load.force=20 kN",)).resuming
+        "viscontact run 'my case.yaml' --set 'load.force=20 kN' --resume"
+        """
+        return _command(*self._words(), "--resume")
+
+    @property
+    def repeating(self) -> str:
+        """The same command once more."""
+        given = [name for name in ("resume", "overwrite") if getattr(self, name)]
+        return _command(*self._words(), *(f"--{name}" for name in given))
+
+    def _words(self) -> Iterator[str]:
+        yield str(self.case)
+        if self.output is not None:
+            yield from ("-o", str(self.output))
+        for setting in self.settings:
+            yield from ("--set", setting)
+        if self.threads != 1:
+            yield from ("--threads", str(self.threads))
+        if self.quiet:
+            yield "--quiet"
+
+
+def _command(*words: str) -> str:
+    whole = ["viscontact", "run", *words]
+    # Windows quotes in its own way.
+    return subprocess.list2cmdline(whole) if os.name == "nt" else shlex.join(whole)
