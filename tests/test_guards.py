@@ -184,9 +184,16 @@ GUARDS = {
     ),
     "a map finer than the grid": Guard(
         vc.AccuracyWarning,
-        "between the grid's points the height map stands out",
+        "the height map stands out",
         met=Job(mapped(0.25, 0.005, roughness=1e-4), grid=vc.Grid((32, 32), (0.28, 0.28))),
         missed=Job(mapped(0.25, 0.005), grid=vc.Grid((32, 32), (0.28, 0.28))),
+    ),
+    "a map that leaps from point to point": Guard(
+        vc.AccuracyWarning,
+        "the height map stands out",
+        # A third of a per cent of the approach, and the peak pressure is half as much again.
+        met=Job(mapped(0.1, 0.002, roughness=1e-5), **on_map),
+        missed=Job(mapped(0.1, 0.002), **on_map),
     ),
     "a body that would touch beyond the grid": Guard(
         vc.AccuracyWarning,

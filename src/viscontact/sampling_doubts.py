@@ -15,7 +15,7 @@ from viscontact.grid import Grid
 from viscontact.indenters import CombinedIndenter, HeightMap, Indenter
 from viscontact.rim import Rim
 
-#: What may stand out of the line between two points of the grid, as a slope, over the mean strain
+#: What may stand out from one point of the grid to the next, as a slope, over the mean strain
 #: of the contact (approach / half width). Flattening a wave of amplitude h and length l takes a
 #: pressure of pi h / (l J) (Johnson 1985, Contact Mechanics, eq. 13.7); waves of two cells count.
 #: A sphere on 10 cells across is below it.
@@ -54,8 +54,11 @@ class Sampling:
 
     @cached_property
     def missed(self) -> NDArray[np.float64]:
-        """How far a map's points stand out between the grid's points, by cells [m]."""
-        missed = np.zeros(self.grid.shape)
+        """How far a map stands out between the grid's points, or from one to the next [m].
+
+        As the amplitude of a wave of two cells; 0 for other bodies, whose tips and edges are meant.
+        """
+        missed = self._jagged() if _maps(self.indenter) else np.zeros(self.grid.shape)
         for part in _maps(self.indenter):
             x, y = (lines.ravel() for lines in np.meshgrid(part.x, part.y, indexing="ij"))
             places = [
@@ -72,6 +75,17 @@ class Sampling:
             cells = tuple(np.rint(place[known]).astype(np.intp) for place in places)
             np.maximum.at(missed, cells, seen[known] - self.indenter.gap(x[known], y[known]))
         return missed
+
+    def _jagged(self) -> NDArray[np.float64]:
+        """Half of how far each point stands out from the middle of its neighbours [m]."""
+        jagged = np.zeros(self.grid.shape)
+        for axis in (0, 1):
+            gap = np.moveaxis(self.open_gap, axis, 0)
+            inner = np.isfinite(gap[:-2] + gap[1:-1] + gap[2:])
+            out = np.moveaxis(jagged, axis, 0)[1:-1]
+            middle = (gap[:-2][inner] + gap[2:][inner]) / 2
+            out[inner] = np.maximum(out[inner], (middle - gap[1:-1][inner]) / 2)
+        return jagged
 
     def _sampled_lines(self) -> Iterator[tuple[NDArray[np.float64], NDArray[np.float64]]]:
         lx, ly = self.grid.size
@@ -108,9 +122,9 @@ def map_doubts(missed: float, cell: float, strain: float) -> dict[str, str]:
         return {}
     return {
         "map": (
-            f"between the grid's points the height map stands out by up to {missed:.3g} m, with "
-            "peaks of pressure that the grid does not see; use cells smaller than the map's, or a "
-            "smoother map"
+            f"from one of the grid's points to the next the height map stands out by {missed:.3g} "
+            "m: peaks of pressure there depend on the mesh; use smaller cells, and a map that is "
+            "smooth over several of them"
         )
     }
 
