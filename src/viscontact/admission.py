@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from numbers import Integral, Real
+from numbers import Integral
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +13,9 @@ from viscontact.grid import Grid
 from viscontact.hull import refuse_outside
 from viscontact.indenters import Indenter
 from viscontact.load import LoadHistory
+from viscontact.load.points import TAIL
 from viscontact.material import Material
+from viscontact.real import as_real
 
 #: Instants at which a law is looked at before it is used, and a fall that is not rounding or the
 #: error of a conversion.
@@ -38,7 +40,8 @@ def check_kinds(
 
 def check_numbers(tolerance: object, threads: object) -> None:
     """Refuse a tolerance or a number of threads out of range."""
-    if not (isinstance(tolerance, Real) and 1e-13 <= float(tolerance) <= 1e-2):
+    number = as_real(tolerance)
+    if number is None or not 1e-13 <= number <= 1e-2:
         raise ValueError(f"tolerance must lie between 1e-13 and 1e-2, got {tolerance!r}")
     if not (isinstance(threads, Integral) and 1 <= int(threads) <= 1024):
         raise ValueError(f"threads must be a whole number >= 1, and at most 1024, got {threads!r}")
@@ -50,7 +53,7 @@ def check_magnitudes(
     """Refuse magnitudes whose squares and quotients are no numbers; a search might never end."""
     sizes = () if grid is None else grid.size
     level = abs(load.largest_level)
-    magnitudes = [(f"load.{load.control}", level), ("material", compliance(end))]
+    magnitudes = [(f"load.{load.control}", level), ("material", compliance(end)), ("time", end)]
     for name, value in [*magnitudes, *(("grid.size", size) for size in sizes)]:
         if value and not 1e-30 <= value <= 1e30:
             raise ValueError(f"{name}: {value:.3g} in SI units is beyond what can be computed with")
@@ -113,7 +116,10 @@ def check_balance(open_gap: NDArray[np.float64], grid: Grid, load: LoadHistory, 
     instants = np.unique([*load.kinks[load.kinks < end], *swing, end])
     levels = np.maximum(load.level_at(instants, side="left"), load.level_at(instants))
     before, after = np.append(0.0, levels[:-1]), np.append(levels[1:], 0.0)
-    for time in instants[(before > 0) | (levels > 0) | (after > 0)].tolist():
+    under_load = instants[(before > 0) | (levels > 0) | (after > 0)].tolist()
+    if not _wanders(load):
+        del under_load[1:]
+    for time in under_load:
         for side in ("left", "right"):
             point = load.at(time, side=side)
             where = (
@@ -121,3 +127,8 @@ def check_balance(open_gap: NDArray[np.float64], grid: Grid, load: LoadHistory, 
                 None if point.tilt_y is not None else point.eccentricity_y,
             )
             refuse_outside(solid, grid, where, time)
+
+
+def _wanders(load: LoadHistory) -> bool:
+    """Whether the place where the force acts, or what is prescribed of the tilts, changes."""
+    return any(np.ndim(getattr(load, name)) > 0 for name in TAIL if getattr(load, name) is not None)

@@ -146,9 +146,10 @@ def largest_load(load: LoadHistory, end: float) -> tuple[float, LoadPoint]:
     >>> largest_load(harmonic(mean=2.0, amplitude=1.0, period=4.0, cycles=4), end=16.0)[0]
     1.0
     """
-    instants = [*load.kinks[load.kinks <= end].tolist(), end]
+    instants: list[float] = [*load.kinks[load.kinks <= end].tolist(), end]
     if math.isfinite(load.longest_step):
         steps = np.arange(1, SWING_STEPS + 1) * load.longest_step
         instants += steps[steps < end].tolist()
-    points = [(time, load.at(time, side=side)) for time in instants for side in ("left", "right")]
-    return max(points, key=lambda timed: level_of(timed[1]))
+    levels = np.stack([load.level_at(instants, side=side) for side in ("left", "right")], axis=1)
+    first, side = divmod(int(levels.argmax()), 2)
+    return instants[first], load.at(instants[first], side=("left", "right")[side])

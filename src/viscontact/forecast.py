@@ -24,6 +24,9 @@ from viscontact.schedule import FixedSteps
 #: measured; two arrays more for each term of the law.
 PROGRAM, WORK_ARRAYS, ARRAYS_PER_TERM = 1e8, 40, 2
 
+#: What is kept of each step besides fields: when it is, and the scalars it ends with; measured.
+BYTES_PER_STEP = 2000.0
+
 #: Plain convolutions' time that the first step and each later one take at tolerance 1e-6, and
 #: what a step takes besides [s]; measured on the shipped rollers and spheres.
 FIRST_STEP, LATER_STEP, BESIDES = 30.0, 3.5, 3e-3
@@ -110,7 +113,7 @@ def forecast(run: Run) -> Forecast:
         extent / cell for extent, cell in zip(extents, run.grid.cell_size, strict=True)
     )
     return Forecast(
-        memory=needed_memory(run.grid, run.memory.fields_kept),
+        memory=needed_memory(run.grid, run.memory.fields_kept) + BYTES_PER_STEP * _step_count(run),
         available=available_memory(),
         seconds=_seconds(run),
         estimate=estimate,

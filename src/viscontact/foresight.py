@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 
 import numpy as np
@@ -72,9 +71,10 @@ def _material_doubts(run: Run) -> dict[str, str]:
         doubts |= passivity_doubts(body.law, end)
     first = max(body.known_from for body in _bodies(run))
     kinks = run.load.kinks[run.load.kinks <= end]
-    for time in np.union1d(kinks, run.times[:FIRST_INSTANTS]).tolist():
-        if run.load.level_at(time) > 0:
-            doubts = early_doubts(first, run.load, time) | doubts
+    instants = np.union1d(kinks, run.times[:FIRST_INSTANTS])
+    loaded = instants[run.load.level_at(instants) > 0] if first > 0 else instants[:0]
+    for time in loaded.tolist():
+        doubts = early_doubts(first, run.load, time) | doubts
     return doubts | data_doubts(end, run.measured_until)
 
 
@@ -84,13 +84,18 @@ def _step_doubts(run: Run) -> dict[str, str]:
     if run.adaptive is not None or run.compliance(end) == run.compliance.instant:
         return {}
     doubts: dict[str, str] = {}
-    for begin, step in itertools.pairwise(FixedSteps(run.times, load).steps):
+    steps = FixedSteps(run.times, load).steps
+    times = np.array([step.time for step in steps])
+    before_jumps = np.array([step.before_jump for step in steps])
+    # All at once: a load at a hundred thousand instants one by one takes seconds.
+    levels = np.where(before_jumps, load.level_at(times, side="left"), load.level_at(times))
+    comes_or_goes = np.flatnonzero((levels[:-1] <= 0) != (levels[1:] <= 0)) + 1
+    for k in comes_or_goes.tolist():
+        step, before, after = steps[k], float(levels[k - 1]), float(levels[k])
         if step.is_jump:
             continue
-        before = float(load.level_at(begin.time, side=begin.side))
-        after = float(load.level_at(step.time, side=step.side))
-        if before <= 0 < after:
+        if before <= 0:
             doubts = touch_doubts(step.duration, after / load.largest_level) | doubts
-        if after <= 0 < before and load.control == "force":
+        elif load.control == "force":
             doubts = release_doubts(step.duration, before / load.largest_level) | doubts
     return doubts

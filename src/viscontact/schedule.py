@@ -16,6 +16,12 @@ from viscontact.load import LoadHistory
 #: An instant this close to a kink of the load, relative to it, is meant to be the kink.
 SAME = 1e-9
 
+#: A law is followed from its shortest to its longest time by functions of every decade between.
+SHORTEST_OF_END = 1e-30
+
+#: More steps are more than anyone waits for, and a list of them takes more memory than the fields.
+MOST_STEPS = 1_000_000
+
 
 @dataclass(frozen=True)
 class Step:
@@ -73,7 +79,9 @@ class FixedSteps:
     """
 
     def __init__(self, times: NDArray[np.float64], load: LoadHistory) -> None:
-        self.steps = list(_steps(_instants_wanted(times, load), load))
+        wanted = _instants_wanted(times, load)
+        _refuse_endless_span(list(wanted))
+        self.steps = list(_steps(wanted, load))
         self._taken = 0
 
     @property
@@ -109,8 +117,7 @@ def _instants_wanted(times: NDArray[np.float64], load: LoadHistory) -> dict[floa
     """Where steps end, in order: the instant asked for there, or None."""
     stops = load.stops
     wanted: dict[float, float | None] = {}
-    for time in times.tolist():
-        stop = kink_meant(time, stops)
+    for time, stop in zip(times.tolist(), _kinks_meant(times, stops).tolist(), strict=True):
         wanted[time if stop in wanted else stop] = time
     last = max(wanted)
     for stop in stops[stops <= last].tolist():
@@ -120,10 +127,27 @@ def _instants_wanted(times: NDArray[np.float64], load: LoadHistory) -> dict[floa
     return dict(sorted(wanted.items()))
 
 
+def _refuse_endless_span(instants: list[float]) -> None:
+    """Refuse a shortest step that is nothing beside the end: no law is followed so far."""
+    steps = np.diff(np.append(0.0, instants))
+    shortest = float(steps.min(initial=np.inf, where=steps > 0))
+    if shortest < SHORTEST_OF_END * instants[-1]:
+        raise ValueError(
+            f"time: steps from {shortest:.3g} s to the end at {instants[-1]:.3g} s range over too "
+            f"many decades, at most {-math.log10(SHORTEST_OF_END):.0f}; begin later or end earlier"
+        )
+
+
 def _divisions(instants: list[float], load: LoadHistory) -> Iterator[float]:
     """Instants that divide intervals longer than the load allows, as long as it moves."""
     if math.isinf(load.longest_step):
         return
+    swings = min(instants[-1], float(load.kinks[-1])) / load.longest_step
+    if swings > MOST_STEPS:
+        raise ValueError(
+            f"load: takes {swings:.3g} steps of {load.longest_step:.3g} s for its swings, and "
+            f"{MOST_STEPS} at most can be taken; give fewer cycles, or end the run earlier"
+        )
     for begin, end in itertools.pairwise(instants):
         if end > load.kinks[-1]:
             return
@@ -168,5 +192,14 @@ def kink_meant(time: float, kinks: NDArray[np.float64]) -> float:
     >>> kink_meant(0.1 + 0.2, np.array([0.3])), kink_meant(0.31, np.array([0.3]))
     (0.3, 0.31)
     """
-    nearest = float(kinks[np.abs(kinks - time).argmin()])
-    return nearest if abs(nearest - time) <= SAME * max(nearest, time) else time
+    return float(_kinks_meant(np.array([time]), kinks)[0])
+
+
+def _kinks_meant(times: NDArray[np.float64], kinks: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return for each instant the kink that it differs from by rounding only, else itself [s]."""
+    after = np.clip(np.searchsorted(kinks, times), 0, len(kinks) - 1)
+    before = np.maximum(after - 1, 0)
+    nearer = np.abs(kinks[before] - times) <= np.abs(kinks[after] - times)
+    nearest = np.where(nearer, kinks[before], kinks[after])
+    same = np.abs(nearest - times) <= SAME * np.maximum(nearest, times)
+    return np.where(same, nearest, times)

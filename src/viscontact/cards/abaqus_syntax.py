@@ -115,12 +115,21 @@ def read_blocks(source: str, text: str) -> list[Block]:
 def _close(blocks: list[Block], where: str, heading: str, data: list[DataLine]) -> None:
     if not heading:
         return
-    keyword, *parameters = re.split(r',(?=(?:[^"]*"[^"]*")*[^"]*$)', heading.removesuffix(","))
+    keyword, *parameters = _split_outside_quotes(heading.removesuffix(","))
     found = {}
     for parameter in parameters:
         name, _, value = parameter.partition("=")
         found[_spaced(name)] = value.strip().strip('"')
     blocks.append(Block(where, _spaced(keyword.removeprefix("*")), found, tuple(data)))
+
+
+def _split_outside_quotes(heading: str) -> list[str]:
+    """Split at commas that an even number of quotation marks follows."""
+    pieces = heading.split('"')
+    last = len(pieces) - 1
+    # No text file that is read has a NUL, so that it can stand for where to cut.
+    marked = [p if (last - k) % 2 else p.replace(",", "\0") for k, p in enumerate(pieces)]
+    return '"'.join(marked).split("\0")
 
 
 def _spaced(text: str) -> str:

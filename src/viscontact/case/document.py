@@ -10,8 +10,9 @@ from typing import Any
 from viscontact.case import toml_source, yaml_source
 from viscontact.case.problems import CaseError, KeyPath, SourceError, dotted
 
-# A case file is a page of text; histories of a hundred thousand points belong in a CSV.
-_LARGEST_FILE = 10_000_000
+# A case file is a page of text; histories of ten thousand points belong in a CSV. The parser
+# reads a megabyte in ten seconds.
+_LARGEST_FILE = 1_000_000
 
 
 @dataclass(frozen=True)
@@ -96,9 +97,16 @@ def _read_text(path: Path) -> str:
     try:
         if path.is_dir():
             raise CaseError(f"{path}: is a directory; name the case file in it")
-        if path.stat().st_size > _LARGEST_FILE:
-            raise CaseError(f"{path}: larger than 10 MB, which no case file is")
-        return path.read_bytes().decode("utf-8-sig")
+        if path.exists() and not path.is_file():  # a device or a pipe may have no end
+            raise CaseError(f"{path}: is no file")
+        with path.open("rb") as file:
+            data = file.read(_LARGEST_FILE + 1)
+        if len(data) > _LARGEST_FILE:
+            raise CaseError(
+                f"{path}: larger than {_LARGEST_FILE // 1_000_000} MB, which no case file is; a "
+                "long history belongs in a CSV file"
+            )
+        return data.decode("utf-8-sig")
     except FileNotFoundError:
         raise CaseError(f"{path}: no such file{_nearest_file(path)}") from None
     except UnicodeDecodeError:
@@ -111,7 +119,10 @@ def _read_text(path: Path) -> str:
 
 def _nearest_file(path: Path) -> str:
     folder = path.parent
-    names = [entry.name for entry in folder.iterdir()] if folder.is_dir() else []
+    try:
+        names = [entry.name for entry in folder.iterdir()]
+    except (OSError, ValueError):  # no such folder, or none that may be read
+        return ""
     near = difflib.get_close_matches(path.name, names, n=1)
     return f"; did you mean '{folder / near[0]}'?" if near else ""
 

@@ -17,7 +17,7 @@ _SMALLEST, _LARGEST = 1e-100, 1e100
 
 # More cells along an axis than any machine holds, and more steps than anyone waits for: without
 # these bounds the arrays would be made before they could be refused.
-_MOST_CELLS, _MOST_STEPS = 10**9, 10**6
+_MOST_CELLS, _MOST_STEPS = 10**9, 10**5
 
 ANY, NOT_NEGATIVE, POSITIVE = "any", "zero or more", "more than zero"
 

@@ -15,6 +15,12 @@ from viscontact.case.phrases import CAN_BE_SAID, FORMS, PhraseError, Reading, re
 #: Sentences end with these, or where the next begins with "then" or "and".
 _ENDS = re.compile(r";|\n|\.(?=\s|$)|,?\s*\b(?:and\s+)?then\b|,?\s+and\s+(?=[a-z])", re.IGNORECASE)
 
+#: Of so many sentences that cannot be understood a message tells why.
+_MOST_TOLD = 10
+
+#: More sentences than these take seconds to understand, and nobody has written them.
+_MOST_SENTENCES = 10_000
+
 #: A short history.
 EXAMPLE = "'ramp to 10 kN in 1 s; hold for 240 s; unload in 0.1 s'"
 
@@ -62,6 +68,8 @@ def split_sentences(text: str) -> list[str]:
     >>> split_sentences("Ramp to 1.5 N in 1 s, then hold for 2 s.")
     ['Ramp to 1.5 N in 1 s', 'hold for 2 s']
     """
+    # Single blanks: a pattern that looks for "and" behind blanks tries every run of them.
+    text = re.sub(r"\s+", lambda run: "\n" if "\n" in run[0] else " ", text)
     return [part.strip(" \t\r,") for part in _ENDS.split(text) if part.strip(" \t\r,")]
 
 
@@ -121,6 +129,8 @@ def _understood(entry: _Entry) -> tuple[Sentence, ...]:
     if not entry.parts:
         refused.append("it is empty")
     if refused:
+        if len(refused) > _MOST_TOLD:
+            refused[_MOST_TOLD:] = [f"and {len(refused) - _MOST_TOLD} more"]
         said = ", ".join(repr(form) for form in CAN_BE_SAID)
         why = f"{'; '.join(refused)}. What can be said: {said}"
         raise PydanticCustomError("quantity", "{why}", {"why": why})
@@ -136,7 +146,12 @@ def _as_entries(given: Any) -> list[_Entry]:
     if not isinstance(texts, list) or not texts:
         why = f"must be a text or a list of texts, got {_shown(str(given))}; write e.g. {EXAMPLE}"
         raise PydanticCustomError("quantity", "{why}", {"why": why})
-    return _numbered(texts)
+    entries = _numbered(texts)
+    count = sum(len(entry.parts) for entry in entries)
+    if count > _MOST_SENTENCES:
+        why = f"holds {count} sentences, and at most {_MOST_SENTENCES} are read; repeat some"
+        raise PydanticCustomError("quantity", "{why}", {"why": why})
+    return entries
 
 
 _SCHEMA = {

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import tomllib
+from collections import Counter
 from typing import Any
 
 from viscontact.case.problems import KeyPath, SourceError
@@ -12,6 +13,12 @@ __all__ = ["SourceError", "parse"]
 
 _HEADER = re.compile(r"\s*\[(\[)?\s*([\w.-]+)\s*\]\]?")
 _KEY = re.compile(r"\s*([\w.-]+)\s*=")
+
+# The parser needs a time that grows with the square of a key's length.
+_MOST_PARTS = 64
+_ENDLESS_KEY = re.compile(
+    rf"""(?<![\w-])(?:(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+){{{_MOST_PARTS}}}"""
+)
 
 
 def parse(text: str) -> tuple[dict[str, Any], dict[KeyPath, int]]:
@@ -39,9 +46,14 @@ def parse(text: str) -> tuple[dict[str, Any], dict[KeyPath, int]]:
     >>> parse('[load]\nforce = "10 kN"')
     ({'load': {'force': '10 kN'}}, {('load',): 1, ('load', 'force'): 2})
     """
+    if endless := _ENDLESS_KEY.search(text):
+        raise SourceError(
+            f"a key of more than {_MOST_PARTS} parts is none of a case file",
+            text.count("\n", 0, endless.start()) + 1,
+        )
     try:
         data = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
+    except ValueError as error:  # TOMLDecodeError is one, and a whole number of 5000 digits another
         found = re.search(r"line (\d+)", str(error))
         line = int(found[1]) if found else None
         raise SourceError(f"not valid TOML: {error}", line) from error
@@ -54,19 +66,14 @@ def _lines(text: str) -> dict[KeyPath, int]:
     # tomllib keeps no line numbers; the headers and keys at the beginning of lines are nearly all.
     lines: dict[KeyPath, int] = {}
     table: KeyPath = ()
+    entries: Counter[KeyPath] = Counter()
     for number, line in enumerate(text.splitlines(), start=1):
         if header := _HEADER.match(line):
             table = tuple(header[2].split("."))
             if header[1]:
-                table = (*table, _next_index(table, lines))
+                entries[table] += 1
+                table = (*table, entries[table] - 1)
             lines.setdefault(table, number)
         elif key := _KEY.match(line):
             lines.setdefault((*table, *key[1].split(".")), number)
     return lines
-
-
-def _next_index(table: KeyPath, lines: dict[KeyPath, int]) -> int:
-    index = 0
-    while (*table, index) in lines:
-        index += 1
-    return index

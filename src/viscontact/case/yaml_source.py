@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 from typing import Any
 
 from ruamel.yaml import YAML
@@ -14,8 +15,10 @@ from viscontact.case.problems import KeyPath, SourceError
 
 __all__ = ["SourceError", "parse", "parse_value", "with_overrides"]
 
-# Aliases can make a small file expand without end.
-_MOST_VALUES, _DEEPEST = 200_000, 12
+# Aliases can make a small file expand without end, and the parser needs seconds for so many values,
+# a time that grows with the square of the depth.
+_MOST_VALUES, _DEEPEST = 100_000, 12
+_MOST_BRACKETS = 200
 
 
 def parse(text: str) -> tuple[Any, dict[KeyPath, int]]:
@@ -132,6 +135,7 @@ def _yaml() -> YAML:
 
 
 def _load(text: str) -> Any:
+    _refuse_endless(text)
     try:
         return _yaml().load(text)
     except DuplicateKeyError as error:
@@ -146,6 +150,20 @@ def _load(text: str) -> Any:
     except Exception as error:  # malformed text makes the parser raise many other kinds
         why = str(error).splitlines()[0] if str(error) else type(error).__name__
         raise SourceError(f"not valid YAML: {why}") from error
+
+
+def _refuse_endless(text: str) -> None:
+    """Refuse what would take minutes to parse, before it is tried."""
+    # Whatever stands in texts and comments counts too: no case file has so many there either.
+    if text.count(",") + text.count("\n") > _MOST_VALUES:
+        raise SourceError(
+            f"has more than {_MOST_VALUES} lines and commas; a long history belongs in a CSV file"
+        )
+    depth = 0
+    for bracket in re.findall(r"[\[\]{}]", text):
+        depth = max(0, depth + (1 if bracket in "[{" else -1))
+        if depth > _MOST_BRACKETS:
+            raise SourceError("nested too deeply for a case file")
 
 
 def _line(error: MarkedYAMLError) -> int | None:

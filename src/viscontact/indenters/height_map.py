@@ -10,6 +10,10 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact.indenters.indenter import Indenter
 
 
+#: Squares of gaps are still numbers that the solver can compare [m].
+_HIGHEST = 1e30
+
+
 @dataclass(frozen=True, eq=False, init=False)
 class HeightMap(Indenter):
     """A surface given by heights on a rectangular mesh, peaks touching first.
@@ -112,6 +116,11 @@ def _heights(values: ArrayLike, shape: tuple[int, int]) -> NDArray[np.float64]:
             f"{shape}, got {height.shape}{hint}"
         )
     _require_finite("height", height)
+    if np.abs(height).max() > _HIGHEST:
+        raise ValueError(
+            f"HeightMap: height must be within {_HIGHEST:g} m of its reference, got "
+            f"{height.flat[np.abs(height).argmax()]:g} m; is it in metres?"
+        )
     return height
 
 

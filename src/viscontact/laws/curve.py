@@ -215,8 +215,11 @@ class LogCurve:
     def _tail_mean(self, start: Floats, end: Floats) -> Floats:
         if self._line != 0:
             # The mean of ln t from a to b is ln b - 1 + a ln(b/a)/(b - a).
-            part = (end - start) / end
-            offset = -1 - np.log1p(-part) * (1 - part) / part
+            part, rest = (end - start) / end, start / end
+            # The logarithm of what is left keeps its digits where nearly all of it is the part.
+            tiny = np.finfo(np.float64).tiny
+            near = np.log1p(-np.minimum(part, 0.5))
+            offset = -1 - np.where(part < 0.5, near, np.log(np.maximum(rest, tiny))) * rest / part
             return np.asarray(self._tail(end) + self._line * offset)
         ratio = mean_power(self._fade, start / self.times[-1], end / self.times[-1])
         return np.asarray(self.values[-1] * ratio)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -141,7 +142,7 @@ class ForceHistory(PiecewiseHistory):
         """Return the force at many instants [N]; as `force_at`."""
         return self.force_at(times, side=side)
 
-    @property
+    @cached_property
     def largest_force(self) -> float:
         """Largest force of the whole history [N]."""
         return float(self.force.max())

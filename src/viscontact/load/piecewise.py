@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import itertools
+from dataclasses import fields
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -10,6 +12,8 @@ from numpy.typing import NDArray
 
 from viscontact.load import points
 from viscontact.load.history import Cycle, LoadHistory, Moment
+
+_TILTS = ("tilt_x", "tilt_y")
 
 
 class PiecewiseHistory(LoadHistory):
@@ -29,12 +33,12 @@ class PiecewiseHistory(LoadHistory):
     def _level_of(self, time: float, side: str) -> float:
         return float(self.level_at(points.finite_number("time", time, "s"), side=side))
 
-    @property
+    @cached_property
     def kinks(self) -> NDArray[np.float64]:
         """All distinct instants of the points, increasing: kinks, jumps, first and last [s]."""
         return np.unique(self.times)
 
-    @property
+    @cached_property
     def jumps(self) -> NDArray[np.float64]:
         """Instants where, under load, force, approach, eccentricity or tilt jumps [s].
 
@@ -48,12 +52,19 @@ class PiecewiseHistory(LoadHistory):
             if of is not None:
                 left, right = (self._interpolate(of, kinks, side) for side in ("left", "right"))
                 changed |= left != right
-        loaded = np.array(
-            [not self.at(t, side=s).is_unloaded for t in kinks for s in ("left", "right")]
-        )
-        return np.asarray(kinks[changed & loaded.reshape(-1, 2).any(axis=1)])
+        loaded = self._loaded_at(kinks, "left") | self._loaded_at(kinks, "right")
+        return np.asarray(kinks[changed & loaded])
 
-    @property
+    def _loaded_at(self, times: NDArray[np.float64], side: str) -> NDArray[np.bool_]:
+        """Where `LoadPoint.is_unloaded` does not hold."""
+        level = self.level_at(times, side=side)
+        if self.control == "force":
+            return np.asarray(level != 0)
+        tilts = [of for of in (getattr(self, name) for name in _TILTS) if of is not None]
+        tilted = [self._interpolate(of, times, side) != 0 for of in tilts]
+        return np.asarray(np.logical_or.reduce([level > 0, *tilted]))
+
+    @cached_property
     def load_cycles(self) -> tuple[Cycle, ...]:
         """From valley to valley of one level: a first rise begins them, a fall ends each."""
         valleys = self._valleys()
@@ -71,20 +82,22 @@ class PiecewiseHistory(LoadHistory):
         rises = [k for k in range(len(levels) - 1) if levels[k + 1] > levels[k]]
         if not rises:
             return []
+        begins = set(rises)
         falls = [
             (level, first)
             for k, (level, first, _) in enumerate(plateaus)
-            if k > rises[0] and level < levels[k - 1] and (k + 1 == len(levels) or k in rises)
+            if k > rises[0] and level < levels[k - 1] and (k + 1 == len(levels) or k in begins)
         ]
         return [(levels[rises[0]], plateaus[rises[0]][2]), *falls]
 
     def _plateaus(self) -> list[tuple[float, Moment, Moment]]:
         """Successive different levels at the points, each with its first and last instant."""
         plateaus: list[tuple[float, Moment, Moment]] = []
-        for time in self.kinks.tolist():
-            for side in ("left", "right"):
-                # However far a stage is withdrawn, apart is apart.
-                level, moment = max(float(self.level_at(time, side=side)), 0.0), (time, side)
+        # However far a stage is withdrawn, apart is apart.
+        levels = [np.maximum(self.level_at(self.kinks, side=s), 0.0) for s in ("left", "right")]
+        for time, *both in zip(self.kinks.tolist(), *(of.tolist() for of in levels), strict=True):
+            for level, side in zip(both, ("left", "right"), strict=True):
+                moment = (time, side)
                 if plateaus and plateaus[-1][0] == level:
                     plateaus[-1] = (level, plateaus[-1][1], moment)
                 else:
@@ -100,8 +113,9 @@ class PiecewiseHistory(LoadHistory):
         self, values: float | NDArray[np.float64], times: NDArray[np.float64], side: str
     ) -> NDArray[np.float64]:
         """Values at `times`, held before the first and after the last point."""
-        values = np.broadcast_to(values, self.times.shape)
         reached = np.searchsorted(self.times, times, side=points.side_of_jump(side))
+        if isinstance(values, float):
+            return np.full(times.shape, values)
         i, j = np.maximum(reached - 1, 0), np.minimum(reached, self.times.size - 1)
         span = self.times[j] - self.times[i]
         part = np.divide(times - self.times[i], span, out=np.zeros(times.shape), where=span > 0)
@@ -116,8 +130,8 @@ class PiecewiseHistory(LoadHistory):
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):
             return NotImplemented
-        mine, theirs = vars(self), vars(other)
-        return all(np.array_equal(mine[name], theirs[name]) for name in mine)
+        names = [field.name for field in fields(self)]  # type: ignore[arg-type]
+        return all(np.array_equal(getattr(self, n), getattr(other, n)) for n in names)
 
     def __hash__(self) -> int:
         return hash((type(self).__name__, self.times.size, float(self.times[-1])))

@@ -91,8 +91,10 @@ def read_text(path: Path) -> str:
             data = file.read(_LARGEST_FILE + 1)
     except FileNotFoundError:
         raise ValueError(f"no such file {path}{_nearest(path)}") from None
-    except OSError as error:
-        raise ValueError(f"cannot read {path}: {error}") from error
+    except (OSError, ValueError) as error:  # ValueError: the name holds what no name can
+        if str(error).startswith(f"{path}: "):
+            raise
+        raise ValueError(f"cannot read {str(path)!r}: {error}") from error
     if len(data) > _LARGEST_FILE:
         raise ValueError(
             f"{path.name}: larger than {_LARGEST_FILE // 1_000_000} MB; keep fewer points"
@@ -106,7 +108,10 @@ def read_text(path: Path) -> str:
 
 
 def _nearest(path: Path) -> str:
-    names = [entry.name for entry in path.parent.iterdir()] if path.parent.is_dir() else []
+    try:
+        names = [entry.name for entry in path.parent.iterdir()]
+    except (OSError, ValueError):  # no such folder, or none that may be read
+        return ""
     near = difflib.get_close_matches(path.name, names, n=1)
     return f"; did you mean '{path.parent / near[0]}'?" if near else ""
 

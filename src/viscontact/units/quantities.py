@@ -70,7 +70,9 @@ _COMMON_UNITS = (
 )
 
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
-_QUANTITY = re.compile(rf"\s*(?P<number>{_NUMBER})\s*(?P<unit>.*?)\s*", re.DOTALL)
+_QUANTITY = re.compile(rf"(?P<number>{_NUMBER})\s*(?P<unit>.*)", re.DOTALL)
+#: Longer texts are cut in messages.
+_SHOWN = 60
 # Stricter than pint, which skips characters that it does not know and would spend forever on
 # the powers of "9**9**9": words, each with a small power, joined by products and quotients.
 _UNIT = re.compile(
@@ -152,7 +154,7 @@ def parse_quantity(text: str, dimension: str) -> float:
     number, unit = _split(text, wanted)
     value = _scale(unit, text, dimension).si(number)
     if not math.isfinite(value):
-        raise ValueError(f"{text!r} is not a finite number; write e.g. {wanted.example!r}")
+        raise ValueError(f"{_shown(text)} is not a finite number; write e.g. {wanted.example!r}")
     return value
 
 
@@ -226,15 +228,22 @@ def _scale(unit: str, text: str, dimension: str) -> Scale:
 def _split(text: str, wanted: Dimension) -> tuple[str, str]:
     hint = f"write e.g. {wanted.example!r}"
     if _NOT_FINITE.fullmatch(text):
-        raise ValueError(f"{text!r} is not a finite number; {hint}")
+        raise ValueError(f"{_shown(text)} is not a finite number; {hint}")
     if re.match(r"\s*[+-]?\d+,\d", text):
-        raise ValueError(f"cannot read {text!r}: write a decimal point, not a comma; {hint}")
-    match = _QUANTITY.fullmatch(text)
+        raise ValueError(f"cannot read {_shown(text)}: write a decimal point, not a comma; {hint}")
+    # Blanks at the ends are cut off first: a pattern that looks for them tries every run of them.
+    match = _QUANTITY.fullmatch(text.strip())
     if match is None:
-        raise ValueError(f"cannot read {text!r} as {wanted.name}: no number in front; {hint}")
+        raise ValueError(f"cannot read {_shown(text)} as {wanted.name}: no number in front; {hint}")
     if not match["unit"]:
-        raise ValueError(f"{text.strip()} has no unit, {wanted.name} is wanted; {hint}")
+        bare = _shown(text.strip())[1:-1]
+        raise ValueError(f"{bare} has no unit, {wanted.name} is wanted; {hint}")
     return match["number"], match["unit"]
+
+
+def _shown(text: str) -> str:
+    """Return a text in quotation marks, cut where it is long."""
+    return repr(text if len(text) <= _SHOWN else f"{text[: _SHOWN - 3]}...")
 
 
 def _factor(unit: str, text: str, wanted: Dimension) -> float:
@@ -243,7 +252,7 @@ def _factor(unit: str, text: str, wanted: Dimension) -> float:
     wanted_base = _in_base_units(_registry().parse_units(wanted.unit))[1]
     if base != wanted_base:
         raise ValueError(
-            f"cannot read {text!r} as {wanted.name} (got {_dimension_name(base)}); "
+            f"cannot read {_shown(text)} as {wanted.name} (got {_dimension_name(base)}); "
             f"write e.g. {wanted.example!r}"
         )
     return factor
@@ -259,7 +268,7 @@ def _parsed_unit(unit: str, text: str, wanted: Dimension) -> Any:
         return _registry().parse_units(plain)
     except Exception as error:  # pint leaks its tokenizer's and parser's many kinds
         raise ValueError(
-            f"cannot read {text!r} as {wanted.name}: unknown unit {unit!r}"
+            f"cannot read {_shown(text)} as {wanted.name}: unknown unit {_shown(unit)}"
             f"{_nearest_unit(unit)}; write e.g. {wanted.example!r}"
         ) from error
 
