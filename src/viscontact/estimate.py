@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from enum import Enum
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +25,16 @@ COARSE_CELLS, COARSE_TOLERANCE = 48, 1e-4
 TIGHTEST, LOOSEST = 0.85, 0.5
 
 MAX_TRIES = 60
+
+
+class _Misfit(Enum):
+    """What to multiply the grid's size with, along x and y, where a contact does not fit on it."""
+
+    BOTH = (2.0, 2.0)
+    ALONG = (2.0, 1.0)
+    ACROSS = (1.0, 2.0)
+    FINER_ALONG = (0.5, 1.0)
+    FINER_ACROSS = (1.0, 0.5)
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,8 +114,8 @@ def estimate_contact(
     for _ in range(MAX_TRIES):
         grid = Grid((COARSE_CELLS, COARSE_CELLS), (float(size[0]), float(size[1])))
         found = _coarse_contact(indenter, contact_compliance, point, grid)
-        if found is None:
-            size = size * 2
+        if isinstance(found, _Misfit):
+            size = size * found.value
             continue
         part = np.array(found.reach) / (size / 2)
         if ((part >= LOOSEST) & (part <= TIGHTEST)).all():
@@ -142,19 +153,34 @@ def _first_size(indenter: Indenter, compliance: float, point: LoadPoint) -> floa
     return 4 * max(scale, abs(point.eccentricity_x), abs(point.eccentricity_y))
 
 
+def _between_points(open_gap: NDArray[np.float64]) -> _Misfit:
+    """Which way is too coarse where a body that is pressed in touches none of the points."""
+    i, j = divmod(int(open_gap.argmin()), open_gap.shape[1])
+    # The lowest point may be the last of its line; gaps are even enough for the one before it.
+    besides = (max(i - 1, 0), j), (i, max(j - 1, 0))
+    along, across = (float(open_gap[place]) for place in besides)
+    return _Misfit.FINER_ALONG if along > across else _Misfit.FINER_ACROSS
+
+
 def _coarse_contact(
     indenter: Indenter, compliance: float, point: LoadPoint, grid: Grid
-) -> ContactEstimate | None:
-    """Contact on this grid; None if it does not fit on it."""
+) -> ContactEstimate | _Misfit:
+    """Contact on this grid, or why it does not fit on it."""
     open_gap = indenter.gap(grid.x[:, None], grid.y[None, :])
     if not np.isfinite(open_gap).any():
-        return None
+        return _Misfit.BOTH
     problem = ContactProblem(open_gap, compliance, Support.of(point), 1e-12 * max(grid.size))
     solution = solve_contact(problem, HalfSpace(grid), tolerance=COARSE_TOLERANCE)
     contact = solution.found.pressure > 0
-    touching_rim = contact[[0, -1]].any() or contact[:, [0, -1]].any()
-    if touching_rim or not solution.converged:
-        return None
+    if not contact.any():
+        return _between_points(open_gap)
+    along, across = contact[[0, -1]].any(), contact[:, [0, -1]].any()
+    if along and not across:
+        return _Misfit.ALONG
+    if across and not along:
+        return _Misfit.ACROSS
+    if along or not solution.converged:
+        return _Misfit.BOTH
     rim = trace_rim(grid, contact, solution.gap)
     rows, columns = np.flatnonzero(contact.any(axis=1)), np.flatnonzero(contact.any(axis=0))
     return ContactEstimate(

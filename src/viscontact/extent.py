@@ -14,6 +14,13 @@ from viscontact.grid import Grid
 from viscontact.indenters import Indenter
 from viscontact.load import LoadHistory, LoadPoint
 from viscontact.material import Material
+from viscontact.real import as_real
+
+#: More cells than these are no choice to make for somebody.
+MOST_CELLS = 2**22
+
+#: Of a history of more points only so many are looked at, and so many are solved for.
+MOST_INSTANTS, MOST_CORNERS = 1000, 60
 
 #: Room around the contact in the grid that is returned.
 MARGIN = 1.3
@@ -67,8 +74,10 @@ def auto_grid(
     >>> vc.auto_grid(vc.Sphere(0.01), rubber, vc.step(1.0)).shape
     (54, 54)
     """
-    if not 1e-4 <= tolerance <= 0.5:
+    number = as_real(tolerance)
+    if number is None or not 1e-4 <= number <= 0.5:
         raise ValueError(f"tolerance must lie between 1e-4 and 0.5, got {tolerance!r}")
+    _require_kinds(indenter, material, load, indenter_material)
     compliance = material.contact_compliance()
     if indenter_material is not None:
         compliance = compliance + indenter_material.contact_compliance()
@@ -76,9 +85,26 @@ def auto_grid(
     reach, extents = _reach_of_history(indenter, largest, load, end)
     size = 2 * MARGIN * reach
     # Cells across the contact, then over the grid: errors are at worst of second order.
-    cells = (4 / math.sqrt(tolerance)) * size / extents
+    cells = (4 / math.sqrt(number)) * size / extents
+    if not float(np.prod(cells)) <= MOST_CELLS:
+        raise ValueError(
+            f"grid: a contact of {extents[0]:.3g} m x {extents[1]:.3g} m within {size[0]:.3g} m x "
+            f"{size[1]:.3g} m needs {float(np.prod(cells)):.2g} cells, more than an automatic grid "
+            "has; give a grid"
+        )
     shape = [max(16, fft.next_fast_len(math.ceil(count), real=True)) for count in cells]
     return Grid((shape[0], shape[1]), (float(size[0]), float(size[1])))
+
+
+def _require_kinds(indenter: object, material: object, load: object, other: object) -> None:
+    for name, value, kind in (
+        ("indenter", indenter, Indenter),
+        ("material", material, Material),
+        ("load", load, LoadHistory),
+        ("indenter_material", other, Material),
+    ):
+        if not isinstance(value, kind) and not (name == "indenter_material" and value is None):
+            raise ValueError(f"{name} must be of kind {kind.__name__}, got {value!r}")
 
 
 def _reach_of_history(
@@ -102,9 +128,32 @@ def _corners(load: LoadHistory, end: float | None) -> list[LoadPoint]:
     corners = load.kinks if end is None else np.append(load.kinks[load.kinks < end], end)
     within = [corners[:-1] + part * np.diff(corners) for part in (0.25, 0.5, 0.75)]
     crest, _ = largest_load(load, float(corners[-1]))
-    instants = np.unique(np.concatenate([corners, *within, [crest]])).tolist()
+    instants = _telling(np.unique(np.concatenate([corners, *within, [crest]])), load).tolist()
     points = [load.at(time, side=side) for time in instants for side in ("left", "right")]
-    return list(dict.fromkeys(point for point in points if level_of(point) > 0))
+    return _outermost(list(dict.fromkeys(point for point in points if level_of(point) > 0)))
+
+
+def _telling(instants: NDArray[np.float64], load: LoadHistory) -> NDArray[np.float64]:
+    """Of very many instants those of the largest load, and as many over the whole history."""
+    if instants.size <= 2 * MOST_INSTANTS:
+        return instants
+    levels = np.maximum(load.level_at(instants, side="left"), load.level_at(instants))
+    highest = np.argsort(-levels, kind="stable")[:MOST_INSTANTS]
+    spread = np.linspace(0, instants.size - 1, MOST_INSTANTS).astype(int)
+    return np.asarray(instants[np.union1d(highest, spread)])
+
+
+def _outermost(points: list[LoadPoint]) -> list[LoadPoint]:
+    """Of very many loads those that are largest, and that act or tilt farthest each way."""
+    if len(points) <= MOST_CORNERS:
+        return points
+    ways = ("eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y")
+    extremes = [max(points, key=level_of)]
+    for way in ways:
+        ranked = sorted(points, key=lambda p, way=way: (getattr(p, way) or 0.0, level_of(p)))  # type: ignore[misc]
+        extremes += [ranked[0], ranked[-1]]
+    highest = sorted(points, key=level_of, reverse=True)[: MOST_CORNERS // 2]
+    return list(dict.fromkeys([*extremes, *highest]))
 
 
 def _largest_compliance(

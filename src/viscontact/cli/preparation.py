@@ -10,6 +10,7 @@ from viscontact.case import Case, CaseError, read_case
 from viscontact.cli.messages import refuse
 from viscontact.compliance import SeriesCompliance
 from viscontact.forecast import available_memory, needed_memory
+from viscontact.grid import Grid
 from viscontact.run import Run, prepare_run
 from viscontact.units import in_digits
 
@@ -47,7 +48,9 @@ def prepare(path: Path, settings: Sequence[str], threads: int = 1) -> Prepared:
     try:
         case = read_case(path, settings)
         _refuse_beyond_memory(case)
-        return Prepared(case, _prepared_run(case, threads))
+        run = _prepared_run(case, threads)
+        _refuse_beyond(case, run.grid, needed_memory(run.grid, run.memory.fields_kept))
+        return Prepared(case, run)
     except CaseError as error:
         refuse(*error.problems)
 
@@ -76,10 +79,13 @@ def _refuse_beyond_memory(case: Case) -> None:
     compliance = case.material.contact_compliance()
     # What any other law keeps depends on the steps, of which nothing is known yet.
     terms = len(compliance.times) if isinstance(compliance, SeriesCompliance) else 1
-    needed = needed_memory(case.grid, terms)
+    _refuse_beyond(case, case.grid, needed_memory(case.grid, terms))
+
+
+def _refuse_beyond(case: Case, grid: Grid, needed: float) -> None:
     available = available_memory()
     if needed > available:
-        nx, ny = case.grid.shape
+        nx, ny = grid.shape
         raise case.error(
             f"grid.shape: {nx} x {ny} cells need about {in_digits(needed / 1e9, 3)} GB of memory, "
             f"{in_digits(available / 1e9, 3)} GB are free; use fewer cells"
