@@ -101,7 +101,6 @@ NEIGHBOURS = {
     ("past", "schedule"),  # a step to be taken
     ("past", "prediction"),  # starts from a prediction,
     ("past", "time_error"),  # makes an error,
-    ("past", "observation"),  # and ends at an instant
     ("cycles", "schedule"),
     ("observation", "cycles"),  # what they cost
     ("step_by_step", "run"),

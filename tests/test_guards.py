@@ -227,6 +227,22 @@ GUARDS = {
             grid=vc.Grid((40, 40), (0.8, 0.8)),
         ),
     ),
+    "a load taken off in one step": Guard(
+        vc.AccuracyWarning,
+        "the load falls from 100% of its largest to nothing in a single step of 1 s",
+        met=Job(
+            material=SOFT,
+            load=vc.ForceHistory([0, 20, 21], [hertz_force(0.1)] * 2 + [0]),
+            times=[0.0, *np.geomspace(0.02, 20, 80), 21.0],
+            grid=vc.Grid((40, 40), (0.8, 0.8)),
+        ),
+        missed=Job(
+            material=SOFT,
+            load=vc.ForceHistory([0, 20, 21], [hertz_force(0.1)] * 2 + [0]),
+            times=[0.0, *np.geomspace(0.02, 20, 80), *np.linspace(20, 21, 41)[1:]],
+            grid=vc.Grid((40, 40), (0.8, 0.8)),
+        ),
+    ),
     "a run beyond the last row of a table": Guard(
         vc.AccuracyWarning,
         "beyond 100 s, where the material's data end",
@@ -438,6 +454,9 @@ TABLED = (
     "material={law: table, file: creep.csv, quantity: creep_compliance, data: deviatoric, "
     "poisson_ratio: 0.5}"
 )
+OFF, OFF_AT_ONCE = (
+    f"load={{kind: history, points: [[0 s, 4 N], [3 s, 4 N], [{end} s, 0 N]]}}" for end in (4, 3)
+)
 # Contact radius after 5 s, with J = (1 - nu)/G: a = (3 * 4 N * 10 mm/(40 MPa))^(1/3) = 1.14 mm.
 FORETOLD = {
     "rim": (
@@ -469,6 +488,7 @@ FORETOLD = {
     "data": (["material.measured_until=4 s"], "the material's data end"),
     "early": ([TABLED], "where the material's data begin"),
     "touch": ([SLOW, "time.steps=2"], "grows from nothing to 100% of its largest"),
+    "release": ([OFF, "time.steps=5"], "falls from 100% of its largest to nothing in a single"),
 }
 
 
@@ -535,10 +555,9 @@ def test_check_foretells_what_the_run_says(
 
 
 @pytest.mark.usefixtures("case")
-def test_check_foretells_a_load_taken_off_in_one_step(capsys: pytest.CaptureFixture[str]) -> None:
-    off = "load={kind: history, points: [[0 s, 4 N], [3 s, 4 N], [4 s, 0 N]]}"
-    words = "falls from 100% of its largest to nothing in a single step of 1 s"
-    assert words in checked(capsys, off, "time.steps=5")
-    assert words not in checked(capsys, off)
-    jump = "load={kind: history, points: [[0 s, 4 N], [3 s, 4 N], [3 s, 0 N]]}"
-    assert "no problems found" in checked(capsys, jump, "time.steps=5")
+@pytest.mark.parametrize("settings", [[OFF], [OFF_AT_ONCE, "time.steps=5"]], ids=["steps", "jump"])
+def test_load_taken_off_as_it_should_be_is_no_release_in_one_step(
+    settings: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert "to nothing in a single step" not in checked(capsys, *settings)
+    assert "to nothing in a single step" not in warned(capsys, settings)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,51 +21,14 @@ from viscontact.plausibility import (
     cells_across_spots,
     mesh_doubts,
     relative_change,
+    release_doubts,
     step_doubts,
     touch_doubts,
 )
 from viscontact.rim import Rim, trace_outline, trace_rim
 from viscontact.run import Run
 from viscontact.schedule import SAME, Step
-from viscontact.state import ContactState, Outcome
-
-
-@dataclass(frozen=True, eq=False)
-class Instant:
-    """Equilibrium at the end of a step, as the solver left it.
-
-    Attributes
-    ----------
-    pressure : ndarray, shape (nx, ny)
-        Pressure [Pa].
-    gap, displacement : ndarray, shape (nx, ny)
-        Gap and total displacement of the surface [m].
-    motion : ndarray, shape (3,)
-        Approach [m] and tilts [rad].
-    energy : float
-        Elastic energy of this pressure in a half-space of unit compliance [J Pa].
-    residual : float
-        Relative violation of the contact conditions.
-    iterations : int
-        Search directions of the solver.
-    outcome : Outcome
-        How it ended.
-    resolved : bool
-        Whether the step was short enough for the law.
-    time_error : float
-        Estimated relative error of the pressure owed to the steps so far.
-    """
-
-    pressure: NDArray[np.float64]
-    gap: NDArray[np.float64]
-    displacement: NDArray[np.float64]
-    motion: NDArray[np.float64]
-    energy: float
-    residual: float
-    iterations: int
-    outcome: Outcome
-    resolved: bool
-    time_error: float = 0.0
+from viscontact.state import ContactState, Instant, Outcome
 
 
 class Observer:
@@ -200,6 +163,7 @@ class Observer:
     def _collect_doubts(self, step: Step, instant: Instant, rim: Rim) -> None:
         self._open = data_doubts(step.time, self._run.measured_until) | self._open
         if instant.outcome is Outcome.NO_CONTACT:
+            self._open = self._release_doubts(step) | self._open
             return
         early = early_doubts(self._measured_from, self._run.load, step.time, step.side)
         found = geometry_doubts(self._geometry, rim, instant.motion, instant.displacement)
@@ -219,6 +183,18 @@ class Observer:
         peaks = [float(end.pressure.max()) for end in (before, after)]
         change = max(relative_change(*peaks), relative_change(*forces))
         return step_doubts(step.duration, change)
+
+    def _release_doubts(self, step: Step) -> dict[str, str]:
+        """Whether much of the load was taken off a creeping body in a single step."""
+        before, compliance = self._before, self._run.compliance
+        if before is None or before.outcome is Outcome.NO_CONTACT or step.is_jump:
+            return {}
+        if compliance(step.duration) == compliance.instant:
+            return {}
+        load = self._run.load
+        begin = step.time - step.duration * (1 - SAME)
+        fall = float(load.level_at(begin)) - max(float(load.level_at(step.time, side=step.side)), 0)
+        return release_doubts(step.duration, fall / max(load.largest_level, np.finfo(float).tiny))
 
     def _rise(self, step: Step) -> float:
         """How far the load rises over a step that begins without contact, of its largest [-].

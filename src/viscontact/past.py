@@ -14,11 +14,10 @@ from viscontact.contact_problem import ContactProblem, Guess
 from viscontact.half_space import HalfSpace
 from viscontact.load import LoadPoint
 from viscontact.memory import Memory, RecursiveMemory, Response
-from viscontact.observation import Instant
 from viscontact.prediction import POINTS, Twin, predict
 from viscontact.run import Run
 from viscontact.schedule import Step
-from viscontact.state import Outcome
+from viscontact.state import Instant, Outcome
 from viscontact.time_error import StepError, TimeErrors
 
 #: Errors are measured against the displacement that the pressure causes, but never against less

@@ -8,12 +8,12 @@ from dataclasses import dataclass
 from viscontact.carried import Carried
 from viscontact.errors import ConvergenceError, DomainError
 from viscontact.half_space import HalfSpace
-from viscontact.observation import Instant, Observer
+from viscontact.observation import Observer
 from viscontact.past import Past, Trial
 from viscontact.run import Run
 from viscontact.schedule import Step
 from viscontact.solved_step import SolvedStep
-from viscontact.state import ContactState, Outcome
+from viscontact.state import ContactState, Instant, Outcome
 
 
 @dataclass(frozen=True, eq=False)
