@@ -171,3 +171,17 @@ def test_the_nearest_balanced_pressure_is_the_one_of_least_change(seed):
     assert np.abs((found - pressure - field)[bears]).max() < 1e-9
     if np.linalg.matrix_rank(columns[bears.ravel()]) == 3:
         assert ((pressure + field)[cells & ~bears] <= 1e-9).all()
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_a_body_on_a_stage_that_can_tilt_clear_has_no_contact(seed):
+    # All its peaks lie on one side of the axis that it is free to turn about, so that any
+    # pressure would have a moment: there is none, and the body has turned away.
+    rng = np.random.default_rng(seed)
+    grid, open_gap = vc.Grid((40, 30), (4.0, 3.0)), np.full((40, 30), np.inf)
+    open_gap[rng.integers(25, 40, 5), rng.integers(18, 30, 5)] = rng.uniform(0.0, 0.5, 5)
+    case = ContactProblem(open_gap, 1e-6, Support((None, 0.0, 0.0), (0.6, 0.0, 0.0)), 1e-6)
+    found = solve_contact(case, HalfSpace(grid), tolerance=1e-6)
+    assert found.converged
+    assert not found.found.pressure.any()
+    assert found.gap.min() > -1e-12

@@ -13,6 +13,9 @@ STIFFENING = 4.0
 #: Part of their stiffness that the last bedding's cells lend to the next.
 LENT = 0.01
 
+#: Under this part of the deepest overlap before it has settled, a body is clear of the surface.
+CLEAR = 1e-12
+
 MAX_NEWTON = 40
 
 
@@ -53,6 +56,8 @@ def settle_on_bedding(
         # No force, no matter how stiff the bedding: it is only the tilts that settle.
         bearing = (gap < 0).astype(float)
         motion, overlap = _settled(gap, np.zeros(3), np.zeros(3), plane, support.free, bearing)
+        # A body that tilts clear of the surface ends with rounding between them, and no contact.
+        overlap[overlap <= CLEAR * -float(gap.min())] = 0.0
         cells = max(int((overlap > 0).sum()), 1)
         return overlap / (compliance * np.sqrt(cell_area * cells)), given + motion
     cells = 100
