@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.indenters.indenter import Indenter
-from viscontact.indenters.lengths import positive_length
+from viscontact.indenters.lengths import positions, positive_length
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ class FlatPunch(Indenter):
 
     def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
         """Return zero on the punch, edge included, and +inf outside; see `Indenter.gap`."""
-        return np.where(self._covers(x, y), 0.0, np.inf)
+        return np.where(self._covers(*positions(x, y)), 0.0, np.inf)
 
     def _covers(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.bool_]:
         if self.half_length is None or self.half_width is None:

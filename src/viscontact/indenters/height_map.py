@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.indenters.indenter import Indenter
-
+from viscontact.indenters.lengths import positions
 
 #: Squares of gaps are still numbers that the solver can compare [m].
 _HIGHEST = 1e30
@@ -59,6 +59,7 @@ class HeightMap(Indenter):
 
     def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
         """Return max(height) - height at x, y, +inf outside the map; see `Indenter.gap`."""
+        x, y = positions(x, y)
         i, along_x, within_x = _locate(self.x, x)
         j, along_y, within_y = _locate(self.y, y)
         # Depths are not negative and neither are the weights, so neither is the gap.

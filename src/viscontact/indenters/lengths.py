@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
 from viscontact.real import as_real
 
 
@@ -33,6 +36,30 @@ def real_number(name: str, value: object, unit: str) -> float:
     if number is None:
         raise ValueError(f"{name} must be a number in {unit}, got {value!r}")
     return number
+
+
+def positions(x: ArrayLike, y: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return coordinates as arrays of floats, or refuse what is none.
+
+    Parameters
+    ----------
+    x, y : array_like
+        What the user gave [m].
+
+    Raises
+    ------
+    ValueError
+        If either holds anything else than real numbers.
+
+    Examples
+    --------
+    >>> positions(1, [2, 3])
+    (array(1.), array([2., 3.]))
+    """
+    try:
+        return np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise ValueError(f"x and y must be positions in m: {error}") from None
 
 
 def positive_length(name: str, value: object) -> float:

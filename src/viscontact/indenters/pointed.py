@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.indenters.arc import arc_drop
 from viscontact.indenters.indenter import Indenter
-from viscontact.indenters.lengths import positive_length, real_number
+from viscontact.indenters.lengths import positions, positive_length, real_number
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class Sphere(Indenter):
 
     def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
         """Return R - sqrt(R² - r²), +inf for r > R; see `Indenter.gap`."""
-        return arc_drop(np.hypot(x, y), self.radius)
+        return arc_drop(np.hypot(*positions(x, y)), self.radius)
 
     @property
     def curvatures(self) -> tuple[float, float]:
@@ -81,7 +81,7 @@ class Paraboloid(Indenter):
 
     def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
         """Return x²/(2 R_x) + y²/(2 R_y); see `Indenter.gap`."""
-        x, y = np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64)
+        x, y = positions(x, y)
         return np.asarray(x * x / (2 * self.radius_x) + y * y / (2 * self.radius_y))
 
     @property
@@ -124,4 +124,4 @@ class Cone(Indenter):
 
     def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
         """Return r / tan(half_angle); see `Indenter.gap`."""
-        return np.asarray(np.hypot(x, y) / math.tan(self.half_angle))
+        return np.asarray(np.hypot(*positions(x, y)) / math.tan(self.half_angle))

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.indenters.arc import arc_drop
 from viscontact.indenters.indenter import Indenter
-from viscontact.indenters.lengths import positive_length
+from viscontact.indenters.lengths import positions, positive_length
 
 NAMED_PROFILES = ("cylindrical", "full", "partial", "logarithmic", "chamfer")
 
@@ -66,6 +66,7 @@ class Roller(Indenter):
 
     def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
         """Return R - sqrt(R(x)² - y²), +inf outside the roller; see `Indenter.gap`."""
+        x, y = positions(x, y)
         crown_drop = self._crown_drop(x)
         section_radius = self.radius - crown_drop
         return crown_drop + arc_drop(np.abs(y), section_radius)
