@@ -55,13 +55,52 @@ def _kernel(shape, cell_size):
 
 
 def mean_creep(compliance, start, length):
-    """Mean of J over [start, start + length]; J a series."""
+    """Mean of J over [start, start + length]: in closed form for a series, else by quadrature."""
+    if not hasattr(compliance, "amplitudes"):
+        return _mean_by_quadrature(compliance, start, length)
     ratio = length / compliance.times
     kept = np.exp(-start / compliance.times) * (-np.expm1(-ratio) / ratio if length else 1.0)
     delayed = float((compliance.amplitudes * (1 - kept)).sum())
     return compliance.instant + delayed + compliance.fluidity * (start + length / 2)
 
 
+def _graded_rule():
+    """Nodes and weights of a mean over [0, 1]: J bends most where an interval begins.
+
+    Eight Gauss-Legendre nodes on each of [1/2, 1], [1/4, 1/2] and so on, 24 times: within 1e-9 for
+    powers of time from 0 on, and wherever J is smooth over a factor 2 of time.
+    """
+    nodes, weights = np.polynomial.legendre.leggauss(8)
+    ends = np.append(2.0 ** -np.arange(24), 0.0)
+    lengths = ends[:-1] - ends[1:]
+    points = ends[1:, None] + lengths[:, None] * (nodes + 1) / 2
+    return points.ravel(), (lengths[:, None] * weights / 2).ravel()
+
+
+NODES, WEIGHTS = _graded_rule()
+
+
+def _mean_by_quadrature(compliance, start, length):
+    """Mean of J, piece by piece between the rows of a table."""
+    if length == 0:
+        return float(compliance(start))
+    inner = [time for time in _bends(compliance) if start < time < start + length]
+    ends = np.array([0.0, *(time - start for time in inner), length])
+    values = compliance(start + ends[:-1, None] + np.diff(ends)[:, None] * NODES)
+    return float((values @ WEIGHTS) @ np.diff(ends) / length)
+
+
+def _bends(compliance):
+    """Instants at which J is not smooth: the rows of measured laws."""
+    parts = getattr(compliance, "parts", ())
+    law = getattr(compliance, "law", None)
+    measured = np.isfinite(getattr(law, "measured_until", np.inf))
+    while hasattr(law, "law"):
+        law = law.law
+    return sorted({*(law.times if measured else ()), *(t for part in parts for t in _bends(part))})
+
+
+@lru_cache(maxsize=512)
 def rise(compliance, duration, after_jump):
     """How long a value rises in a step, before it is held; what the package says it does.
 
