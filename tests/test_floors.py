@@ -22,8 +22,9 @@ PACKAGE = Path(viscontact.__file__).parent
 FLOORS = (
     # 0 words: they do not know each other
     ("errors", "real", "carried", "grid", "load", "indenters", "laws"),
-    ("compliance", "material", "influence", "memory", "state", "rim", "hull"),  # 1 single ideas
-    ("convolution", "balance", "bedding", "half_space"),  # 2 operators on fields
+    # 1 single ideas
+    ("compliance", "material", "influence", "stress_influence", "memory", "state", "rim", "hull"),
+    ("convolution", "subsurface", "balance", "bedding", "half_space"),  # 2 operators on fields
     ("contact_problem", "search", "contact"),  # 3 equilibrium at one instant
     # 4 time
     (
