@@ -89,7 +89,7 @@ def _corner_terms(
 def _sum_with_root(
     along: NDArray[np.float64], across: NDArray[np.float64], z: float, r: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """r + along; where along < 0, by the product with r - along, which is across² + z²."""
+    """The sum r + along; where along < 0, by its product with r - along, across² + z²."""
     return np.where(along >= 0, r + along, (across * across + z * z) / (r + np.abs(along)))
 
 

@@ -45,7 +45,7 @@ class Stress:
         """Von Mises equivalent stress [Pa], shape (...)."""
         xx, yy, zz, yz, xz, xy = self.components
         normal = (xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2
-        return np.sqrt(normal / 2 + 3 * (yz**2 + xz**2 + xy**2))
+        return np.asarray(np.sqrt(normal / 2 + 3 * (yz**2 + xz**2 + xy**2)))
 
     @property
     def principal(self) -> NDArray[np.float64]:
@@ -59,7 +59,7 @@ class Stress:
     def max_shear(self) -> NDArray[np.float64]:
         """Largest shear stress over all planes [Pa]: half of what the principal ones span."""
         principal = self.principal
-        return (principal[0] - principal[2]) / 2
+        return np.asarray((principal[0] - principal[2]) / 2)
 
 
 def stress_on_section(
