@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 import viscontact as vc
 from verification.independent import deflection, love
+from viscontact import search
 from viscontact.balance import RigidPlane, Support
 from viscontact.bedding import nearest_balanced
 from viscontact.contact import ContactProblem, Guess, solve_contact
@@ -144,6 +145,20 @@ def test_a_load_between_two_rows_of_cells_is_found_by_them():
     assert np.flatnonzero(shares).tolist() == [7, 8]
     lever = (aside - grid.y[7]) / grid.cell_size[1]
     assert shares[7:9] / force == pytest.approx([1 - lever, lever], rel=1e-7)
+
+
+def test_a_search_that_can_only_give_up_cell_after_cell_gets_there_too(monkeypatch):
+    # As if no balance could be found nearby. Rounding once left the cell that was to go a trifle,
+    # or less than nothing, and the search went on without getting anywhere.
+    monkeypatch.setattr(search, "nearest_balanced", lambda pressure, *_: np.zeros_like(pressure))
+    grid = vc.Grid((218, 12), (183.0, 8.2))
+    open_gap = vc.Paraboloid(868.0, 2.77).gap(grid.x[:, None], grid.y[None, :])
+    case = ContactProblem(open_gap, 2e-7, Support((2.4e6, 0.0, 2.4e6 * 1.06)), 1e-15)
+    found = solve_contact(case, HalfSpace(grid), tolerance=1e-8)
+    assert found.converged
+    assert found.found.pressure.min() >= 0
+    # One step for each of some 45 cells and a few more; 79 where some cells take several.
+    assert found.iterations < 60
 
 
 @given(seed=st.integers(0, 10_000))

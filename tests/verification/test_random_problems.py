@@ -53,7 +53,7 @@ def figures(name, found, failed):
     worst = [max(getattr(run, name) for run in found.values()) for name in ("gap", "balance")]
     return (
         f"{name}: {len(found)} problems, {count['instants']} instants audited "
-        f"({count['apart']} without contact), worst gap {worst[0]:.2g}, worst imbalance "
+        f"({count['apart']} without contact), worst gap {worst[0]:.3g}, worst imbalance "
         f"{worst[1]:.1g}, {len(failed)} failed, {count['refused']} refused with a message"
     )
 
