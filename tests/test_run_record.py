@@ -18,8 +18,8 @@ from viscontact.contact import ContactSolution
 from viscontact.contact_problem import Guess
 from viscontact.recording.checkpoint import STATE_NAME, Checkpoint, load_checkpoint
 from viscontact.recording.plain_file import read_plain, write_plain
-from viscontact.recording.recorded import ChangedCaseError, Recorded
-from viscontact.recording.run_record import PROGRESS_NAME, RunRecord
+from viscontact.recording.recorded import PROGRESS_NAME, ChangedCaseError, Recorded
+from viscontact.recording.run_record import RunRecord
 from viscontact.recording.step_log import LOG_NAME, StepLog, logged_steps
 from viscontact.run import Run, prepare_run
 from viscontact.solved_step import SolvedStep

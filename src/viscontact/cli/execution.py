@@ -18,6 +18,7 @@ from viscontact.cli.stored import progress_made
 from viscontact.cli.summary import print_summary
 from viscontact.cli.taking_up import Standing, refuse_changed, standing
 from viscontact.errors import ConvergenceError, DomainError
+from viscontact.recording.lock import DirectoryInUse, locked
 from viscontact.recording.recorded import ChangedCaseError, Recorded, remove_traces
 from viscontact.recording.run_record import RunRecord
 from viscontact.results import RESULT_NAME
@@ -213,8 +214,8 @@ def _remedy(attempt: _Attempt, record: RunRecord) -> str:
 
 def _say_finished(attempt: _Attempt) -> None:
     directory, run = attempt.recorded.directory, attempt.recorded.run
-    with suppress(OSError):
-        remove_traces(directory)
+    with suppress(OSError, DirectoryInUse), locked(directory):
+        remove_traces(directory)  # it may have been killed in its last moment
     attempt.say(
         f"{directory}: is finished already, up to t = {in_words(float(run.times[-1]), 's')}; "
         "--overwrite computes it anew"

@@ -13,7 +13,7 @@ from viscontact.cli.stored import CASE_NAME
 from viscontact.recording.checkpoint import STATE_NAME
 from viscontact.recording.exchange import replace
 from viscontact.recording.lock import DirectoryInUse, locked
-from viscontact.recording.run_record import PROGRESS_NAME
+from viscontact.recording.recorded import PROGRESS_NAME
 from viscontact.recording.step_log import LOG_NAME
 from viscontact.recording.stored_run import stored_run
 from viscontact.results import RESULT_NAME
@@ -133,20 +133,22 @@ def taken(directory: Path) -> Iterator[None]:
         With code 2, if it cannot be written to, or another run is at work there.
     """
     is_new = not directory.exists()
-    with ExitStack() as held:
-        try:
-            directory.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            refuse(f"{directory}: cannot be made: {error}")
-        try:
-            held.enter_context(locked(directory))
-        except (DirectoryInUse, OSError) as error:
-            refuse(str(error))
-        yield
-    if is_new:
-        # Nothing came of it if it is empty.
-        with suppress(OSError):
-            directory.rmdir()
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        refuse(f"{directory}: cannot be made: {error}")
+    try:
+        with ExitStack() as held:
+            try:
+                held.enter_context(locked(directory))
+            except (DirectoryInUse, OSError) as error:
+                refuse(str(error))
+            yield
+    finally:
+        if is_new:
+            # Nothing came of it if it is empty.
+            with suppress(OSError):
+                directory.rmdir()
 
 
 def is_same_file(one: Path, other: Path) -> bool:

@@ -14,7 +14,7 @@ from rich.table import Table
 
 from viscontact.cli.accuracy import accuracy_lines
 from viscontact.dataset import SCALARS
-from viscontact.recording.run_record import PROGRESS_NAME
+from viscontact.recording.recorded import PROGRESS_NAME
 from viscontact.results import RESULT_NAME, open_results
 from viscontact.units import in_digits, in_words, is_rounding_tilt, readable_unit
 

@@ -24,8 +24,8 @@ def is_unread(path: Path) -> bool:
         True if it may be written to. HDF5 locks what it reads; where it does not, because the
         file system cannot or the user forbids it, nobody knows, and the answer is False.
     """
-    if path.stat().st_nlink > 1:
-        return False  # a link that somebody has made to keep it as it was
+    if path.is_symlink() or path.stat().st_nlink > 1:
+        return False  # somebody has it by another name, be it to keep it as it was
     if sys.platform == "win32":
         return True  # what is open there cannot have been moved out of the readers' way
     if os.environ.get("HDF5_USE_FILE_LOCKING", "").upper() in ("FALSE", "0"):

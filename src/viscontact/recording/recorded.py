@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,7 @@ from viscontact.dataset import run_attributes
 from viscontact.description import describe, describe_run
 from viscontact.recording.checkpoint import STATE_NAME, Checkpoint, load_checkpoint
 from viscontact.recording.differences import Difference, differences
+from viscontact.recording.progress import ProgressLog
 from viscontact.recording.result_writer import ResultWriter
 from viscontact.recording.soundness import REMEDY
 from viscontact.recording.step_log import LOG_NAME
@@ -20,6 +22,9 @@ from viscontact.recording.stored_run import stored_run
 from viscontact.results import RESULT_NAME
 from viscontact.run import Run
 from viscontact.step_by_step import March
+
+#: The progress log's name in a run directory.
+PROGRESS_NAME = "progress.jsonl"
 
 
 class ChangedCaseError(ValueError):
@@ -149,7 +154,11 @@ def same_writer(recorded: Recorded, position: Carried) -> ResultWriter:
         If the result is another run's, cannot be read, or has not come that far.
     """
     path = recorded.directory / RESULT_NAME
-    if path.is_file() and stored_run(path).case != recorded.case:
+    try:
+        is_other = path.is_file() and stored_run(path).case != recorded.case
+    except ValueError as error:
+        raise ValueError(f"{error}; {REMEDY}") from error
+    if is_other:
         raise ValueError(f"{path} is of another run than {STATE_NAME} beside it; {REMEDY}")
     return ResultWriter.resume(
         path,
@@ -161,6 +170,37 @@ def same_writer(recorded: Recorded, position: Carried) -> ResultWriter:
     )
 
 
+def same_lines(recorded: Recorded, saved: Checkpoint) -> ProgressLog:
+    """Return the progress log that is there, cut to the lines that a state knows of.
+
+    Parameters
+    ----------
+    recorded : Recorded
+        The run.
+    saved : Checkpoint
+        Its state.
+
+    Raises
+    ------
+    ValueError
+        If those lines are not all there, or are something else's; nothing has been changed then.
+    """
+    path = recorded.directory / PROGRESS_NAME
+    try:
+        with path.open(encoding="utf-8") as file:
+            lines = [json.loads(line) for line in islice(file, saved.lines)]
+            reached = float(lines[-1]["time"]) if lines else None
+    except OSError as error:
+        raise ValueError(f"{path} cannot be read ({error.strerror}); {REMEDY}") from error
+    except (ValueError, KeyError, TypeError) as error:
+        raise ValueError(
+            f"{path} is damaged, or was written by something else; {REMEDY}"
+        ) from error
+    if len(lines) < saved.lines or reached != saved.reached:
+        raise ValueError(f"{path} is not the course of this run so far; {REMEDY}")
+    return ProgressLog.resume(path, saved.lines)
+
+
 def remove_traces(directory: Path) -> None:
     """Remove what nobody needs once a run is over.
 
@@ -169,5 +209,8 @@ def remove_traces(directory: Path) -> None:
     directory : Path
         The run's.
     """
-    for name in (STATE_NAME, LOG_NAME):
+    kept = (STATE_NAME, LOG_NAME)
+    for name in (*kept, *(f".{name}.new" for name in kept)):
         (directory / name).unlink(missing_ok=True)
+    for copy in directory.glob(f".{RESULT_NAME}.*"):
+        copy.unlink()

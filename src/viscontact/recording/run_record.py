@@ -14,10 +14,12 @@ from viscontact.marching import Progress
 from viscontact.recording.checkpoint import STATE_NAME, Checkpoint, save_checkpoint
 from viscontact.recording.progress import ProgressLog
 from viscontact.recording.recorded import (
+    PROGRESS_NAME,
     Recorded,
     new_writer,
     remove_traces,
     restored_march,
+    same_lines,
     same_writer,
     saved_state,
 )
@@ -25,8 +27,6 @@ from viscontact.recording.result_writer import START
 from viscontact.recording.step_log import LOG_NAME, StepLog, logged_steps
 from viscontact.state import ContactState, Outcome
 from viscontact.step_by_step import March, Taken
-
-PROGRESS_NAME = "progress.jsonl"
 
 #: Between two checkpoints lie at least this time [s] and this many times what one takes.
 PAUSE, SHARE = 1.0, 20.0
@@ -110,7 +110,9 @@ class RunRecord:
         is_new = saved.steps == 0
         record._writer = new_writer(recorded) if is_new else same_writer(recorded, saved.result)
         try:
-            record._take_up(None if is_new else saved.lines)
+            path = recorded.directory / PROGRESS_NAME
+            record._lines = _new_lines(path) if is_new else same_lines(recorded, saved)
+            record._take_up()
         except BaseException:
             record.close()
             raise
@@ -134,10 +136,8 @@ class RunRecord:
         self._instants = self.kept = self.published = self.resumed = int(saved.result["rows"])
         self.reached = saved.reached
 
-    def _take_up(self, lines: int | None) -> None:
+    def _take_up(self) -> None:
         """Take the steps again that had been solved since the checkpoint."""
-        path = self._recorded.directory / PROGRESS_NAME
-        self._lines = _new_lines(path) if lines is None else ProgressLog.resume(path, lines)
         if self._on_begin is not None:
             self._on_begin()
         log = self._recorded.directory / LOG_NAME

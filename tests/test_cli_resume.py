@@ -1,0 +1,425 @@
+"""Going on with a run at the command line: where it stopped, whether it may, and what is said."""
+
+from __future__ import annotations
+
+import shlex
+import signal
+import subprocess
+import sys
+import time as clock
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import viscontact as vc
+from viscontact import past
+from viscontact.cli import execution, main
+from viscontact.cli.interruption import watched_interruption
+from viscontact.recording import run_record
+from viscontact.recording.lock import locked
+from viscontact.recording.run_record import RunRecord
+
+CASE = """\
+title: Zener sphere
+indenter: {shape: sphere, radius: 10 mm}
+material:
+  law: zener
+  shear_modulus: 10 MPa
+  delayed_modulus: 10 MPa
+  viscosity: 10 MPa s
+  poisson_ratio: 0.5
+load: {kind: ramp, force: 4 N, duration: 1 s}  # then held
+time: {end: 5 s, steps: 10}
+grid: {shape: [24, 24], size: [3 mm, 3 mm]}
+output: {fields: [0 s, 2 s, 5 s]}
+"""
+COUNT = 11  # instants
+
+
+class Killed(BaseException):
+    """The process is gone."""
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """An empty working directory whose name has a space, with a case in it."""
+    here = tmp_path / "my runs"
+    here.mkdir()
+    (here / "case.yaml").write_text(CASE, encoding="utf-8")
+    monkeypatch.chdir(here)
+    return here
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> xr.Dataset:
+    """The result of the same run, uninterrupted."""
+    here = tmp_path_factory.mktemp("whole")
+    (here / "case.yaml").write_text(CASE, encoding="utf-8")
+    assert main(["run", str(here / "case.yaml"), "-q"]) == 0
+    with xr.open_dataset(here / "case" / "result.nc") as ds:
+        return ds.load()
+
+
+def at_instant(number: int, act: Callable[[], None]) -> Callable[[], None]:
+    """Do something when an instant is being shown; return what undoes that."""
+
+    @contextmanager
+    def shown(*arguments: Any, **options: Any) -> Iterator[Any]:
+        def report(state: vc.ContactState, done: int, total: int) -> None:
+            if done == number:
+                act()
+
+        yield report
+
+    patched = pytest.MonkeyPatch()
+    patched.setattr(execution, "shown_progress", shown)
+    return patched.undo
+
+
+def kill(number: int, *words: str) -> None:
+    """Let a run end at an instant, as far as its directory is concerned, as if it were killed."""
+
+    def die() -> None:
+        raise Killed
+
+    undo = at_instant(number, die)
+    with pytest.raises(Killed):
+        main(["run", "case.yaml", *words])
+    undo()
+
+
+def contents(directory: str) -> dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in Path(directory).iterdir()}
+
+
+def same_bits(directory: str, whole: xr.Dataset) -> bool:
+    with xr.open_dataset(Path(directory) / "result.nc") as ds:
+        same = ds.sizes == whole.sizes and set(ds.variables) == set(whole.variables)
+        return same and all(
+            ds[name].values.tobytes() == whole[name].values.tobytes() for name in whole.variables
+        )
+
+
+def test_resumed_run_ends_in_the_bits_of_an_uninterrupted_one(
+    folder: Path,
+    whole: xr.Dataset,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    kill(4, "-q")
+    assert main(["run", "case.yaml", "--resume"]) == 0
+    printed = capsys.readouterr()
+    assert printed.err.startswith("case: going on after 4 of 11 instants, t = 1.5 s\n")
+    assert "step 5/11" in printed.err
+    # the summary is of all instants, those of the first process too
+    assert "11 instants in" in printed.out
+    assert "t = 0 s" in printed.out
+    assert f"{int(whole.iterations.sum())} iterations" in printed.out
+    assert same_bits("case", whole)
+    assert sorted(contents("case")) == ["case.yaml", "progress.jsonl", "result.nc"]
+
+
+def test_resume_starts_where_nothing_is_saved(
+    folder: Path, whole: xr.Dataset, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["run", "case.yaml", "--resume"]) == 0
+    first, *_ = capsys.readouterr().err.splitlines()
+    assert first == "case: nothing is saved there yet; starting at the beginning"
+    assert same_bits("case", whole)
+
+
+def test_finished_run_is_not_run_again(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["run", "case.yaml", "-q"]) == 0
+    before = contents("case")
+    assert main(["run", "case.yaml", "--resume"]) == 0
+    said = capsys.readouterr()
+    assert said.out + said.err == (
+        "case: is finished already, up to t = 5 s; --overwrite computes it anew\n"
+    )
+    assert contents("case") == before
+
+
+def test_run_that_was_killed_as_it_finished_is_finished(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def die(directory: Path) -> None:
+        raise Killed
+
+    with monkeypatch.context() as patched:
+        patched.setattr(run_record, "remove_traces", die)
+        with pytest.raises(Killed):
+            main(["run", "case.yaml", "-q"])
+    assert "state.npz" in contents("case")
+    assert main(["run", "case.yaml", "--resume"]) == 0
+    assert sorted(contents("case")) == ["case.yaml", "progress.jsonl", "result.nc"]
+
+
+@pytest.mark.parametrize("stopped_at", [3, None])
+def test_changed_case_is_refused_with_the_difference_in_its_own_words(
+    stopped_at: int | None,
+    folder: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    if stopped_at is None:
+        assert main(["run", "case.yaml", "-q"]) == 0
+    else:
+        kill(stopped_at, "-q")
+    before = contents("case")
+    changed = CASE.replace("4 N", "5 N").replace("1 s}", "1000 ms}").replace("title: Z", "title: z")
+    Path("case.yaml").write_text(changed, encoding="utf-8")
+    assert main(["run", "case.yaml", "--resume", "--set", "grid.shape=[24, 26]"]) == 2
+    first, *rest = capsys.readouterr().err.splitlines()
+    assert first.startswith("case: holds a run of another case; replace it with --overwrite")
+    # neither the title nor the duration, which only looks different
+    assert rest == [
+        "  load.force: was 4 N, is now 5 N",
+        "  grid.shape[2]: was 24, is now 26",
+    ]
+    assert contents("case") == before
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [("4 N", "4000 mN"), ("  # then held", "  # and held"), ("Zener sphere", "A sphere")],
+)
+def test_what_changes_no_number_is_no_change(
+    old: str, new: str, folder: Path, whole: xr.Dataset, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    kill(3, "-q")
+    Path("case.yaml").write_text(CASE.replace(old, new), encoding="utf-8")
+    assert main(["run", "case.yaml", "-q", "--resume"]) == 0
+    assert same_bits("case", whole)
+    assert new in Path("case/case.yaml").read_text(encoding="utf-8")
+
+
+def test_changed_table_is_refused_in_si_units(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    table = "time [s], force [N]\n0, 0\n1, 4\n"
+    Path("load.csv").write_text(table, encoding="utf-8")
+    load = ["--set", "load={kind: history, file: load.csv}"]
+    kill(3, "-q", *load)
+    Path("load.csv").write_text(table.replace("4", "6"), encoding="utf-8")
+    assert main(["run", "case.yaml", "-q", "--resume", *load]) == 2
+    assert capsys.readouterr().err.splitlines()[1:] == ["  load.force[2]: was 4.0, is now 6.0"]
+    assert Path("case/load.csv").read_text(encoding="utf-8") == table
+    # the run's own case has its own table
+    assert main(["run", "case/case.yaml", "-o", "case", "-q", "--resume"]) == 0
+
+
+def test_run_goes_on_from_its_own_directory(
+    folder: Path, whole: xr.Dataset, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    kill(3, "-q", "-o", "other", "--set", "title=Another")
+    before = Path("other/case.yaml").read_bytes()
+    assert main(["run", "other/case.yaml", "-o", "other", "-q", "--resume"]) == 0
+    assert Path("other/case.yaml").read_bytes() == before
+    assert same_bits("other", whole)
+
+
+def test_resume_and_overwrite_exclude_each_other(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["run", "case.yaml", "--resume", "--overwrite"]) == 2
+    assert len(capsys.readouterr().err.splitlines()) == 1
+    assert not Path("case").exists()
+
+
+def test_unfinished_result_is_replaced_only_when_asked(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    kill(3, "-q")
+    before = contents("case")
+    assert main(["run", "case.yaml", "-q"]) == 2
+    message = capsys.readouterr().err
+    assert "--resume" in message
+    assert "--overwrite" in message
+    assert len(message.splitlines()) == 1
+    assert contents("case") == before
+    assert main(["run", "case.yaml", "-q", "--overwrite", "--set", "load.force=3 N"]) == 0
+    with vc.open_results("case") as ds:
+        np.testing.assert_allclose(ds.force[-1], 3.0, rtol=1e-6)
+
+
+def test_earlier_result_stays_until_the_new_run_has_its_first_instant(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert main(["run", "case.yaml", "-q"]) == 0
+    before = contents("case")
+
+    def die(*arguments: Any, **options: Any) -> None:
+        raise Killed
+
+    heavier = ["--set", "load={kind: step, force: 5 N}", "-q"]
+    with monkeypatch.context() as patched:
+        patched.setattr("viscontact.past.solve_contact", die)
+        with pytest.raises(Killed):
+            main(["run", "case.yaml", "--overwrite", *heavier])
+    assert contents("case") == before
+    # and what comes to be there first is not gone on with as the earlier run
+    with monkeypatch.context() as patched:
+        patched.setattr(RunRecord, "_write", die)
+        with pytest.raises(Killed):
+            main(["run", "case.yaml", "--overwrite", *heavier])
+    assert contents("case")["result.nc"] == before["result.nc"]
+    assert main(["run", "case.yaml", "--resume", *heavier]) == 0
+    with vc.open_results("case") as ds:
+        np.testing.assert_allclose(ds.force, 5.0, rtol=1e-6)
+
+
+def test_result_without_its_state_is_not_lost(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    kill(3, "-q")
+    Path("case/state.npz").unlink()
+    before = contents("case")
+    assert main(["run", "case.yaml", "-q", "--resume"]) == 2
+    message = capsys.readouterr().err
+    assert "state.npz is not there" in message
+    assert "--overwrite" in message
+    assert contents("case") == before
+
+
+# --- signals ----------------------------------------------------------------------------------
+
+
+def test_command_that_is_told_goes_on_with_the_run(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    given = ["-o", "a b", "--set", "load.force=5 N", "--set", "title=it's", "--threads", "2"]
+    undo = at_instant(3, lambda: signal.raise_signal(signal.SIGTERM))
+    assert main(["run", "case.yaml", *given]) == 130
+    undo()
+    *_, kept, told = capsys.readouterr().err.splitlines()
+    assert kept == "a b keeps 3 of 11 instants"
+    words = shlex.split(told.removeprefix("go on with: "))
+    assert words == ["viscontact", "run", "case.yaml", *given, "--resume"]
+    assert main(words[1:]) == 0
+    assert "going on after 3 of 11 instants" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGHUP"])
+def test_first_request_lets_the_step_be_finished_and_saved(
+    name: str, folder: Path, whole: xr.Dataset, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    number = getattr(signal, name, None)
+    if number is None:
+        pytest.skip(f"no {name} on this system")
+    undo = at_instant(4, lambda: signal.raise_signal(number))
+    assert main(["run", "case.yaml", "-q"]) == 130
+    undo()
+    with vc.open_results("case") as ds:
+        assert ds.sizes["time"] == 4
+    assert main(["run", "case.yaml", "-q", "--resume"]) == 0
+    assert same_bits("case", whole)
+
+
+def test_signal_that_arrives_twice_from_a_batch_system_is_one_request(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def twice() -> None:
+        signal.raise_signal(signal.SIGTERM)
+        signal.raise_signal(signal.SIGTERM)
+
+    solve, solved = past.solve_contact, []
+
+    def solving(*arguments: Any, **options: Any) -> Any:
+        solved.append(1)
+        if len(solved) == 3:
+            twice()
+        return solve(*arguments, **options)
+
+    monkeypatch.setattr(past, "solve_contact", solving)
+    assert main(["run", "case.yaml", "-q"]) == 130
+    with vc.open_results("case") as ds:
+        assert ds.sizes["time"] == len(solved) + 1  # the first instant has no contact to be solved
+
+
+def test_second_request_within_a_checkpoint_waits_for_its_end(
+    folder: Path, whole: xr.Dataset, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    save, whole_ones = run_record.save_checkpoint, []
+
+    def saving(path: Path, checkpoint: Any) -> None:
+        if len(whole_ones) == 4:
+            signal.raise_signal(signal.SIGINT)
+            signal.raise_signal(signal.SIGINT)
+        save(path, checkpoint)
+        whole_ones.append(checkpoint.steps)
+
+    with monkeypatch.context() as patched:
+        patched.setattr(run_record, "PAUSE", 0.0)
+        patched.setattr(run_record, "SHARE", 0.0)
+        patched.setattr(run_record, "save_checkpoint", saving)
+        assert main(["run", "case.yaml", "-q"]) == 130
+    assert len(whole_ones) == 5
+    assert main(["run", "case.yaml", "-q", "--resume"]) == 0
+    assert same_bits("case", whole)
+
+
+def test_request_before_the_first_step_changes_nothing(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def preparing(*arguments: Any) -> None:
+        signal.raise_signal(signal.SIGTERM)
+
+    monkeypatch.setattr(execution, "prepare", preparing)
+    assert main(["run", "case.yaml"]) == 130
+    assert (
+        capsys.readouterr().err == "interrupted before the first step; nothing has been changed\n"
+    )
+    assert [path.name for path in folder.iterdir()] == ["case.yaml"]
+
+
+def test_terminal_that_is_ignored_stays_ignored() -> None:
+    if not hasattr(signal, "SIGHUP"):
+        pytest.skip("no SIGHUP on this system")
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)  # as nohup leaves it
+    try:
+        with watched_interruption() as interruption, interruption.marching():
+            signal.raise_signal(signal.SIGHUP)
+            assert not interruption.requested
+    finally:
+        signal.signal(signal.SIGHUP, before)
+
+
+def test_real_process_is_stopped_and_resumed(folder: Path) -> None:
+    # a thousand steps, so that there is time to stop it
+    command = [sys.executable, "-m", "viscontact", "run", "case.yaml", "--set", "time.steps=1000"]
+    run = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+    progress = Path("case/progress.jsonl")
+    while not (progress.exists() and progress.read_text(encoding="utf-8").count("\n") > 3):
+        assert run.poll() is None
+        clock.sleep(0.01)
+    # meanwhile nobody else may write there
+    other = subprocess.run([*command, "--resume"], capture_output=True, text=True)
+    assert other.returncode == 2
+    assert "in use by another run" in other.stderr
+    assert len(other.stderr.splitlines()) == 1
+    run.send_signal(signal.SIGTERM)
+    _, said = run.communicate(timeout=60)
+    assert run.returncode == 130
+    kept = int(said.split("case keeps ")[1].split(" of 1001 instants")[0])
+    with vc.open_results("case") as ds:
+        assert ds.sizes["time"] == kept == len(progress.read_text(encoding="utf-8").splitlines())
+
+
+def test_directory_in_use_is_refused_in_one_line(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    Path("case").mkdir()
+    with locked(Path("case")):
+        assert main(["run", "case.yaml"]) == 2
+    message = capsys.readouterr().err
+    assert "in use by another run" in message
+    assert len(message.splitlines()) == 1
+    assert not contents("case")
+    # the file that is locked does not make a directory look like a run's
+    Path("case/.lock").write_text("", encoding="utf-8")
+    assert main(["run", "case.yaml", "-q"]) == 0
