@@ -153,7 +153,10 @@ def run(args: list[str]) -> int:
     child = subprocess.Popen([str(PYTHON), *args], cwd=ROOT, env=clean())
     # Ctrl-C reaches the child too, which finishes its step and saves: wait for it.
     signal.signal(signal.SIGINT, lambda *_: None)
-    signal.signal(signal.SIGTERM, lambda *_: child.terminate())
+    for name in ("SIGTERM", "SIGHUP"):
+        number = getattr(signal, name, None)
+        if number is not None and signal.getsignal(number) != signal.SIG_IGN:  # as under nohup
+            signal.signal(number, lambda number, _: child.send_signal(number))
     status = child.wait()
     return status if status >= 0 else 128 - status
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shlex
 import signal
 import subprocess
@@ -423,3 +424,21 @@ def test_directory_in_use_is_refused_in_one_line(
     # the file that is locked does not make a directory look like a run's
     Path("case/.lock").write_text("", encoding="utf-8")
     assert main(["run", "case.yaml", "-q"]) == 0
+
+
+def test_run_whose_terminal_is_closed_stops_in_order(folder: Path) -> None:
+    pty = pytest.importorskip("pty", reason="no pseudo-terminals of this kind on Windows")
+    command = [sys.executable, "-m", "viscontact", "run", "case.yaml", "--set", "time.steps=1000"]
+    child, terminal = pty.fork()
+    if not child:
+        os.execv(sys.executable, command)
+    progress = Path("case/progress.jsonl")
+    shown = b""
+    while not (progress.exists() and progress.read_text(encoding="utf-8").count("\n") > 3):
+        shown += os.read(terminal, 4096)  # else the terminal is full, and the run waits
+    os.close(terminal)
+    _, status = os.waitpid(child, 0)
+    assert b"step" in shown
+    assert os.waitstatus_to_exitcode(status) == 130
+    with vc.open_results("case") as ds:
+        assert 3 < ds.sizes["time"] == len(progress.read_text(encoding="utf-8").splitlines()) < 1001

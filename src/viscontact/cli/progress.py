@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 import time as clock
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
@@ -40,11 +40,17 @@ def shown_progress(total: int | None, done: int = 0, *, quiet: bool) -> Iterator
     if quiet:
         yield lambda state, done, total: None
     elif sys.stderr.isatty():
-        with _bar() as bar:
-            task = bar.add_task("", total=total, completed=done, details="")
+        bar = _bar()
+        task = bar.add_task("", total=total, completed=done, details="")
+        bar.start()
+        try:
             yield lambda state, done, total: bar.update(
                 task, completed=done, total=total, details=_details(state)
             )
+        finally:
+            # A terminal that is gone is no reason for a run to fail.
+            with suppress(OSError):
+                bar.stop()
     else:
         yield _PlainLines(done, guessed=total is None)
 
