@@ -111,12 +111,21 @@ def test_package_says_its_version_and_offers_the_exact_solutions() -> None:
     assert (vc.Outcome.CONVERGED, vc.Outcome.NO_CONTACT, vc.Outcome.NOT_CONVERGED) == (0, 1, 2)
 
 
-@pytest.mark.parametrize(
-    "profile", ["cylindrical", "full", "partial", "logarithmic", "chamfer", [(0.0, 0.0)]]
-)
-def test_roller_profile_is_refused_by_name(profile: Any) -> None:
-    with pytest.raises(ValueError, match="profile"):
-        vc.Roller(0.005, 0.01, profile=profile)
+PROFILES: dict[str, Any] = {
+    "cylindrical": {"profile": "cylindrical"},
+    "full": {"profile": "full", "crown_radius": 1.0},
+    "partial": {"profile": "partial", "crown_radius": 1.0},
+    "logarithmic": {"profile": "logarithmic", "amplitude": 1e-6},
+    "chamfer": {"profile": "chamfer", "angle": 0.5, "length": 1e-3},
+    "table of (x, drop)": {"profile": [(0.0, 0.0), (0.01, 1e-6)]},
+}
+
+
+@pytest.mark.parametrize("arguments", PROFILES.values(), ids=PROFILES)
+def test_roller_takes_each_named_profile_with_its_own_arguments(arguments: Any) -> None:
+    roller = vc.Roller(0.005, 0.01, **arguments)
+    assert float(roller.gap(0.0, 0.0)) == 0.0
+    assert float(roller.gap(0.001, 0.001)) > 0.0
 
 
 # --- indenters ----------------------------------------------------------------------------------

@@ -364,19 +364,6 @@ def test_half_angle_in_degrees_is_met_with_the_remedy():
         Cone(math.pi / 2)
 
 
-@pytest.mark.parametrize("name", ["cylindrical", "full", "partial", "logarithmic", "chamfer"])
-def test_profile_not_built_yet_is_refused_by_name(name):
-    with pytest.raises(ValueError, match=f"roller profile '{name}' is not built yet; use crown_"):
-        Roller(1.0, 1.0, profile=name)
-
-
-def test_unknown_profile_is_met_with_the_names():
-    with pytest.raises(ValueError, match=r"'log' is unknown; the names are .*'logarithmic'"):
-        Roller(1.0, 1.0, profile="log")
-    with pytest.raises(ValueError, match="as a table is not built yet"):
-        Roller(1.0, 1.0, profile=[(0.0, 0.0), (1.0, 1e-3)])
-
-
 @pytest.mark.parametrize(
     "arguments",
     [

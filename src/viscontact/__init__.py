@@ -14,13 +14,21 @@ __getattr__, __dir__, __all__ = _lazy.attach(
         "errors": ["AccuracyWarning", "ConvergenceError", "DomainError"],
         "grid": ["Grid"],
         "indenters": [
+            "Chamfer",
             "Cone",
+            "CylindricalProfile",
             "FlatPunch",
+            "FullCrown",
             "HeightMap",
             "Indenter",
+            "LogarithmicProfile",
             "Paraboloid",
+            "PartialCrown",
+            "Profile",
             "Roller",
             "Sphere",
+            "TabulatedProfile",
+            "TwoRadiiCrown",
         ],
         "laws": [
             "WLF",
@@ -69,6 +77,7 @@ __getattr__, __dir__, __all__ = _lazy.attach(
         "marching": ["march"],
         "dataset": ["simulate"],
         "results": ["open_results", "save"],
+        "stresses": ["section_stresses"],
     },
 )
 __all__ += ["__version__"]

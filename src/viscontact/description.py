@@ -10,13 +10,20 @@ import numpy as np
 
 from viscontact.grid import Grid
 from viscontact.indenters import (
+    Chamfer,
     CombinedIndenter,
     Cone,
+    CylindricalProfile,
     FlatPunch,
+    FullCrown,
     HeightMap,
+    LogarithmicProfile,
     Paraboloid,
+    PartialCrown,
     Roller,
     Sphere,
+    TabulatedProfile,
+    TwoRadiiCrown,
 )
 from viscontact.laws import (
     BesideSpring,
@@ -40,6 +47,8 @@ NOUNS = {
     noun.__name__: noun
     for noun in (
         *(Sphere, Paraboloid, Cone, FlatPunch, Roller, HeightMap, CombinedIndenter),
+        *(CylindricalProfile, FullCrown, PartialCrown, TwoRadiiCrown, Chamfer),
+        *(LogarithmicProfile, TabulatedProfile),
         *(Elastic, Maxwell, Zener, Burgers, CreepSeries, RelaxationSeries),
         *(PowerLaw, FractionalMaxwell, FractionalZener, BesideSpring),
         *(TabulatedCreep, TabulatedRelaxation),

@@ -86,3 +86,58 @@ def positive_length(name: str, value: object) -> float:
     if not (math.isfinite(length) and length > 0):
         raise ValueError(f"{name} must be a positive, finite length in m, got {value!r}")
     return length
+
+
+def acute_angle(name: str, value: object) -> float:
+    """Return `value` as a float if it is an angle between 0 and π/2, both excluded [rad].
+
+    Parameters
+    ----------
+    name : str
+        What the angle is, for the message: "Cone: half_angle".
+    value : object
+        What the user gave [rad].
+
+    Raises
+    ------
+    ValueError
+        If the value is not a number, or not between these.
+
+    Examples
+    --------
+    >>> acute_angle("Cone: half_angle", 1)
+    1.0
+    """
+    angle = real_number(name, value, "rad")
+    if not 0 < angle < math.pi / 2:
+        raise ValueError(
+            f"{name} must lie between 0 and π/2 rad, got {value!r}; for degrees use "
+            "math.radians(...)"
+        )
+    return angle
+
+
+def length_or_zero(name: str, value: object) -> float:
+    """Return `value` as a float if it is a finite length of zero or more [m].
+
+    Parameters
+    ----------
+    name : str
+        What the length is, for the message: "Chamfer: corner_radius".
+    value : object
+        What the user gave [m].
+
+    Raises
+    ------
+    ValueError
+        If the value is not a number, not finite, or negative.
+
+    Examples
+    --------
+    >>> length_or_zero("Chamfer: corner_radius", 0)
+    0.0
+    """
+    length = real_number(name, value, "m")
+    if not (math.isfinite(length) and length >= 0):
+        raise ValueError(f"{name} must be a finite length of zero or more in m, got {value!r}")
+    return length

@@ -1,0 +1,90 @@
+"""Generating line of a roller whose ends are chamfered."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from viscontact.indenters.arc import arc_drop
+from viscontact.indenters.lengths import acute_angle, length_or_zero, positive_length
+from viscontact.indenters.profile import Profile
+
+
+@dataclass(frozen=True)
+class Chamfer(Profile):
+    """A straight line cut off by a chamfer, with a sharp or a rounded corner between them.
+
+    The roller's half length is half of the whole, chamfers included.
+
+    Parameters
+    ----------
+    angle : float
+        Angle of the chamfer to the straight part, between 0 and π/2, both excluded [rad].
+    length : float
+        Length of the chamfer along x, from the sharp corner to the end [m].
+    corner_radius : float, optional
+        Radius that rounds the corner, tangent to the straight part and to the chamfer [m];
+        a sharp corner when zero.
+
+    Raises
+    ------
+    ValueError
+        If a length or the angle makes no sense, or there is no room for the chamfer or the
+        rounding.
+
+    Notes
+    -----
+    The rounding takes r tan(angle/2) off the straight part, and as much, measured along it, off
+    the chamfer. The contact's pressure is singular at a sharp corner, as it is at a sharp end.
+
+    Examples
+    --------
+    >>> Chamfer(angle=math.pi / 4, length=1.0).drop([4.0, 4.5, 5.1], half_length=5.0).round(12)
+    array([0. , 0.5, inf])
+    """
+
+    angle: float
+    length: float
+    corner_radius: float = 0.0
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "length", positive_length("Chamfer: length", self.length))
+        corner = length_or_zero("Chamfer: corner_radius", self.corner_radius)
+        object.__setattr__(self, "corner_radius", corner)
+        object.__setattr__(self, "angle", acute_angle("Chamfer: angle", self.angle))
+        if self._tangent * math.cos(self.angle) > self.length:
+            raise ValueError(
+                f"Chamfer: corner_radius of {self.corner_radius} m leaves nothing of a chamfer of "
+                f"length {self.length} m; make it smaller than "
+                f"{self.length / math.cos(self.angle) / math.tan(self.angle / 2):.3g} m"
+            )
+
+    @property
+    def _tangent(self) -> float:
+        """How much of either line the rounding takes [m]."""
+        return self.corner_radius * math.tan(self.angle / 2)
+
+    def drop(self, x: ArrayLike, half_length: float) -> NDArray[np.float64]:
+        """Return the drop of the rounding and of the chamfer; see `Profile.drop`."""
+        distance = np.abs(np.asarray(x, dtype=np.float64))
+        beyond = np.maximum(distance - (half_length - self.length - self._tangent), 0.0)
+        on_arc = beyond <= self.corner_radius * math.sin(self.angle)
+        # A sharp corner has no arc, and R = 0 would end at s = 0.
+        arc = arc_drop(np.where(on_arc, beyond, 0.0), self.corner_radius)
+        drop = np.where(on_arc, arc, (beyond - self._tangent) * math.tan(self.angle))
+        return np.where(distance <= half_length, drop, np.inf)
+
+    def end(self, half_length: float) -> float:
+        """Return the half length [m]."""
+        return half_length
+
+    def require_fit(self, half_length: float) -> None:
+        """Raise ValueError if the chamfers leave no straight part."""
+        if self.length + self._tangent >= half_length:
+            raise ValueError(
+                f"Chamfer: length of {self.length} m, with the rounding, leaves no straight part "
+                f"of a half length of {half_length} m; make the chamfer shorter"
+            )

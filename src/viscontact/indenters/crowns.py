@@ -1,0 +1,218 @@
+"""Generating lines of rollers with sharp ends or with circular crowns."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from viscontact.indenters.arc import arc_drop
+from viscontact.indenters.lengths import positive_length
+from viscontact.indenters.profile import Profile
+
+
+@dataclass(frozen=True)
+class CylindricalProfile(Profile):
+    """A straight line with a sharp end.
+
+    The roller's half length is half of the whole.
+
+    Examples
+    --------
+    >>> CylindricalProfile().drop([0.9, 1.1], half_length=1.0).tolist()
+    [0.0, inf]
+    """
+
+    def drop(self, x: ArrayLike, half_length: float) -> NDArray[np.float64]:
+        """Return zero on the line and +inf beyond; see `Profile.drop`."""
+        return np.where(np.abs(x) <= half_length, 0.0, np.inf)
+
+    def end(self, half_length: float) -> float:
+        """Return the half length [m]."""
+        return half_length
+
+
+@dataclass(frozen=True)
+class FullCrown(Profile):
+    """One circular arc over the whole length, ending sharply.
+
+    The roller's half length is half of the whole.
+
+    Parameters
+    ----------
+    crown_radius : float
+        Radius of the arc [m].
+
+    Raises
+    ------
+    ValueError
+        If the radius is not a positive, finite number.
+
+    Examples
+    --------
+    >>> FullCrown(crown_radius=13.0).drop([5.0, 7.0], half_length=6.0).tolist()
+    [1.0, inf]
+    """
+
+    crown_radius: float
+
+    def __post_init__(self) -> None:
+        radius = positive_length("FullCrown: crown_radius", self.crown_radius)
+        object.__setattr__(self, "crown_radius", radius)
+
+    def drop(self, x: ArrayLike, half_length: float) -> NDArray[np.float64]:
+        """Return the drop of the arc; see `Profile.drop`."""
+        distance = np.abs(x)
+        return np.where(distance <= half_length, arc_drop(distance, self.crown_radius), np.inf)
+
+    def end(self, half_length: float) -> float:
+        """Return the half length, or where the arc ends before [m]."""
+        return min(half_length, self.crown_radius)
+
+    def curvature(self, half_length: float) -> float:
+        """Return the curvature of the arc [1/m]."""
+        return 1 / self.crown_radius
+
+
+@dataclass(frozen=True)
+class PartialCrown(Profile):
+    """A straight line, continued at either end by a circular arc tangent to it.
+
+    The roller's half length is half of the straight part.
+
+    Parameters
+    ----------
+    crown_radius : float
+        Radius of the arcs [m].
+    end_length : float, optional
+        Where the roller ends sharply, from its middle [m]; where the arc ends when left out.
+
+    Raises
+    ------
+    ValueError
+        If a length is not a positive, finite number, or the roller would end on the straight
+        part.
+
+    Notes
+    -----
+    Spinu & Cerlinca (2018), eq. 13, with L for the half length:
+    drop(x) = R_c - sqrt(R_c² - (|x| - L)²) for |x| > L.
+
+    Examples
+    --------
+    >>> PartialCrown(crown_radius=13.0).drop([10.0, 15.0], half_length=10.0).tolist()
+    [0.0, 1.0]
+    """
+
+    crown_radius: float
+    end_length: float | None = None
+
+    def __post_init__(self) -> None:
+        _set_lengths(self, "crown_radius")
+        if self.end_length is not None:
+            _set_lengths(self, "end_length")
+
+    def drop(self, x: ArrayLike, half_length: float) -> NDArray[np.float64]:
+        """Return the drop of the arc beyond the straight part; see `Profile.drop`."""
+        distance = np.abs(np.asarray(x, dtype=np.float64))
+        drop = arc_drop(np.maximum(distance - half_length, 0.0), self.crown_radius)
+        return np.where(distance <= self.end(half_length), drop, np.inf)
+
+    def end(self, half_length: float) -> float:
+        """Return where the roller or its arc ends [m]."""
+        of_arc = half_length + self.crown_radius
+        return of_arc if self.end_length is None else min(of_arc, self.end_length)
+
+    def require_fit(self, half_length: float) -> None:
+        """Raise ValueError if the roller would end on its straight part."""
+        _require_beyond("PartialCrown", "end_length", self.end_length, half_length)
+
+
+@dataclass(frozen=True)
+class TwoRadiiCrown(Profile):
+    """A straight line, continued by two circular arcs, each tangent to what comes before.
+
+    The roller's half length is half of the straight part.
+
+    Parameters
+    ----------
+    crown_radius : float
+        Radius of the first arc, the flatter one as a rule [m].
+    crown_length : float
+        Length of the first arc along x [m].
+    end_radius : float
+        Radius of the second arc, that goes on from there [m].
+    end_length : float, optional
+        Where the roller ends sharply, from its middle [m]; where the second arc ends when left
+        out.
+
+    Raises
+    ------
+    ValueError
+        If a length is not a positive, finite number, or the first arc ends before its length.
+
+    Notes
+    -----
+    With s the distance from the straight part and φ the slope's angle, s = R_1 sin φ on the first
+    arc. From s_1 on, sin φ = sin φ_1 + (s - s_1) / R_2 and the drop grows by
+    R_2 (cos φ_1 - cos φ), computed as (s - s_1) (sin φ_1 + sin φ) / (cos φ_1 + cos φ).
+
+    Examples
+    --------
+    >>> two = TwoRadiiCrown(crown_radius=13.0, crown_length=5.0, end_radius=6.5)
+    >>> two.drop([1.0, 6.0, 9.5], half_length=1.0).round(12).tolist()
+    [0.0, 1.0, 4.5]
+    """
+
+    crown_radius: float
+    crown_length: float
+    end_radius: float
+    end_length: float | None = None
+
+    def __post_init__(self) -> None:
+        _set_lengths(self, "crown_radius", "crown_length", "end_radius")
+        if self.crown_length >= self.crown_radius:
+            raise ValueError(
+                "TwoRadiiCrown: crown_length must be smaller than crown_radius, where the arc "
+                f"ends, got {self.crown_length} m and {self.crown_radius} m"
+            )
+        if self.end_length is not None:
+            _set_lengths(self, "end_length")
+
+    def drop(self, x: ArrayLike, half_length: float) -> NDArray[np.float64]:
+        """Return the sum of the arcs' drops; see `Profile.drop`."""
+        distance = np.abs(np.asarray(x, dtype=np.float64))
+        beyond = np.maximum(distance - half_length, 0.0)
+        on_second = np.maximum(beyond - self.crown_length, 0.0)
+        sine_1 = self.crown_length / self.crown_radius
+        sine = np.minimum(sine_1 + on_second / self.end_radius, 1.0)
+        cosines = math.sqrt(1 - sine_1**2) + np.sqrt((1 - sine) * (1 + sine))
+        drop = arc_drop(np.minimum(beyond, self.crown_length), self.crown_radius)
+        drop = drop + on_second * (sine_1 + sine) / cosines
+        return np.where(distance <= self.end(half_length), drop, np.inf)
+
+    def end(self, half_length: float) -> float:
+        """Return where the roller or its second arc ends [m]."""
+        sine_1 = self.crown_length / self.crown_radius
+        of_arc = half_length + self.crown_length + self.end_radius * (1 - sine_1)
+        return of_arc if self.end_length is None else min(of_arc, self.end_length)
+
+    def require_fit(self, half_length: float) -> None:
+        """Raise ValueError if the roller would end on its straight part."""
+        _require_beyond("TwoRadiiCrown", "end_length", self.end_length, half_length)
+
+
+def _set_lengths(noun: Profile, *names: str) -> None:
+    for name in names:
+        length = positive_length(f"{type(noun).__name__}: {name}", getattr(noun, name))
+        object.__setattr__(noun, name, length)
+
+
+def _require_beyond(noun: str, name: str, end: float | None, half_length: float) -> None:
+    if end is not None and end < half_length:
+        raise ValueError(
+            f"{noun}: {name} must be at least the half length of the straight part, "
+            f"{half_length} m, got {end} m"
+        )
