@@ -137,8 +137,8 @@ def prepare_run(
     instants = run_instants(times, fields, load, compliance)
     end = float(instants[-1])
     field_instants(fields, instants)
-    check_creep(compliance, instants)
     check_magnitudes(compliance, load, grid, end)
+    check_creep(compliance, instants)
     check_jumps(compliance, load, end)
     if grid is None:
         grid = auto_grid(indenter, material, load, end=end, indenter_material=indenter_material)

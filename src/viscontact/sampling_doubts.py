@@ -154,7 +154,8 @@ def sampling_doubts(
         Sentences by kind of doubt; empty if there is none.
     """
     missed = float(sampling.missed[rim.rows, rim.columns][rim.contact].max(initial=0.0))
-    strain = 2 * float(motion[0]) / max(min(rim.length, rim.width), np.finfo(float).tiny)
+    extent = min(rim.length, rim.width)
+    strain = 2 * float(motion[0]) / extent if extent > 0 else math.inf
     doubts = map_doubts(missed, max(sampling.grid.cell_size), strain)
     x, y, gap = sampling.beyond
     # Pressure is all within the grid, so displacement falls from its rim outwards.

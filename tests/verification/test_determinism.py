@@ -47,20 +47,7 @@ def test_runs_made_again_after_other_work_give_the_same_bits(first):
         assert differing(first[name], arrays(name)) == []
 
 
-OF_BLAS = pytest.mark.xfail(
-    strict=False,
-    reason="sums over the past are products of matrices by BLAS, whose last bits depend on its "
-    "number of threads: 2e-16 of the displacement between two creeping bodies",
-)
-
-
-@pytest.mark.parametrize(
-    "surroundings",
-    [
-        pytest.param(name, marks=OF_BLAS if name == "one thread of linear algebra" else ())
-        for name in SURROUNDINGS
-    ],
-)
+@pytest.mark.parametrize("surroundings", SURROUNDINGS)
 def test_a_process_of_its_own_gives_the_same_bits(surroundings, first, tmp_path):
     command = [sys.executable, "-m", "verification.repeated_runs", str(tmp_path)]
     environment = {**os.environ, **SURROUNDINGS[surroundings]}

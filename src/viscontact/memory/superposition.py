@@ -18,6 +18,9 @@ from viscontact.memory.response import Memory, Response, is_resolved, longest_sm
 #: Steps ahead for which the sum over the past is made at once, as one product of matrices.
 STEPS_AHEAD = 16
 
+#: Numbers of a field that are summed at once, so that a row of them stays in the nearest cache.
+AT_ONCE = 2048
+
 
 class SuperposedMemory(Memory):
     """The running Boltzmann integral of one field under any law.
@@ -143,7 +146,7 @@ class SuperposedMemory(Memory):
         since_began = np.maximum(ends[:, None] - began, 0.0)
         since_ended = np.clip(ends[:, None] - ended, 0.0, since_began)
         weights = self._compliance.mean(since_ended, since_began)
-        return np.asarray(weights @ self._increments[first : self._count])
+        return _product(weights, self._increments[first : self._count])
 
     def _make_room(self) -> None:
         more = len(self._began) // 2
@@ -152,3 +155,12 @@ class SuperposedMemory(Memory):
         )
         self._began = np.append(self._began, np.zeros(more))
         self._ended = np.append(self._ended, np.zeros(more))
+
+
+def _product(weights: NDArray[np.float64], increments: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The product of two matrices, not by BLAS, whose bits depend on its number of threads."""
+    product = np.empty((len(weights), increments.shape[1]))
+    for first in range(0, increments.shape[1], AT_ONCE):
+        part = slice(first, first + AT_ONCE)
+        np.einsum("ij,jk->ik", weights, increments[:, part], out=product[:, part])
+    return product
