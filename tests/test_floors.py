@@ -49,7 +49,7 @@ FLOORS = (
         "step_by_step",
         "marching",
     ),
-    ("description", "dataset", "results", "recording"),  # 5 labels and files
+    ("description", "dataset", "results", "stresses", "recording"),  # 5 labels and files
     (
         "examples",
         "units",

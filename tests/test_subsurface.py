@@ -73,6 +73,16 @@ def test_surface_under_a_ball_is_johnsons() -> None:
     assert stress["zz"][0][beyond] == pytest.approx(0, abs=1e-12)
 
 
+def test_stress_jumps_with_the_pressure_at_the_surface_only() -> None:
+    # under an edge between a loaded and a free half-plane the stress is half way, Johnson sec. 2.5
+    grid = Grid((41, 40), (41.0, 40.0))
+    pressure = np.zeros(grid.shape)
+    pressure[:, :20] = 1.0
+    stress = stress_on_section(pressure, grid, [0.0, 1e-3], 0.3, y=0.0)
+    assert stress["zz"][:, 20] == pytest.approx(-0.5, abs=1e-3)
+    assert np.isfinite(stress.components).all()
+
+
 def test_long_roller_shears_most_where_johnson_says() -> None:
     # half width 1; plane strain in the middle is approached with one over the length
     grid = Grid((5, 64), (1e5, 2.2))

@@ -16,6 +16,10 @@ from scipy import fft
 from viscontact.grid import Grid
 from viscontact.stress_influence import COMPONENTS, stress_coefficients
 
+#: The surface itself is taken at this part of a cell's edge below it: there, and there only, the
+#: stress jumps where the pressure does, from cell to cell, and half way between is right.
+SURFACE = 1e-6
+
 
 @dataclass(frozen=True, eq=False)
 class Stress:
@@ -141,7 +145,7 @@ def _along_x(
     x_edges = np.append(offsets, offsets[-1] + dx) - dx / 2
     y_edges = y - np.append(grid.y[loaded] - dy / 2, grid.y[loaded][-1] + dy / 2)
     found = np.empty((6, len(depths), cells))
-    for index, depth in enumerate(depths.tolist()):
+    for index, depth in enumerate(np.maximum(depths, SURFACE * min(dx, dy)).tolist()):
         # The edges rise along x, so that the first difference has the other sign.
         kernel = -stress_coefficients(x_edges, y_edges, depth, poisson_ratio)
         wrapped = np.zeros((6, padded, kernel.shape[2]))

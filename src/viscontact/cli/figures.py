@@ -16,11 +16,14 @@ from viscontact.cli.stored import early_end, opened
 from viscontact.units import in_words, parse_quantity
 
 #: Promised, not built yet.
-_LATER = ("animation", "von-mises", "stress-section")
+_LATER = ("animation",)
 
 
 #: Figures of the fields at single instants; the others take times as a span.
-_OF_INSTANTS = ("pressure-map", "pressure-profile", "pressure-radial", "contact-outline")
+_OF_INSTANTS = (
+    *("pressure-map", "pressure-profile", "pressure-radial", "contact-outline"),
+    *("stress-section", "von-mises"),
+)
 
 
 def draw(directory: Path, figure: str, times: Sequence[str], output: Path | None) -> Path:

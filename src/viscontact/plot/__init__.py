@@ -25,6 +25,7 @@ from viscontact.plot.pressure_map import pressure_map
 from viscontact.plot.pressure_profile import compare_pressure_profiles, pressure_profile
 from viscontact.plot.pressure_radial import pressure_radial
 from viscontact.plot.saving import save_figure
+from viscontact.plot.stress_section import stress_section, von_mises_history
 
 FIGURES: dict[str, Callable[..., Figure]] = {
     "pressure-map": pressure_map,
@@ -34,6 +35,8 @@ FIGURES: dict[str, Callable[..., Figure]] = {
     "history": history,
     "hysteresis": hysteresis,
     "creep": creep,
+    "stress-section": stress_section,
+    "von-mises": von_mises_history,
 }
 """Figures of one run by name: ``FIGURES[name](results, times=None)``."""
 
@@ -63,4 +66,6 @@ __all__ = [
     "pressure_profile",
     "pressure_radial",
     "save_figure",
+    "stress_section",
+    "von_mises_history",
 ]

@@ -1,0 +1,208 @@
+"""Von Mises stress below the contact: on a section, and its largest value over time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+from numpy.typing import ArrayLike, NDArray
+
+from viscontact.grid import Grid
+from viscontact.plot import style
+from viscontact.plot.readable import DisplayUnit, display_unit, time_labels
+from viscontact.plot.snapshots import Snapshot, field_times, take_snapshots
+from viscontact.stresses import recorded_poisson_ratio
+from viscontact.subsurface import stress_on_section
+from viscontact.units import in_words
+
+_SECTION, _HISTORY = "stress-section", "von-mises"
+
+#: The section is drawn to so many half widths of the contact, in depth and to each side.
+_DEEP, _ASIDE = 2.0, 2.0
+_DEPTHS = 61
+
+
+@dataclass(frozen=True)
+class Section:
+    """Von Mises stress on the plane across the contact through its largest pressure.
+
+    Parameters
+    ----------
+    time : float
+        The instant [s].
+    across : ndarray, shape (n,)
+        Positions across the contact, along its shorter extent [m].
+    depths : ndarray, shape (m,)
+        Depths below the surface [m].
+    stress : ndarray, shape (m, n)
+        Von Mises stress [Pa].
+    axis : {"x", "y"}
+        Which way `across` goes.
+    half_width : float
+        Of the largest contact shown, along that axis [m].
+    """
+
+    time: float
+    across: NDArray[np.float64]
+    depths: NDArray[np.float64]
+    stress: NDArray[np.float64]
+    axis: str
+    half_width: float
+
+    @property
+    def largest(self) -> tuple[float, float, float]:
+        """Largest stress [Pa], and where: depth and position across [m]."""
+        row, column = np.unravel_index(int(self.stress.argmax()), self.stress.shape)
+        return float(self.stress.max()), float(self.depths[row]), float(self.across[column])
+
+
+def stress_section(results: xr.Dataset, *, times: ArrayLike | None = None) -> Figure:
+    """Draw contours of von Mises stress below the contact, one panel an instant.
+
+    Parameters
+    ----------
+    results : xarray.Dataset
+        What ``simulate`` or ``open_results`` returned, with fields stored.
+    times : array_like, optional
+        Instants [s]; the nearest stored ones are drawn. By default the first in contact and the
+        last.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Planes across the contact, along its shorter extent, through the largest pressure; a cross
+        where the stress is largest.
+
+    Raises
+    ------
+    ValueError
+        If no fields are stored, the bodies do not touch, or Poisson's ratio is not known.
+    """
+    ratio = recorded_poisson_ratio(results)
+    snapshots = take_snapshots(results, times, _SECTION, count=2)
+    sections = _sections(snapshots, ratio)
+    length = display_unit("m", *(section.half_width * _ASIDE for section in sections))
+    stress = display_unit("Pa", max(section.largest[0] for section in sections))
+    levels = _levels(sections, stress)
+    figure = style.new_figure(style.ONE_COLUMN, 0.45 + 2.1 * len(sections), fixed_aspect=True)
+    panels = figure.subplots(len(sections), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
+    labels = time_labels(section.time for section in sections)
+    for axes, section, label in zip(panels, sections, labels, strict=True):
+        drawn = _draw(axes, section, levels, length, stress)
+        style.add_heading(axes, f"t = {label}")
+        largest, depth, _ = section.largest
+        said = f"largest {in_words(largest, 'Pa', 3)}, {in_words(depth, 'm', 3)} deep"
+        style.add_heading(axes, said, aside=True)
+    panels[-1].set_xlabel(length.label(sections[-1].axis))
+    bar = figure.colorbar(drawn, ax=panels.tolist(), shrink=0.9, aspect=25, pad=0.02)
+    bar.set_label(stress.label("Von Mises stress"), size=style.LABEL_SIZE, color=style.INK)
+    bar.ax.tick_params(labelsize=style.TICK_SIZE, width=style.THIN_LINE, length=2.5)
+    return figure
+
+
+def von_mises_history(results: xr.Dataset, *, times: ArrayLike | None = None) -> Figure:
+    """Draw the largest von Mises stress and its depth over time.
+
+    Parameters
+    ----------
+    results : xarray.Dataset
+        What ``simulate`` or ``open_results`` returned, with fields stored.
+    times : array_like, optional
+        Instants [s]; by default all that are stored.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The largest stress on planes across the contact through its largest pressure, above its
+        depth.
+
+    Raises
+    ------
+    ValueError
+        As in `stress_section`.
+    """
+    ratio = recorded_poisson_ratio(results)
+    chosen = field_times(results, _HISTORY) if times is None else times
+    snapshots = take_snapshots(results, chosen, _HISTORY)
+    sections = _sections(snapshots, ratio)
+    instants = np.array([section.time for section in sections])
+    largest, depths, _ = np.array([section.largest for section in sections]).T
+    time = display_unit("s", instants)
+    figure = style.new_figure(style.ONE_COLUMN, 3.6)
+    panels = figure.subplots(2, 1, sharex=True)
+    curves = ((largest, "Pa", "Von Mises stress"), (depths, "m", "Its depth"))
+    for axes, (values, si_unit, name) in zip(panels, curves, strict=True):
+        unit = display_unit(si_unit, values)
+        axes.plot(time(instants), unit(values), "o-", color=style.LINE, markersize=3.5)
+        axes.set_ylabel(unit.label(name))
+        axes.set_ylim(bottom=0.0)
+        style.dress(axes)
+    panels[-1].set_xlabel(time.label("Time"))
+    return figure
+
+
+def _sections(snapshots: list[Snapshot], poisson_ratio: float) -> list[Section]:
+    touching = [snapshot for snapshot in snapshots if snapshot.touching]
+    half_width = max(_half_width(snapshot) for snapshot in touching)
+    return [_section(snapshot, half_width, poisson_ratio) for snapshot in touching]
+
+
+def _half_width(snapshot: Snapshot) -> float:
+    left, right, front, back = snapshot.extent()
+    return min(right - left, back - front) / 2
+
+
+def _section(snapshot: Snapshot, half_width: float, poisson_ratio: float) -> Section:
+    """The section as deep as the largest contact of all that are shown asks for."""
+    left, right, front, back = snapshot.extent()
+    is_long = right - left >= back - front
+    i, j = np.unravel_index(int(snapshot.pressure.argmax()), snapshot.pressure.shape)
+    dx, dy = snapshot.cell_size
+    grid = Grid(snapshot.pressure.shape, (dx * snapshot.x.size, dy * snapshot.y.size))
+    depths = np.linspace(0.0, _DEEP * half_width, _DEPTHS)
+    where: dict[str, Any] = {"x": float(snapshot.x[i])} if is_long else {"y": float(snapshot.y[j])}
+    stress = stress_on_section(snapshot.pressure, grid, depths, poisson_ratio, **where)
+    across = snapshot.y if is_long else snapshot.x
+    middle = (front + back) / 2 if is_long else (left + right) / 2
+    near = np.abs(across - middle) <= _ASIDE * half_width
+    return Section(
+        snapshot.time,
+        across[near],
+        depths,
+        stress.von_mises[:, near],
+        "y" if is_long else "x",
+        half_width,
+    )
+
+
+def _levels(sections: list[Section], unit: DisplayUnit) -> NDArray[np.float64]:
+    largest = max(section.largest[0] for section in sections)
+    ticks = MaxNLocator(nbins=9, steps=[1, 2, 2.5, 5, 10]).tick_values(0.0, float(unit(largest)))
+    return np.asarray(ticks)
+
+
+def _draw(
+    axes: Axes,
+    section: Section,
+    levels: NDArray[np.float64],
+    length: DisplayUnit,
+    stress: DisplayUnit,
+) -> Any:
+    across, depths = length(section.across), length(section.depths)
+    colours = style.pressure_colours(len(levels) - 1)
+    values = stress(section.stress)
+    filled = axes.contourf(across, depths, values, levels=levels, cmap=colours)
+    lines = axes.contour(
+        across, depths, values, levels=levels[1:-1], colors=style.INK, linewidths=0.5
+    )
+    axes.clabel(lines, fmt="%g", fontsize=6.5, inline_spacing=2)
+    _, depth, place = section.largest
+    axes.plot(length(place), length(depth), "+", color=style.INK, markersize=8)
+    axes.set(aspect="equal", ylim=(float(depths[-1]), 0.0), ylabel=length.label("depth"))
+    style.dress(axes)
+    return filled
