@@ -32,7 +32,7 @@ from viscontact.recording import run_record
 SOURCES = Path(viscontact.__file__).parent
 WATCHED = (str(SOURCES / "recording"), str(SOURCES / "cli" / "run_directory.py"))
 #: Runs that are killed at a line, of each kind; the lines are spread evenly.
-KILLS = 40
+KILLS = 30
 STEP = 6144  # by which the limit grows [bytes]
 
 

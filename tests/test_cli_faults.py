@@ -205,6 +205,17 @@ def test_damaged_file_is_refused_and_everything_left_as_it_is(
     )
 
 
+def test_course_of_another_run_is_not_gone_on_with(
+    stopped: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = stopped / "progress.jsonl"
+    path.write_text(path.read_text(encoding="utf-8").replace('"time": ', '"time": 1'), "utf-8")
+    before = hashes(stopped)
+    assert main(["run", "case.yaml", "--resume"]) == 2
+    assert "progress.jsonl is not the course of this run so far" in said_in_lines(capsys)[0]
+    assert hashes(stopped) == before
+
+
 @pytest.mark.parametrize("damage", [_cut, _empty, _garbage, _text, Path.unlink])
 def test_damaged_log_costs_time_and_nothing_else(
     damage: Callable[[Path], None],

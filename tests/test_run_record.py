@@ -14,6 +14,7 @@ import pytest
 import xarray as xr
 
 import viscontact as vc
+from viscontact import past
 from viscontact.contact import ContactSolution
 from viscontact.contact_problem import Guess
 from viscontact.recording.checkpoint import STATE_NAME, Checkpoint, load_checkpoint
@@ -237,17 +238,19 @@ def test_steps_since_the_checkpoint_are_not_solved_again(
     assert RunRecord.resume(recorded).resumed == 7
 
 
-def test_nothing_is_changed_before_the_first_step_is_solved(
+def test_first_step_that_fails_changes_nothing(
     recorded: Recorded, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     stop_after(RunRecord(recorded), 3)
     before = contents(recorded.directory)
 
-    def solving(*arguments: Any, **options: Any) -> None:
-        raise vc.ConvergenceError("no equilibrium")
+    solve = past.solve_contact
+
+    def failing(*arguments: Any, **options: Any) -> ContactSolution:
+        return dataclasses.replace(solve(*arguments, **options), converged=False)
 
     other = dataclasses.replace(recorded, run=sphere_run(0.2))
-    monkeypatch.setattr("viscontact.past.solve_contact", solving)
+    monkeypatch.setattr(past, "solve_contact", failing)
     record = RunRecord(other)
     with pytest.raises(vc.ConvergenceError):
         list(record.steps())

@@ -260,13 +260,11 @@ class RunRecord:
 
     def _begin(self) -> None:
         """Make the directory this run's, as late as possible: what was there stays until then."""
-        directory = self._recorded.directory
-        (directory / LOG_NAME).unlink(missing_ok=True)
-        # From here on the run can be resumed, and no other.
+        # From here on this run can be resumed, and no other: a log left over is another run's.
         self._save({})
         if self._on_begin is not None:
             self._on_begin()
-        self._lines = _new_lines(directory / PROGRESS_NAME)
+        self._lines = _new_lines(self._recorded.directory / PROGRESS_NAME)
 
     def _publish(self) -> bool:
         done = self._writer.publish()
