@@ -58,7 +58,13 @@ class Section:
     def largest(self) -> tuple[float, float, float]:
         """Largest stress [Pa], and where: depth and position across [m]."""
         row, column = np.unravel_index(int(self.stress.argmax()), self.stress.shape)
-        return float(self.stress.max()), float(self.depths[row]), float(self.across[column])
+        depth = float(self.depths[row])
+        if 0 < row < len(self.depths) - 1:
+            # The vertex of a parabola: depths in steps would make steps over time.
+            before, here, after = self.stress[row - 1 : row + 2, column]
+            step = self.depths[1] - self.depths[0]
+            depth += float(step * (before - after) / (2 * (before - 2 * here + after)))
+        return float(self.stress.max()), depth, float(self.across[column])
 
 
 def stress_section(results: xr.Dataset, *, times: ArrayLike | None = None) -> Figure:
@@ -140,7 +146,7 @@ def von_mises_history(results: xr.Dataset, *, times: ArrayLike | None = None) ->
         unit = display_unit(si_unit, values)
         axes.plot(time(instants), unit(values), "o-", color=style.LINE, markersize=3.5)
         axes.set_ylabel(unit.label(name))
-        axes.set_ylim(bottom=0.0)
+        axes.set_ylim(0.0, 1.1 * float(unit(values.max())) or 1.0)
         style.dress(axes)
     panels[-1].set_xlabel(time.label("Time"))
     return figure
