@@ -22,7 +22,7 @@ from viscontact.schedule import FixedSteps
 
 #: Bytes of the program itself, and arrays of the grid's size that a run holds at a time, both
 #: measured; two arrays more for each term of the law.
-PROGRAM, WORK_ARRAYS, ARRAYS_PER_TERM = 1e8, 40, 2
+PROGRAM, WORK_ARRAYS, ARRAYS_PER_TERM = 1.8e8, 40, 2
 
 #: What is kept of each step besides fields: when it is, and the scalars it ends with; measured.
 BYTES_PER_STEP = 2000.0
@@ -144,7 +144,7 @@ def needed_memory(grid: Grid, fields_kept: int) -> float:
     Examples
     --------
     >>> round(needed_memory(Grid((1000, 1000), (1.0, 1.0)), fields_kept=2) / 1e6)
-    452
+    532
     """
     nx, ny = grid.shape
     return PROGRAM + 8.0 * float(nx) * float(ny) * (WORK_ARRAYS + ARRAYS_PER_TERM * fields_kept)

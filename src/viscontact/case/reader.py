@@ -30,6 +30,10 @@ from viscontact.stepping import AdaptiveTimes
 _RUN_NAMES = ("case.yaml", "result.nc", "progress.jsonl", "state.npz", "steps.log")
 
 
+# Of so many problems each is told; who has more mends these first.
+_MOST_PROBLEMS = 200
+
+
 @dataclass(frozen=True, eq=False)
 class Case:
     """A run as a case file describes it, in nouns and SI numbers.
@@ -154,8 +158,9 @@ def _checked(document: Document) -> CaseFile:
             _validated(document, guess)
         except ValidationError as error:
             findings += error.errors()
-    problems = [problem(document, finding) for finding in findings]
-    raise CaseError(*dict.fromkeys(problems))
+    problems = dict.fromkeys(problem(document, each) for each in findings[:_MOST_PROBLEMS])
+    more = len(findings) - _MOST_PROBLEMS
+    raise CaseError(*problems, *([f"{document.path}: and {more} more"] if more > 0 else []))
 
 
 def _validated(document: Document, data: dict[str, Any]) -> CaseFile:
@@ -180,14 +185,18 @@ def _case(document: Document, found: CaseFile) -> Case:
         fields=fields,
         tolerance=found.tolerance,
         load_file=found.load.table,
-        files=_files(found),
+        files=_files(found, document),
         notes=(*found.material.notes, *(of_indenter.notes if of_indenter else ())),
         document=document,
     )
 
 
-def _files(found: CaseFile) -> dict[KeyPath, Path]:
+def _files(found: CaseFile, document: Document) -> dict[KeyPath, Path]:
     files: dict[KeyPath, Path] = {}
+    is_list = isinstance(document.data["indenter"], list)
+    for place, shape in enumerate(found.indenter):
+        at: KeyPath = ("indenter", place) if is_list else ("indenter",)
+        files |= {(*at, *key): path for key, path in shape.files.items()}
     if found.load.table is not None:
         files[("load", "file")] = found.load.table
     materials = {"material": found.material, "indenter_material": found.indenter_material}

@@ -233,11 +233,18 @@ class SeriesLaw(Law):
         return modulus_of_creep(self._series._terms, omega)
 
 
+def _as_times(name: str, given: ArrayLike) -> NDArray[np.float64]:
+    try:
+        return np.asarray(given, dtype=np.float64)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise ValueError(f"{name}: must be times in s: {error}") from None
+
+
 def over_times(
     function: Callable[[NDArray[np.float64]], NDArray[np.float64]], t: ArrayLike
 ) -> float | NDArray[np.float64]:
     """Return `function` at checked times `t` [s]: a float for one time, else an array."""
-    times = np.asarray(t, dtype=np.float64)
+    times = _as_times("t", t)
     wrong = ~(times >= 0)  # true for NaN as well
     if wrong.any():
         raise ValueError(
@@ -254,9 +261,7 @@ def over_intervals(
     end: ArrayLike,
 ) -> float | NDArray[np.float64]:
     """Return `function` over checked intervals of time [s]: a float for one, else an array."""
-    starts, ends = np.broadcast_arrays(
-        np.asarray(start, dtype=np.float64), np.asarray(end, dtype=np.float64)
-    )
+    starts, ends = np.broadcast_arrays(_as_times("start", start), _as_times("end", end))
     wrong = ~((starts >= 0) & (ends >= starts) & (ends < np.inf))
     if wrong.any():
         raise ValueError(
