@@ -442,3 +442,24 @@ def test_run_whose_terminal_is_closed_stops_in_order(folder: Path) -> None:
     assert os.waitstatus_to_exitcode(status) == 130
     with vc.open_results("case") as ds:
         assert 3 < ds.sizes["time"] == len(progress.read_text(encoding="utf-8").splitlines()) < 1001
+
+
+def test_show_and_plot_tell_of_a_run_that_can_go_on(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    undo = at_instant(4, lambda: signal.raise_signal(signal.SIGTERM))
+    assert main(["run", "case.yaml", "-q", "-o", "a b"]) == 130
+    undo()
+    capsys.readouterr()
+    for words in (["show", "a b"], ["plot", "a b/result.nc", "history"]):
+        assert main(words) == 0
+        printed = capsys.readouterr()
+        said = "the run stopped at 4 of 11 instants; go on with: "
+        [line] = [line for line in (printed.out + printed.err).splitlines() if said in line]
+    command = shlex.split(line.removeprefix(said))
+    with locked(Path("a b")):
+        assert main(["show", "a b"]) == 0
+        assert "the run is still going on, at 4 of 11 instants" in capsys.readouterr().out
+    assert main(command[1:]) == 0
+    assert main(["show", "a b"]) == 0
+    assert "the run" not in capsys.readouterr().out

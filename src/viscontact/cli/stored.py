@@ -14,7 +14,9 @@ from viscontact.cli.messages import refuse
 from viscontact.cli.run_request import RunRequest
 from viscontact.dataset import SCALARS
 from viscontact.recording.checkpoint import STATE_NAME
+from viscontact.recording.lock import LOCK_NAME, DirectoryInUse, locked
 from viscontact.results import RESULT_NAME, open_results
+from viscontact.state import Outcome
 from viscontact.units import in_words
 
 #: The case as it is run, in its directory.
@@ -77,7 +79,11 @@ def early_end(ds: xr.Dataset) -> str:
     if reached >= end:
         return ""
     made = progress_made(ds.sizes["time"], reached, times, adaptive)
-    return f"the run stopped at {made}{_way_on(ds)}"
+    directory = _run_directory(ds)
+    if directory is not None and _is_in_use(directory):
+        return f"the run is still going on, at {made}"
+    failed = int(ds["outcome"][-1]) == Outcome.NOT_CONVERGED  # and would again
+    return f"the run stopped at {made}{'' if failed or directory is None else _way_on(directory)}"
 
 
 def progress_made(
@@ -113,15 +119,28 @@ def progress_made(
     return f"{done} instants, up to t = {in_words(reached, 's')} of {in_words(times[-1], 's')}"
 
 
-def _way_on(ds: xr.Dataset) -> str:
+def _run_directory(ds: xr.Dataset) -> Path | None:
+    """Where a run lies that has not come to its end; None if it cannot go on."""
     source = ds.encoding.get("source")
     directory = Path(str(source)).parent
-    if source is None or not (directory / STATE_NAME).is_file():
-        return ""
+    return directory if source is not None and (directory / STATE_NAME).is_file() else None
+
+
+def _is_in_use(directory: Path) -> bool:
+    if not (directory / LOCK_NAME).exists():
+        return False
+    try:
+        with suppress(OSError), locked(directory):
+            return False
+    except DirectoryInUse:
+        return True
+    return False
+
+
+def _way_on(directory: Path) -> str:
     with suppress(ValueError):  # on another drive
         directory = Path(os.path.relpath(directory))
-    request = RunRequest(directory / CASE_NAME, directory)
-    return f"; go on with: {request.resuming}"
+    return f"; go on with: {RunRequest(directory / CASE_NAME, directory).resuming}"
 
 
 def _unreadable(path: Path, error: Exception) -> str:
