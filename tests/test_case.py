@@ -146,7 +146,7 @@ def test_one_long_list_of_everything_that_is_wrong(tmp_path: Path) -> None:
         ("indenter.radius=true", "indenter.radius: cannot read True as a length"),
         ("indenter.radius=[5 mm]", "indenter.radius: cannot read ['5 mm'] as a length"),
         ("indenter.radius=.nan", "indenter.radius: 'nan' is not a finite number"),
-        ("indenter.profile=logarithmic", "indenter.profile: is not built yet"),
+        ("indenter.profile=logarithmic", "indenter.profile.amplitude: is missing"),
         ("indenter.shape=height-map", "indenter.shape: 'height-map' is not built yet; built: sph"),
         ("indenter.shape=5", "indenter.shape: unknown value '5'"),
         ("indenter=[]", "indenter: has too few entries"),

@@ -5,7 +5,8 @@ from __future__ import annotations
 import functools
 import operator
 from abc import abstractmethod
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, GetJsonSchemaHandler, model_validator
@@ -13,6 +14,7 @@ from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema
 
 from viscontact import indenters
+from viscontact.case.profiles import AnyProfile
 from viscontact.case.quantities import Length, OpenAngle, Section
 
 
@@ -22,6 +24,11 @@ class Shape(Section):
     @abstractmethod
     def noun(self) -> indenters.Indenter:
         """Return the indenter that is described."""
+
+    @property
+    def files(self) -> Mapping[tuple[str, ...], Path]:
+        """Files that it is read from, by the keys that name them."""
+        return {}
 
     @model_validator(mode="after")
     def _accepted(self) -> Shape:
@@ -80,18 +87,38 @@ class FlatPunch(Shape):
 
 
 class Roller(Shape):
-    """A roller lying along x: a straight part, and beyond it a circular crown or nothing."""
+    """A roller lying along x, with a profile along it."""
 
     shape: Literal["roller"]
     radius: Length
-    half_length: Length = Field(description="half the length of the straight part")
+    half_length: Length = Field(
+        description="half the length: of the straight part where a circular crown continues it, "
+        "of the whole otherwise"
+    )
     crown_radius: Length | None = Field(
         default=None, description="radius of the crown that continues the straight part"
     )
+    profile: AnyProfile | None = Field(
+        default=None, description="the generating line, where it is another"
+    )
+    cross_section: Literal["circle", "parabola"] = Field(
+        default="circle", description="across: the true circle, or the parabola of Hertz's theory"
+    )
+
+    @property
+    def files(self) -> Mapping[tuple[str, ...], Path]:
+        """Files of the profile, by their keys."""
+        found = {} if self.profile is None else self.profile.files
+        return {("profile", *key): path for key, path in found.items()}
 
     def noun(self) -> indenters.Roller:
         """Return the roller."""
-        return indenters.Roller(self.radius, self.half_length, self.crown_radius)
+        others: dict[str, Any] = {"cross_section": self.cross_section}
+        if self.crown_radius is not None:
+            others["crown_radius"] = self.crown_radius
+        if self.profile is None:
+            return indenters.Roller(self.radius, self.half_length, **others)
+        return self.profile.roller(self.radius, self.half_length, others)
 
 
 AnyShape = Annotated[Sphere | Paraboloid | Cone | FlatPunch | Roller, Field(discriminator="shape")]

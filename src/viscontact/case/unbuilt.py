@@ -10,7 +10,6 @@ VALUES: dict[str, frozenset[str]] = {
 #: Keys by section, with what to do instead.
 KEYS: dict[str, dict[str, str]] = {
     "indenter": {
-        "profile": "give crown_radius, or leave both out for sharp ends",
         "file": "measured maps can be pressed from Python with viscontact.HeightMap",
     },
 }
@@ -48,8 +47,8 @@ def refused_key(section: object, key: object) -> str | None:
 
     Examples
     --------
-    >>> refused_key("indenter", "profile")
-    'is not built yet; give crown_radius, or leave both out for sharp ends'
+    >>> refused_key("indenter", "file")
+    'is not built yet; measured maps can be pressed from Python with viscontact.HeightMap'
     """
     remedy = KEYS.get(str(section), {}).get(str(key))
     return f"is not built yet; {remedy}" if remedy else None

@@ -10,7 +10,7 @@ from typing import Any, get_args
 from pydantic import BaseModel
 from pydantic_core import ErrorDetails
 
-from viscontact.case import indenters, loads, materials, schedule, shifts
+from viscontact.case import indenters, loads, materials, profiles, schedule, shifts
 from viscontact.case.document import Document
 from viscontact.case.problems import KeyPath, dotted
 from viscontact.case.sections import CaseFile
@@ -34,10 +34,12 @@ _ALTERNATIVES: dict[str | int, type[BaseModel]] = {
     **{"harmonic": loads.Harmonic, "history": loads.History},
 }
 _NO_SHIFTS = {tag: model for tag, model in _ALTERNATIVES.items() if tag not in _SHIFTS}
+# What stands in these keys says what it is in `kind`, as a load does.
+_WITHIN: dict[str | int, dict[str | int, Any]] = {"shift": _SHIFTS, "profile": profiles.PROFILES}
 
 # What others call the same, where the spelling gives no hint.
 _OTHER_NAMES = {
-    **{"cylinder": "roller", "ball": "sphere"},
+    **{"cylinder": "roller", "ball": "sphere", "crowned": "partial", "straight": "cylindrical"},
     **{"prony": "relaxation-series", "generalized-maxwell": "relaxation-series"},
     **{"fractional": "fractional-zener", "spring-pot": "power-law", "csv": "table"},
     **{"abaqus": "card", "ansys": "card", "tabulated": "table"},
@@ -98,7 +100,11 @@ def corrected(data: dict[str, Any], errors: list[ErrorDetails]) -> dict[str, Any
         near = _nearest(error["ctx"]["tag"], _choices(error))
         if near is not None:
             changed = deepcopy(data) if changed is None else changed
-            _at(changed, _key_path(data, error))[_union_key(error)] = near
+            path = _key_path(data, error)
+            # A name alone may stand in the section's place.
+            if isinstance(_at(changed, path), dict):
+                path = (*path, _union_key(error))
+            _at(changed, path[:-1])[path[-1]] = near
     return changed
 
 
@@ -178,7 +184,9 @@ def _model_at(loc: tuple[str | int, ...]) -> type[BaseModel]:
     # A section's name names it only at the top: `load.time` is a key of the load.
     section = _SECTIONS.get(loc[0], CaseFile) if len(loc) > 1 else CaseFile
     within = reversed(loc[1:-1])
-    return next((_ALTERNATIVES[step] for step in within if step in _ALTERNATIVES), section)
+    # A profile and a law may both be a table.
+    named = profiles.PROFILES if "profile" in loc[:-2] else _ALTERNATIVES
+    return next((named[step] for step in within if step in named), section)
 
 
 def _union_key(error: ErrorDetails) -> str:
@@ -204,7 +212,7 @@ def _why(key: KeyPath, model: type[BaseModel], error: ErrorDetails) -> str:
 
 def _choices(error: ErrorDetails) -> list[str]:
     """What the key may say that tells what a section is."""
-    models = _SHIFTS if error["loc"][-1] == "shift" else _NO_SHIFTS
+    models = _WITHIN.get(error["loc"][-1], _NO_SHIFTS)
     fields = {tag: model.model_fields.get(_union_key(error)) for tag, model in models.items()}
     return [
         str(tag) for tag, field in fields.items() if field and tag in get_args(field.annotation)
@@ -225,7 +233,7 @@ def _unknown(what: str, given: object, allowed: list[str]) -> str:
 def _unknown_key(model: type[BaseModel], given: object) -> str:
     """Say what is allowed, or which other kind, law or shape has the key."""
     unknown = _unknown("key", given, sorted(model.model_fields))
-    alike = _SHIFTS if model in _SHIFTS.values() else _NO_SHIFTS
+    alike = next((each for each in _WITHIN.values() if model in each.values()), _NO_SHIFTS)
     for discriminator in ("kind", "law", "shape"):
         if discriminator not in model.model_fields:
             continue

@@ -27,6 +27,11 @@ QUANTITIES: dict[str, str | None] = {
     "eccentricity_y": "length",
     "tilt_x": "angle",
     "tilt_y": "angle",
+    "x": "length",
+    "y": "length",
+    "r": "length",
+    "drop": "length",
+    "height": "length",
 }
 
 

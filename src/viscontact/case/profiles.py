@@ -1,0 +1,260 @@
+"""The `profile` of a roller in a case file: its generating line."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator, Field, GetJsonSchemaHandler
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema
+
+from viscontact import indenters
+from viscontact.case.data_file import DataFile
+from viscontact.case.quantities import Force, Length, Modulus, Offset, OpenAngle, Section
+from viscontact.tables import read_line
+
+Ratio = Annotated[float, Field(gt=0, le=1)]
+Factor = Annotated[float, Field(gt=0, le=1e6)]
+Interpolation = Literal["smooth", "linear"]
+
+
+class Line(Section):
+    """A generating line, by its kind."""
+
+    @property
+    def arguments(self) -> dict[str, Any]:
+        """What `viscontact.Roller` takes for this profile besides its name."""
+        given = {name: getattr(self, name) for name in type(self).model_fields}
+        return {
+            name: value for name, value in given.items() if name != "kind" and value is not None
+        }
+
+    @property
+    def files(self) -> Mapping[tuple[str, ...], Path]:
+        """Files that it is read from, by the keys that name them."""
+        return {}
+
+    def roller(
+        self, radius: float, half_length: float, others: Mapping[str, Any]
+    ) -> indenters.Roller:
+        """Return a roller with this profile.
+
+        Parameters
+        ----------
+        radius, half_length : float
+            Of the roller [m].
+        others : mapping
+            Its other arguments; what the profile says as well is the profile's.
+
+        Raises
+        ------
+        ValueError
+            If the profile makes no sense or does not fit; the message begins with the key.
+        """
+        try:
+            kind = self.kind  # type: ignore[attr-defined]
+            arguments = {**others, **self.arguments}
+            return indenters.Roller(radius, half_length, profile=kind, **arguments)
+        except ValueError as error:
+            raise ValueError(self._at_key(str(error))) from error
+
+    def _at_key(self, why: str) -> str:
+        """Put the key in front that a refusal speaks of."""
+        # Angles have their units here.
+        why = why.removesuffix("; for degrees use math.radians(...)")
+        named = re.match(r"[A-Z]\w+: (\w+) ", why)
+        if named and named[1] in type(self).model_fields:
+            return f"profile.{named[1]}: {why[named.end() :]}"
+        return f"profile: {why}" if named else why
+
+
+class Cylindrical(Line):
+    """Straight, with sharp ends."""
+
+    kind: Literal["cylindrical"]
+
+
+class Full(Line):
+    """One circular arc over the whole length."""
+
+    kind: Literal["full"]
+    crown_radius: Length | None = Field(
+        default=None, description="radius of the arc; may stand with the roller's"
+    )
+
+
+class Partial(Line):
+    """Straight, continued at either end by a circular arc tangent to it."""
+
+    kind: Literal["partial"]
+    crown_radius: Length | None = Field(default=None, description="radius of the arcs")
+    end_length: Length | None = Field(
+        default=None, description="where the roller ends, from its middle; with the arc if left out"
+    )
+
+
+class TwoRadii(Line):
+    """Straight, continued at either end by two circular arcs."""
+
+    kind: Literal["two-radii"]
+    crown_radius: Length | None = Field(default=None, description="radius of the first arcs")
+    crown_length: Length = Field(description="length of the first arcs along the roller")
+    end_radius: Length = Field(description="radius of the second arcs")
+    end_length: Length | None = Field(
+        default=None, description="where the roller ends, from its middle; with the arc if left out"
+    )
+
+
+class Chamfer(Line):
+    """Straight with chamfered ends, the corners sharp or rounded."""
+
+    kind: Literal["chamfer"]
+    angle: OpenAngle = Field(description="between the chamfer and the straight part")
+    length: Length = Field(description="of the chamfer along the roller")
+    corner_radius: Length | None = Field(default=None, description="sharp corners when left out")
+
+
+class Logarithmic(Line):
+    """A logarithmic crown, by its numbers."""
+
+    kind: Literal["logarithmic"]
+    amplitude: Length = Field(description="factor of the logarithm", examples=["0.5 um"])
+    crown_ratio: Ratio = Field(default=1.0, description="part of the half length that it takes")
+    end_drop: Length | None = Field(
+        default=None, description="drop at the end; without end if left out", examples=["20 um"]
+    )
+
+
+class _Designed(Line):
+    """A logarithmic crown for a load."""
+
+    force: Force = Field(description="design load")
+    effective_modulus: Modulus = Field(
+        description="of the design: 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2"
+    )
+
+
+class Lundberg(_Designed):
+    """The logarithmic crown that makes pressure even under the design load."""
+
+    kind: Literal["lundberg"]
+
+
+class JohnsGohar(_Designed):
+    """Lundberg's crown with a finite drop at the end."""
+
+    kind: Literal["johns-gohar"]
+
+
+class FujiwaraKawase(_Designed):
+    """The crown of Fujiwara and Kawase, with their three parameters."""
+
+    kind: Literal["fujiwara-kawase"]
+    load_factor: Factor = Field(description="K1: multiplies the design load")
+    crown_ratio: Ratio = Field(description="K2: part of the half length that the crown takes")
+    end_drop: Length = Field(description="zm: drop at the end", examples=["20 um"])
+
+
+class Iso16281(Line):
+    """The reference profile of cylindrical rollers in ISO/TS 16281."""
+
+    kind: Literal["iso-16281"]
+
+
+class TabulatedLine(Line):
+    """A line through points, from a file or written out."""
+
+    kind: Literal["table"]
+    file: DataFile | None = Field(
+        default=None,
+        description="CSV with a header such as: x [mm], drop [um]; or height in place of the drop",
+        examples=["profile.csv"],
+    )
+    points: list[Annotated[tuple[Offset, Offset], Field(strict=False)]] | None = Field(
+        default=None,
+        description="position from the middle and drop, in pairs; half of a mirrored line will do",
+        examples=[[["0 mm", "0 um"], ["4 mm", "0 um"], ["5 mm", "8 um"]]],
+    )
+    interpolation: Interpolation = "smooth"
+
+    @property
+    def files(self) -> Mapping[tuple[str, ...], Path]:
+        """The file, by its key."""
+        return {} if self.file is None else {("file",): Path(self.file)}
+
+    @property
+    def arguments(self) -> dict[str, Any]:
+        """Positions and drops, read from where they stand."""
+        if (self.points is None) == (self.file is None):
+            raise ValueError(
+                "profile: give file (e.g. 'profile.csv') or points (e.g. '[[0 mm, 0 um], "
+                "[5 mm, 8 um]]'), and only one of them"
+            )
+        x, drops = self._columns()
+        return {"x": x, "drops": drops, "interpolation": self.interpolation}
+
+    def _columns(self) -> tuple[list[float], list[float]]:
+        if self.file is None:
+            points = self.points or []
+            return [x for x, _ in points], [drop for _, drop in points]
+        try:
+            return read_line(self.file, "x")
+        except ValueError as error:
+            raise ValueError(f"profile.file: {error}") from error
+
+    def _at_key(self, why: str) -> str:
+        named = why.removeprefix("TabulatedProfile: ")
+        where = "points" if self.points is not None else "file"
+        return why if named == why else f"profile.{where}: {named}"
+
+
+#: The sections of a profile by their kind.
+PROFILES: dict[str | int, type[Line]] = {
+    "cylindrical": Cylindrical,
+    "full": Full,
+    "partial": Partial,
+    "two-radii": TwoRadii,
+    "chamfer": Chamfer,
+    "logarithmic": Logarithmic,
+    "lundberg": Lundberg,
+    "johns-gohar": JohnsGohar,
+    "fujiwara-kawase": FujiwaraKawase,
+    "iso-16281": Iso16281,
+    "table": TabulatedLine,
+}
+
+
+def _of_name(given: Any) -> Any:
+    return {"kind": given} if isinstance(given, str) else given
+
+
+class _OrName:
+    """Tells editors that a name alone may stand in the section's place."""
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        return {"anyOf": [{"enum": list(PROFILES)}, handler(schema)]}
+
+
+AnyProfile = Annotated[
+    Annotated[
+        Cylindrical
+        | Full
+        | Partial
+        | TwoRadii
+        | Chamfer
+        | Logarithmic
+        | Lundberg
+        | JohnsGohar
+        | FujiwaraKawase
+        | Iso16281
+        | TabulatedLine,
+        Field(discriminator="kind"),
+    ],
+    BeforeValidator(_of_name),
+    _OrName(),
+]
