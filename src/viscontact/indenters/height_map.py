@@ -26,17 +26,19 @@ class HeightMap(Indenter):
     height : array_like
         Heights as measured with the surface facing the instrument, shape (nx, ny), from any
         reference [m].
+    holes : bool, optional
+        Whether points may be missing (NaN): they are holes, which never touch.
 
     Raises
     ------
     ValueError
         If the arrays do not fit together, a coordinate does not increase, or a value is
-        missing or infinite.
+        infinite, or missing where no holes are meant.
 
     Notes
     -----
     The gap is max(height) - height, bilinear between the mesh points and +inf outside the
-    map. Only the values at the positions asked for are used: on a grid coarser than the
+    map and within a mesh step of holes. Only the values at the positions asked for are used: on a grid coarser than the
     map, details between the grid points are missed, not averaged. The arrays are copied and
     made read-only.
 
@@ -50,12 +52,17 @@ class HeightMap(Indenter):
     x: NDArray[np.float64]
     y: NDArray[np.float64]
     height: NDArray[np.float64]
+    holes: bool
 
-    def __init__(self, x: ArrayLike, y: ArrayLike, height: ArrayLike) -> None:
+    def __init__(
+        self, x: ArrayLike, y: ArrayLike, height: ArrayLike, holes: bool = False
+    ) -> None:
         # Written out, so that lists are welcome and arrays are what comes back.
         object.__setattr__(self, "x", _mesh_lines("x", x))
         object.__setattr__(self, "y", _mesh_lines("y", y))
-        object.__setattr__(self, "height", _heights(height, (self.x.size, self.y.size)))
+        shape = (self.x.size, self.y.size)
+        object.__setattr__(self, "holes", bool(holes))
+        object.__setattr__(self, "height", _heights(height, shape, self.holes))
 
     def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
         """Return max(height) - height at x, y, +inf outside the map; see `Indenter.gap`."""
@@ -63,19 +70,28 @@ class HeightMap(Indenter):
         i, along_x, within_x = _locate(self.x, x)
         j, along_y, within_y = _locate(self.y, y)
         # Depths are not negative and neither are the weights, so neither is the gap.
-        depth = self.height.max() - self.height
-        near = depth[i, j] * (1 - along_y) + depth[i, j + 1] * along_y
-        far = depth[i + 1, j] * (1 - along_y) + depth[i + 1, j + 1] * along_y
-        return np.where(within_x & within_y, near * (1 - along_x) + far * along_x, np.inf)
+        depth = np.nanmax(self.height) - self.height
+        near = _between(depth[i, j], depth[i, j + 1], along_y)
+        far = _between(depth[i + 1, j], depth[i + 1, j + 1], along_y)
+        gap = _between(near, far, along_x)
+        return np.where(within_x & within_y & ~np.isnan(gap), gap, np.inf)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, HeightMap):
             return NotImplemented
         pairs = ((self.x, other.x), (self.y, other.y), (self.height, other.height))
-        return all(np.array_equal(mine, theirs) for mine, theirs in pairs)
+        return all(np.array_equal(mine, theirs, equal_nan=True) for mine, theirs in pairs)
 
     def __hash__(self) -> int:
-        return hash((self.height.shape, float(self.height.max()), float(self.height.min())))
+        return hash((self.height.shape, float(np.nanmax(self.height))))
+
+
+def _between(
+    near: NDArray[np.float64], far: NDArray[np.float64], along: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Between two values, a part of the way along; a missing one counts if it has a weight."""
+    value = near * (1 - along) + far * along
+    return np.where(along == 0, near, np.where(along == 1, far, value))
 
 
 def _locate(
@@ -83,7 +99,9 @@ def _locate(
 ) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.bool_]]:
     """Interval of each position, how far along it (0 to 1), and whether the map covers it."""
     positions = np.asarray(positions, dtype=np.float64)
-    within = (positions >= lines[0]) & (positions <= lines[-1])
+    # The grid's rim may lie on the map's, but for the rounding of a size written in other units.
+    slack = 1e-9 * (lines[-1] - lines[0])
+    within = (positions >= lines[0] - slack) & (positions <= lines[-1] + slack)
     covered = np.clip(positions, lines[0], lines[-1])
     interval = np.clip(np.searchsorted(lines, covered, side="right") - 1, 0, lines.size - 2)
     start = lines[interval]
@@ -108,7 +126,7 @@ def _mesh_lines(name: str, values: ArrayLike) -> NDArray[np.float64]:
     return lines
 
 
-def _heights(values: ArrayLike, shape: tuple[int, int]) -> NDArray[np.float64]:
+def _heights(values: ArrayLike, shape: tuple[int, int], holes: bool) -> NDArray[np.float64]:
     height = _read_only("height", values)
     if height.shape != shape:
         hint = "; transpose it, height is indexed [x, y]" if height.shape == shape[::-1] else ""
@@ -116,11 +134,14 @@ def _heights(values: ArrayLike, shape: tuple[int, int]) -> NDArray[np.float64]:
             f"HeightMap: height must have a row for each x and a column for each y, shape "
             f"{shape}, got {height.shape}{hint}"
         )
-    _require_finite("height", height)
-    if np.abs(height).max() > _HIGHEST:
+    known = height[~np.isnan(height)] if holes else height
+    if known.size == 0:
+        raise ValueError("HeightMap: height must be known somewhere, all of it is missing")
+    _require_finite("height", known)
+    if np.abs(known).max() > _HIGHEST:
         raise ValueError(
             f"HeightMap: height must be within {_HIGHEST:g} m of its reference, got "
-            f"{height.flat[np.abs(height).argmax()]:g} m; is it in metres?"
+            f"{known.flat[np.abs(known).argmax()]:g} m; is it in metres?"
         )
     return height
 
@@ -130,7 +151,7 @@ def _require_finite(name: str, values: NDArray[np.float64]) -> None:
     if missing:
         raise ValueError(
             f"HeightMap: {name} must be finite, got {missing} of {values.size} values NaN or "
-            "infinite; missing points are not handled yet, fill them or cut the map"
+            "infinite; fill missing heights, or say with holes=True that nothing touches there"
         )
 
 

@@ -1,4 +1,4 @@
-"""What every indenter offers, and the sum of several."""
+"""What every indenter offers: its gap, its place, and the sum with others."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from viscontact.indenters.lengths import positions, real_number
 
 
 class Indenter(ABC):
@@ -43,6 +45,14 @@ class Indenter(ABC):
         """Smallest radius of curvature at the deepest point, inf where it means nothing [m]."""
         sharpest = max(self.curvatures)
         return 1 / sharpest if sharpest > 0 else math.inf
+
+    def rotated(self, angle: float) -> PlacedIndenter:
+        """Return the indenter turned about z by an angle from +x towards +y [rad]."""
+        return PlacedIndenter(self, angle=angle)
+
+    def shifted(self, x: float = 0.0, y: float = 0.0) -> PlacedIndenter:
+        """Return the indenter moved along x and y [m]."""
+        return PlacedIndenter(self, x=x, y=y)
 
     def __add__(self, other: Indenter) -> CombinedIndenter:
         if not isinstance(other, Indenter):
@@ -95,6 +105,78 @@ class CombinedIndenter(Indenter):
         """Sums of the parts' curvatures along x and y [1/m]."""
         along_x, along_y = zip(*(part.curvatures for part in self.parts), strict=True)
         return math.fsum(along_x), math.fsum(along_y)
+
+
+@dataclass(frozen=True)
+class PlacedIndenter(Indenter):
+    """An indenter turned about z and then moved; ``rotated`` and ``shifted`` make one.
+
+    Parameters
+    ----------
+    body : Indenter
+        What is placed.
+    angle : float, optional
+        Angle that it is turned by, from +x towards +y [rad].
+    x, y : float, optional
+        Where its origin comes to lie [m].
+
+    Raises
+    ------
+    ValueError
+        If the body is no indenter, or a number is none.
+
+    Examples
+    --------
+    A roller lying along y, 1 mm beside the origin:
+
+    >>> import math
+    >>> from viscontact.indenters import Roller
+    >>> across = Roller(radius=5e-3, half_length=10e-3).rotated(math.pi / 2).shifted(x=1e-3)
+    >>> across.gap(1e-3, [9e-3, 11e-3]).tolist()
+    [0.0, inf]
+    """
+
+    body: Indenter
+    angle: float = 0.0
+    x: float = 0.0
+    y: float = 0.0
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.body, Indenter):
+            raise ValueError(f"PlacedIndenter: body must be an indenter, got {self.body!r}")
+        for name, unit in (("angle", "rad"), ("x", "m"), ("y", "m")):
+            number = real_number(f"PlacedIndenter: {name}", getattr(self, name), unit)
+            if not math.isfinite(number):
+                raise ValueError(f"PlacedIndenter: {name} must be finite, got {number!r} {unit}")
+            object.__setattr__(self, name, number)
+
+    @property
+    def _turn(self) -> tuple[float, float]:
+        """Cosine and sine of the angle; those of quarter turns to the last bit."""
+        quarters = self.angle / (math.pi / 2)
+        if abs(quarters) < 2**20 and quarters == round(quarters):
+            return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[round(quarters) % 4]
+        return math.cos(self.angle), math.sin(self.angle)
+
+    def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+        """Return the body's gap where it now stands; see `Indenter.gap`."""
+        x, y = positions(x, y)
+        cosine, sine = self._turn
+        east, north = x - self.x, y - self.y
+        return self.body.gap(cosine * east + sine * north, cosine * north - sine * east)
+
+    def place(self, x: ArrayLike, y: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return where points of the body now lie [m]."""
+        x, y = positions(x, y)
+        cosine, sine = self._turn
+        return self.x + cosine * x - sine * y, self.y + sine * x + cosine * y
+
+    @property
+    def curvatures(self) -> tuple[float, float]:
+        """Curvatures along x and y of the body as it is turned [1/m]."""
+        along, across = self.body.curvatures
+        cosine, sine = self._turn
+        return along * cosine**2 + across * sine**2, along * sine**2 + across * cosine**2
 
 
 def _leaves(part: Indenter) -> tuple[Indenter, ...]:

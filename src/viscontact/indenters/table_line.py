@@ -121,6 +121,32 @@ class TableLine:
         return float(min(ends.min(), inner.min(initial=math.inf)))
 
 
+def mirrored(
+    position: tuple[float, ...], drop: tuple[float, ...]
+) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """Return both halves of a symmetric line that is given from its middle on.
+
+    Parameters
+    ----------
+    position, drop : tuple of float
+        The half, from position 0 on; a middle that stands twice is a tip [m].
+
+    Returns
+    -------
+    position, drop : tuple of float
+        The whole [m].
+
+    Examples
+    --------
+    >>> mirrored((0.0, 1.0, 3.0), (0.0, 2.0, 4.0))[0]
+    (-3.0, -1.0, 0.0, 1.0, 3.0)
+    """
+    left = tuple(-each for each in reversed(position[1:]))
+    # A middle that stands once is not doubled: there is no kink then.
+    start = 0 if position[1] > 0 else 1
+    return (*left, *position[start:]), (*reversed(drop[1:]), *drop[start:])
+
+
 def numbers(name: str, values: ArrayLike) -> tuple[float, ...]:
     """Return a column of lengths as floats, or refuse what is none.
 

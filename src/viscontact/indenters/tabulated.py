@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.indenters.profile import Profile
-from viscontact.indenters.table_line import TableLine, numbers
+from viscontact.indenters.table_line import TableLine, mirrored, numbers
 
 
 @dataclass(frozen=True, init=False)
@@ -66,10 +66,7 @@ class TabulatedProfile(Profile):
     def _line(self) -> TableLine:
         x, drops = self.x, self.drops
         if self._is_half:
-            # The mirrored half, without a kink in the middle unless that is given twice.
-            inner = 1 if x[1] > 0 else 0
-            x = (*(-each for each in reversed(x[inner:])), *x)
-            drops = (*reversed(drops[inner:]), *drops)
+            x, drops = mirrored(x, drops)
         return TableLine("TabulatedProfile", x, drops, self.interpolation)
 
     def drop(self, x: ArrayLike, half_length: float) -> NDArray[np.float64]:

@@ -1,0 +1,184 @@
+"""Surfaces that repeat without end, to be laid over a shape: waves and dimples."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from viscontact.indenters.indenter import Indenter
+from viscontact.indenters.lengths import positions, positive_length, real_number
+
+PATTERNS = ("square", "hexagonal")
+
+
+@dataclass(frozen=True)
+class Waviness(Indenter):
+    """A wavy surface, along x, along y, or crests in both directions; it has no end.
+
+    Parameters
+    ----------
+    amplitude : float
+        Half the height from trough to crest [m].
+    wavelength_x, wavelength_y : float, optional
+        Distance from crest to crest along x and along y, one or both [m].
+    phase_x, phase_y : float, optional
+        Phase at the origin; a crest when zero [rad].
+
+    Raises
+    ------
+    ValueError
+        If a length is not a positive, finite number, no wavelength is given, or a phase goes
+        with none.
+
+    Notes
+    -----
+    Johnson (1985), Contact Mechanics, section 13.2: the gap is
+    Δ (1 - cos(2π x/λ_x + φ_x) cos(2π y/λ_y + φ_y)), computed as
+    Δ (sin²((u + v)/2) + sin²((u - v)/2)) with u and v for the angles.
+
+    Examples
+    --------
+    >>> ridges = Waviness(amplitude=1e-6, wavelength_x=2e-3)
+    >>> (1e6 * (ridges.gap([0.0, 0.5e-3, 1e-3], 0.0))).round(12).tolist()
+    [0.0, 1.0, 2.0]
+    """
+
+    amplitude: float
+    wavelength_x: float | None = None
+    wavelength_y: float | None = None
+    phase_x: float = 0.0
+    phase_y: float = 0.0
+
+    def __post_init__(self) -> None:
+        amplitude = positive_length("Waviness: amplitude", self.amplitude)
+        object.__setattr__(self, "amplitude", amplitude)
+        for axis in ("x", "y"):
+            self._set_axis(f"wavelength_{axis}", f"phase_{axis}")
+        if self.wavelength_x is None and self.wavelength_y is None:
+            raise ValueError("Waviness: give wavelength_x, wavelength_y or both, got neither")
+
+    def _set_axis(self, wavelength: str, phase: str) -> None:
+        length = getattr(self, wavelength)
+        if length is not None:
+            object.__setattr__(self, wavelength, positive_length(f"Waviness: {wavelength}", length))
+        angle = real_number(f"Waviness: {phase}", getattr(self, phase), "rad")
+        if not math.isfinite(angle):
+            raise ValueError(f"Waviness: {phase} must be finite, in rad, got {angle!r}")
+        if angle != 0 and length is None:
+            raise ValueError(f"Waviness: {phase} goes with {wavelength}, which is not given")
+        object.__setattr__(self, phase, angle)
+
+    def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+        """Return the depth below the crests; see `Indenter.gap`."""
+        x, y = positions(x, y)
+        u = _angle(x, self.wavelength_x, self.phase_x)
+        v = _angle(y, self.wavelength_y, self.phase_y)
+        return np.asarray(self.amplitude * (np.sin((u + v) / 2) ** 2 + np.sin((u - v) / 2) ** 2))
+
+    @property
+    def curvatures(self) -> tuple[float, float]:
+        """Those of a crest, (2π/λ)² Δ along x and y [1/m]."""
+        lengths = (self.wavelength_x, self.wavelength_y)
+        along_x, along_y = (
+            0.0 if length is None else self.amplitude * (2 * math.pi / length) ** 2
+            for length in lengths
+        )
+        return along_x, along_y
+
+
+@dataclass(frozen=True)
+class Dimples(Indenter):
+    """A plane with a pattern of equal round dimples, one of them at the origin; it has no end.
+
+    Parameters
+    ----------
+    depth : float
+        Depth of a dimple in its middle, at most its radius [m].
+    radius : float
+        Radius of its mouth [m].
+    spacing : float
+        Distance between the middles of neighbours, at least two radii [m].
+    pattern : str, optional
+        ``"square"``: rows along x and y; ``"hexagonal"``: rows along x, each dimple with six
+        neighbours.
+
+    Raises
+    ------
+    ValueError
+        If a length is not a positive, finite number, dimples overlap or undercut, or the pattern
+        is unknown.
+
+    Notes
+    -----
+    A dimple is the cap of a sphere of radius ρ = (a² + d²)/(2 d), a for its mouth's radius, d for
+    its depth: the gap is sqrt(ρ² - r²) - (ρ - d), computed without cancellation. At the edge of a
+    mouth the slope jumps, and with it pressure has a peak that depends on the mesh.
+
+    Examples
+    --------
+    >>> texture = Dimples(depth=1.0, radius=3.0, spacing=10.0)
+    >>> texture.gap([0.0, 10.0, 5.0], [0.0, 20.0, 0.0]).tolist()
+    [1.0, 1.0, 0.0]
+    """
+
+    depth: float
+    radius: float
+    spacing: float
+    pattern: str = "square"
+
+    def __post_init__(self) -> None:
+        for name in ("depth", "radius", "spacing"):
+            length = positive_length(f"Dimples: {name}", getattr(self, name))
+            object.__setattr__(self, name, length)
+        if self.depth > self.radius:
+            raise ValueError(
+                f"Dimples: depth must be at most the radius {self.radius} m, half a sphere, got "
+                f"{self.depth} m"
+            )
+        if self.spacing < 2 * self.radius:
+            raise ValueError(
+                f"Dimples: spacing must be at least two radii, {2 * self.radius} m, or dimples "
+                f"overlap, got {self.spacing} m"
+            )
+        if self.pattern not in PATTERNS:
+            raise ValueError(
+                f"Dimples: pattern must be {' or '.join(map(repr, PATTERNS))}, got {self.pattern!r}"
+            )
+
+    def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+        """Return the depth of the nearest dimple, zero between them; see `Indenter.gap`."""
+        x, y = positions(x, y)
+        r = self._from_nearest(x, y)
+        a, d = self.radius, self.depth
+        sphere, below = (a * a + d * d) / (2 * d), (a - d) * (a + d) / (2 * d)
+        within = np.minimum(r, a)
+        root = np.sqrt((sphere - within) * (sphere + within))
+        # Of half a sphere only the mouth itself has no depth: 0/0 otherwise.
+        span = root + below
+        return np.divide((a - within) * (a + within), span, out=np.zeros_like(r), where=span > 0)
+
+    def _from_nearest(self, x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Distance from the nearest dimple's middle [m]."""
+        s = self.spacing
+        if self.pattern == "square":
+            return np.hypot(_from_multiple(x, s), _from_multiple(y, s))
+        row = s * math.sqrt(3)
+        return np.minimum(
+            np.hypot(_from_multiple(x, s), _from_multiple(y, row)),
+            np.hypot(_from_multiple(x - s / 2, s), _from_multiple(y - row / 2, row)),
+        )
+
+
+def _angle(
+    position: NDArray[np.float64], wavelength: float | None, phase: float
+) -> NDArray[np.float64]:
+    if wavelength is None:
+        return np.zeros_like(position)
+    return np.asarray(2 * math.pi * (position / wavelength) + phase)
+
+
+def _from_multiple(position: NDArray[np.float64], step: float) -> NDArray[np.float64]:
+    return np.asarray(position - step * np.round(position / step))
