@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import time as clock
+import warnings
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -118,6 +119,14 @@ def test_only_the_first_of_very_many_problems_are_told(tmp_path: Path) -> None:
     said = refusal(tmp_path / "case.yaml", CASE + "".join(f"k{i}: 1\n" for i in range(1000)))
     assert said.count("\n") == 200
     assert said.endswith("and 800 more")
+
+
+def test_anchor_may_be_given_anew_without_a_word(tmp_path: Path) -> None:
+    case = CASE.replace("size: [3 mm, 3 mm]", "size: [&a 3 mm, &a 3 mm]")
+    (tmp_path / "case.yaml").write_text(case, encoding="utf-8")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert read_case(tmp_path / "case.yaml").grid is not None
 
 
 # --- files that are none ----------------------------------------------------------------------

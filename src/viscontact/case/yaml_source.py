@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import io
 import re
+import warnings
 from typing import Any
 
 from ruamel.yaml import YAML
 from ruamel.yaml.comments import CommentedMap, CommentedSeq
 from ruamel.yaml.constructor import DuplicateKeyError
-from ruamel.yaml.error import MarkedYAMLError
+from ruamel.yaml.error import MarkedYAMLError, ReusedAnchorWarning
 
 from viscontact.case.problems import KeyPath, SourceError
 
@@ -137,7 +138,10 @@ def _yaml() -> YAML:
 def _load(text: str) -> Any:
     _refuse_endless(text)
     try:
-        return _yaml().load(text)
+        with warnings.catch_warnings():
+            # YAML lets an anchor be given anew.
+            warnings.simplefilter("ignore", ReusedAnchorWarning)
+            return _yaml().load(text)
     except DuplicateKeyError as error:
         name = str(error.problem).split('"')[1]
         raise SourceError(f"the key {name!r} stands there twice", _line(error)) from error
