@@ -179,3 +179,93 @@ def test_schema_offers_profiles_by_name_and_by_section() -> None:
     assert "fujiwara-kawase" in names["enum"]
     assert sections["discriminator"]["propertyName"] == "kind"
     assert schema["$defs"]["Logarithmic"]["properties"]["end_drop"]["examples"] == ["20 um"]
+
+
+# -- shapes ------------------------------------------------------------------------------------
+
+SHAPES = {
+    "{shape: ellipsoid, semi_axis_x: 3 mm, semi_axis_y: 2 mm, semi_axis_z: 1 mm}": (
+        vc.Ellipsoid(3e-3, 2e-3, 1e-3)
+    ),
+    "{shape: wedge, half_angle: 1.2 rad}": vc.Wedge(1.2),
+    "{shape: wedge, half_angle: 1.2 rad, half_length: 2 mm}": vc.Wedge(1.2, 2e-3),
+    "{shape: pyramid, half_angle: 1.2 rad, faces: 6}": vc.Pyramid(1.2, 6),
+    "{shape: vickers}": vc.Pyramid.vickers(),
+    "{shape: berkovich}": vc.Pyramid.berkovich(),
+    "{shape: cube-corner}": vc.Pyramid.cube_corner(),
+    "{shape: torus, ring_radius: 3 mm, tube_radius: 1 mm}": vc.Torus(3e-3, 1e-3),
+    "{shape: waviness, amplitude: 1 um, wavelength_x: 1 mm, phase_x: 0.5 rad}": (
+        vc.Waviness(1e-6, 1e-3, phase_x=0.5)
+    ),
+    "{shape: waviness, amplitude: 1 um, wavelength_y: 1 mm}": (
+        vc.Waviness(1e-6, wavelength_y=1e-3)
+    ),
+    "{shape: dimples, depth: 1 um, radius: 40 um, spacing: 0.1 mm, pattern: hexagonal}": (
+        vc.Dimples(1e-6, 4e-5, 1e-4, "hexagonal")
+    ),
+    "{shape: revolved, points: [[0 mm, 0 um], [1 mm, 2 um]], interpolation: linear}": (
+        vc.Revolved([0, 1e-3], [0, 2e-6], "linear")
+    ),
+    "{shape: swept, points: [[-1 mm, 1 um], [0 mm, 0 um], [2 mm, 3 um]], half_length: 4 mm}": (
+        vc.Swept([-1e-3, 0, 2e-3], [1e-6, 0, 3e-6], 4e-3)
+    ),
+    "{shape: sphere, radius: 5 mm, offset_x: 1 mm, offset_y: -2 mm}": (
+        vc.Sphere(5e-3).shifted(1e-3, -2e-3)
+    ),
+    "{shape: vickers, rotation: 0.5 rad, offset_x: 1 mm}": (
+        vc.Pyramid.vickers().rotated(0.5).shifted(1e-3)
+    ),
+}
+
+
+@pytest.mark.parametrize("words", SHAPES)
+def test_shape_arrives_as_it_is_written(case: Path, words: str) -> None:
+    """Read into the same noun: its arguments agree to the rounding of a unit's factor."""
+    found, wanted = read_case(case, [f"indenter={words}"]).indenter, SHAPES[words]
+    assert type(found) is type(wanted)
+    x, y = [0.0, 0.31e-3, -0.7e-3, 1.9e-3, 1.4e-3], [0.0, 0.2e-3, 0.9e-3, -1e-3, 0.01e-3]
+    assert found.gap(x, y) == pytest.approx(wanted.gap(x, y), rel=1e-9, abs=1e-20)
+
+
+@pytest.mark.parametrize(("shape", "along"), [("revolved", "r"), ("swept", "y")])
+def test_body_is_read_from_a_csv_beside_the_case(case: Path, shape: str, along: str) -> None:
+    (case.parent / "section.csv").write_text(f"{along} [mm],height [um]\n0,2\n1,2\n3,-2\n")
+    words = f"indenter={{shape: {shape}, file: section.csv, interpolation: linear}}"
+    found = read_case(case, [words])
+    assert found.indenter.gap(0.0, [0.5e-3, 2e-3]) == pytest.approx([0, 2e-6], abs=1e-18)
+    assert found.files == {("indenter", "file"): case.parent / "section.csv"}
+
+
+def test_list_of_shapes_is_their_sum_each_in_its_place(case: Path) -> None:
+    words = (
+        "indenter=[{shape: sphere, radius: 5 mm}, {shape: waviness, amplitude: 1 um, "
+        "wavelength_x: 1 mm, rotation: 90 deg}]"
+    )
+    found = read_case(case, [words]).indenter
+    wanted = vc.Sphere(5e-3) + vc.Waviness(1e-6, wavelength_y=1e-3)
+    y = [0.0, 0.2e-3, 0.5e-3]
+    assert found.gap(1e-4, y) == pytest.approx(wanted.gap(1e-4, y), rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("{shape: ring, ring_radius: 1 mm}", "unknown value 'ring'; did you mean 'torus'?"),
+        ("{shape: vikers}", "did you mean 'vickers'"),
+        ("{shape: pyramid, half_angle: 68 deg, faces: 2}", "indenter.faces: must be greater than"),
+        (
+            "{shape: pyramid, half_angle: 99 deg, faces: 4}",
+            "half_angle: must lie between 0 and π/2",
+        ),
+        ("{shape: waviness, amplitude: 1 um}", "give wavelength_x, wavelength_y or both"),
+        ("{shape: dimples, depth: 1 um, radius: 1 mm, spacing: 1 mm}", "indenter.spacing: must be"),
+        ("{shape: revolved}", "give file (e.g. 'section.csv') or points"),
+        ("{shape: revolved, file: no.csv}", "indenter.file: no such file"),
+        ("{shape: sphere, radius: 1 mm, rotation: 5}", "indenter.rotation: 5 has no unit"),
+        ("{shape: sphere, radius: 1 mm, faces: 3}", "It goes with shape: pyramid"),
+    ],
+)
+def test_slip_in_a_shape_is_told_at_its_key(case: Path, words: str, said: str) -> None:
+    found = refusal(case, f"indenter={words}")
+    assert said in found
+    assert "math.radians" not in found

@@ -4,37 +4,19 @@ from __future__ import annotations
 
 import functools
 import operator
-from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field, GetJsonSchemaHandler, model_validator
+from pydantic import BeforeValidator, Field, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema
 
 from viscontact import indenters
+from viscontact.case import bodies
 from viscontact.case.profiles import AnyProfile
-from viscontact.case.quantities import Length, OpenAngle, Section
-
-
-class Shape(Section):
-    """A shape that can be pressed."""
-
-    @abstractmethod
-    def noun(self) -> indenters.Indenter:
-        """Return the indenter that is described."""
-
-    @property
-    def files(self) -> Mapping[tuple[str, ...], Path]:
-        """Files that it is read from, by the keys that name them."""
-        return {}
-
-    @model_validator(mode="after")
-    def _accepted(self) -> Shape:
-        # What the noun refuses belongs among the problems of the file.
-        self.noun()
-        return self
+from viscontact.case.quantities import Length, OpenAngle
+from viscontact.case.shape import Shape
 
 
 class Sphere(Shape):
@@ -121,7 +103,45 @@ class Roller(Shape):
         return self.profile.roller(self.radius, self.half_length, others)
 
 
-AnyShape = Annotated[Sphere | Paraboloid | Cone | FlatPunch | Roller, Field(discriminator="shape")]
+#: The sections of a shape by its name.
+SHAPES: dict[str | int, type[Shape]] = {
+    "sphere": Sphere,
+    "paraboloid": Paraboloid,
+    "ellipsoid": bodies.Ellipsoid,
+    "cone": Cone,
+    "flat-punch": FlatPunch,
+    "roller": Roller,
+    "wedge": bodies.Wedge,
+    "pyramid": bodies.Pyramid,
+    "vickers": bodies.Vickers,
+    "berkovich": bodies.Berkovich,
+    "cube-corner": bodies.CubeCorner,
+    "torus": bodies.Torus,
+    "revolved": bodies.Revolved,
+    "swept": bodies.Swept,
+    "waviness": bodies.Waviness,
+    "dimples": bodies.Dimples,
+}
+
+AnyShape = Annotated[
+    Sphere
+    | Paraboloid
+    | bodies.Ellipsoid
+    | Cone
+    | FlatPunch
+    | Roller
+    | bodies.Wedge
+    | bodies.Pyramid
+    | bodies.Vickers
+    | bodies.Berkovich
+    | bodies.CubeCorner
+    | bodies.Torus
+    | bodies.Revolved
+    | bodies.Swept
+    | bodies.Waviness
+    | bodies.Dimples,
+    Field(discriminator="shape"),
+]
 
 
 class _OneOrMany:
@@ -157,12 +177,12 @@ def combined(shapes: Sequence[Shape]) -> indenters.Indenter:
     Returns
     -------
     Indenter
-        The only one's, or the sum.
+        The only one's, or the sum, each in its place.
 
     Examples
     --------
     >>> combined([Sphere(shape="sphere", radius="5 mm")])
     Sphere(radius=0.005)
     """
-    first, *others = [shape.noun() for shape in shapes]
+    first, *others = [shape.placed() for shape in shapes]
     return functools.reduce(operator.add, others, first)

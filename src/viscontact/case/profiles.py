@@ -63,8 +63,6 @@ class Line(Section):
 
     def _at_key(self, why: str) -> str:
         """Put the key in front that a refusal speaks of."""
-        # Angles have their units here.
-        why = why.removesuffix("; for degrees use math.radians(...)")
         named = re.match(r"[A-Z]\w+: (\w+) ", why)
         if named and named[1] in type(self).model_fields:
             return f"profile.{named[1]}: {why[named.end() :]}"

@@ -26,8 +26,7 @@ _SHIFTS: dict[str | int, type[BaseModel]] = {
     **{"wlf": shifts.Wlf, "arrhenius": shifts.Arrhenius, "factors": shifts.Factors},
 }
 _ALTERNATIVES: dict[str | int, type[BaseModel]] = {
-    **{"sphere": indenters.Sphere, "paraboloid": indenters.Paraboloid, "cone": indenters.Cone},
-    **{"flat-punch": indenters.FlatPunch, "roller": indenters.Roller},
+    **indenters.SHAPES,
     **materials.LAWS,
     **_SHIFTS,
     **{"step": loads.Step, "ramp": loads.Ramp, "triangle": loads.Triangle},
@@ -40,6 +39,7 @@ _WITHIN: dict[str | int, dict[str | int, Any]] = {"shift": _SHIFTS, "profile": p
 # What others call the same, where the spelling gives no hint.
 _OTHER_NAMES = {
     **{"cylinder": "roller", "ball": "sphere", "crowned": "partial", "straight": "cylindrical"},
+    **{"ring": "torus", "o-ring": "torus", "wave": "waviness", "wheel": "roller"},
     **{"prony": "relaxation-series", "generalized-maxwell": "relaxation-series"},
     **{"fractional": "fractional-zener", "spring-pot": "power-law", "csv": "table"},
     **{"abaqus": "card", "ansys": "card", "tabulated": "table"},
