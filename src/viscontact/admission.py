@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from viscontact.compliance import ContactCompliance
 from viscontact.extent import largest_load
 from viscontact.grid import Grid
-from viscontact.hull import refuse_outside
+from viscontact.hull import Reach
 from viscontact.indenters import Indenter
 from viscontact.load import LoadHistory
 from viscontact.load.points import TAIL
@@ -119,6 +119,7 @@ def check_balance(open_gap: NDArray[np.float64], grid: Grid, load: LoadHistory, 
     under_load = instants[(before > 0) | (levels > 0) | (after > 0)].tolist()
     if not _wanders(load):
         del under_load[1:]
+    reach = Reach(solid, grid)
     for time in under_load:
         for side in ("left", "right"):
             point = load.at(time, side=side)
@@ -126,7 +127,7 @@ def check_balance(open_gap: NDArray[np.float64], grid: Grid, load: LoadHistory, 
                 None if point.tilt_x is not None else point.eccentricity_x,
                 None if point.tilt_y is not None else point.eccentricity_y,
             )
-            refuse_outside(solid, grid, where, time)
+            reach.refuse_outside(where, time)
 
 
 def _wanders(load: LoadHistory) -> bool:
