@@ -904,7 +904,8 @@ def test_command_has_its_options(command: str, capsys: pytest.CaptureFixture[str
 
 def test_run_directory_holds_the_result_and_the_case(folder: Path) -> None:
     assert main(["run", "ball.yaml", "--quiet", "--threads", "1"]) == 0
-    assert sorted(path.name for path in Path("ball").iterdir()) == ["case.yaml", "result.nc"]
+    held = sorted(path.name for path in Path("ball").iterdir())
+    assert held == ["case.yaml", "progress.jsonl", "result.nc"]
     with netCDF4.Dataset("ball/result.nc") as file:
         assert file.dimensions["time"].isunlimited()
     with vc.open_results("ball") as ds, xr.open_dataset("ball/result.nc") as plain:
@@ -956,14 +957,15 @@ def test_exit_codes(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     said = capsys.readouterr().err
     assert "--resume" in said
     assert "--overwrite" in said
-    # 0: done
+    # 0: done, and finished already
     assert main(["run", "ball.yaml", "-q", "--overwrite"]) == 0
+    assert main(["run", "ball.yaml", "--resume"]) == 0
+    assert capsys.readouterr().err.count("\n") == 1
 
 
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        *((["run", "ball.yaml", "--resume"], "--resume is not built yet"),),
         (["report", "x"], "report is not built"),
         (["plot", "x", "animation"], "animation is not built yet"),
         (["check", "ball.yaml", "--set", "indenter.shape=height-map"], "'height-map' is not built"),
