@@ -188,6 +188,26 @@ GUARDS = {
         met=Job(mapped(0.25, 0.005, roughness=1e-4), grid=vc.Grid((32, 32), (0.28, 0.28))),
         missed=Job(mapped(0.25, 0.005), grid=vc.Grid((32, 32), (0.28, 0.28))),
     ),
+    "a turned map finer than the grid": Guard(
+        vc.AccuracyWarning,
+        "the height map stands out",
+        met=Job(
+            mapped(0.25, 0.005, roughness=1e-4).rotated(0.3), grid=vc.Grid((32, 32), (0.28, 0.28))
+        ),
+        missed=Job(mapped(0.25, 0.005).rotated(0.3), grid=vc.Grid((32, 32), (0.28, 0.28))),
+    ),
+    "waves finer than the grid": Guard(
+        vc.AccuracyWarning,
+        "which are 9.8 of the grid's cells; 10 or more are wanted",
+        met=Job(BALL + vc.Waviness(1e-6, wavelength_x=9.8 * 0.28 / 60)),
+        missed=Job(BALL + vc.Waviness(1e-6, wavelength_x=10.2 * 0.28 / 60)),
+    ),
+    "dimples finer than the grid": Guard(
+        vc.AccuracyWarning,
+        "the body repeats itself over",
+        met=Job((BALL + vc.Dimples(1e-6, 4.9 * 0.28 / 60, 0.1)).rotated(0.5)),
+        missed=Job((BALL + vc.Dimples(1e-6, 5.1 * 0.28 / 60, 0.1)).rotated(0.5)),
+    ),
     "a map that leaps from point to point": Guard(
         vc.AccuracyWarning,
         "the height map stands out",

@@ -199,10 +199,13 @@ def test_wave_is_a_cosine_to_its_digits() -> None:
     assert float(flat) == pytest.approx(2 * (math.pi * 1e-9) ** 2, rel=1e-12, abs=0)
 
 
-def test_crest_of_a_wave_has_the_curvature_that_it_says() -> None:
-    wave, h = vc.Waviness(0.1, wavelength_x=2.0, wavelength_y=3.0), 1e-4
-    measured = [2 * float(wave.gap(*at)) / h**2 for at in ((h, 0.0), (0.0, h))]
-    assert wave.curvatures == pytest.approx(measured, rel=1e-6)
+def test_crest_of_a_wave_is_no_measure_of_a_contact_that_spans_many() -> None:
+    wavy = vc.Sphere(1.0) + vc.Waviness(0.1, wavelength_x=1e-3)
+    assert wavy.curvatures == (1.0, 1.0)
+    assert wavy.period == 1e-3
+    assert wavy.rotated(1.0).period == 1e-3
+    assert vc.Dimples(1.0, 2.0, 5.0).period == 4.0
+    assert vc.Sphere(1.0).period == math.inf
 
 
 def test_wave_adds_to_a_sphere_without_a_shift() -> None:

@@ -12,7 +12,7 @@ from viscontact.material import Material
 from viscontact.material_doubts import data_doubts, early_doubts, law_doubts, passivity_doubts
 from viscontact.plausibility import release_doubts, touch_doubts
 from viscontact.run import Run
-from viscontact.sampling_doubts import Sampling, map_doubts
+from viscontact.sampling_doubts import Sampling, map_doubts, texture_doubts
 from viscontact.schedule import FixedSteps
 
 #: So many of a run's first instants are looked at for a load that comes before the data do.
@@ -61,6 +61,7 @@ def _contact_doubts(run: Run, found: ContactEstimate) -> dict[str, str]:
         strain_doubts(geometry, found.rim, found.motion)
         | body_doubts(geometry, found.rim)
         | map_doubts(missed, max(run.grid.cell_size), strain)
+        | texture_doubts(run.indenter.period, max(run.grid.cell_size))
     )
 
 

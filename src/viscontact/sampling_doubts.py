@@ -1,4 +1,4 @@
-"""Doubts about what a grid does not see of a body: peaks between its points, and those beyond."""
+"""Doubts about what a grid does not see of a body: peaks between its points, and beyond them."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from viscontact.grid import Grid
-from viscontact.indenters import CombinedIndenter, HeightMap, Indenter
+from viscontact.indenters import CombinedIndenter, HeightMap, Indenter, PlacedIndenter
 from viscontact.rim import Rim
 
 #: What may stand out from one point of the grid to the next, as a slope, over the mean strain
@@ -21,8 +21,14 @@ from viscontact.rim import Rim
 #: A sphere on 10 cells across is below it.
 MISSED_PEAK = 0.1
 
+#: Cells that a wave or a dimple is to have: the points of a cosine then miss (pi/10)^2/2 = 5 % of
+#: its height at most.
+CELLS_OF_A_WAVE = 10
+
 #: Where a body is looked for beyond the grid, as part of its size: evenly near it, then ever wider.
 NEAR, FAR = np.linspace(0.0, 1.5, 25), np.geomspace(1.6, 30.0, 32)
+
+Points = tuple[NDArray[np.float64], NDArray[np.float64]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,7 +52,7 @@ class Sampling:
     @cached_property
     def beyond(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
         """Points of the body outside the grid: x, y and gap [m]."""
-        found = [_outside(self.grid, *lines) for lines in self._sampled_lines()]
+        found = [_outside(self.grid, *points) for points in self._sampled_points()]
         x, y = (np.concatenate(coordinates) for coordinates in zip(*found, strict=True))
         gap = self.indenter.gap(x, y)
         solid = np.isfinite(gap)
@@ -58,9 +64,9 @@ class Sampling:
 
         As the amplitude of a wave of two cells; 0 for other bodies, whose tips and edges are meant.
         """
-        missed = self._jagged() if _maps(self.indenter) else np.zeros(self.grid.shape)
-        for part in _maps(self.indenter):
-            x, y = (lines.ravel() for lines in np.meshgrid(part.x, part.y, indexing="ij"))
+        maps = list(_map_points(self.indenter))
+        missed = self._jagged() if maps else np.zeros(self.grid.shape)
+        for x, y in maps:
             places = [
                 (along - lines[0]) / cell
                 for along, lines, cell in zip(
@@ -87,13 +93,12 @@ class Sampling:
             out[inner] = np.maximum(out[inner], (middle - gap[1:-1][inner]) / 2)
         return jagged
 
-    def _sampled_lines(self) -> Iterator[tuple[NDArray[np.float64], NDArray[np.float64]]]:
+    def _sampled_points(self) -> Iterator[Points]:
         lx, ly = self.grid.size
         one_side = np.concatenate([NEAR, FAR])
         part = np.concatenate([-one_side[:0:-1], one_side])
-        yield lx * part, ly * part
-        for part_map in _maps(self.indenter):
-            yield part_map.x, part_map.y
+        yield _mesh(lx * part, ly * part)
+        yield from _map_points(self.indenter)
 
 
 def map_doubts(missed: float, cell: float, strain: float) -> dict[str, str]:
@@ -156,7 +161,8 @@ def sampling_doubts(
     missed = float(sampling.missed[rim.rows, rim.columns][rim.contact].max(initial=0.0))
     extent = min(rim.length, rim.width)
     strain = 2 * float(motion[0]) / extent if extent > 0 else math.inf
-    doubts = map_doubts(missed, max(sampling.grid.cell_size), strain)
+    cell = max(sampling.grid.cell_size)
+    doubts = map_doubts(missed, cell, strain) | texture_doubts(sampling.indenter.period, cell)
     x, y, gap = sampling.beyond
     # Pressure is all within the grid, so displacement falls from its rim outwards.
     rim_displacement = max(displacement[[0, -1]].max(), displacement[:, [0, -1]].max())
@@ -169,16 +175,57 @@ def sampling_doubts(
     return doubts
 
 
-def _outside(
-    grid: Grid, x: NDArray[np.float64], y: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Points of a mesh that lie outside a grid."""
-    points = np.meshgrid(x, y, indexing="ij")
+def texture_doubts(period: float, cell: float) -> dict[str, str]:
+    """Doubt about waves or dimples that are finer than the grid.
+
+    Parameters
+    ----------
+    period : float
+        Shortest length over which the body repeats itself, inf if it does not [m].
+    cell : float
+        Edge of a cell, the longer one [m].
+
+    Returns
+    -------
+    dict of str to str
+        Sentences by kind of doubt; empty if there is none.
+
+    Examples
+    --------
+    >>> list(texture_doubts(1e-3, 2e-4)), list(texture_doubts(1e-3, 1e-4))
+    (['texture'], [])
+    """
+    # Ten cells exactly are not fewer for a rounding.
+    if period > (CELLS_OF_A_WAVE - 1e-6) * cell:
+        return {}
+    return {
+        "texture": (
+            f"the body repeats itself over {period:.3g} m, which are {period / cell:.2g} of the "
+            f"grid's cells; {CELLS_OF_A_WAVE} or more are wanted, or what lies between its points "
+            "is missed: use smaller cells"
+        )
+    }
+
+
+def _outside(grid: Grid, x: NDArray[np.float64], y: NDArray[np.float64]) -> Points:
+    """Those of the points that lie outside a grid."""
     lx, ly = grid.size
-    outside = (np.abs(points[0]) > lx / 2) | (np.abs(points[1]) > ly / 2)
-    return points[0][outside], points[1][outside]
+    outside = (np.abs(x) > lx / 2) | (np.abs(y) > ly / 2)
+    return x[outside], y[outside]
 
 
-def _maps(indenter: Indenter) -> tuple[HeightMap, ...]:
-    parts = indenter.parts if isinstance(indenter, CombinedIndenter) else (indenter,)
-    return tuple(part for part in parts if isinstance(part, HeightMap))
+def _map_points(indenter: Indenter) -> Iterator[Points]:
+    """Points of each height map in a body, where they lie."""
+    if isinstance(indenter, HeightMap):
+        yield _mesh(indenter.x, indenter.y)
+    elif isinstance(indenter, PlacedIndenter):
+        yield from (indenter.place(*points) for points in _map_points(indenter.body))
+    elif isinstance(indenter, CombinedIndenter):
+        for part in indenter.parts:
+            yield from _map_points(part)
+
+
+def _mesh(x: NDArray[np.float64], y: NDArray[np.float64]) -> Points:
+    """All points of a mesh, one after the other."""
+    along, across = np.meshgrid(x, y, indexing="ij")
+    return along.ravel(), across.ravel()

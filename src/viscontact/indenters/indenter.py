@@ -46,6 +46,11 @@ class Indenter(ABC):
         sharpest = max(self.curvatures)
         return 1 / sharpest if sharpest > 0 else math.inf
 
+    @property
+    def period(self) -> float:
+        """Shortest length over which the shape repeats itself, inf if it does not [m]."""
+        return math.inf
+
     def rotated(self, angle: float) -> PlacedIndenter:
         """Return the indenter turned about z by an angle from +x towards +y [rad]."""
         return PlacedIndenter(self, angle=angle)
@@ -105,6 +110,11 @@ class CombinedIndenter(Indenter):
         """Sums of the parts' curvatures along x and y [1/m]."""
         along_x, along_y = zip(*(part.curvatures for part in self.parts), strict=True)
         return math.fsum(along_x), math.fsum(along_y)
+
+    @property
+    def period(self) -> float:
+        """The shortest of the parts' [m]."""
+        return min(part.period for part in self.parts)
 
 
 @dataclass(frozen=True)
@@ -170,6 +180,11 @@ class PlacedIndenter(Indenter):
         x, y = positions(x, y)
         cosine, sine = self._turn
         return self.x + cosine * x - sine * y, self.y + sine * x + cosine * y
+
+    @property
+    def period(self) -> float:
+        """That of the body [m]."""
+        return self.body.period
 
     @property
     def curvatures(self) -> tuple[float, float]:

@@ -37,7 +37,8 @@ class Waviness(Indenter):
     -----
     Johnson (1985), Contact Mechanics, section 13.2: the gap is
     Δ (1 - cos(2π x/λ_x + φ_x) cos(2π y/λ_y + φ_y)), computed as
-    Δ (sin²((u + v)/2) + sin²((u - v)/2)) with u and v for the angles.
+    Δ (sin²((u + v)/2) + sin²((u - v)/2)) with u and v for the angles. Crests have no part in
+    `curvatures`: a contact is many of them wide.
 
     Examples
     --------
@@ -79,14 +80,9 @@ class Waviness(Indenter):
         return np.asarray(self.amplitude * (np.sin((u + v) / 2) ** 2 + np.sin((u - v) / 2) ** 2))
 
     @property
-    def curvatures(self) -> tuple[float, float]:
-        """Those of a crest, (2π/λ)² Δ along x and y [1/m]."""
-        lengths = (self.wavelength_x, self.wavelength_y)
-        along_x, along_y = (
-            0.0 if length is None else self.amplitude * (2 * math.pi / length) ** 2
-            for length in lengths
-        )
-        return along_x, along_y
+    def period(self) -> float:
+        """The shorter wavelength [m]."""
+        return min(each for each in (self.wavelength_x, self.wavelength_y) if each is not None)
 
 
 @dataclass(frozen=True)
@@ -159,6 +155,11 @@ class Dimples(Indenter):
         # Of half a sphere only the mouth itself has no depth: 0/0 otherwise.
         span = root + below
         return np.divide((a - within) * (a + within), span, out=np.zeros_like(r), where=span > 0)
+
+    @property
+    def period(self) -> float:
+        """A dimple's mouth, which is shorter than their distance [m]."""
+        return 2 * self.radius
 
     def _from_nearest(self, x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
         """Distance from the nearest dimple's middle [m]."""
