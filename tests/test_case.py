@@ -147,7 +147,7 @@ def test_one_long_list_of_everything_that_is_wrong(tmp_path: Path) -> None:
         ("indenter.radius=[5 mm]", "indenter.radius: cannot read ['5 mm'] as a length"),
         ("indenter.radius=.nan", "indenter.radius: 'nan' is not a finite number"),
         ("indenter.profile=logarithmic", "indenter.profile.amplitude: is missing"),
-        ("indenter.shape=height-map", "indenter.shape: 'height-map' is not built yet; built: sph"),
+        ("indenter={shape: height-map}", "indenter.file: is missing; NPY, NPZ or CSV"),
         ("indenter.shape=5", "indenter.shape: unknown value '5'"),
         ("indenter=[]", "indenter: has too few entries"),
         ("indenter=sphere", "indenter: must be a section with keys of its own, got 'sphere'"),

@@ -54,6 +54,7 @@ FLOORS = (
         "examples",
         "units",
         "tables",
+        "surfaces",
         "cards",
         "materials",
         "identification",
@@ -120,6 +121,9 @@ NEIGHBOURS = {
     ("case", "materials"),  # which may be given by name
     ("case", "cards"),  # materials of other programs
     ("case", "tables"),  # loads and materials may be measured ones
+    ("surfaces", "tables"),  # maps in text files
+    ("surfaces", "units"),
+    ("case", "surfaces"),  # which may be pressed
     ("cards", "tables"),  # the text of a file, whatever its encoding
     ("cards", "units"),
     ("tables", "units"),
@@ -138,6 +142,7 @@ OTHERS = {
     "numpy": 0, "scipy": 0,
     "xarray": 5, "netCDF4": 5, "filelock": 5,
     "pint": 6, "pydantic": 6, "pydantic_core": 6, "ruamel": 6,
+    "SurfaceTopography": 6,
     "matplotlib": 6, "contourpy": 6, "plotly": 6,
     "typer": 7, "click": 7, "rich": 7,
 }  # fmt: skip

@@ -382,7 +382,7 @@ def test_flat_punch_wants_one_shape(arguments):
 @pytest.mark.parametrize(
     ("x", "y", "height", "message"),
     [
-        ([0, 1], [0, 1], [[0, math.nan], [math.nan, 0]], "height .* 2 of 4 .* not handled yet"),
+        ([0, 1], [0, 1], [[0, math.nan], [math.nan, 0]], "height .* 2 of 4 .* say with holes=True"),
         ([0, 1], [0, 1], [[0, math.inf], [0, 0]], "height .* 1 of 4"),
         ([0, math.nan], [0, 1], np.zeros((2, 2)), "x must be finite"),
         ([0, 1], [0, 1, 2], np.zeros((3, 2)), r"height .*\(2, 3\), got \(3, 2\); transpose"),

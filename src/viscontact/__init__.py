@@ -9,7 +9,7 @@ __version__ = "0.1.0"
 
 __getattr__, __dir__, __all__ = _lazy.attach(
     __name__,
-    submodules=["reference", "verify"],
+    submodules=["reference", "surfaces", "verify"],
     submod_attrs={
         "errors": ["AccuracyWarning", "ConvergenceError", "DomainError"],
         "grid": ["Grid"],
@@ -59,6 +59,7 @@ __getattr__, __dir__, __all__ = _lazy.attach(
         "material": ["Material"],
         "case": ["shipped_material"],
         "tables": ["Table", "read_table"],
+        "surfaces": ["Surface", "read_surface"],
         "cards": ["Card", "read_abaqus", "read_ansys", "write_abaqus", "write_ansys"],
         "identification": [
             "IndentationRecord",

@@ -92,7 +92,8 @@ def describe(noun: Any) -> Any:
         arguments = {item.name: describe(getattr(noun, item.name)) for item in fields(noun)}
         return {"type": type(noun).__name__, **arguments}
     if isinstance(noun, np.ndarray):
-        is_map = noun.ndim > 1 and noun.size > LARGEST_ARRAY
+        # JSON knows no NaN, which is what holes in a map are.
+        is_map = noun.ndim > 1 and (noun.size > LARGEST_ARRAY or not np.isfinite(noun).all())
         return _fingerprint(noun) if is_map else noun.tolist()
     if isinstance(noun, np.generic):
         return noun.item()
@@ -132,8 +133,8 @@ def rebuild(description: Any) -> Any:
         return description
     if "sha256" in description:
         raise ValueError(
-            f"an array of shape {description['shape']} is too large to be kept in a result; "
-            "build the indenter from its source again"
+            f"an array of shape {description['shape']} is too large, or has holes, and is not kept "
+            "in a result; build the indenter from its source again"
         )
     noun = NOUNS.get(description.get("type", ""))
     if noun is None:

@@ -14,6 +14,7 @@ from pydantic_core import CoreSchema
 
 from viscontact import indenters
 from viscontact.case import bodies
+from viscontact.case.height_maps import HeightMap
 from viscontact.case.profiles import AnyProfile
 from viscontact.case.quantities import Length, OpenAngle
 from viscontact.case.shape import Shape
@@ -121,6 +122,7 @@ SHAPES: dict[str | int, type[Shape]] = {
     "swept": bodies.Swept,
     "waviness": bodies.Waviness,
     "dimples": bodies.Dimples,
+    "height-map": HeightMap,
 }
 
 AnyShape = Annotated[
@@ -139,7 +141,8 @@ AnyShape = Annotated[
     | bodies.Revolved
     | bodies.Swept
     | bodies.Waviness
-    | bodies.Dimples,
+    | bodies.Dimples
+    | HeightMap,
     Field(discriminator="shape"),
 ]
 

@@ -109,6 +109,7 @@ def _problem(why: str) -> PydanticCustomError:
 
 
 Length = Annotated[float, Quantity("length", POSITIVE)]
+NotNegativeLength = Annotated[float, Quantity("length", NOT_NEGATIVE)]
 Offset = Annotated[float, Quantity("length")]
 Angle = Annotated[float, Quantity("angle")]
 OpenAngle = Annotated[float, Quantity("angle", POSITIVE)]

@@ -63,7 +63,7 @@ class Case:
     files : mapping of tuple to Path
         Every file that the case is read from, by the key that names it.
     notes : tuple of str
-        What stands in those files and is not used.
+        What was found in those files, and what of it is not used.
     document : Document
         The file it is from.
     """
@@ -186,9 +186,14 @@ def _case(document: Document, found: CaseFile) -> Case:
         tolerance=found.tolerance,
         load_file=found.load.table,
         files=_files(found, document),
-        notes=(*found.material.notes, *(of_indenter.notes if of_indenter else ())),
+        notes=_notes(found),
         document=document,
     )
+
+
+def _notes(found: CaseFile) -> tuple[str, ...]:
+    described = (*found.indenter, found.material, found.indenter_material)
+    return tuple(note for each in described if each is not None for note in each.notes)
 
 
 def _files(found: CaseFile, document: Document) -> dict[KeyPath, Path]:

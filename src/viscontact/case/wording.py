@@ -14,7 +14,6 @@ from viscontact.case import indenters, loads, materials, profiles, schedule, shi
 from viscontact.case.document import Document
 from viscontact.case.problems import KeyPath, dotted
 from viscontact.case.sections import CaseFile
-from viscontact.case.unbuilt import refused_key, refused_value
 from viscontact.units import DIMENSIONS
 
 # The sections by name; where a value of shape, law or kind says which, by that.
@@ -196,17 +195,16 @@ def _union_key(error: ErrorDetails) -> str:
 def _why(key: KeyPath, model: type[BaseModel], error: ErrorDetails) -> str:
     kind, context = error["type"], error.get("ctx", {})
     if kind == "extra_forbidden":
-        refused = refused_key(key[0] if len(key) > 1 else "", key[-1])
-        return refused or _unknown_key(model, key[-1])
+        return _unknown_key(model, key[-1])
     if kind == "missing":
         return f"is missing{_example(model, str(key[-1]))}"
     if kind == "union_tag_not_found":
         return f"is missing; it says which: {', '.join(_choices(error))}"
     if kind == "union_tag_invalid":
-        return _wrong_choice(str(key[-1]), context["tag"], _choices(error))
+        return _unknown("value", context["tag"], _choices(error))
     if kind == "literal_error":
         choices = re.findall(r"'([^']*)'", context["expected"])
-        return _wrong_choice(str(key[-1]), error["input"], choices)
+        return _unknown("value", error["input"], choices)
     return _plain_words(error)
 
 
@@ -217,10 +215,6 @@ def _choices(error: ErrorDetails) -> list[str]:
     return [
         str(tag) for tag, field in fields.items() if field and tag in get_args(field.annotation)
     ]
-
-
-def _wrong_choice(key: str, value: object, choices: list[str]) -> str:
-    return refused_value(key, value, choices) or _unknown("value", value, choices)
 
 
 def _unknown(what: str, given: object, allowed: list[str]) -> str:

@@ -37,10 +37,10 @@ class HeightMap(Indenter):
 
     Notes
     -----
-    The gap is max(height) - height, bilinear between the mesh points and +inf outside the
-    map and within a mesh step of holes. Only the values at the positions asked for are used: on a grid coarser than the
-    map, details between the grid points are missed, not averaged. The arrays are copied and
-    made read-only.
+    The gap is max(height) - height, bilinear between the mesh points, and +inf outside the map
+    and within a mesh step of holes. Only the values at the positions asked for are used: on a
+    grid coarser than the map, details between the grid points are missed, not averaged. The
+    arrays are copied and made read-only.
 
     Examples
     --------
@@ -54,9 +54,7 @@ class HeightMap(Indenter):
     height: NDArray[np.float64]
     holes: bool
 
-    def __init__(
-        self, x: ArrayLike, y: ArrayLike, height: ArrayLike, holes: bool = False
-    ) -> None:
+    def __init__(self, x: ArrayLike, y: ArrayLike, height: ArrayLike, holes: bool = False) -> None:
         # Written out, so that lists are welcome and arrays are what comes back.
         object.__setattr__(self, "x", _mesh_lines("x", x))
         object.__setattr__(self, "y", _mesh_lines("y", y))

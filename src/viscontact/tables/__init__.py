@@ -2,8 +2,20 @@
 
 from viscontact.tables.lines import read_line
 from viscontact.tables.names import QUANTITIES
+from viscontact.tables.numbers import decimal_number, looks_like_number
 from viscontact.tables.reader import read_table
 from viscontact.tables.table import Table
-from viscontact.tables.text import read_text
+from viscontact.tables.text import Row, read_rows, read_text, require_file
 
-__all__ = ["QUANTITIES", "Table", "read_line", "read_table", "read_text"]
+__all__ = [
+    "QUANTITIES",
+    "Row",
+    "Table",
+    "decimal_number",
+    "looks_like_number",
+    "read_line",
+    "read_rows",
+    "read_table",
+    "read_text",
+    "require_file",
+]

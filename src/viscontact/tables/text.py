@@ -7,6 +7,7 @@ import difflib
 import io
 from collections.abc import Iterator
 from dataclasses import dataclass
+from os import PathLike
 from pathlib import Path
 
 # Beyond these no laboratory file is a table of measured points; a reader that needs more is to
@@ -63,6 +64,39 @@ def read_rows(path: Path) -> list[Row]:
     return rows
 
 
+def require_file(path: str | PathLike[str]) -> Path:
+    """Return the path of a file that is there, or refuse it with the nearest name.
+
+    Parameters
+    ----------
+    path : path-like
+        What was given.
+
+    Returns
+    -------
+    Path
+        The path.
+
+    Raises
+    ------
+    ValueError
+        If there is no such file, or it is a directory or a device.
+    """
+    path = Path(path)
+    try:
+        if path.is_dir():
+            raise ValueError(f"{path}: is a directory; name the file in it")
+        if not path.exists():
+            raise ValueError(f"no such file {path}{_nearest(path)}")
+        if not path.is_file():  # a device may have no end
+            raise ValueError(f"{path}: is no file")
+    except (OSError, ValueError) as error:  # ValueError: the name holds what no name can
+        if str(error).startswith((f"{path}: ", "no such file ")):
+            raise
+        raise ValueError(f"cannot read {str(path)!r}: {error}") from error
+    return path
+
+
 def read_text(path: Path) -> str:
     """Read a text file of a program or instrument, whatever encoding it is written in.
 
@@ -83,17 +117,9 @@ def read_text(path: Path) -> str:
         If it cannot be read, is too large, or is no text.
     """
     try:
-        if path.is_dir():
-            raise ValueError(f"{path}: is a directory; name the file in it")
-        if path.exists() and not path.is_file():  # a device may have no end
-            raise ValueError(f"{path}: is no file")
-        with path.open("rb") as file:
+        with require_file(path).open("rb") as file:
             data = file.read(_LARGEST_FILE + 1)
-    except FileNotFoundError:
-        raise ValueError(f"no such file {path}{_nearest(path)}") from None
-    except (OSError, ValueError) as error:  # ValueError: the name holds what no name can
-        if str(error).startswith(f"{path}: "):
-            raise
+    except OSError as error:
         raise ValueError(f"cannot read {str(path)!r}: {error}") from error
     if len(data) > _LARGEST_FILE:
         raise ValueError(

@@ -1,0 +1,23 @@
+"""Measured surfaces: read, repaired, levelled, resampled, and pressed."""
+
+from viscontact.surfaces.cropping import cropped, flipped, swept
+from viscontact.surfaces.doubts import surface_doubts
+from viscontact.surfaces.levelling import levelled
+from viscontact.surfaces.missing import filled
+from viscontact.surfaces.pressing import indenter_of
+from viscontact.surfaces.reader import read_surface
+from viscontact.surfaces.resampling import resampled
+from viscontact.surfaces.surface import Surface
+
+__all__ = [
+    "Surface",
+    "cropped",
+    "filled",
+    "flipped",
+    "indenter_of",
+    "levelled",
+    "read_surface",
+    "resampled",
+    "surface_doubts",
+    "swept",
+]

@@ -1,0 +1,173 @@
+"""What a measured surface is, in words, and what about it looks wrong."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from viscontact.surfaces.levelling import TERMS, Level, polynomial, tilt
+from viscontact.surfaces.surface import Surface
+from viscontact.units import in_digits, in_words
+
+#: Heights of a surface that is skewed by more look like valleys in a plateau.
+SKEWED = -1.0
+
+#: A point so many rms heights above the mean is a spike rather than a peak.
+SPIKE = 8.0
+
+#: So much of the variance in a bowl is a form.
+FORM_SHARE = 0.5
+
+#: Steeper rms slopes are not what a linear theory is for.
+STEEP = 0.5
+
+
+def surface_doubts(surface: Surface) -> tuple[str, ...]:
+    """Say what about a surface looks wrong before it is pressed.
+
+    Parameters
+    ----------
+    surface : Surface
+        The surface as it is to be pressed.
+
+    Returns
+    -------
+    tuple of str
+        Sentences, each with a remedy; none if nothing looks wrong.
+
+    Notes
+    -----
+    That a map is upside down cannot be proved. It looks so if it is hollow, so that only its
+    border would touch, or if its heights are a plateau with valleys.
+
+    Examples
+    --------
+    >>> bowl = np.add.outer(np.linspace(-1, 1, 9) ** 2, np.linspace(-1, 1, 9) ** 2)
+    >>> [doubt.split(":")[0] for doubt in surface_doubts(Surface(1e-6 * bowl, 1e-5))]
+    ['surface is hollow']
+    """
+    if min(surface.shape) < 3 or surface.rms_height == 0:
+        return ()
+    found = (_hollow(surface) or _skewed(surface), _tilted(surface), _spiked(surface))
+    return tuple(doubt for doubt in (*found, _steep(surface)) if doubt)
+
+
+def described(surface: Surface) -> str:
+    """Describe a surface in a line: points, missing ones, rms height and slope.
+
+    Parameters
+    ----------
+    surface : Surface
+        The surface.
+
+    Returns
+    -------
+    str
+        The line.
+
+    Examples
+    --------
+    >>> described(Surface([[0.0, 1e-6], [1e-6, 0.0]], 1e-5))
+    'surface: 2 x 2 points, 10 µm apart; rms height 500 nm, rms slope 0.14'
+    """
+    nx, ny = surface.shape
+    dx, dy = (in_words(step, "m", 3) for step in surface.spacing)
+    apart = dx if dx == dy else f"{dx} and {dy}"
+    missing = f", {surface.missing_share:.2%} missing" if surface.missing.any() else ""
+    return (
+        f"{surface.name}: {nx} x {ny} points, {apart} apart{missing}; rms height "
+        f"{in_words(surface.rms_height, 'm', 3)}, rms slope {in_digits(surface.rms_slope, 2)}"
+    )
+
+
+def levelling_note(surface: Surface, level: Level) -> str | None:
+    """Say what levelling takes off a surface.
+
+    Parameters
+    ----------
+    surface : Surface
+        The surface before it.
+    level : str
+        As `levelled` takes it.
+
+    Returns
+    -------
+    str or None
+        A sentence; None where nothing is taken off but a mean.
+
+    Examples
+    --------
+    >>> ramp = Surface([[0.0, 0.0], [1e-7, 1e-7], [2e-7, 2e-7]], 1e-5)
+    >>> levelling_note(ramp, "plane")
+    'surface: a tilt of 10 mrad was taken off (level: plane)'
+    """
+    if level not in ("plane", "quadratic"):
+        return None
+    form = " and the paraboloid that fits best were" if level == "quadratic" else " was"
+    slope = in_words(math.hypot(*tilt(surface)), "rad", 3)
+    return f"{surface.name}: a tilt of {slope}{form} taken off (level: {level})"
+
+
+def _hollow(surface: Surface) -> str | None:
+    """A form that is highest at its border."""
+    try:
+        form = polynomial(surface, TERMS["quadratic"])
+    except ValueError:
+        return None
+    rest = float(np.nanvar(surface.heights - form.of(surface)))
+    if rest > (1 - FORM_SHARE) * surface.rms_height**2:
+        return None
+    low, high = sorted((form[2, 0], form[0, 2]))
+    if high <= 0 or low < -0.1 * high:  # a saddle has its own way to touch
+        return None
+    return (
+        f"{surface.name} is hollow: it would touch along its border first; if it was stored "
+        "upside down, flip: true turns it over, and level: quadratic takes the form off"
+    )
+
+
+def _skewed(surface: Surface) -> str | None:
+    if surface.skewness > SKEWED:
+        return None
+    return (
+        f"{surface.name} has deep valleys below a plateau (skewness "
+        f"{in_digits(surface.skewness, 2)}), as worn and honed surfaces have; if it was stored "
+        "upside down, flip: true turns it over"
+    )
+
+
+def _tilted(surface: Surface) -> str | None:
+    """A tilt that lifts the ends by more than what is left without it."""
+    slopes = tilt(surface)
+    lift = math.hypot(*(slope * size for slope, size in zip(slopes, surface.size, strict=True)))
+    # The standard deviation of a ramp is its rise over the root of twelve.
+    rest = math.sqrt(max(surface.rms_height**2 - lift**2 / 12, 0.0))
+    if lift / math.sqrt(12) <= max(2 * rest, 1e-9 * surface.height_range):
+        return None
+    return (
+        f"{surface.name} is tilted by {in_words(math.hypot(*slopes), 'rad', 2)}, which lifts an "
+        f"end by {in_words(lift, 'm', 3)}, much more than its rms height without it; level: plane "
+        "takes it off"
+    )
+
+
+def _spiked(surface: Surface) -> str | None:
+    height = float(np.nanmax(surface.heights) - np.nanmean(surface.heights))
+    if height <= SPIKE * surface.rms_height:
+        return None
+    return (
+        f"{surface.name} has a peak {in_digits(height / surface.rms_height, 2)} rms heights above "
+        "the mean, which will touch alone; if it is an artefact, remove it, or resample with a "
+        "filter"
+    )
+
+
+def _steep(surface: Surface) -> str | None:
+    if surface.rms_slope <= STEEP:
+        return None
+    return (
+        f"{surface.name} has an rms slope of {in_digits(surface.rms_slope, 2)}: small-strain "
+        "theory is not meant for such slopes; is the unit of the heights right "
+        "(height_factor:), or is a filter wanted?"
+    )

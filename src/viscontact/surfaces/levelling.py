@@ -1,0 +1,152 @@
+"""Taking the tilt, or the form, off a measured surface."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.surfaces.surface import Surface
+
+Array = NDArray[np.float64]
+Level = Literal["none", "mean", "plane", "quadratic"]
+
+#: Powers of x and y in what is taken off.
+TERMS: dict[str, tuple[tuple[int, int], ...]] = {
+    "none": (),
+    "mean": ((0, 0),),
+    "plane": ((0, 0), (1, 0), (0, 1)),
+    "quadratic": ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)),
+}
+
+
+def levelled(surface: Surface, level: Level = "plane") -> Surface:
+    """Take the polynomial that fits a surface best off its heights.
+
+    Parameters
+    ----------
+    surface : Surface
+        The surface.
+    level : str
+        ``"none"``, ``"mean"``: the mean height; ``"plane"``: the plane of tilt, too;
+        ``"quadratic"``: the paraboloid of form, too.
+
+    Returns
+    -------
+    Surface
+        What is left; missing points stay missing.
+
+    Raises
+    ------
+    ValueError
+        If the level is unknown, or the known points do not determine the polynomial.
+
+    Notes
+    -----
+    Least squares over the known points. A form that is to be pressed (a ball's, a roller's)
+    is levelled by ``"plane"`` at most.
+
+    Examples
+    --------
+    >>> tilted = Surface(np.add.outer([0.0, 1e-6, 2e-6], [0.0, 3e-6, 6e-6]), spacing=1e-5)
+    >>> bool(np.abs(levelled(tilted).heights).max() < 1e-20)
+    True
+    """
+    if level not in TERMS:
+        raise ValueError(f"level must be {', '.join(TERMS)}, got {level!r}")
+    if level == "none":
+        return surface
+    return surface.with_heights(surface.heights - polynomial(surface, TERMS[level]).of(surface))
+
+
+class Polynomial:
+    """A polynomial in x and y, each over half the size of the map it was fitted to.
+
+    Parameters
+    ----------
+    terms : tuple of pairs
+        Powers of x and y.
+    coefficients : ndarray, shape (terms,)
+        Their factors [m].
+    """
+
+    def __init__(self, terms: tuple[tuple[int, int], ...], coefficients: Array) -> None:
+        self.terms, self.coefficients = terms, coefficients
+
+    def of(self, surface: Surface) -> Array:
+        """Return its values at a surface's points, shape (nx, ny) [m]."""
+        along_x, along_y = _scaled(surface)
+        values = np.zeros(surface.shape)
+        for (i, j), factor in zip(self.terms, self.coefficients.tolist(), strict=True):
+            values += factor * np.multiply.outer(along_x**i, along_y**j)
+        return values
+
+    def __getitem__(self, term: tuple[int, int]) -> float:
+        """Return the factor of a pair of powers [m]."""
+        return float(self.coefficients[self.terms.index(term)])
+
+
+def polynomial(surface: Surface, terms: tuple[tuple[int, int], ...]) -> Polynomial:
+    """Return the polynomial that fits the known heights best.
+
+    Parameters
+    ----------
+    surface : Surface
+        The surface.
+    terms : tuple of pairs
+        Powers of x and y that it has.
+
+    Returns
+    -------
+    Polynomial
+        By least squares.
+
+    Raises
+    ------
+    ValueError
+        If the known points do not determine it, as a single row does no plane.
+    """
+    along_x, along_y = _scaled(surface)
+    known = ~surface.missing
+    # Normal equations from moments: no matrix with a row for each point. The terms are of the
+    # order of one and few, so that the squared condition number costs no digit that matters.
+    moment = {
+        (i, j): float(along_x**i @ known @ along_y**j)
+        for i, j in {(a + c, b + d) for a, b in terms for c, d in terms}
+    }
+    matrix = np.array([[moment[a + c, b + d] for c, d in terms] for a, b in terms])
+    reference = float(np.nanmean(surface.heights))
+    heights = np.where(known, surface.heights - reference, 0.0)
+    right = np.array([along_x**i @ heights @ along_y**j for i, j in terms])
+    if np.linalg.matrix_rank(matrix, tol=1e-10 * matrix[0, 0]) < len(terms):
+        raise ValueError(
+            f"{surface.name}: its {int(known.sum())} known points do not determine a polynomial "
+            f"of {len(terms)} terms; level by the mean"
+        )
+    coefficients = np.linalg.solve(matrix, right)
+    coefficients[terms.index((0, 0))] += reference
+    return Polynomial(terms, coefficients)
+
+
+def tilt(surface: Surface) -> tuple[float, float]:
+    """Return the slopes along x and y of the plane that fits a surface best [rad].
+
+    Parameters
+    ----------
+    surface : Surface
+        The surface.
+
+    Returns
+    -------
+    tuple of float
+        Rise of the heights over distance.
+    """
+    plane = polynomial(surface, TERMS["plane"])
+    lx, ly = surface.size
+    return plane[1, 0] / (lx / 2), plane[0, 1] / (ly / 2)
+
+
+def _scaled(surface: Surface) -> tuple[Array, Array]:
+    lx, ly = surface.size
+    return surface.x / (lx / 2), surface.y / (ly / 2)

@@ -1,0 +1,93 @@
+"""From a measured surface to an indenter."""
+
+from __future__ import annotations
+
+from viscontact.indenters import HeightMap
+from viscontact.surfaces.surface import Surface
+from viscontact.units import in_words
+
+
+def indenter_of(surface: Surface, *, holes: bool = False) -> HeightMap:
+    """Return the indenter that a surface is when it is turned over and pressed, peaks first.
+
+    Parameters
+    ----------
+    surface : Surface
+        The surface, levelled.
+    holes : bool
+        Whether missing points are holes, which never touch; without it they are refused.
+
+    Returns
+    -------
+    HeightMap
+        Around the middle of the map.
+
+    Raises
+    ------
+    ValueError
+        If it is a line scan, points are missing, or the heights cannot be in the unit of the
+        lengths.
+
+    Examples
+    --------
+    >>> indenter_of(Surface([[0.0, 1e-6], [0.0, 0.0]], 1e-5)).gap(5e-6, -5e-6)
+    array(1.e-06)
+    """
+    require_map(surface)
+    if not holes:
+        require_complete(surface)
+    _require_lengths(surface)
+    return HeightMap(surface.x, surface.y, surface.heights, holes=holes)
+
+
+def require_complete(surface: Surface) -> None:
+    """Refuse a surface with missing points, with their share and what can be done.
+
+    Parameters
+    ----------
+    surface : Surface
+        The surface.
+
+    Raises
+    ------
+    ValueError
+        If a point is missing.
+    """
+    if surface.missing.any():
+        raise ValueError(
+            f"missing: {surface.name} has no height at {int(surface.missing.sum())} of "
+            f"{surface.missing.size} points ({surface.missing_share:.2%}); say what stands there: "
+            "a hole that never touches, the lowest height, or a smooth film over the neighbours"
+        )
+
+
+def require_map(surface: Surface) -> None:
+    """Refuse a line scan, which has no second direction.
+
+    Parameters
+    ----------
+    surface : Surface
+        The surface.
+
+    Raises
+    ------
+    ValueError
+        If it has a single point along x or y.
+    """
+    if min(surface.shape) < 2:
+        nx, ny = surface.shape
+        raise ValueError(
+            f"width: {surface.name} is a line scan ({nx} x {ny} points), which has no second "
+            "direction; give the width over which it is to be swept, as ridges are"
+        )
+
+
+def _require_lengths(surface: Surface) -> None:
+    """Refuse heights that stand higher than the map is long: the unit is a wrong one."""
+    span, extent = surface.height_range, max(surface.size)
+    if span > extent:
+        raise ValueError(
+            f"height_factor: the heights of {surface.name} span {in_words(span, 'm', 3)} on a map "
+            f"of no more than {in_words(extent, 'm', 3)}; is their unit another, or the map not "
+            "levelled? A factor such as 1e-3 mends a unit"
+        )

@@ -1,0 +1,81 @@
+"""From a file to a measured surface."""
+
+from __future__ import annotations
+
+from os import PathLike
+
+from viscontact.real import as_real
+from viscontact.surfaces.array_files import read_array
+from viscontact.surfaces.cropping import swept
+from viscontact.surfaces.instrument_files import read_instrument
+from viscontact.surfaces.surface import Surface
+from viscontact.surfaces.text_files import read_text_map
+from viscontact.surfaces.units import Units
+from viscontact.tables import require_file
+
+_READERS = {".npy": read_array, ".npz": read_array, ".csv": read_text_map}
+
+
+def read_surface(
+    path: str | PathLike[str],
+    *,
+    spacing: float | tuple[float, float] | None = None,
+    height_unit: str | None = None,
+    height_factor: float = 1.0,
+    channel: str | None = None,
+    width: float | None = None,
+) -> Surface:
+    r"""Read a measured surface, as it stands in its file.
+
+    Parameters
+    ----------
+    path : path-like
+        The file: NPY, NPZ or CSV; or any that SurfaceTopography reads, with the extra
+        ``surfaces``: X3P, SUR, GWY, OPD, AL3D, DI, netCDF and others.
+    spacing : float or pair of float, optional
+        Distance of the points along x and y, where the file does not tell [m].
+    height_unit : str, optional
+        Unit of the heights, where the file does not tell: ``"um"``.
+    height_factor : float, optional
+        What the heights are multiplied by, to mend a wrong unit or sign.
+    channel : str, optional
+        Which of several channels or arrays; the file's own choice when left out.
+    width : float, optional
+        For a line scan: how wide it is swept across, as a lay of ridges [m].
+
+    Returns
+    -------
+    Surface
+        With NaN where no height is known; neither levelled nor filled.
+
+    Raises
+    ------
+    ValueError
+        If the file cannot be read or holds no heights, a unit is missing, or is given where the
+        file has one.
+
+    Notes
+    -----
+    The first index of arrays runs along x. In a CSV of bare numbers each row is a scan line
+    along x, and the next one lies farther along y; one with a header ``x [um], y [um], height
+    [nm]`` has a row for each point, in any order. An NPZ may carry `height`, `spacing` (one
+    number or two), `unit` (a text, for both), and `periodic`.
+
+    Examples
+    --------
+    >>> import pathlib, tempfile
+    >>> file = pathlib.Path(tempfile.mkdtemp(), "steps.csv")
+    >>> _ = file.write_text("0, 1, 2\n0, 1, nan\n")
+    >>> surface = read_surface(file, spacing=1e-6, height_unit="nm")
+    >>> surface.heights[:, 0].tolist(), surface.missing_share
+    ([0.0, 1e-09, 2e-09], 0.16666666666666666)
+    """
+    path = require_file(path)
+    factor = as_real(height_factor)
+    if factor is None or factor == 0:
+        raise ValueError(f"height_factor must be a number other than 0, got {height_factor!r}")
+    read = _READERS.get(path.suffix.lower(), read_instrument)
+    surface = read(path, Units(path.name, spacing, height_unit), channel)
+    if factor != 1:
+        surface = surface.with_heights(factor * surface.heights)
+    return surface if width is None else swept(surface, width)

@@ -1,0 +1,180 @@
+"""A measured surface: heights on an even mesh, some of them perhaps missing."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from viscontact.real import as_real
+
+Array = NDArray[np.float64]
+
+#: Heights farther from their reference are no lengths of bodies [m].
+_LARGEST = 1e6
+
+
+@dataclass(frozen=True, eq=False, init=False)
+class Surface:
+    """Heights on an even mesh, as measured with the surface facing the instrument.
+
+    Parameters
+    ----------
+    heights : array_like, shape (nx, ny)
+        Heights from any reference, larger towards the instrument; NaN where none was
+        measured. At least one point along each axis, and one that is known [m].
+    spacing : float or pair of float
+        Distance of neighbouring points along x and y [m].
+    name : str, optional
+        What it is called in messages.
+    periodic : bool, optional
+        Whether its ends fit together, so that it goes on beyond them.
+
+    Raises
+    ------
+    ValueError
+        If the heights are no map of numbers, are all missing or infinite, or a spacing makes
+        no sense.
+
+    Notes
+    -----
+    Each point stands for a cell around it, so that the map is `shape` times `spacing` large.
+    The origin of `x` and `y` is its middle, as in `viscontact.Grid`: on a grid of the same
+    shape and size the points are the cell centres.
+
+    Examples
+    --------
+    >>> ramp = Surface([[0.0, 0.0], [1e-6, 1e-6], [2e-6, np.nan]], spacing=0.25)
+    >>> ramp.size, ramp.x.tolist(), int(ramp.missing.sum())
+    ((0.75, 0.5), [-0.25, 0.0, 0.25], 1)
+    """
+
+    heights: Array
+    spacing: tuple[float, float]
+    name: str
+    periodic: bool
+
+    def __init__(
+        self,
+        heights: ArrayLike,
+        spacing: float | tuple[float, float],
+        *,
+        name: str = "surface",
+        periodic: bool = False,
+    ) -> None:
+        object.__setattr__(self, "name", name)
+        object.__setattr__(self, "heights", _map_of(name, heights))
+        object.__setattr__(self, "spacing", _steps(name, spacing))
+        object.__setattr__(self, "periodic", bool(periodic))
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Points along x and y."""
+        nx, ny = self.heights.shape
+        return nx, ny
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Extent along x and y, a cell around each point [m]."""
+        return self.shape[0] * self.spacing[0], self.shape[1] * self.spacing[1]
+
+    @property
+    def x(self) -> Array:
+        """Positions along x, shape (nx,) [m]."""
+        return _centred(self.shape[0], self.spacing[0])
+
+    @property
+    def y(self) -> Array:
+        """Positions along y, shape (ny,) [m]."""
+        return _centred(self.shape[1], self.spacing[1])
+
+    @cached_property
+    def missing(self) -> NDArray[np.bool_]:
+        """Where no height is known, shape (nx, ny)."""
+        return np.isnan(self.heights)
+
+    @property
+    def missing_share(self) -> float:
+        """Part of the points without a height [-]."""
+        return float(self.missing.mean())
+
+    @cached_property
+    def rms_height(self) -> float:
+        """Root-mean-square deviation of the known heights from their mean (Sq) [m]."""
+        return float(np.nanstd(self.heights))
+
+    @property
+    def height_range(self) -> float:
+        """Highest less lowest known height (Sz) [m]."""
+        return float(np.nanmax(self.heights) - np.nanmin(self.heights))
+
+    @cached_property
+    def skewness(self) -> float:
+        """Third moment of the known heights over the cube of their rms (Ssk); 0 of a plane [-].
+
+        Negative where deep valleys lie below a plateau, positive where peaks stand on one.
+        """
+        deviation = self.heights - np.nanmean(self.heights)
+        rms = self.rms_height
+        return float(np.nanmean(deviation**3)) / rms**3 if rms > 0 else 0.0
+
+    @cached_property
+    def rms_slope(self) -> float:
+        """Root-mean-square gradient, from differences of neighbouring points (Sdq) [-]."""
+        return float(np.sqrt(sum(self._mean_square_slope(axis) for axis in (0, 1))))
+
+    def _mean_square_slope(self, axis: int) -> float:
+        steps = np.diff(self.heights, axis=axis)
+        if self.periodic:
+            first, last = (np.take(self.heights, [end], axis=axis) for end in (0, -1))
+            steps = np.concatenate([steps, first - last], axis=axis)
+        known = steps[np.isfinite(steps)] / self.spacing[axis]
+        return float(np.mean(known**2)) if known.size else 0.0
+
+    def with_heights(self, heights: ArrayLike) -> Surface:
+        """Return the same mesh with other heights [m]."""
+        return Surface(heights, self.spacing, name=self.name, periodic=self.periodic)
+
+    def __repr__(self) -> str:
+        nx, ny = self.shape
+        lx, ly = self.size
+        return f"Surface({self.name}: {nx} x {ny} points on {lx:.4g} m x {ly:.4g} m)"
+
+
+def _centred(points: int, spacing: float) -> Array:
+    # As the grid's cell centres, to the last bit where the sizes agree.
+    offsets = (2 * np.arange(points) - (points - 1)).astype(np.float64)
+    return offsets * (points * spacing / (2 * points))
+
+
+def _steps(name: str, spacing: float | tuple[float, float]) -> tuple[float, float]:
+    pair = spacing if isinstance(spacing, tuple | list) else (spacing, spacing)
+    numbers = [as_real(each) for each in pair]
+    if len(numbers) != 2 or any(n is None or not 0 < n < _LARGEST for n in numbers):
+        raise ValueError(
+            f"{name}: spacing must be the distance of neighbouring points in m, or that along x "
+            f"and that along y, got {spacing!r}"
+        )
+    return float(numbers[0] or 0), float(numbers[1] or 0)
+
+
+def _map_of(name: str, heights: ArrayLike) -> Array:
+    try:
+        given = np.ma.filled(np.ma.asarray(heights).astype(np.float64), np.nan)
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"{name}: heights must be numbers in rows of equal length") from error
+    if given.ndim != 2 or given.size == 0:
+        raise ValueError(f"{name}: heights must be a map [x, y], got shape {given.shape}")
+    known = given[~np.isnan(given)]
+    if known.size == 0:
+        raise ValueError(f"{name}: all {given.size} heights are missing")
+    if np.abs(known).max() > _LARGEST:
+        raise ValueError(
+            f"{name}: heights must be lengths in m, got {known[np.abs(known).argmax()]:g} m; give "
+            "points that were not measured as NaN"
+        )
+    copy = np.array(given)
+    copy.flags.writeable = False
+    return copy
