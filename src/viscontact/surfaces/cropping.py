@@ -118,12 +118,12 @@ def swept(surface: Surface, width: float) -> Surface:
     """
     if min(surface.shape) != 1:
         raise ValueError(
-            f"{surface.name}: width is for line scans, and this is a map of {surface.shape[0]} x "
+            f"width: is for line scans, and {surface.name} is a map of {surface.shape[0]} x "
             f"{surface.shape[1]} points; leave it out"
         )
     wide = as_real(width)
     if wide is None or not 0 < wide < math.inf:
-        raise ValueError(f"width must be a length in m, got {width!r}")
+        raise ValueError(f"width: must be a length in m, got {width!r}")
     line = surface.heights.ravel()
     step = surface.spacing[0 if surface.shape[0] > 1 else 1]
     across = min(max(2, round(wide / step)), _MOST_ACROSS)

@@ -39,6 +39,7 @@ def read_instrument(path: Path, units: Units, channel: str | None) -> Surface:
     try:
         # It takes two seconds to import, and only who has such a file needs it.
         from SurfaceTopography import open_topography
+        from SurfaceTopography.Exceptions import CannotDetectFileFormat, UnknownFileFormat
     except ImportError as error:
         raise ValueError(
             f"{path.name}: reading {path.suffix or 'such'} files needs SurfaceTopography; type: "
@@ -54,6 +55,11 @@ def read_instrument(path: Path, units: Units, channel: str | None) -> Surface:
                 heights: Any = topography.heights()
     except (MemoryError, _RefusedError):
         raise
+    except (CannotDetectFileFormat, UnknownFileFormat) as error:
+        raise ValueError(
+            f"{path.name}: cannot be read as a surface: its content is in no format that is known, "
+            "or broken"
+        ) from error
     except Exception as error:  # a reader of 42 formats raises whatever a broken file makes it
         why = str(error).splitlines()[0] if str(error).strip() else type(error).__name__
         raise ValueError(f"{path.name}: cannot be read as a surface: {why}") from error

@@ -71,9 +71,11 @@ def read_surface(
     ([0.0, 1e-09, 2e-09], 0.16666666666666666)
     """
     path = require_file(path)
+    if path.stat().st_size == 0:
+        raise ValueError(f"{path.name}: cannot be read as a surface: the file is empty")
     factor = as_real(height_factor)
     if factor is None or factor == 0:
-        raise ValueError(f"height_factor must be a number other than 0, got {height_factor!r}")
+        raise ValueError(f"height_factor: must be a number other than 0, got {height_factor!r}")
     read = _READERS.get(path.suffix.lower(), read_instrument)
     surface = read(path, Units(path.name, spacing, height_unit), channel)
     if factor != 1:

@@ -24,7 +24,7 @@ ALPHA = math.sqrt(math.log(2) / math.pi)
 #: can hold, 6 % are left.
 CUTOFF_CELLS = 4.0
 
-#: Weights of the Gaussian below this part of the largest are left out.
+#: Weights below this part of the largest are left out.
 _NEGLIGIBLE = 1e-12
 
 #: Points of a mesh that no map needs.
@@ -162,7 +162,7 @@ def _matrix(
     points = np.rint(middle).astype(np.intp)[:, np.newaxis] + np.arange(-wide, wide + 1)
     values = weight((points - middle[:, np.newaxis]) * spacing)
     # Rounding leaves slivers of cells that only touch.
-    within = values > 1e-9 * values.max()
+    within = values > _NEGLIGIBLE * values.max()
     within &= True if surface.periodic else (points >= 0) & (points < old)
     rows = np.broadcast_to(np.arange(new)[:, np.newaxis], points.shape)
     entries = (values[within], (rows[within], points[within] % old))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,8 @@ from viscontact.surfaces.units import Units
 from viscontact.tables import Row, Table, decimal_number, looks_like_number, read_rows, read_table
 
 Array = NDArray[np.float64]
+
+_NAMES = {"x": "x", "y": "y", "z": "height", "height": "height"}
 
 _NOT_MEASURED = ("", "nan", "na", "n/a", "-", "bad", "***")
 
@@ -51,7 +54,23 @@ def read_text_map(path: Path, units: Units, channel: str | None) -> Surface:
         heights = _matrix(path.name, rows)
         return Surface(heights * units.height_scale, units.steps, name=path.name)
     units.require_none()
-    return _from_points(read_table(path))
+    return _from_points(read_table(path, _columns(path.name, rows[0])))
+
+
+def _columns(name: str, header: Row) -> dict[str, str | None]:
+    """Which columns are the position and the height; others are left out."""
+    told: dict[str, str | None] = {}
+    for cell in filter(None, header.cells):
+        found = re.match(r"\w+", cell.lower())
+        quantity = _NAMES.get(found[0]) if found else None
+        told[cell] = None if quantity in told.values() else quantity
+    absent = [each for each in ("x", "y", "height") if each not in told.values()]
+    if absent:
+        raise ValueError(
+            f"{name}: the column {absent[0]} is missing; a map is rows of bare heights, or columns "
+            f"'x [um], y [um], height [nm]', got {', '.join(map(repr, told)) or 'none'}"
+        )
+    return told
 
 
 def _is_height(cell: str) -> bool:
