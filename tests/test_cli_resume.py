@@ -342,6 +342,28 @@ def test_signal_that_arrives_twice_from_a_batch_system_is_one_request(
         assert ds.sizes["time"] == len(solved) + 1  # the first instant has no contact to be solved
 
 
+def test_second_request_within_a_step_stops_at_once(
+    folder: Path, whole: xr.Dataset, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    solve, solved = past.solve_contact, []
+
+    def solving(*arguments: Any, **options: Any) -> Any:
+        if len(solved) == 3:
+            signal.raise_signal(signal.SIGINT)
+            signal.raise_signal(signal.SIGINT)
+        solved.append(1)
+        return solve(*arguments, **options)
+
+    with monkeypatch.context() as patched:
+        patched.setattr(past, "solve_contact", solving)
+        assert main(["run", "case.yaml", "-q"]) == 130
+    assert len(solved) == 3  # the step in progress was not solved
+    with vc.open_results("case") as ds:
+        assert ds.sizes["time"] == 4  # the first instant has no contact to be solved
+    assert main(["run", "case.yaml", "-q", "--resume"]) == 0
+    assert same_bits("case", whole)
+
+
 def test_second_request_within_a_checkpoint_waits_for_its_end(
     folder: Path, whole: xr.Dataset, monkeypatch: pytest.MonkeyPatch
 ) -> None:

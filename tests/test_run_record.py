@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import io
+import os
 import shutil
 import time as clock
 from pathlib import Path
@@ -222,6 +223,43 @@ def test_run_that_is_stopped_after_every_step_ends_in_the_same_bits(
         stop_after(RunRecord.resume(recorded), instants)
     finish(RunRecord.resume(recorded))
     assert same_bits(recorded.directory, whole)
+
+
+def test_what_a_checkpoint_saves_is_on_the_disk_in_an_order_that_a_power_cut_respects(
+    recorded: Recorded, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("viscontact.recording.run_record.PAUSE", 0.0)
+    monkeypatch.setattr("viscontact.recording.run_record.SHARE", 0.0)
+    events: list[tuple[str, int, int]] = []
+    replace = os.replace
+
+    def flush(descriptor: int) -> None:
+        found = os.fstat(descriptor)
+        events.append(("flushed", found.st_ino, found.st_mtime_ns))
+
+    def replacing(source: Path, target: Path) -> None:
+        found = Path(source).stat()
+        events.append((Path(target).name, found.st_ino, found.st_mtime_ns))
+        replace(source, target)
+
+    monkeypatch.setattr(os, "fsync", flush)
+    monkeypatch.setattr(os, "replace", replacing)
+    record = RunRecord(recorded)
+    lines = recorded.directory / PROGRESS_NAME
+    for _ in record.steps():
+        if record.kept == 1:  # from here on the directory is this run's
+            events.clear()
+            continue
+        names = [name for name, *_ in events]
+        saved = names.index(STATE_NAME)
+        assert names.index("result.nc") < saved
+        assert ("flushed", lines.stat().st_ino, lines.stat().st_mtime_ns) in events[:saved]
+        for at in (names.index("result.nc"), saved):
+            assert events[at - 1] == ("flushed", *events[at][1:])
+        if os.name != "nt":
+            assert events[saved + 1][:2] == ("flushed", recorded.directory.stat().st_ino)
+        events.clear()
+    record.close()
 
 
 def test_steps_since_the_checkpoint_are_not_solved_again(
