@@ -18,6 +18,7 @@ from viscontact.step_by_step import March, Taken
 pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
 
 GRID = vc.Grid((36, 24), (3e-3, 2e-3))
+SMALL = vc.Grid((16, 16), (2e-3, 2e-3))  # for runs of many steps
 ZENER = vc.Material(vc.Zener(1e6, 5e5, 1e6), 0.5)
 POWER = vc.Material(vc.PowerLaw(2e-7, 0.3, 1.0, instant=3e-7), 0.4)
 UP_AND_DOWN = vc.ForceHistory([0, 1, 2, 2, 3, 4, 5], [0, 0.2, 0.2, 0.05, 0, 0, 0.1])
@@ -48,7 +49,7 @@ RUNS = {
         vc.log_times(0.01, 3.0, 7),
     ),
     "adaptive swing": lambda: prepare_run(
-        vc.Sphere(0.01), ZENER, vc.harmonic(0.1, 0.06, 2.0, 2), GRID, vc.adaptive_times(4.5, 0.03)
+        vc.Sphere(0.01), ZENER, vc.harmonic(0.1, 0.06, 2.0, 1), SMALL, vc.adaptive_times(2.2, 0.03)
     ),
     "adaptive power law in a soft start": lambda: prepare_run(
         vc.Sphere(0.01), POWER, vc.ramp(0.1, 1.0), GRID, vc.adaptive_times(3.0, 0.03), fields=[2.0]
