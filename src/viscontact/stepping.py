@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from viscontact.real import as_real
 
-
 #: More are more than anyone waits for.
 _MOST_STEPS = 10_000_000
 
