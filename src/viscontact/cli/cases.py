@@ -39,7 +39,7 @@ def example(
     if output is None:
         print(text, end="")
         return
-    _write_example(output, text, overwrite=overwrite)
+    _write_example(output, text, _data_of(text), overwrite=overwrite)
 
 
 def demo(
@@ -88,14 +88,30 @@ def _example_text(name: str) -> str:
     return examples[name].read_text(encoding="utf-8")
 
 
-def _write_example(output: Path, text: str, *, overwrite: bool) -> None:
-    """Write the case, and beside it the schema that its first line names to editors."""
-    if output.exists() and not overwrite:
-        refuse(f"{output}: is there already; choose another name, or --overwrite")
+def _is(path: Path, content: bytes) -> bool:
+    return path.is_file() and path.read_bytes() == content
+
+
+def _data_of(text: str) -> dict[str, bytes]:
+    """Shipped files that a case names."""
+    named = re.findall(r"^[ -]*file: *([\w.-]+)", text, re.MULTILINE)
+    return {name: (files("viscontact.examples") / name).read_bytes() for name in named}
+
+
+def _write_example(output: Path, text: str, data: dict[str, bytes], *, overwrite: bool) -> None:
+    """Write the case, its data, and the schema that its first line names to editors."""
+    beside = {output.parent / name: content for name, content in data.items()}
+    for path in (output, *beside):
+        if path.exists() and not (overwrite or (path in beside and _is(path, beside[path]))):
+            refuse(f"{path}: is there already; choose another name, or --overwrite")
     try:
         output.write_text(text, encoding="utf-8")
+        for path, content in beside.items():
+            path.write_bytes(content)
         (output.parent / SCHEMA_NAME).write_text(_schema_text() + "\n", encoding="utf-8")
     except OSError as error:
         refuse(f"{output}: cannot be written: {error}")
+    for path in beside:
+        print(f"{path}, which it reads")
     print(f"{output}, and {SCHEMA_NAME} for completion in editors")
     print(f"Next: viscontact run {output}")
