@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
+import numpy as np
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
+from viscontact.cli.figures import plot_package, save
 from viscontact.cli.messages import refuse
 from viscontact.cli.preparation import Prepared
 from viscontact.estimate import ContactEstimate
@@ -14,14 +18,22 @@ from viscontact.plausibility import DOUBTFUL_CELLS
 from viscontact.run import Run
 from viscontact.units import in_digits, in_words
 
+#: An end of the body within so many times the grid is drawn as well.
+FARTHEST_END = 1.3
 
-def print_forecast(prepared: Prepared) -> None:
+
+def print_forecast(prepared: Prepared) -> Forecast:
     """Print what a run will need and what it may find.
 
     Parameters
     ----------
     prepared : Prepared
         A case, checked.
+
+    Returns
+    -------
+    Forecast
+        What was printed.
     """
     try:
         expected = forecast(prepared.run)
@@ -42,6 +54,52 @@ def print_forecast(prepared: Prepared) -> None:
             soft_wrap=True,
         )
         console.print(_listed(_expectations(expected, expected.estimate, control)))
+    return expected
+
+
+def draw_body(prepared: Prepared, expected: Forecast, picture: Path | None) -> None:
+    """Draw the indenter, on the grid's part of the surface and as far as it goes beside it.
+
+    Parameters
+    ----------
+    prepared : Prepared
+        A case, checked.
+    expected : Forecast
+        Its contact is shaded.
+    picture : Path or None
+        The file; None for CASE-indenter.png beside the case.
+    """
+    plot, found, run = plot_package(), expected.estimate, prepared.run
+    contact = found and (found.centre_x, found.centre_y, found.length, found.width)
+    path = prepared.case.document.path
+    file = picture or path.with_name(f"{path.stem}-indenter.png")
+    size = drawn_size(run)
+    save(plot, file, plot.draw_indenter, run.indenter, size=size, contact=contact)
+
+
+def drawn_size(run: Run) -> tuple[float, float]:
+    """Return how much of the body is drawn: the grid, and more if the body ends not far beyond it.
+
+    Parameters
+    ----------
+    run : Run
+        A run that has been checked.
+
+    Returns
+    -------
+    tuple of float
+        Extents along x and y [m].
+    """
+    size = list(run.grid.size)
+    for axis in (0, 1):
+        beyond = np.linspace(1.0, FARTHEST_END, 400) * size[axis] / 2
+        places = np.zeros((2, 2, beyond.size))
+        places[axis] = -beyond, beyond
+        gap = run.indenter.gap(places[0], places[1])
+        if np.isinf(gap[:, -1]).any() and np.isfinite(gap[:, 0]).any():
+            last = beyond[np.flatnonzero(np.isfinite(gap).any(axis=0))[-1]]
+            size[axis] = 2.1 * float(last)
+    return size[0], size[1]
 
 
 def _listed(rows: list[tuple[str, str]]) -> Table:

@@ -54,9 +54,23 @@ def run(
         stop("interrupted", code=INTERRUPTED)
 
 
-def check(case: CaseFile, settings: Settings = None) -> None:
+def check(
+    case: CaseFile,
+    figure: Annotated[
+        Path | None,
+        typer.Argument(metavar="FIG.png", help="With --plot: where to; CASE-indenter.png."),
+    ] = None,
+    plot: Annotated[bool, typer.Option("--plot", help="Draw the indenter, too.")] = False,
+    settings: Settings = None,
+) -> None:
     """Check a case, and say how large it is, how long it takes and what to expect."""
-    from viscontact.cli.inspection import print_forecast
+    from viscontact.cli.inspection import draw_body, print_forecast
+    from viscontact.cli.messages import refuse
     from viscontact.cli.preparation import prepare
 
-    print_forecast(prepare(case, settings or []))
+    if figure is not None and not plot:
+        refuse(f"{figure}: a picture goes with --plot, as in: check {case} --plot {figure}")
+    prepared = prepare(case, settings or [])
+    expected = print_forecast(prepared)
+    if plot:
+        draw_body(prepared, expected, figure)

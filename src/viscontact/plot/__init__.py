@@ -20,6 +20,7 @@ from viscontact.plot.creep import creep, creep_curve
 from viscontact.plot.history import compare_histories, history
 from viscontact.plot.hysteresis import compare_hysteresis, hysteresis
 from viscontact.plot.identified import fitted_indentation, fitted_series, master_curve
+from viscontact.plot.indenter_drawing import draw_indenter
 from viscontact.plot.material_curves import material_curves
 from viscontact.plot.pressure_map import pressure_map
 from viscontact.plot.pressure_profile import compare_pressure_profiles, pressure_profile
@@ -56,6 +57,7 @@ __all__ = [
     "contact_outline",
     "creep",
     "creep_curve",
+    "draw_indenter",
     "fitted_indentation",
     "fitted_series",
     "history",

@@ -1,0 +1,119 @@
+"""Cuts through an indenter, and where they run."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import minimize
+
+from viscontact.indenters import Indenter
+
+_POINTS = 1601
+# Halvings of a step that place an end to rounding.
+_BISECTIONS = 60
+# A section is drawn up to the height that so much of it stays below: ends may rise without end.
+SHOWN_PART, _ROOM = 0.96, 1.35
+
+
+@dataclass(frozen=True, eq=False)
+class Section:
+    """A cut through a body.
+
+    Attributes
+    ----------
+    position, gap : ndarray
+        Along the cut, and the gap to the plane there, NaN where there is no body [m].
+    ends : tuple of float
+        Where the body ends within the drawing [m].
+    """
+
+    position: NDArray[np.float64]
+    gap: NDArray[np.float64]
+    ends: tuple[float, ...]
+
+    @property
+    def top(self) -> float:
+        """Height up to which it is drawn [m]."""
+        solid = self.gap[np.isfinite(self.gap)]
+        shown = _ROOM * float(np.quantile(solid, SHOWN_PART)) if solid.size else 0.0
+        extent = float(self.position[-1] - self.position[0])
+        return shown if shown > 1e-12 * extent else 0.02 * extent
+
+
+def lines_through(
+    indenter: Indenter,
+    x: NDArray[np.float64],
+    y: NDArray[np.float64],
+    gap: NDArray[np.float64],
+) -> tuple[float, float]:
+    """Where sections run: through deepest points, as near to the axes as there are any.
+
+    Parameters
+    ----------
+    indenter : Indenter
+        The body.
+    x, y, gap : ndarray
+        A mesh over the drawing, and the gap on it [m].
+
+    Returns
+    -------
+    x, y : float
+        Of the section along y and of that along x [m].
+    """
+    step = float(max(x[1] - x[0], y[1] - y[0]))
+    i, j = np.nonzero(gap <= gap.min() + 1e-9 * step)
+    at = float(x[i][np.abs(x[i]).argmin()]), float(y[j][np.abs(y[j]).argmin()])
+    if gap.min() <= 1e-9 * step:
+        return at
+    # The deepest point lies between those of the mesh.
+    start = np.array([x[i[0]], y[j[0]]])
+    found = minimize(
+        lambda u: float(np.nan_to_num(indenter.gap(*(start + step * u)), posinf=1e30)) / step,
+        np.zeros(2),
+        method="Nelder-Mead",
+        options={"initial_simplex": [[0, 0], [1, 0], [0, 1]], "xatol": 1e-6, "fatol": 1e-15},
+    )
+    deepest = start + step * found.x
+    return float(deepest[0]), float(deepest[1])
+
+
+def cut(indenter: Indenter, extent: float, at: float, axis: int) -> Section:
+    """Cut a body along an axis.
+
+    Parameters
+    ----------
+    indenter : Indenter
+        The body.
+    extent : float
+        Length of the cut, around the origin [m].
+    at : float
+        Where it crosses the other axis [m].
+    axis : int
+        0 for a cut along x, 1 for one along y.
+
+    Returns
+    -------
+    Section
+        With its ends among the points.
+    """
+    position = np.linspace(-extent / 2, extent / 2, _POINTS)
+
+    def gap_at(along: NDArray[np.float64]) -> NDArray[np.float64]:
+        fixed = np.full_like(along, at)
+        return indenter.gap(along, fixed) if axis == 0 else indenter.gap(fixed, along)
+
+    solid = np.isfinite(gap_at(position))
+    ends = []
+    for k in np.flatnonzero(solid[1:] != solid[:-1]).tolist():
+        inside, outside = (k, k + 1) if solid[k] else (k + 1, k)
+        low, high = float(position[inside]), float(position[outside])
+        for _ in range(_BISECTIONS):
+            middle = (low + high) / 2
+            within = bool(np.isfinite(gap_at(np.array([middle])))[0])
+            low, high = (middle, high) if within else (low, middle)
+        ends.append(low)
+    position = np.sort(np.concatenate([position, ends]))
+    gap = gap_at(position)
+    return Section(position, np.where(np.isfinite(gap), gap, np.nan), tuple(ends))

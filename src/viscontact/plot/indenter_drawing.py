@@ -1,0 +1,266 @@
+"""A drawing of an indenter: sections along and across, and the plan."""
+
+from __future__ import annotations
+
+import math
+import re
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
+from numpy.typing import NDArray
+
+from viscontact.indenters import CombinedIndenter, Indenter, PlacedIndenter, Roller
+from viscontact.plot import style
+from viscontact.plot.cross_section import SHOWN_PART, Section, cut, lines_through
+from viscontact.plot.readable import DisplayUnit, display_number, display_unit
+
+_PLAN_POINTS = 601
+_BODY, _BODY_EDGE = "#dfe5ea", style.INK
+# A plan so many times longer than wide, or less, is drawn as it is.
+_TRUE_SHAPE = 3.0
+# Heights of the contour lines over that which is shown.
+_LEVELS = (0.02, 0.1, 0.25, 0.5, 1.0)
+
+
+def draw_indenter(
+    indenter: Indenter,
+    size: tuple[float, float],
+    *,
+    contact: tuple[float, float, float, float] | None = None,
+    title: str = "",
+) -> Figure:
+    """Draw an indenter: sections along x and y through its deepest point, and its plan.
+
+    Parameters
+    ----------
+    indenter : Indenter
+        The body.
+    size : tuple of float
+        Extents of the part that is drawn, along x and y, around the origin [m].
+    contact : tuple of float, optional
+        Middle and extents of an expected contact, x, y, length and width, which is shaded [m].
+    title : str, optional
+        What stands above the facts.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Three panels; how much heights are exaggerated stands above the sections.
+
+    Raises
+    ------
+    ValueError
+        If an extent is not positive, or none of the body lies within them.
+    """
+    if not all(math.isfinite(extent) and extent > 0 for extent in size):
+        raise ValueError(f"size must hold positive extents in m, got {size}")
+    x, y = (np.linspace(-extent / 2, extent / 2, _PLAN_POINTS) for extent in size)
+    gap = indenter.gap(x[:, None], y)
+    if not np.isfinite(gap).any():
+        raise ValueError(
+            f"nothing of the body lies within {size[0]:.3g} m x {size[1]:.3g} m around the origin; "
+            "draw a larger part"
+        )
+    through = lines_through(indenter, x, y, gap)
+    along = cut(indenter, size[0], through[1], axis=0)
+    across = cut(indenter, size[1], through[0], axis=1)
+    figure = style.new_figure(style.TWO_COLUMNS, 4.8)
+    panels = figure.subplots(2, 2, width_ratios=(1.35, 1), height_ratios=(1, 1.1))
+    unit = display_unit("m", *size)
+    _draw_section(panels[0, 0], along, unit, "x", "y", through[1], contact)
+    _draw_section(panels[0, 1], across, unit, "y", "x", through[0], contact)
+    _draw_plan(panels[1, 0], x, y, gap, unit, contact)
+    facts = _facts(indenter, along, across, contact)
+    _tell(panels[1, 1], [*filter(None, [title]), *facts])
+    _tell_stretches(figure, panels, (along, across))
+    return figure
+
+
+def _draw_section(
+    axes: Axes,
+    section: Section,
+    unit: DisplayUnit,
+    along: str,
+    fixed: str,
+    place: float,
+    contact: tuple[float, float, float, float] | None,
+) -> None:
+    style.dress(axes)
+    height = display_unit("m", section.top)
+    position, gap, top = unit(section.position), height(section.gap), float(height(section.top))
+    if contact is not None:
+        middle, extent = (contact[0], contact[2]) if along == "x" else (contact[1], contact[3])
+        span = (float(unit(middle - extent / 2)), float(unit(middle + extent / 2)))
+        axes.axvspan(*span, color=style.LINE, alpha=0.12, linewidth=0)
+    axes.fill_between(position, np.minimum(gap, top), top, color=_BODY, linewidth=0)
+    axes.plot(position, gap, color=_BODY_EDGE, linewidth=style.LINE_WIDTH)
+    axes.axhline(0, color=style.FAINT, linewidth=style.THIN_LINE)
+    for end in section.ends:
+        axes.axvline(
+            float(unit(end)),
+            color="#D55E00",
+            linewidth=style.THIN_LINE * 1.5,
+            linestyle=(0, (4, 2)),
+        )
+    axes.set(
+        xlim=(position[0], position[-1]),
+        ylim=(-0.04 * top, top),
+        xlabel=unit.label(along),
+        ylabel=height.label("gap"),
+    )
+    # The middle of an even mesh is zero but for a rounding.
+    where = _length(place) if abs(place) > 1e-6 * section.position[-1] else "0"
+    style.add_heading(axes, f"along {along}, at {fixed} = {where}")
+
+
+def _draw_plan(
+    axes: Axes,
+    x: NDArray[np.float64],
+    y: NDArray[np.float64],
+    gap: NDArray[np.float64],
+    unit: DisplayUnit,
+    contact: tuple[float, float, float, float] | None,
+) -> None:
+    style.dress(axes)
+    solid = np.isfinite(gap)
+    highest = float(np.quantile(gap[solid], SHOWN_PART)) or 1.0
+    axes.contourf(
+        unit(x), unit(y), solid.T.astype(float), levels=[0.5, 1.5], colors=[_BODY], antialiased=True
+    )
+    levels = [part * highest for part in _LEVELS]
+    axes.contour(
+        *(unit(x), unit(y), np.where(solid, gap, np.nan).T),
+        levels=levels,
+        colors=[style.FAINT],
+        linewidths=style.THIN_LINE,
+    )
+    if not solid.all():
+        axes.contour(
+            *(unit(x), unit(y), solid.T.astype(float)),
+            levels=[0.5],
+            colors=["#D55E00"],
+            linewidths=1.2,
+        )
+    if contact is not None:
+        corner = contact[0] - contact[2] / 2, contact[1] - contact[3] / 2
+        shade = Rectangle(
+            (float(unit(corner[0])), float(unit(corner[1]))),
+            float(unit(contact[2])),
+            float(unit(contact[3])),
+            color=style.LINE,
+            alpha=0.12,
+            linewidth=0,
+        )
+        axes.add_patch(shade)
+    axes.set(
+        xlim=(float(unit(x[0])), float(unit(x[-1]))),
+        ylim=(float(unit(y[0])), float(unit(y[-1]))),
+        xlabel=unit.label("x"),
+        ylabel=unit.label("y"),
+    )
+    if 1 / _TRUE_SHAPE <= x[-1] / y[-1] <= _TRUE_SHAPE:
+        axes.set_aspect("equal")
+    style.add_heading(axes, "plan")
+
+
+def _tell(axes: Axes, facts: list[str]) -> None:
+    """Write beside the drawing what it does not show in numbers."""
+    axes.set_axis_off()
+    axes.text(
+        *(0.0, 1.0, "\n".join(facts)),
+        transform=axes.transAxes,
+        verticalalignment="top",
+        fontsize=style.TICK_SIZE,
+        color=style.INK,
+        linespacing=1.6,
+    )
+
+
+def _facts(
+    indenter: Indenter,
+    along: Section,
+    across: Section,
+    contact: tuple[float, float, float, float] | None,
+) -> list[str]:
+    facts = [*_names(indenter), _ends_told("x", along), _ends_told("y", across)]
+    facts.append("lines in the plan: equal gap")
+    for axis, curvature in zip("xy", indenter.curvatures, strict=True):
+        if curvature > 0:
+            facts.append(f"radius of curvature along {axis}: {_length(1 / curvature)}")
+    if contact is not None:
+        extents = " × ".join(_length(extent, digits=3) for extent in contact[2:])
+        facts.append(f"shaded: expected contact, {extents}")
+    return facts
+
+
+def _names(indenter: Indenter) -> list[str]:
+    """What a body is called, part by part."""
+    if isinstance(indenter, CombinedIndenter):
+        first, *others = [_names(part) for part in indenter.parts]
+        return [*first, *(f"+ {name}" for names in others for name in names)]
+    if isinstance(indenter, PlacedIndenter):
+        told = [f"turned by {display_number(math.degrees(indenter.angle))}°"] * bool(indenter.angle)
+        moves = {"x": indenter.x, "y": indenter.y}
+        told += [f"moved by {_length(far)} along {axis}" for axis, far in moves.items() if far]
+        return [*_names(indenter.body), *told]
+    name = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", type(indenter).__name__).capitalize()
+    if isinstance(indenter, Roller):
+        line = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", type(indenter.line).__name__).lower()
+        return [f"{name}, {line}", _drop_told(indenter)]
+    return [name]
+
+
+def _drop_told(roller: Roller) -> str:
+    """How far the generating line has dropped where it ends, just before it falls without end."""
+    drop = float(roller.drop(roller.end * (1 - 1e-12)))
+    if drop == 0:
+        return "straight to the end"
+    quarter = _length(float(roller.drop(0.75 * roller.end)), digits=3)
+    told = f"drop: {quarter} at 3/4 of the way"
+    lasts = float(roller.drop(roller.end)) < math.inf and drop < roller.radius
+    return f"{told}, {_length(drop, digits=3)} at the end" if lasts else told
+
+
+def _ends_told(axis: str, section: Section) -> str:
+    if not section.ends:
+        return f"no end along {axis} within the drawing"
+    first, *_, last = (*section.ends, *section.ends)
+    if len(section.ends) == 2 and abs(first + last) <= 1e-9 * last:
+        return f"ends (dashed) at {axis} = ±{_length(last)}"
+    unit = display_unit("m", section.ends)
+    places = ", ".join(_signed(display_number(float(unit(end)), 4)) for end in section.ends)
+    return f"ends (dashed) at {axis} = {places} {unit.symbol}"
+
+
+def _length(value: float, digits: int = 4) -> str:
+    unit = display_unit("m", value)
+    return _signed(f"{display_number(float(unit(value)), digits)} {unit.symbol}")
+
+
+def _signed(number: str) -> str:
+    return number.replace("-", "\N{MINUS SIGN}")
+
+
+def _tell_stretches(
+    figure: Figure, panels: NDArray[np.object_], sections: tuple[Section, Section]
+) -> None:
+    """Say how much heights are exaggerated, and y in the plan, once the layout is known."""
+    figure.draw_without_rendering()
+    for axes, section in zip(panels[0], sections, strict=True):
+        box = axes.get_window_extent()
+        extent = float(section.position[-1] - section.position[0])
+        stretch = (box.height / (1.04 * section.top)) / (box.width / extent)
+        style.add_heading(axes, _stretched("heights", stretch), aside=True)
+    box = panels[1, 0].get_window_extent()
+    lengths = [float(each.position[-1] - each.position[0]) for each in sections]
+    stretch = (box.height / lengths[1]) / (box.width / lengths[0])
+    style.add_heading(panels[1, 0], _stretched("y", stretch), aside=True)
+
+
+def _stretched(what: str, stretch: float) -> str:
+    digits = 1 if stretch > 100 else 2
+    if abs(math.log(stretch)) < math.log(1.05):
+        return "true shape"
+    return f"{what} drawn {display_number(stretch, digits)}×"
