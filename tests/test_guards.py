@@ -289,6 +289,22 @@ GUARDS = {
             times=np.linspace(0, 20, 41),
         ),
     ),
+    "a table that would gain energy": Guard(
+        vc.AccuracyWarning,
+        "a loss modulus of -13% of its modulus, and no material gains energy",
+        met=Job(
+            material=vc.Material(vc.TabulatedCreep([1, 10, 100], [1e-6, 3e-6, 1e-5]), 0.5),
+            load=vc.ramp(100.0, 20.0),
+            times=np.linspace(0, 100, 30),
+        ),
+        missed=Job(
+            material=vc.Material(
+                vc.TabulatedCreep([0, 1, 10, 100], [1e-6, 1.1e-6, 1.2e-6, 1.3e-6]), 0.5
+            ),
+            load=vc.ramp(100.0, 20.0),
+            times=np.linspace(0, 100, 30),
+        ),
+    ),
     "a law that is no number": Guard(
         ValueError,
         "material: its law gives a contact compliance of nan /Pa",

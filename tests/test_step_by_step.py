@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import math
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
@@ -153,3 +153,16 @@ def test_step_of_another_run_is_refused(run: Run) -> None:
     whole = list(March(run))
     with pytest.raises(ValueError, match="is not the next one of this run"):
         march.repeat(whole[-1].solved)
+
+
+def test_step_whose_error_this_run_does_not_allow_is_refused() -> None:
+    # Else what is remembered would be a step ahead of the time.
+    run = RUNS["adaptive swing"]()
+    march, whole = March(run), list(March(run))
+    for taken in whole[:-1]:
+        march.repeat(taken.solved)
+    last = whole[-1].solved
+    found = last.solution.found
+    wrong = replace(found, pressure=9 * found.pressure, deflection=9 * found.deflection)
+    with pytest.raises(ValueError, match="is not one that this run takes"):
+        march.repeat(replace(last, solution=replace(last.solution, found=wrong)))

@@ -98,7 +98,7 @@ class March:
         Raises
         ------
         ValueError
-            If it is not the next step of this run.
+            If it is not the next step of this run, or not one that it would have taken.
         """
         for error in solved.refused:
             self._steps.accepts(error)
@@ -106,7 +106,8 @@ class March:
         if step is None or step.time != solved.time:
             raise ValueError(f"a step to t = {solved.time:.9g} s is not the next one of this run")
         trial = self._past.repeat(step, solved.solution, solved.outcome)
-        self._steps.accepts(trial.error.relative)
+        if not self._steps.accepts(trial.error.relative):
+            raise ValueError(f"the step to t = {solved.time:.9g} s is not one that this run takes")
         self._half_space.keep_patch(solved.patch)
         return self._taken(step, trial, solved)
 
