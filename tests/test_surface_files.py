@@ -147,6 +147,28 @@ def test_npz_carries_its_units(tmp_path: Path) -> None:
     assert vc.read_surface(file, spacing=1e-6, height_unit="m", channel="b").shape == (12, 8)
 
 
+@pytest.mark.parametrize(
+    ("arrays", "said"),
+    [
+        ({"spacing": np.nan}, "spacing must be the distance"),
+        ({"spacing": [1.0, 2.0, 3.0]}, "spacing must be one number or two"),
+        ({"spacing": []}, "spacing must be one number or two"),
+        ({"spacing": "a"}, "spacing must be one number or two"),
+        ({"unit": "MPa"}, "unit: cannot read 'MPa' as a length"),
+        ({"height": HEIGHTS + 1j}, "heights must be numbers, got an array of complex128"),
+        ({"height": HEIGHTS[np.newaxis]}, r"heights must be a map \[x, y\]"),
+        ({"height": np.zeros((0, 3))}, r"heights must be a map \[x, y\]"),
+    ],
+)
+def test_npz_that_makes_no_sense_is_refused_by_its_name(
+    tmp_path: Path, arrays: dict[str, Any], said: str
+) -> None:
+    sound: dict[str, Any] = {"height": HEIGHTS, "spacing": 1.0, "unit": "um"}
+    np.savez(tmp_path / "map.npz", **(sound | arrays))
+    with pytest.raises(ValueError, match=rf"^map\.npz: {said}"):
+        vc.read_surface(tmp_path / "map.npz")
+
+
 def test_pickles_are_not_opened(tmp_path: Path) -> None:
     np.save(tmp_path / "map.npy", np.array([{"a": 1}, {"b": 2}], dtype=object))
     with pytest.raises(ValueError, match=r"map\.npy: cannot be read as an array of numbers"):

@@ -44,24 +44,33 @@ def read_array(path: Path, units: Units, channel: str | None) -> Surface:
     if isinstance(found, np.ndarray):
         if channel is not None:
             raise ValueError(f"channel: {path.name} holds one array without a name; leave it out")
-        return Surface(_lines(found) * units.height_scale, units.steps, name=path.name)
+        return Surface(_lines(path.name, found) * units.height_scale, units.steps, name=path.name)
     return _from_arrays(path, arrays, units, channel)
 
 
 def _from_arrays(path: Path, arrays: dict[str, Any], units: Units, channel: str | None) -> Surface:
-    heights = _lines(_chosen(path, arrays, channel))
-    periodic = bool(arrays.get("periodic", np.False_))
+    heights = _lines(path.name, _chosen(path, arrays, channel))
+    periodic = bool(np.all(arrays.get("periodic", False)))
     if "unit" not in arrays:
-        units_in = heights * units.height_scale
-        return Surface(units_in, units.steps, name=path.name, periodic=periodic)
+        metres = heights * units.height_scale
+        return Surface(metres, units.steps, name=path.name, periodic=periodic)
     units.require_none("height_unit")
-    scale = parse_unit(str(arrays["unit"]), "length")
-    steps: Any = units.steps if "spacing" not in arrays else None
-    if steps is None:
-        units.require_none("spacing")
-        distances = np.atleast_1d(arrays["spacing"]).astype(float) * scale
-        steps = tuple(distances.tolist()) if distances.size > 1 else float(distances[0])
+    try:
+        scale = parse_unit(str(arrays["unit"]), "length")
+    except ValueError as error:
+        raise ValueError(f"{path.name}: unit: {error}") from error
+    if "spacing" not in arrays:
+        return Surface(heights * scale, units.steps, name=path.name, periodic=periodic)
+    units.require_none("spacing")
+    steps = _steps(path.name, arrays["spacing"], scale)
     return Surface(heights * scale, steps, name=path.name, periodic=periodic)
+
+
+def _steps(name: str, spacing: Any, scale: float) -> tuple[float, float]:
+    if spacing.dtype.kind not in "iuf" or spacing.size not in (1, 2):
+        raise ValueError(f"{name}: spacing must be one number or two, got {spacing.tolist()!r:.60}")
+    along_x, along_y = np.broadcast_to(np.ravel(spacing), 2).astype(np.float64) * scale
+    return float(along_x), float(along_y)
 
 
 def _chosen(path: Path, arrays: dict[str, Any], channel: str | None) -> Any:
@@ -76,8 +85,8 @@ def _chosen(path: Path, arrays: dict[str, Any], channel: str | None) -> Any:
     return arrays[channel]
 
 
-def _lines(array: Any) -> Any:
+def _lines(name: str, array: Any) -> Any:
     """An array of numbers as a map; one with a single index is a line scan."""
     if array.dtype.kind not in "iufb":
-        raise ValueError(f"heights must be numbers, got an array of {array.dtype}")
+        raise ValueError(f"{name}: heights must be numbers, got an array of {array.dtype}")
     return array[:, np.newaxis] if array.ndim == 1 else array.astype(np.float64)

@@ -54,12 +54,11 @@ def _within(surface: Surface, axis: int, part: tuple[float, float] | None) -> sl
     if part is None:
         return slice(None)
     name, size, spacing = "xy"[axis], surface.size[axis], surface.spacing[axis]
-    start, stop = (as_real(each) for each in part)
+    start, stop = (as_real(each) for each in (*part, None, None)[:2])
     if start is None or stop is None or not 0 <= start < stop <= size * (1 + 1e-9):
         raise ValueError(
             f"crop: {name} must go from a distance to a larger one within the map's "
-            f"{in_words(size, 'm', 6)}, counted from its first corner, got {part[0]} m to "
-            f"{part[1]} m"
+            f"{in_words(size, 'm', 6)}, counted from its first corner, got {part} m"
         )
     first, last = round(start / spacing), round(stop / spacing)
     if last - first < 2:

@@ -119,7 +119,7 @@ def _hollow(surface: Surface) -> str | None:
     if rest > (1 - FORM_SHARE) * surface.rms_height**2:
         return None
     low, high = sorted((form[2, 0], form[0, 2]))
-    if high <= 0 or low < -0.1 * high:  # a saddle has its own way to touch
+    if low < -0.1 * high:  # a cap, or a saddle, which has its own way to touch
         return None
     return (
         f"{surface.name} is hollow: it would touch along its border first; if it was stored "

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from os import PathLike
 
 from viscontact.real import as_real
@@ -74,7 +75,7 @@ def read_surface(
     if path.stat().st_size == 0:
         raise ValueError(f"{path.name}: cannot be read as a surface: the file is empty")
     factor = as_real(height_factor)
-    if factor is None or factor == 0:
+    if factor is None or factor == 0 or not math.isfinite(factor):
         raise ValueError(f"height_factor: must be a number other than 0, got {height_factor!r}")
     read = _READERS.get(path.suffix.lower(), read_instrument)
     surface = read(path, Units(path.name, spacing, height_unit), channel)

@@ -125,13 +125,13 @@ def _require_coarser(surface: Surface, cells: tuple[float, float], filter: str) 
 
 
 def _require_wide(surface: Surface, waves: list[float]) -> None:
-    for wave, spacing in zip(waves, surface.spacing, strict=True):
+    for wave, spacing, size in zip(waves, surface.spacing, surface.size, strict=True):
         number = as_real(wave)
         # Sampled more coarsely, the bell's own transmission is not the one that is told.
-        if number is None or not 4 * spacing * (1 - 1e-9) <= number < math.inf:
+        if number is None or not 4 * spacing * (1 - 1e-9) <= number <= size:
             raise ValueError(
-                f"cutoff must be at least four times the distance of the points, "
-                f"{in_words(4 * spacing, 'm')}, got {wave} m"
+                f"cutoff must be from four times the distance of the points to the size of the "
+                f"map, {in_words(4 * spacing, 'm')} to {in_words(size, 'm')}, got {wave} m"
             )
 
 
@@ -205,13 +205,20 @@ def _through(surface: Surface, cells: tuple[float, float]) -> Surface:
             new = _count(surface, axis, cell)
         else:
             new = math.floor((old - 1) * spacing / cell * (1 + 1e-9)) + 1
-        if not 2 <= new <= _MOST_POINTS or cell > spacing * (1 + 1e-9):
+        if new < 2 or cell > spacing * (1 + 1e-9):
             raise ValueError(
                 f"resample: cells of {in_words(cell, 'm')} are no finer than the points, "
                 f"{in_words(spacing, 'm')} apart, and the filter 'spline' is for finer meshes; use "
                 "filter: mean or gaussian"
             )
+        if new > _MOST_POINTS:
+            raise ValueError(f"resample: {new} points along {'xy'[axis]} are too many")
         places.append((old - 1) / 2 + (np.arange(new) - (new - 1) / 2) * (cell / spacing))
+    if places[0].size * places[1].size > _MOST_POINTS:
+        raise ValueError(
+            f"resample: {places[0].size} x {places[1].size} points are more than any grid holds; "
+            "choose larger cells, or crop the map"
+        )
     mode = "grid-wrap" if surface.periodic else "mirror"
     mesh = np.meshgrid(*places, indexing="ij")
     heights = ndimage.map_coordinates(surface.heights, mesh, order=3, mode=mode)
