@@ -39,8 +39,7 @@ class LogarithmicProfile(Profile):
     Raises
     ------
     ValueError
-        If the amplitude or the end's drop is not a positive number, or the ratio not within its
-        bounds.
+        If a length is not a positive, finite number, or the ratio not within its bounds.
 
     Notes
     -----
@@ -107,8 +106,7 @@ class LogarithmicProfile(Profile):
         -----
         Lundberg (1939), Forschung auf dem Gebiete des Ingenieurwesens 10, 201-211. An even line
         load w on |x| < L dents an elastic half-space less at x than in the middle by
-        (w / (π E*)) ln(1 / (1 - (x/L)²)), but for the ends, which reach as far as the contact is
-        wide.
+        (w / (π E*)) ln(1 / (1 - (x/L)²)), farther from the ends than the contact is wide.
 
         Examples
         --------
@@ -229,8 +227,7 @@ class LogarithmicProfile(Profile):
         Returns
         -------
         LogarithmicProfile
-            From the middle on, or on rollers longer than 2.5 diameters over 1.25 diameters at
-            either end.
+            From the middle on; longer rollers than 2.5 diameters over 1.25 at either end.
 
         Raises
         ------
