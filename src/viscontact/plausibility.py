@@ -83,7 +83,7 @@ def touch_doubts(duration: float, share: float) -> dict[str, str]:
 
 
 def release_doubts(duration: float, share: float) -> dict[str, str]:
-    """Doubt about a load that falls to nothing in one step of a creeping body.
+    """Doubt about a contact of a creeping body that is lost in one step, as the load falls.
 
     The contact shrinks over it, and a straight line through one step gives the rim, which was left
     early, a load for too long: the dent that stays is off by up to a third.
@@ -93,7 +93,7 @@ def release_doubts(duration: float, share: float) -> dict[str, str]:
     duration : float
         Length of the step [s].
     share : float
-        Force at its beginning, over the largest of the history.
+        How far force or approach falls over it, over the largest of the history.
 
     Returns
     -------
@@ -109,8 +109,8 @@ def release_doubts(duration: float, share: float) -> dict[str, str]:
         return {}
     return {
         "release": (
-            f"the load falls from {share:.0%} of its largest to nothing in a single step of "
-            f"{duration:.3g} s; use several steps there, as the dent that stays depends on them"
+            f"the contact is lost as the load falls by {share:.0%} of its largest in a single step "
+            f"of {duration:.3g} s; use several steps there, as the dent that stays depends on them"
         )
     }
 
