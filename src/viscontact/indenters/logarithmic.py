@@ -47,9 +47,8 @@ class LogarithmicProfile(Profile):
 
     drop(x) = A ln(1 / (1 - (1 - exp(-z_m / A)) u²)).
 
-    This is the function of Fujiwara & Kawase (2007) with A for their K_1 times the amplitude of
-    the design load and c for their K_2; that of Lundberg (1939) for c = 1 without z_m; that of
-    Johns & Gohar (1981) for c = 1 and their end's drop. See the constructors of these names.
+    This is the function of Fujiwara & Kawase (2007), c for their K_2 and K_1 within A; that of
+    Lundberg (1939) for c = 1 without z_m; that of Johns & Gohar (1981) for c = 1 with theirs.
 
     Examples
     --------
