@@ -968,7 +968,6 @@ def test_exit_codes(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     [
         (["report", "x"], "report is not built"),
         (["plot", "x", "animation"], "animation is not built yet"),
-        (["check", "ball.yaml", "--set", "indenter.shape=height-map"], "'height-map' is not built"),
     ],
 )
 def test_what_is_not_built_exits_2_and_names_itself(
