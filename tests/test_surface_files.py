@@ -71,6 +71,46 @@ def test_map_of_another_program_arrives_in_metres(tmp_path: Path, ending: str, u
     assert surface.size == pytest.approx((24e-6, 12e-6), rel=1e-6)
 
 
+@pytest.mark.parametrize("ending", ["x3p", "nc"])
+def test_points_that_were_not_measured_arrive_as_missing(tmp_path: Path, ending: str) -> None:
+    program = pytest.importorskip("SurfaceTopography", reason="no wheels of it on this system")
+    masked = np.ma.array(HEIGHTS, mask=np.abs(HEIGHTS) > 1e-6)
+    file = tmp_path / f"map.{ending}"
+    topography = program.Topography(masked, (24e-6, 12e-6), unit="m")
+    {"x3p": topography.to_x3p, "nc": topography.to_netcdf}[ending](str(file))
+    surface = vc.read_surface(file)
+    np.testing.assert_array_equal(surface.missing, masked.mask)
+    np.testing.assert_allclose(surface.heights[~masked.mask], HEIGHTS[~masked.mask], atol=1e-12)
+
+
+def test_matrix_of_another_program_needs_the_units_it_does_not_tell(tmp_path: Path) -> None:
+    program = pytest.importorskip("SurfaceTopography", reason="no wheels of it on this system")
+    file = tmp_path / "map.txt"
+    program.Topography(1e6 * HEIGHTS, (24.0, 12.0)).to_matrix(str(file))
+    with pytest.raises(ValueError, match=r"height_unit is missing: map\.txt does not tell"):
+        vc.read_surface(file)
+    with pytest.raises(ValueError, match=r"spacing is missing: map\.txt does not tell"):
+        vc.read_surface(file, height_unit="um")
+    surface = vc.read_surface(file, spacing=(2e-6, 1.5e-6), height_unit="um")
+    np.testing.assert_allclose(surface.heights, HEIGHTS, atol=1e-12)
+    assert surface.spacing == pytest.approx((2e-6, 1.5e-6))
+
+
+def test_line_scans_of_another_program_are_swept_or_refused(tmp_path: Path) -> None:
+    program = pytest.importorskip("SurfaceTopography", reason="no wheels of it on this system")
+    line = HEIGHTS[:, 0]
+    even, uneven = tmp_path / "even.nc", tmp_path / "uneven.nc"
+    program.UniformLineScan(line, 24e-6, unit="m").to_netcdf(str(even))
+    x = np.cumsum(1 + np.arange(12.0))
+    program.NonuniformLineScan(1e-6 * x, line, unit="m").to_netcdf(str(uneven))
+    assert vc.read_surface(even).shape == (12, 1)
+    ridges = vc.read_surface(even, width=8e-6)
+    assert ridges.size == pytest.approx((24e-6, 8e-6))
+    np.testing.assert_allclose(ridges.heights, np.repeat(line[:, np.newaxis], 4, axis=1))
+    with pytest.raises(ValueError, match=r"uneven\.nc: its points are unevenly spaced"):
+        vc.read_surface(uneven)
+
+
 def test_netcdf_says_whether_a_map_is_periodic(tmp_path: Path) -> None:
     assert vc.read_surface(written(tmp_path, "nc", "m", periodic=True)).periodic
     assert not vc.read_surface(written(tmp_path, "nc", "m", periodic=False)).periodic

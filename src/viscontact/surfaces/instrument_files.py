@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from viscontact.surfaces.surface import Surface
-from viscontact.surfaces.units import Units
+from viscontact.surfaces.units import Spacing, Units
 from viscontact.units import parse_unit
 
 
@@ -51,7 +51,9 @@ def read_instrument(path: Path, units: Units, channel: str | None) -> Surface:
             with open_topography(str(path)) as file:
                 found = _channel(path.name, file, channel)
                 scale, told = _lengths(found, units)
-                topography = file.topography(channel_index=found.index, **told)
+                # Where it knows no size, it wants one; which, is told below.
+                sizes = {} if found.physical_sizes else {"physical_sizes": found.nb_grid_pts}
+                topography = file.topography(channel_index=found.index, **sizes)
                 heights: Any = topography.heights()
     except (MemoryError, _RefusedError):
         raise
@@ -63,11 +65,7 @@ def read_instrument(path: Path, units: Units, channel: str | None) -> Surface:
     except Exception as error:  # a reader of 42 formats raises whatever a broken file makes it
         why = str(error).splitlines()[0] if str(error).strip() else type(error).__name__
         raise ValueError(f"{path.name}: cannot be read as a surface: {why}") from error
-    if not topography.is_uniform:
-        raise ValueError(
-            f"{path.name}: its points are unevenly spaced; bring them to an even mesh first"
-        )
-    return _surface(path.name, topography, heights, scale)
+    return _surface(path.name, topography, heights, scale, told)
 
 
 class _RefusedError(ValueError):
@@ -84,42 +82,43 @@ def _channel(name: str, file: Any, channel: str | None) -> Any:
     return found[0]
 
 
-def _lengths(found: Any, units: Units) -> tuple[float, dict[str, Any]]:
-    """Metres in the unit of the channel, and what its reader is to be told."""
+def _lengths(found: Any, units: Units) -> tuple[float, Spacing | None]:
+    """Metres in the unit of the channel, and the spacing where the file does not tell it."""
     try:
-        if isinstance(found.unit, tuple):
-            raise ValueError(
-                f"channel: {found.name!r} of {units.name} holds no heights, but values in "
-                f"{found.unit[1] or 'no unit'}; choose another"
-            )
-        told: dict[str, Any] = {}
-        if found.unit is not None:
-            units.require_none("height_unit")
-            scale = parse_unit(str(found.unit), "length")
-        else:
-            scale = units.height_scale
-            told["unit"] = units.height_unit
-        if found.physical_sizes is not None:
-            units.require_none("spacing")
-        else:
-            given = units.steps
-            steps = given if isinstance(given, tuple) else (given,) * len(found.nb_grid_pts)
-            told["physical_sizes"] = tuple(
-                n * step / scale for n, step in zip(found.nb_grid_pts, steps, strict=False)
-            )
+        _require_heights(found, units.name)
+        if found.unit is None:  # then sizes that stand in the file are of no unit, either
+            return units.height_scale, units.steps
+        units.require_none("height_unit")
+        scale = parse_unit(str(found.unit), "length")
+        if found.physical_sizes is None:
+            return scale, units.steps
+        units.require_none("spacing")
     except ValueError as error:
         raise _RefusedError(str(error)) from error
-    return scale, told
+    return scale, None
 
 
-def _surface(name: str, topography: Any, heights: Any, scale: float) -> Surface:
+def _require_heights(found: Any, name: str) -> None:
+    if isinstance(found.unit, tuple):
+        raise ValueError(
+            f"channel: {found.name!r} of {name} holds no heights, but values in "
+            f"{found.unit[1] or 'no unit'}; choose another"
+        )
+    if found.is_uniform is False:
+        raise ValueError(
+            f"{name}: its points are unevenly spaced; bring them to an even mesh first"
+        )
+
+
+def _surface(
+    name: str, topography: Any, heights: Any, scale: float, told: Spacing | None
+) -> Surface:
     values = np.ma.filled(np.ma.asarray(heights).astype(np.float64), np.nan) * scale
     values[np.isinf(values)] = np.nan
-    spacing = [
-        float(size) * scale / n
-        for size, n in zip(topography.physical_sizes, topography.nb_grid_pts, strict=True)
-    ]
     if values.ndim == 1:
-        values, spacing = values[:, np.newaxis], spacing * 2
-    steps = (spacing[0], spacing[1])
-    return Surface(values, steps, name=name, periodic=bool(topography.is_periodic))
+        values = values[:, np.newaxis]
+    if told is None:
+        sizes = zip(topography.physical_sizes, topography.nb_grid_pts, strict=True)
+        along = [float(size) * scale / n for size, n in sizes]
+        told = along[0], along[-1]
+    return Surface(values, told, name=name, periodic=bool(topography.is_periodic))
