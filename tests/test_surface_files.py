@@ -216,7 +216,7 @@ def test_pickles_are_not_opened(tmp_path: Path) -> None:
 
 
 TEXTS = {
-    "commas": "0,1,2\n3,4,nan\n",
+    "commas": "0.0,1.0,2\n3,4,nan\n",
     "semicolons and decimal commas": "0,0;1,0;2,0\n3;4;\n",
     "blanks": "# x across\n0 1 2\n3 4 nan\n",
     "tabs": "0\t1\t2\n3\t4\tbad\n",
