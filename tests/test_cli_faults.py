@@ -253,7 +253,7 @@ def test_links_are_replaced_and_not_written_through(
     Path("case").mkdir()
     Path("load.csv").write_text("time [s], force [N]\n0, 0\n1, 4\n", encoding="utf-8")
     for name in ("result.nc", "case.yaml", "progress.jsonl", "state.npz", "steps.log", "load.csv"):
-        Path("mine", name).write_text("load.csv, and what is mine\n", encoding="utf-8")
+        Path("mine", name).write_text("file: load.csv\n", encoding="utf-8")
         Path("case", name).symlink_to(Path("..", "mine", name))
     before = contents("mine")
     load = ["--set", "load={kind: history, file: load.csv}"]
@@ -490,6 +490,33 @@ def test_table_of_the_users_is_not_replaced_by_one_of_its_name(
     Path("tables/load.csv").write_text(TABLE.replace("4", "3"), encoding="utf-8")
     assert main(["run", "case.yaml", "-q", "--overwrite", *load]) == 0
     assert b"3" in contents("case")["load.csv"]
+
+
+def test_table_whose_name_is_but_a_part_of_a_copys_is_the_users(
+    folder: Path,  # noqa: F811
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    Path("tables").mkdir()
+    for name in ("load.csv", "my-load.csv"):
+        Path("tables", name).write_text(TABLE, encoding="utf-8")
+    first, second = (
+        ["--set", f"load={{kind: history, file: tables/{name}}}"]
+        for name in ("my-load.csv", "load.csv")
+    )
+    assert main(["run", "case.yaml", "-q", *first]) == 0
+    Path("case/load.csv").write_text("mine", encoding="utf-8")
+    assert main(["run", "case.yaml", "-q", "--overwrite", *second]) == 2
+    assert "case/load.csv: is there already" in said_in_lines(capsys)[-1]
+    assert contents("case")["load.csv"] == b"mine"
+
+
+def test_case_that_is_no_text_is_replaced_when_asked(
+    stopped: Path,
+    whole: xr.Dataset,  # noqa: F811
+) -> None:
+    (stopped / "case.yaml").write_bytes(b"title: R\xf6lle\n")
+    assert main(["run", "case.yaml", "-q", "--overwrite"]) == 0
+    assert same_bits("case", whole)
 
 
 def test_clock_that_is_set_back_makes_no_duration_negative(

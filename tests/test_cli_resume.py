@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import os
 import shlex
 import signal
@@ -398,6 +399,68 @@ def test_request_before_the_first_step_changes_nothing(
         capsys.readouterr().err == "interrupted before the first step; nothing has been changed\n"
     )
     assert [path.name for path in folder.iterdir()] == ["case.yaml"]
+
+
+def test_request_while_the_run_is_opened_leaves_nothing(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    opening = run_record.new_writer
+
+    def asked(*arguments: Any) -> Any:
+        writer = opening(*arguments)
+        signal.raise_signal(signal.SIGINT)
+        return writer
+
+    monkeypatch.setattr(run_record, "new_writer", asked)
+    assert main(["run", "case.yaml"]) == 130
+    assert [path.name for path in folder.iterdir()] == ["case.yaml"]
+
+
+def test_fault_that_comes_while_a_request_waits_is_told(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    save, saved = run_record.save_checkpoint, []
+
+    def failing(path: Path, checkpoint: Any) -> None:
+        if len(saved) == 4:
+            signal.raise_signal(signal.SIGINT)
+            signal.raise_signal(signal.SIGINT)
+            raise OSError("no room")
+        save(path, checkpoint)
+        saved.append(checkpoint.steps)
+
+    monkeypatch.setattr(run_record, "PAUSE", 0.0)
+    monkeypatch.setattr(run_record, "SHARE", 0.0)
+    monkeypatch.setattr(run_record, "save_checkpoint", failing)
+    assert main(["run", "case.yaml", "-q"]) == 1
+    assert "case: the run stopped: no room" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("time", ["inner", "asked"])
+def test_step_that_fails_is_not_gone_on_from_though_a_stop_is_asked_for_in_it(
+    time: str, folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    # A kink of the load at 1.2 s makes a step that nobody asked for.
+    load = "load={kind: history, points: [[0 s, 0 N], [1.2 s, 4 N], [5 s, 4 N]]}"
+    command = ["run", "case.yaml", "-q", "--set", load]
+    solve, solved = past.solve_contact, []
+
+    def failing(*arguments: Any, **options: Any) -> Any:
+        solved.append(1)
+        solution = solve(*arguments, **options)
+        if len(solved) < (3 if time == "inner" else 4):
+            return solution
+        signal.raise_signal(signal.SIGTERM)
+        return dataclasses.replace(solution, converged=False)
+
+    with monkeypatch.context() as patched:
+        patched.setattr(past, "solve_contact", failing)
+        assert main(command) == 1
+    assert "short of the tolerance" in capsys.readouterr().err
+    assert main([*command, "--resume"]) == 0
+    assert main([*command, "-o", "whole"]) == 0
+    with xr.open_dataset("whole/result.nc") as ds:
+        assert same_bits("case", ds)
 
 
 def test_terminal_that_is_ignored_stays_ignored() -> None:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import dataclasses
+import errno
 import io
 import os
 import shutil
+import stat
 import time as clock
 from pathlib import Path
 from typing import Any
@@ -260,6 +262,35 @@ def test_what_a_checkpoint_saves_is_on_the_disk_in_an_order_that_a_power_cut_res
             assert events[saved + 1][:2] == ("flushed", recorded.directory.stat().st_ino)
         events.clear()
     record.close()
+
+
+def test_file_system_that_flushes_no_directories_is_no_obstacle(
+    recorded: Recorded, whole: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    flush = os.fsync
+
+    def flushing(descriptor: int) -> None:
+        if stat.S_ISDIR(os.fstat(descriptor).st_mode):
+            raise OSError(errno.EINVAL, "Invalid argument")
+        flush(descriptor)
+
+    monkeypatch.setattr(os, "fsync", flushing)
+    finish(RunRecord(recorded))
+    assert same_bits(recorded.directory, whole)
+
+
+def test_course_of_a_finished_run_is_on_the_disk_before_its_state_is_gone(
+    recorded: Recorded, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    flushed: list[tuple[int, int]] = []
+
+    def flush(descriptor: int) -> None:
+        flushed.append((os.fstat(descriptor).st_ino, os.fstat(descriptor).st_size))
+
+    monkeypatch.setattr(os, "fsync", flush)
+    finish(RunRecord(recorded))
+    course = (recorded.directory / PROGRESS_NAME).stat()
+    assert (course.st_ino, course.st_size) in flushed
 
 
 def test_steps_since_the_checkpoint_are_not_solved_again(

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import closing, contextmanager, suppress
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack, closing, contextmanager, suppress
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -20,7 +20,7 @@ from viscontact.cli.taking_up import Standing, refuse_changed, standing
 from viscontact.errors import ConvergenceError, DomainError
 from viscontact.recording.lock import DirectoryInUse, locked
 from viscontact.recording.recorded import ChangedCaseError, Recorded, remove_traces
-from viscontact.recording.run_record import RunRecord
+from viscontact.recording.run_record import RunRecord, Undisturbed
 from viscontact.results import RESULT_NAME
 from viscontact.units import in_words
 
@@ -126,18 +126,18 @@ def _begun(attempt: _Attempt) -> RunRecord:
     recorded, postponed = attempt.recorded, attempt.interruption.postponed
     if attempt.request.resume:
         attempt.say(f"{recorded.directory}: nothing is saved there yet; starting at the beginning")
+    write = partial(_write_case, attempt)
     try:
-        with postponed():
-            return RunRecord(recorded, partial(_write_case, attempt), postponed)
+        return _whole(postponed, partial(RunRecord, recorded, write, postponed))
     except OSError as error:
         refuse(f"{recorded.directory}: cannot be written: {error}")
 
 
 def _taken_up(attempt: _Attempt) -> RunRecord:
     recorded, postponed = attempt.recorded, attempt.interruption.postponed
+    write = partial(_write_case, attempt)
     try:
-        with postponed():
-            record = RunRecord.resume(recorded, partial(_write_case, attempt), postponed)
+        record = _whole(postponed, partial(RunRecord.resume, recorded, write, postponed))
     except ChangedCaseError as error:
         refuse_changed(recorded.directory, attempt.prepared.case, error.changes)
     except ValueError as error:
@@ -150,6 +150,16 @@ def _taken_up(attempt: _Attempt) -> RunRecord:
     made = attempt.made(record.resumed, record.reached)
     at = "" if record.reached is None else f", t = {in_words(record.reached, 's')}"
     attempt.say(f"{recorded.directory}: going on after {made}{'' if ', up to t =' in made else at}")
+    return record
+
+
+def _whole(postponed: Undisturbed, make: Callable[[], RunRecord]) -> RunRecord:
+    """Make a record whole; if somebody wants to stop meanwhile, close it again."""
+    with ExitStack() as opened:
+        with postponed():
+            record = make()
+            opened.callback(record.close)
+        opened.pop_all()
     return record
 
 
@@ -195,7 +205,8 @@ def _is_marched_to_the_end(attempt: _Attempt, record: RunRecord) -> bool:
 
 def _publish(record: RunRecord) -> None:
     # What is not in the result is in the log, and comes with the next attempt.
-    with suppress(OSError):
+    # And it stops already: nobody has to ask for that any more.
+    with suppress(OSError, KeyboardInterrupt):
         record.publish()
 
 

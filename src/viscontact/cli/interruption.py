@@ -55,6 +55,9 @@ class Interruption:
         self._postponed += 1
         try:
             yield
+        except BaseException:
+            self._pending = False  # it ends here anyway, and says why
+            raise
         finally:
             self._postponed -= 1
         if self._pending and not self._postponed:
@@ -102,7 +105,8 @@ def watched_interruption() -> Iterator[Interruption]:
         yield interruption
     finally:
         for caught, handler in before.items():
-            signal.signal(caught, handler)
+            # None: whoever set it did not do so from Python.
+            signal.signal(caught, signal.SIG_DFL if handler is None else handler)
 
 
 def _is_to_be_ignored(number: int) -> bool:

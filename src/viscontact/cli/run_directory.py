@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
+from typing import Any
 
-from viscontact.case import Case
+from viscontact.case import Case, CaseError
+from viscontact.case.document import read_document
 from viscontact.case.yaml_source import parse
 from viscontact.cli.messages import refuse
 from viscontact.cli.stored import CASE_NAME
@@ -190,9 +192,26 @@ def _says_the_same(kept: Path, case: Case) -> bool:
     return bool(parse(kept.read_text(encoding="utf-8"))[0] == parse(case.text)[0])
 
 
+def _texts(earlier: Path) -> set[str]:
+    """All values of an earlier run's case that are texts, the names of its tables among them."""
+    try:
+        found: list[Any] = [read_document(earlier).data]
+    except (CaseError, OSError):
+        return set()  # who has changed it may have changed what it names
+    texts = set()
+    while found:
+        value = found.pop()
+        if isinstance(value, str):
+            texts.add(value)
+        else:
+            found += value.values() if isinstance(value, dict) else ()
+            found += value if isinstance(value, list) else ()
+    return texts
+
+
 def _refuse_other_data(directory: Path, case: Case, earlier: Path | None) -> None:
     """Refuse to replace a file by a table of its name, unless an earlier run has put it there."""
-    replaceable = earlier.read_text(encoding="utf-8") if earlier and earlier.exists() else ""
+    replaceable = _texts(earlier) if earlier and earlier.exists() else set()
     for file, name in case.file_names.items():
         there = directory / name
         if is_same_file(file, there) or not (there.exists() or there.is_symlink()):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 from contextlib import suppress
 from pathlib import Path
@@ -24,7 +25,9 @@ def flush_to_disk(path: Path) -> None:
 
 
 def flush_directory(directory: Path) -> None:
-    """Wait until the names in a directory are on the disk; Windows does so by itself.
+    """Wait until the names in a directory are on the disk, where the system can be asked for that.
+
+    Windows does so by itself; some file systems of a network know no such call.
 
     Parameters
     ----------
@@ -36,6 +39,9 @@ def flush_directory(directory: Path) -> None:
     descriptor = os.open(directory, os.O_RDONLY)
     try:
         os.fsync(descriptor)
+    except OSError as error:
+        if error.errno not in (errno.EINVAL, errno.ENOTSUP):
+            raise
     finally:
         os.close(descriptor)
 

@@ -170,6 +170,19 @@ def same_writer(recorded: Recorded, position: Carried) -> ResultWriter:
     )
 
 
+def new_lines(recorded: Recorded) -> ProgressLog:
+    """Return a new progress log; a link in its place is replaced, not written through.
+
+    Parameters
+    ----------
+    recorded : Recorded
+        The run.
+    """
+    path = recorded.directory / PROGRESS_NAME
+    path.unlink(missing_ok=True)
+    return ProgressLog(path)
+
+
 def same_lines(recorded: Recorded, saved: Checkpoint) -> ProgressLog:
     """Return the progress log that is there, cut to the lines that a state knows of.
 

@@ -6,7 +6,6 @@ import time as clock
 import uuid
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, nullcontext, suppress
-from pathlib import Path
 from typing import Self
 
 from viscontact.carried import Carried
@@ -14,8 +13,8 @@ from viscontact.marching import Progress
 from viscontact.recording.checkpoint import STATE_NAME, Checkpoint, save_checkpoint
 from viscontact.recording.progress import ProgressLog
 from viscontact.recording.recorded import (
-    PROGRESS_NAME,
     Recorded,
+    new_lines,
     new_writer,
     remove_traces,
     restored_march,
@@ -110,8 +109,7 @@ class RunRecord:
         is_new = saved.steps == 0
         record._writer = new_writer(recorded) if is_new else same_writer(recorded, saved.result)
         try:
-            path = recorded.directory / PROGRESS_NAME
-            record._lines = _new_lines(path) if is_new else same_lines(recorded, saved)
+            record._lines = new_lines(recorded) if is_new else same_lines(recorded, saved)
             record._take_up()
         except BaseException:
             record.close()
@@ -161,8 +159,8 @@ class RunRecord:
         Yields
         ------
         ContactState or None
-            One for each of the run's steps that are left; None for an inner one that nobody asked
-            for.
+            One for each of the run's steps that are left, but none for a step that has failed;
+            None for an inner one that nobody asked for.
 
         Raises
         ------
@@ -176,7 +174,9 @@ class RunRecord:
                 self._record(taken)
             if taken.state is not None and progress is not None:
                 progress(taken.state, taken.done, taken.done + taken.left)
-            yield taken.state
+            # Nobody is to save, and go on from, what is no equilibrium: the march is about to stop.
+            if taken.solved.outcome is not Outcome.NOT_CONVERGED:
+                yield taken.state
 
     def checkpoint(self) -> None:
         """Put the result in its place, and save what it takes to go on.
@@ -219,6 +219,9 @@ class RunRecord:
             If that fails; the run can be resumed.
         """
         with self._undisturbed():
+            if self._lines is not None:
+                # Once the state is gone nothing could bring back a line that the power took.
+                self._lines.flush_to_disk()
             self._writer.finish()
             self.published = self._instants
             self.close()
@@ -264,7 +267,7 @@ class RunRecord:
         self._save({})
         if self._on_begin is not None:
             self._on_begin()
-        self._lines = _new_lines(self._recorded.directory / PROGRESS_NAME)
+        self._lines = new_lines(self._recorded)
 
     def _publish(self) -> bool:
         done = self._writer.publish()
@@ -290,9 +293,3 @@ class RunRecord:
             self._log.close()
         path = self._recorded.directory / LOG_NAME
         self._log = StepLog(path, self._token, self._steps)
-
-
-def _new_lines(path: Path) -> ProgressLog:
-    # A link there is replaced, not written through.
-    path.unlink(missing_ok=True)
-    return ProgressLog(path)
