@@ -31,6 +31,43 @@ SHORTEST = 1e-12
 #: After a kink, the first step is this part of the way to the next one at most.
 FIRST_OF_WAY = 0.02
 
+#: Steps from one kink of the load to the next, at a tolerance of 1e-3, and for a body that does not
+#: creep; measured on spheres, good to a factor of two.
+STEPS_OF_STRETCH, ELASTIC_STEPS = 25.0, 7.0
+
+
+def likely_steps(wanted: AdaptiveTimes, load: LoadHistory, compliance: ContactCompliance) -> float:
+    """About how many steps a run will choose.
+
+    Parameters
+    ----------
+    wanted : AdaptiveTimes
+        End of the run and tolerance.
+    load : LoadHistory
+        What presses.
+    compliance : ContactCompliance
+        J(t).
+
+    Returns
+    -------
+    float
+        Good to a factor of two where the law has an instant compliance.
+
+    Examples
+    --------
+    >>> from viscontact.compliance import SeriesCompliance
+    >>> from viscontact.load import step
+    >>> zener = SeriesCompliance(1.0, [1.0], [2.0])
+    >>> likely_steps(AdaptiveTimes(10.0, 1e-3), step(1.0), zener)
+    25.0
+    """
+    stretches = float((load.kinks < wanted.end).sum())
+    creeps = compliance(wanted.end) > compliance.instant
+    # Errors of a step fall with its cube, those of the run with its square.
+    finer = (1e-3 / wanted.tolerance) ** (1 / 3)
+    each = max(ELASTIC_STEPS, STEPS_OF_STRETCH * finer) if creeps else ELASTIC_STEPS
+    return stretches * each + min(wanted.end, float(load.kinks[-1])) / load.longest_step
+
 
 class AdaptiveSteps:
     """Chooses each step by the error of the last.

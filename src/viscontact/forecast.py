@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 from scipy import fft
 
+from viscontact.adaptive import likely_steps
 from viscontact.estimate import ContactEstimate, estimate_contact, level_of
 from viscontact.extent import largest_load
 from viscontact.foresight import foreseen_doubts
@@ -30,10 +31,6 @@ BYTES_PER_STEP = 2000.0
 #: Plain convolutions' time that the first step and each later one take at tolerance 1e-6, and
 #: what a step takes besides [s]; measured on the shipped rollers and spheres.
 FIRST_STEP, LATER_STEP, BESIDES = 30.0, 3.5, 3e-3
-
-#: Adaptive steps from one kink of the load to the next, at a tolerance of 1e-3 and for a body that
-#: does not creep; measured on spheres, good to a factor of two.
-ADAPTIVE_STEPS, ELASTIC_STEPS = 25.0, 7.0
 
 #: A larger grid is not timed but extrapolated.
 _TIMED_CELLS = 2**18
@@ -225,13 +222,7 @@ def _step_count(run: Run) -> float:
     """Steps of a run, those at the load's kinks and within its swings among them."""
     if run.adaptive is None:
         return float(len(FixedSteps(run.times, run.load).steps))
-    end = run.adaptive.end
-    stretches = float((run.load.kinks < end).sum())
-    creeps = run.compliance(end) > run.compliance.instant
-    # Errors of a step fall with its cube, those of the run with its square.
-    finer = (1e-3 / run.adaptive.tolerance) ** (1 / 3)
-    each = max(ELASTIC_STEPS, ADAPTIVE_STEPS * finer) if creeps else ELASTIC_STEPS
-    return stretches * each + min(end, float(run.load.kinks[-1])) / run.load.longest_step
+    return likely_steps(run.adaptive, run.load, run.compliance)
 
 
 def _convolution_time(grid: Grid) -> float:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from viscontact.adaptive import AdaptiveSteps
+from viscontact.adaptive import AdaptiveSteps, likely_steps
 from viscontact.admission import (
     check_balance,
     check_creep,
@@ -29,8 +29,9 @@ from viscontact.memory import MemoryPlan, plan_memory
 from viscontact.schedule import FixedSteps
 from viscontact.stepping import AdaptiveTimes
 
-#: Adaptive steps that the memory is planned for; more are remembered as well.
-ADAPTIVE_STEPS = 500
+#: Adaptive steps that the memory is planned for: at least so many, and so many times those that are
+#: likely; more are remembered as well.
+ADAPTIVE_STEPS, UNLIKELY = 500, 3.0
 
 #: Where the steps of a run come from.
 Steps = FixedSteps | AdaptiveSteps
@@ -178,5 +179,6 @@ def _planned_memory(
     if adaptive is None:
         return plan_memory(compliance, FixedSteps(instants, load).instants, numbers)
     # The steps are not known yet: as if there were many, over all decades that may count.
-    expected = np.append(0.0, np.geomspace(1e-9 * adaptive.end, adaptive.end, ADAPTIVE_STEPS))
+    count = max(ADAPTIVE_STEPS, round(UNLIKELY * likely_steps(adaptive, load, compliance)))
+    expected = np.append(0.0, np.geomspace(1e-9 * adaptive.end, adaptive.end, count))
     return replace(plan_memory(compliance, expected, numbers), instants=np.zeros(0))

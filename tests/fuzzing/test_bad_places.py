@@ -10,6 +10,7 @@ import re
 import subprocess
 import sys
 import time as clock
+from itertools import product
 from pathlib import Path
 
 import pytest
@@ -128,10 +129,15 @@ LAWS = {
         flags=re.DOTALL,
     ),
 }
+LAWS["a power in steps of its own"] = re.sub(
+    r"steps: 20", "spacing: adaptive, tolerance: 1e-4", LAWS["a power"]
+)
 
 
-@pytest.mark.parametrize("law", LAWS)
-@pytest.mark.parametrize("cells", [64, 400])
+@pytest.mark.parametrize(
+    ("law", "cells"),
+    [*product(("a series", "a power"), (64, 400)), ("a power in steps of its own", 96)],
+)
 def test_run_takes_no_more_memory_than_check_announces(law: str, cells: int, place: Path) -> None:
     text = LAWS[law].replace("[16, 16]", f"[{cells}, {cells}]") + "output: {fields: all}\n"
     (place / "large.yaml").write_text(text, encoding="utf-8")

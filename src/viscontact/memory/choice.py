@@ -60,7 +60,7 @@ class MemoryPlan:
         """Return an empty memory for a field of a shape."""
         if isinstance(self.compliance, SeriesCompliance):
             return RecursiveMemory(self.compliance, shape)
-        return SuperposedMemory(self.compliance, shape, self.instants)
+        return SuperposedMemory(self.compliance, shape, self.instants, self.steps)
 
 
 def plan_memory(

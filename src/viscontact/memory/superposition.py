@@ -34,6 +34,8 @@ class SuperposedMemory(Memory):
     instants : ndarray, optional
         Ends of the steps that are planned, a jump's twice [s]. Sums are made for several of
         them at once; a step that ends elsewhere is summed by itself.
+    steps : int
+        How many steps there is room for from the start; memory is taken as they come.
 
     Examples
     --------
@@ -54,10 +56,11 @@ class SuperposedMemory(Memory):
         compliance: ContactCompliance,
         shape: tuple[int, ...],
         instants: NDArray[np.float64] | None = None,
+        steps: int = STEPS_AHEAD,
     ) -> None:
         self._compliance, self._shape = compliance, shape
         self._planned = np.zeros(0) if instants is None else instants
-        rows = max(len(self._planned), STEPS_AHEAD)
+        rows = max(len(self._planned), steps)
         # Row by row: an increment of the field, and when its rise began and ended.
         self._increments = np.zeros((rows, int(np.prod(shape))))
         self._began, self._ended = np.zeros(rows), np.zeros(rows)
@@ -149,10 +152,10 @@ class SuperposedMemory(Memory):
         return _product(weights, self._increments[first : self._count])
 
     def _make_room(self) -> None:
-        more = len(self._began) // 2
-        self._increments = np.append(
-            self._increments, np.zeros((more, self._increments.shape[1])), axis=0
-        )
+        more = max(len(self._began) // 2, STEPS_AHEAD)
+        roomier = np.zeros((len(self._began) + more, self._increments.shape[1]))
+        roomier[: self._count] = self._increments[: self._count]
+        self._increments = roomier
         self._began = np.append(self._began, np.zeros(more))
         self._ended = np.append(self._ended, np.zeros(more))
 

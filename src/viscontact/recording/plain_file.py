@@ -44,8 +44,21 @@ def write_plain(file: BinaryIO, carried: Carried) -> None:
     """
     arrays: list[NDArray[Any]] = []
     outline = json.dumps(_outlined(carried, arrays))
-    named = {f"a{index}": array for index, array in enumerate(arrays)}
-    np.savez(file, allow_pickle=False, **{_OUTLINE: np.array(outline)}, **named)
+    with zipfile.ZipFile(file, "w") as archive:
+        _add(archive, _OUTLINE, np.frombuffer(outline.encode(), dtype=np.uint8))
+        for index, array in enumerate(arrays):
+            _add(archive, f"a{index}", array)
+
+
+def _add(archive: zipfile.ZipFile, name: str, array: NDArray[Any]) -> None:
+    """Add an array as NumPy does, but without copies of it, which take more than a step may."""
+    kept = array if array.flags.c_contiguous or array.flags.f_contiguous else array.copy()
+    with archive.open(f"{name}.npy", "w", force_zip64=True) as member:
+        header = np.lib.format.header_data_from_array_1_0(kept)
+        np.lib.format.write_array_header_1_0(member, header)
+        if kept.size:
+            in_order = kept if kept.flags.c_contiguous else kept.T
+            member.write(in_order.data.cast("B"))
 
 
 def read_plain(file: BinaryIO) -> Carried:
@@ -81,7 +94,7 @@ def read_plain(file: BinaryIO) -> Carried:
             # Before any header is believed, lest a damaged one asks for all memory there is.
             if archive.zip.testzip() is not None:
                 raise ValueError("a checksum is wrong")
-            read = _filled(json.loads(str(archive[_OUTLINE])), archive)
+            read = _filled(json.loads(bytes(archive[_OUTLINE]).decode()), archive)
     except _DAMAGE as error:
         raise ValueError("it is damaged, or was written by something else") from error
     if not isinstance(read, dict):
