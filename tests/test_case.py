@@ -389,3 +389,15 @@ def test_schema_names_every_key_and_shows_units() -> None:
     assert len(schema["properties"]["indenter"]["anyOf"]) == 2
     names = schema["properties"]["material"]["anyOf"][0]["enum"]
     assert names[:2] == ["pmma-paper", "pmma-kumar-2004"]
+
+
+@pytest.mark.parametrize(
+    "tag", ["!!python/object/apply:os.system", "!!python/object/new:os.system", "!call"]
+)
+def test_tags_that_name_code_do_not_run_it(tag: str, tmp_path: Path) -> None:
+    trace = tmp_path / "it-ran"
+    case = tmp_path / "case.yaml"
+    case.write_text(f'title: {tag} ["touch {trace}"]\n', encoding="utf-8")
+    with pytest.raises(CaseError):
+        read_case(case)
+    assert not trace.exists()

@@ -57,10 +57,16 @@ def open_results(path: str | Path) -> xr.Dataset:
     if not file.is_file():
         raise FileNotFoundError(f"no result at {file}")
     while True:
-        opened_at = file.stat().st_ino
+        before = _marks(file)
         try:
             return xr.open_dataset(file, engine="netcdf4")
         except (OSError, ValueError) as error:
             # A run that goes on may have put a newer file there in this very moment.
-            if file.stat().st_ino == opened_at:
+            if _marks(file) == before:
                 raise ValueError(f"{file} cannot be read as a netCDF result: {error}") from error
+
+
+def _marks(file: Path) -> tuple[int, int]:
+    """What tells one file from another under the same name."""
+    found = file.stat()
+    return found.st_ino, found.st_mtime_ns
