@@ -279,6 +279,12 @@ GUARDS = {
             times=[0.0, *np.geomspace(0.02, 6, 160), *np.linspace(6, 6.2, 41)[1:]],
         ),
     ),
+    "a load that swings between the instants asked for": Guard(
+        vc.AccuracyWarning,
+        "between the instants asked for the peak pressure reaches",
+        met=Job(load=vc.harmonic(5e3, 4e3, 1.0, 2), times=[0.0, 1.0, 2.0]),
+        missed=Job(load=vc.harmonic(5e3, 4e3, 1.0, 2), times=np.linspace(0, 2, 17)),
+    ),
     "a run beyond the last row of a table": Guard(
         vc.AccuracyWarning,
         "beyond 100 s, where the material's data end",

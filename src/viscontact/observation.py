@@ -24,6 +24,7 @@ from viscontact.plausibility import (
     release_doubts,
     step_doubts,
     touch_doubts,
+    untold_doubts,
 )
 from viscontact.rim import Rim, trace_outline, trace_rim
 from viscontact.run import Run
@@ -63,6 +64,7 @@ class Observer:
         self._resultants = np.zeros(3)
         self._cycles = Cycles(run.load.load_cycles)
         self._largest_area, self._cells_at_largest, self._spots_at_largest = 0.0, 0, 0.0
+        self._peak, self._peak_time, self._peak_told = 0.0, 0.0, 0.0
 
     def observe(self, step: Step, instant: Instant) -> ContactState:
         """Describe the end of a step.
@@ -89,6 +91,8 @@ class Observer:
         if state.contact_area > self._largest_area:
             self._largest_area, self._cells_at_largest = state.contact_area, state.cells_across
             self._spots_at_largest = cells_across_spots(contact)
+        if state.peak_pressure > self._peak:
+            self._peak, self._peak_time = state.peak_pressure, step.time
         self._before, self._resultants = instant, resultants
         return state
 
@@ -107,10 +111,12 @@ class Observer:
         ContactState
             With its warnings.
         """
-        mesh = {}
+        self._peak_told = max(self._peak_told, state.peak_pressure)
+        mesh, untold = {}, {}
         if last and self._largest_area:
             mesh = mesh_doubts(self._cells_at_largest, self._spots_at_largest)
-        return replace(state, warnings=self._doubts.new(self._open, mesh))
+            untold = untold_doubts(self._peak, self._peak_time, self._peak_told)
+        return replace(state, warnings=self._doubts.new(self._open, mesh, untold))
 
     def refuse_coarse_mesh(self) -> None:
         """Raise at the run's end if even its largest contact had too few cells.
@@ -143,6 +149,7 @@ class Observer:
             "largest_area": self._largest_area,
             "cells_at_largest": self._cells_at_largest,
             "spots_at_largest": self._spots_at_largest,
+            "peak": [self._peak, self._peak_time, self._peak_told],
         }
 
     def restore(self, carried: Carried) -> None:
@@ -159,6 +166,7 @@ class Observer:
         self._largest_area = carried["largest_area"]
         self._cells_at_largest = carried["cells_at_largest"]
         self._spots_at_largest = carried["spots_at_largest"]
+        self._peak, self._peak_time, self._peak_told = carried["peak"]
 
     def _collect_doubts(self, step: Step, instant: Instant, rim: Rim) -> None:
         self._open = data_doubts(step.time, self._run.measured_until) | self._open

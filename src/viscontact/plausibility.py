@@ -15,6 +15,9 @@ DOUBTFUL_CELLS, REFUSED_CELLS = 10, 4
 #: along grid lines, where a disc of d cells has a mean chord of pi/4 d: 4 are a disc of 5 cells.
 DOUBTFUL_SPOTS = 4.0
 
+#: The largest pressure may exceed the largest that is told by this part.
+UNTOLD = 0.1
+
 #: Relative change of force or peak pressure that a step long against the law must not hide.
 NOTABLE_CHANGE = 0.25
 
@@ -111,6 +114,39 @@ def release_doubts(duration: float, share: float) -> dict[str, str]:
         "release": (
             f"the contact is lost as the load falls by {share:.0%} of its largest in a single step "
             f"of {duration:.3g} s; use several steps there, as the dent that stays depends on them"
+        )
+    }
+
+
+def untold_doubts(peak: float, time: float, told: float) -> dict[str, str]:
+    """Doubt about instants between which more has happened than at them.
+
+    Parameters
+    ----------
+    peak : float
+        Largest pressure over all steps [Pa].
+    time : float
+        When it was [s].
+    told : float
+        Largest pressure over the instants that were asked for [Pa].
+
+    Returns
+    -------
+    dict of str to str
+        Sentences by kind of doubt; empty if there is none.
+
+    Examples
+    --------
+    >>> list(untold_doubts(2e6, 0.3, told=1e6)), list(untold_doubts(1e6, 0.3, told=1e6))
+    (['untold'], [])
+    """
+    if peak <= (1 + UNTOLD) * told:
+        return {}
+    return {
+        "untold": (
+            f"between the instants asked for the peak pressure reaches {peak:.4g} Pa, at "
+            f"t = {time:.6g} s, and {told:.4g} Pa is the largest that the result tells; ask for "
+            "an instant there, or for more steps"
         )
     }
 
