@@ -91,7 +91,7 @@ class Observer:
         if state.contact_area > self._largest_area:
             self._largest_area, self._cells_at_largest = state.contact_area, state.cells_across
             self._spots_at_largest = cells_across_spots(contact)
-        if state.peak_pressure > self._peak:
+        if state.peak_pressure > self._peak and step.time >= self._run.times[0]:
             self._peak, self._peak_time = state.peak_pressure, step.time
         self._before, self._resultants = instant, resultants
         return state
