@@ -249,14 +249,15 @@ def test_links_are_replaced_and_not_written_through(
     folder: Path,  # noqa: F811
     whole: xr.Dataset,  # noqa: F811
 ) -> None:
-    Path("mine").mkdir()
-    Path("case").mkdir()
     Path("load.csv").write_text("time [s], force [N]\n0, 0\n1, 4\n", encoding="utf-8")
-    for name in ("result.nc", "case.yaml", "progress.jsonl", "state.npz", "steps.log", "load.csv"):
-        Path("mine", name).write_text("file: load.csv\n", encoding="utf-8")
+    load = ["--set", "load={kind: history, file: load.csv}"]
+    assert main(["run", "case.yaml", "-q", "-o", "mine", *load]) == 0
+    for name in ("state.npz", "steps.log"):
+        Path("mine", name).write_text("mine", encoding="utf-8")
+    Path("case").mkdir()
+    for name in contents("mine"):
         Path("case", name).symlink_to(Path("..", "mine", name))
     before = contents("mine")
-    load = ["--set", "load={kind: history, file: load.csv}"]
     assert main(["run", "case.yaml", "-q", "--overwrite", *load]) == 0
     assert contents("mine") == before
     assert same_bits("case", whole)
@@ -275,6 +276,126 @@ def test_result_that_is_a_link_goes_on_as_a_file(
     before = store.read_bytes()
     assert main(["run", "case.yaml", "-q", "--resume"]) == 0
     assert store.read_bytes() == before
+    assert same_bits("case", whole)
+
+
+# --- what is somebody else's ------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("words", [[], ["--overwrite"], ["--resume"]])
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [
+        ("state.npz", "precious"),
+        ("steps.log", "precious"),
+        ("progress.jsonl", "{}"),
+        ("progress.jsonl", '{"time": 1, "temperature": 20}'),
+    ],
+)
+def test_file_that_no_run_has_written_is_not_replaced(
+    name: str,
+    content: str,
+    words: list[str],
+    folder: Path,  # noqa: F811
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    Path("d").mkdir()
+    for each, text in ((name, content), ("case.yaml", "precious")):
+        Path("d", each).write_text(text, encoding="utf-8")
+    before = contents("d")
+    assert main(["run", "case.yaml", "-q", "-o", "d", *words]) == 2
+    (line,) = said_in_lines(capsys)
+    assert contents("d") == before
+    Path("d/case.yaml").unlink()
+    assert main(["run", "case.yaml", "-q", "-o", "d", *words]) == 2
+    (line,) = said_in_lines(capsys)
+    assert f"d/{name}" in line
+    assert "-o DIR" in line or (name, words) == ("state.npz", ["--resume"])
+    assert sorted(contents("d")) == [name]
+
+
+def test_hidden_files_of_other_programs_stay(folder: Path) -> None:  # noqa: F811
+    Path("d").mkdir()
+    Path("d/.result.nc.backup").write_text("precious", encoding="utf-8")
+    assert main(["run", "case.yaml", "-q", "-o", "d"]) == 0
+    Path("d/state.npz").write_text("precious", encoding="utf-8")
+    assert main(["run", "case.yaml", "-q", "-o", "d", "--resume"]) == 0  # over already
+    assert contents("d")[".result.nc.backup"] == contents("d")["state.npz"] == b"precious"
+
+
+@pytest.mark.parametrize(
+    "name", [".state.npz.new", ".steps.log.new", ".case.yaml.new", ".result.nc.working"]
+)
+def test_link_at_a_temporary_name_is_not_written_through(
+    name: str,
+    folder: Path,  # noqa: F811
+    whole: xr.Dataset,  # noqa: F811
+) -> None:
+    Path("precious.txt").write_text("precious", encoding="utf-8")
+    Path("d").mkdir()
+    Path("d", name).symlink_to(Path("..", "precious.txt"))
+    assert main(["run", "case.yaml", "-q", "-o", "d"]) == 0
+    assert Path("precious.txt").read_text(encoding="utf-8") == "precious"
+    assert same_bits("d", whole)
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no named pipes in directories")
+@pytest.mark.parametrize("words", [[], ["--overwrite"], ["--resume"]])
+@pytest.mark.parametrize("name", ["result.nc", "state.npz", "progress.jsonl", "steps.log"])
+def test_pipe_is_no_file_of_a_run(
+    name: str, words: list[str], stopped: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (stopped / name).unlink()
+    os.mkfifo(stopped / name)
+    with ending_within(10):
+        assert main(["run", "case.yaml", *words]) == 2
+    (line,) = said_in_lines(capsys)
+    assert f"{name}: is no regular file" in line
+
+
+@contextmanager
+def ending_within(seconds: int) -> Iterator[None]:
+    def late(*arguments: Any) -> None:
+        raise TimeoutError
+
+    before = signal.signal(signal.SIGALRM, late)
+    signal.alarm(seconds)
+    try:
+        yield
+    finally:
+        signal.alarm(0)
+        signal.signal(signal.SIGALRM, before)
+
+
+@pytest.mark.parametrize("line", ["[" * 200_000, '{"time": 1' + "0" * 400 + "}", '{"time": 1'])
+def test_course_that_cannot_be_read_is_refused_and_the_hidden_copy_stays(
+    line: str,
+    folder: Path,  # noqa: F811
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    kill(4, "-q")
+    Path("case/.result.nc.working").write_text("unpublished", encoding="utf-8")
+    path = Path("case/progress.jsonl")
+    path.write_text(line + "\n" * 20, encoding="utf-8")
+    before = contents("case")
+    assert main(["run", "case.yaml", "--resume"]) == 2
+    (said,) = said_in_lines(capsys)
+    assert "progress.jsonl is damaged" in said
+    assert contents("case") == before
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows removes no open file")
+def test_course_that_is_removed_meanwhile_is_written_anew(
+    folder: Path,  # noqa: F811
+    whole: xr.Dataset,  # noqa: F811
+) -> None:
+    assert main(["run", "case.yaml", "-q", "-o", "other"]) == 0
+    undo = at_instant(4, Path("case/progress.jsonl").unlink)
+    try:
+        assert main(["run", "case.yaml", "-q"]) == 0
+    finally:
+        undo()
+    assert contents("case")["progress.jsonl"] == contents("other")["progress.jsonl"]
     assert same_bits("case", whole)
 
 
@@ -508,6 +629,36 @@ def test_table_whose_name_is_but_a_part_of_a_copys_is_the_users(
     assert main(["run", "case.yaml", "-q", "--overwrite", *second]) == 2
     assert "case/load.csv: is there already" in said_in_lines(capsys)[-1]
     assert contents("case")["load.csv"] == b"mine"
+
+
+@pytest.mark.parametrize("change", [lambda path: path.write_text("0, 8\n"), Path.unlink])
+def test_table_that_is_changed_before_the_first_step_stops_the_run(
+    change: Callable[[Path], None],
+    folder: Path,  # noqa: F811
+    whole: xr.Dataset,  # noqa: F811
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    Path("tables").mkdir()
+    table = Path("tables/load.csv")
+    table.write_text(TABLE, encoding="utf-8")
+    words = ["run", "case.yaml", "-q", "--set", f"load={{kind: history, file: {table}}}"]
+    march = run_record.March
+
+    def marching(*arguments: Any) -> Any:
+        change(table)
+        return march(*arguments)
+
+    with monkeypatch.context() as patched:
+        patched.setattr(run_record, "March", marching)
+        assert main(words) == 1
+    first, *_ = said_in_lines(capsys)
+    assert "load.csv was changed while the run was being prepared" in first
+    assert not Path("case/load.csv").exists()
+    assert not Path("case/result.nc").exists()
+    table.write_text(TABLE, encoding="utf-8")
+    assert main(words) == 0
+    assert same_bits("case", whole)
 
 
 def test_case_that_is_no_text_is_replaced_when_asked(

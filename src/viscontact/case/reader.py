@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from os import PathLike
@@ -62,6 +63,8 @@ class Case:
         The CSV of the load history, if it has one.
     files : mapping of tuple to Path
         Every file that the case is read from, by the key that names it.
+    digests : mapping of Path to bytes
+        What each of those files held when it was read, as `digest` tells it.
     notes : tuple of str
         What was found in those files, and what of it is not used.
     document : Document
@@ -79,6 +82,7 @@ class Case:
     tolerance: float
     load_file: Path | None
     files: Mapping[KeyPath, Path]
+    digests: Mapping[Path, bytes]
     notes: tuple[str, ...]
     document: Document
 
@@ -148,6 +152,26 @@ def read_case(path: str | PathLike[str], overrides: Iterable[str] = ()) -> Case:
     return _case(document, _checked(document))
 
 
+def digest(path: Path) -> bytes:
+    """Tell what a file holds, so that a change is noticed; nothing if it cannot be read.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+
+    Returns
+    -------
+    bytes
+        Its SHA-256.
+    """
+    try:
+        with path.open("rb") as file:
+            return hashlib.file_digest(file, "sha256").digest()
+    except OSError:
+        return b""
+
+
 def _checked(document: Document) -> CaseFile:
     try:
         return _validated(document, document.data)
@@ -173,7 +197,7 @@ def _case(document: Document, found: CaseFile) -> Case:
         fields = kept_fields(found.output, times)
     except ValueError as error:
         raise CaseError(document.problem(("output", "fields"), str(error))) from error
-    of_indenter = found.indenter_material
+    of_indenter, files = found.indenter_material, _files(found, document)
     return Case(
         title=found.title,
         indenter=combined(found.indenter),
@@ -185,7 +209,8 @@ def _case(document: Document, found: CaseFile) -> Case:
         fields=fields,
         tolerance=found.tolerance,
         load_file=found.load.table,
-        files=_files(found, document),
+        files=files,
+        digests={path: digest(path) for path in files.values()},
         notes=_notes(found),
         document=document,
     )

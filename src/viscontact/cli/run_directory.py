@@ -9,16 +9,21 @@ from typing import Any
 
 from viscontact.case import Case, CaseError
 from viscontact.case.document import read_document
+from viscontact.case.reader import digest
 from viscontact.case.yaml_source import parse
 from viscontact.cli.messages import refuse
 from viscontact.cli.stored import CASE_NAME
-from viscontact.recording.checkpoint import STATE_NAME
+from viscontact.recording.checkpoint import STATE_NAME, is_checkpoint
 from viscontact.recording.exchange import replace
 from viscontact.recording.lock import DirectoryInUse, locked
+from viscontact.recording.progress import is_course
 from viscontact.recording.recorded import PROGRESS_NAME
-from viscontact.recording.step_log import LOG_NAME
+from viscontact.recording.step_log import LOG_NAME, is_step_log
 from viscontact.recording.stored_run import stored_run
 from viscontact.results import RESULT_NAME
+
+#: What a run writes over without being asked, and what tells that a run has written it.
+_WRITTEN = {STATE_NAME: is_checkpoint, LOG_NAME: is_step_log, PROGRESS_NAME: is_course}
 
 _NAMES = (CASE_NAME, RESULT_NAME, STATE_NAME, LOG_NAME, PROGRESS_NAME)
 
@@ -62,6 +67,8 @@ def refuse_no_directory(directory: Path) -> None:
     for path in (directory / name for name in _NAMES):
         if path.is_dir():
             refuse(f"{path}: is a directory, where a run has a file; choose another -o DIR")
+        if path.exists() and not path.is_file():  # to read a pipe is to wait for ever
+            refuse(f"{path}: is no regular file, as a run has there; choose another -o DIR")
 
 
 def refuse_occupied(directory: Path, case: Case, *, overwrite: bool) -> None:
@@ -95,6 +102,8 @@ def refuse_occupied(directory: Path, case: Case, *, overwrite: bool) -> None:
             )
     elif kept.exists() and not (is_runs or overwrite):
         refuse(f"{kept}: is there already; choose another directory with -o DIR, or --overwrite")
+    if not is_runs:
+        _refuse_other_programs(directory)
     _refuse_other_data(directory, case, kept if is_runs else None)
 
 
@@ -111,8 +120,12 @@ def write_case(directory: Path, case: Case) -> None:
     Raises
     ------
     OSError
-        If that fails; what was there is whole.
+        If that fails, or such a file no longer holds what the run is from; what was there is
+        whole.
     """
+    for file in case.file_names:
+        if digest(file) != case.digests[file]:
+            raise OSError(f"{file} was changed while the run was being prepared")
     if not is_same_file(directory / CASE_NAME, case.document.path):
         _write(directory / CASE_NAME, case.text.encode())
     for file, name in case.file_names.items():
@@ -165,7 +178,8 @@ def _write(path: Path, content: bytes) -> None:
     fresh = path.with_name(f".{path.name}.new")
     fresh.unlink(missing_ok=True)
     try:
-        fresh.write_bytes(content)
+        with fresh.open("xb") as file:
+            file.write(content)
         replace(fresh, path)
     except BaseException:
         with suppress(OSError):
@@ -174,8 +188,23 @@ def _write(path: Path, content: bytes) -> None:
 
 
 def _is_of_a_run(directory: Path) -> bool:
-    """Whether a run has begun there, be it that it came to nothing."""
-    return any((directory / name).exists() for name in (RESULT_NAME, STATE_NAME, PROGRESS_NAME))
+    """Whether a run has begun there, be it that it came to nothing: one of its files is ours."""
+    if any(is_ours(directory / name) for name, is_ours in _WRITTEN.items()):
+        return True
+    try:
+        return stored_run(directory / RESULT_NAME).case is not None
+    except ValueError:
+        return False
+
+
+def _refuse_other_programs(directory: Path) -> None:
+    """Refuse to replace what no run has written; a link is replaced, and what it leads to stays."""
+    for path in (directory / name for name in _WRITTEN):
+        if path.is_file() and not path.is_symlink() and path.stat().st_size:
+            refuse(
+                f"{path}: is there already, and viscontact has not written it; choose another "
+                "directory with -o DIR"
+            )
 
 
 def _holds_an_instant(result: Path) -> bool:

@@ -9,7 +9,7 @@ from typing import Any
 from viscontact import __version__
 from viscontact.carried import Carried
 from viscontact.recording.exchange import replace
-from viscontact.recording.plain_file import read_plain, write_plain
+from viscontact.recording.plain_file import outline_of, read_plain, write_plain
 from viscontact.recording.soundness import REMEDY
 
 #: The state's name in a run directory.
@@ -66,14 +66,32 @@ def save_checkpoint(path: Path, checkpoint: Checkpoint) -> None:
         If it cannot be written; the old one is still there.
     """
     fresh = path.with_name(f".{path.name}.new")
+    # What lies there is not written to: it may be a link to anything.
+    fresh.unlink(missing_ok=True)
     try:
-        with fresh.open("wb") as file:
+        with fresh.open("xb") as file:
             # Not `asdict`, which would copy every array.
             write_plain(file, vars(checkpoint))
         replace(fresh, path)
     except BaseException:
         fresh.unlink(missing_ok=True)
         raise
+
+
+def is_checkpoint(path: Path) -> bool:
+    """Whether a file was saved as a checkpoint, by any version, be it damaged since in part.
+
+    Parameters
+    ----------
+    path : Path
+        The file, if there is one.
+    """
+    try:
+        with path.open("rb") as file:
+            outline = outline_of(file)
+    except (OSError, ValueError):
+        return False
+    return isinstance(outline, dict) and {"case", "token", "march"} <= set(outline)
 
 
 def load_checkpoint(path: Path) -> Checkpoint:

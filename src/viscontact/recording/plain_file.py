@@ -102,6 +102,35 @@ def read_plain(file: BinaryIO) -> Carried:
     return read
 
 
+def outline_of(file: BinaryIO) -> Any:
+    """Read what `write_plain` has written but for the arrays, which need not be sound.
+
+    Parameters
+    ----------
+    file : binary file
+        Where from.
+
+    Raises
+    ------
+    ValueError
+        If there is no such thing in it.
+
+    Examples
+    --------
+    >>> import io
+    >>> file = io.BytesIO()
+    >>> write_plain(file, {"work": 1.5})
+    >>> outline_of(file)
+    {'work': 1.5}
+    """
+    try:
+        with zipfile.ZipFile(file) as archive:
+            # Behind the header, which is one line.
+            return json.loads(archive.read(f"{_OUTLINE}.npy").partition(b"\n")[2])
+    except _DAMAGE as error:
+        raise ValueError("it is damaged, or was written by something else") from error
+
+
 def _outlined(value: Any, arrays: list[NDArray[Any]]) -> Any:
     if isinstance(value, np.ndarray):
         arrays.append(value)

@@ -53,7 +53,7 @@ class ProgressLog:
     def __init__(self, path: str | Path) -> None:
         self.count = 0
         self._path = Path(path)
-        self._file = self._path.open("wb", buffering=0)
+        self._file = self._path.open("w+b", buffering=0)
 
     @classmethod
     def resume(cls, path: str | Path, lines: int) -> Self:
@@ -111,18 +111,36 @@ class ProgressLog:
         if self._file.write(encoded) != len(encoded):
             self._file.truncate(begin)
             self._file.seek(begin)
-            raise OSError(f"{self._path} could not be written whole; is the disk full?")
+            raise self._full()
         self.count += 1
 
     def flush_to_disk(self) -> None:
         """Wait until all lines are on the disk, so that they outlast a power cut.
+
+        A file that somebody has removed meanwhile is written anew.
 
         Raises
         ------
         OSError
             If they cannot be brought there.
         """
+        if not os.path.lexists(self._path):
+            self._write_anew()
         os.fsync(self._file.fileno())
+
+    def _write_anew(self) -> None:
+        self._file.seek(0)
+        content = self._file.readall()
+        fresh = self._path.open("x+b", buffering=0)
+        if fresh.write(content) != len(content):
+            fresh.close()
+            self._path.unlink()
+            raise self._full()
+        self._file.close()
+        self._file = fresh
+
+    def _full(self) -> OSError:
+        return OSError(f"{self._path} could not be written whole; is the disk full?")
 
     def close(self) -> None:
         """Close the file; further calls do nothing."""
@@ -138,6 +156,22 @@ class ProgressLog:
         trace: TracebackType | None,
     ) -> None:
         self.close()
+
+
+def is_course(path: Path) -> bool:
+    """Whether a file begins with a line as a `ProgressLog` writes it.
+
+    Parameters
+    ----------
+    path : Path
+        The file, if there is one.
+    """
+    try:
+        with path.open("rb") as file:
+            line = json.loads(file.readline(BLOCK))
+    except (OSError, ValueError, RecursionError):
+        return False
+    return isinstance(line, dict) and {"time", "outcome"} <= set(line)
 
 
 def _entries(state: ContactState) -> dict[str, Any]:

@@ -12,13 +12,14 @@ from typing import Any
 from viscontact.carried import Carried
 from viscontact.dataset import run_attributes
 from viscontact.description import describe, describe_run
-from viscontact.recording.checkpoint import STATE_NAME, Checkpoint, load_checkpoint
+from viscontact.recording.checkpoint import STATE_NAME, Checkpoint, is_checkpoint, load_checkpoint
 from viscontact.recording.differences import Difference, differences
 from viscontact.recording.progress import ProgressLog
 from viscontact.recording.result_writer import ResultWriter
 from viscontact.recording.soundness import REMEDY
-from viscontact.recording.step_log import LOG_NAME
+from viscontact.recording.step_log import LOG_NAME, is_step_log
 from viscontact.recording.stored_run import stored_run
+from viscontact.recording.two_copies import hidden_copies
 from viscontact.results import RESULT_NAME
 from viscontact.run import Run
 from viscontact.step_by_step import March
@@ -183,6 +184,36 @@ def new_lines(recorded: Recorded) -> ProgressLog:
     return ProgressLog(path)
 
 
+def check_lines(recorded: Recorded, saved: Checkpoint) -> None:
+    """Make certain that the progress log has the lines that a state knows of; change nothing.
+
+    Parameters
+    ----------
+    recorded : Recorded
+        The run.
+    saved : Checkpoint
+        Its state.
+
+    Raises
+    ------
+    ValueError
+        If those lines are not all there, or are something else's.
+    """
+    path = recorded.directory / PROGRESS_NAME
+    try:
+        with path.open(encoding="utf-8") as file:
+            lines = [json.loads(line) for line in islice(file, saved.lines)]
+            reached = float(lines[-1]["time"]) if lines else None
+    except OSError as error:
+        raise ValueError(f"{path} cannot be read ({error.strerror}); {REMEDY}") from error
+    except (ValueError, LookupError, TypeError, OverflowError, RecursionError) as error:
+        raise ValueError(
+            f"{path} is damaged, or was written by something else; {REMEDY}"
+        ) from error
+    if len(lines) < saved.lines or reached != saved.reached:
+        raise ValueError(f"{path} is not the course of this run so far; {REMEDY}")
+
+
 def same_lines(recorded: Recorded, saved: Checkpoint) -> ProgressLog:
     """Return the progress log that is there, cut to the lines that a state knows of.
 
@@ -196,34 +227,22 @@ def same_lines(recorded: Recorded, saved: Checkpoint) -> ProgressLog:
     Raises
     ------
     ValueError
-        If those lines are not all there, or are something else's; nothing has been changed then.
+        If those lines are not all there; nothing has been changed then.
     """
-    path = recorded.directory / PROGRESS_NAME
-    try:
-        with path.open(encoding="utf-8") as file:
-            lines = [json.loads(line) for line in islice(file, saved.lines)]
-            reached = float(lines[-1]["time"]) if lines else None
-    except OSError as error:
-        raise ValueError(f"{path} cannot be read ({error.strerror}); {REMEDY}") from error
-    except (ValueError, KeyError, TypeError) as error:
-        raise ValueError(
-            f"{path} is damaged, or was written by something else; {REMEDY}"
-        ) from error
-    if len(lines) < saved.lines or reached != saved.reached:
-        raise ValueError(f"{path} is not the course of this run so far; {REMEDY}")
-    return ProgressLog.resume(path, saved.lines)
+    return ProgressLog.resume(recorded.directory / PROGRESS_NAME, saved.lines)
 
 
 def remove_traces(directory: Path) -> None:
-    """Remove what nobody needs once a run is over.
+    """Remove what nobody needs once a run is over, and nothing that is somebody else's.
 
     Parameters
     ----------
     directory : Path
         The run's.
     """
-    kept = (STATE_NAME, LOG_NAME)
-    for name in (*kept, *(f".{name}.new" for name in kept)):
-        (directory / name).unlink(missing_ok=True)
-    for copy in directory.glob(f".{RESULT_NAME}.*"):
-        copy.unlink()
+    for name, is_ours in ((STATE_NAME, is_checkpoint), (LOG_NAME, is_step_log)):
+        if is_ours(directory / name):
+            (directory / name).unlink()
+        (directory / f".{name}.new").unlink(missing_ok=True)
+    for copy in hidden_copies(directory / RESULT_NAME):
+        copy.unlink(missing_ok=True)

@@ -14,6 +14,7 @@ from viscontact.recording.checkpoint import STATE_NAME, Checkpoint, save_checkpo
 from viscontact.recording.progress import ProgressLog
 from viscontact.recording.recorded import (
     Recorded,
+    check_lines,
     new_lines,
     new_writer,
     remove_traces,
@@ -107,6 +108,8 @@ class RunRecord:
         record._set_up(recorded, saved, march, on_begin, undisturbed)
         # Before the first checkpoint the directory may still hold what an earlier run has left.
         is_new = saved.steps == 0
+        if not is_new:
+            check_lines(recorded, saved)
         record._writer = new_writer(recorded) if is_new else same_writer(recorded, saved.result)
         try:
             record._lines = new_lines(recorded) if is_new else same_lines(recorded, saved)

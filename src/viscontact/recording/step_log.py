@@ -42,9 +42,11 @@ class StepLog:
 
     def __init__(self, path: Path, token: str, first: int) -> None:
         fresh = path.with_name(f".{path.name}.new")
+        # What lies there is not written to: it may be a link to anything.
+        fresh.unlink(missing_ok=True)
         try:
             # Unbuffered: what is written survives the process, though not a power cut.
-            with fresh.open("wb", buffering=0) as begun:
+            with fresh.open("xb", buffering=0) as begun:
                 _write_all(begun, _head(token) + _as_bytes(first))
             fresh.replace(path)
         except BaseException:
@@ -84,6 +86,21 @@ class StepLog:
         trace: TracebackType | None,
     ) -> None:
         self.close()
+
+
+def is_step_log(path: Path) -> bool:
+    """Whether a file was begun as a log of steps, of any run.
+
+    Parameters
+    ----------
+    path : Path
+        The file, if there is one.
+    """
+    try:
+        with path.open("rb") as file:
+            return file.read(len(_MAGIC)) == _MAGIC
+    except OSError:
+        return False
 
 
 def logged_steps(path: Path, token: str, first: int) -> Iterator[SolvedStep]:

@@ -51,7 +51,7 @@ def stored_run(path: Path) -> StoredRun:
                 raise ValueError("it has no times")
             complete = "complete" in file.ncattrs() and int(file.getncattr("complete")) == 1
             return StoredRun(len(file.dimensions["time"]), complete, _case(file))
-    except (OSError, RuntimeError, ValueError, TypeError) as error:
+    except (OSError, RuntimeError, ValueError, TypeError, OverflowError) as error:
         raise ValueError(f"{path} cannot be read as a result of viscontact: {error}") from error
 
 

@@ -19,6 +19,22 @@ from viscontact.recording.readers import is_unread
 MAY_BE_HELD = os.name == "nt"
 
 
+def hidden_copies(path: Path) -> tuple[Path, Path]:
+    """Return the names of the copy that is written to, and of what is there between two swaps.
+
+    Parameters
+    ----------
+    path : Path
+        The published file.
+
+    Examples
+    --------
+    >>> [copy.name for copy in hidden_copies(Path("result.nc"))]
+    ['.result.nc.working', '.result.nc.previous']
+    """
+    return path.with_name(f".{path.name}.working"), path.with_name(f".{path.name}.previous")
+
+
 class TwoCopies:
     """The published file of a result, and the hidden one beside it that rows are added to.
 
@@ -39,8 +55,7 @@ class TwoCopies:
     def __init__(self, path: Path, layout: Layout) -> None:
         self.published: Extent | None = None
         self._path, self._layout = path, layout
-        self._working = path.with_name(f".{path.name}.working")
-        self._aside = path.with_name(f".{path.name}.previous")
+        self._working, self._aside = hidden_copies(path)
         self._file: netCDF4.Dataset | None = None
         # Rows the working copy is known to have while it is closed; None if there is none.
         self._closed: Extent | None = None
@@ -123,6 +138,7 @@ class TwoCopies:
             Global attributes.
         """
         source = self.file
+        self._aside.unlink(missing_ok=True)
         shorter = created(self._aside, self._layout, attributes)
         copy_rows(source, shorter, self._layout, Extent(0, 0), extent)
         shorter.close()
