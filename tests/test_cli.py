@@ -786,3 +786,88 @@ def test_netcdf_of_something_else_is_refused_in_one_line(
         message = capsys.readouterr().err
         assert "not a result of viscontact" in message
         assert len(message.splitlines()) == 1
+
+
+def _shell(line: str) -> subprocess.CompletedProcess[str]:
+    """What a shell makes of a line in which $V is the command."""
+    if os.name == "nt":
+        pytest.skip("needs a POSIX shell")
+    environment = {**os.environ, "V": f"{sys.executable} -m viscontact"}
+    return subprocess.run(["bash", "-c", line], capture_output=True, text=True, env=environment)
+
+
+@pytest.mark.parametrize("closed", [">&-", "2>&-", ">&- 2>&-", "<&- >&- 2>&-"])
+def test_run_needs_no_standard_streams(closed: str, folder: Path) -> None:
+    assert _shell(f"$V run case.yaml {closed}").returncode == 0
+    with vc.open_results("case") as ds:
+        assert ds.sizes["time"] == 7
+    # neither a message nor a table has got into a file of the run
+    lines = Path("case/progress.jsonl").read_text(encoding="utf-8").splitlines()
+    assert all("time" in json.loads(line) for line in lines)
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no full device here")
+@pytest.mark.parametrize("buffered", ["", "1"])
+@pytest.mark.parametrize("reader", [">/dev/full", "| sleep 0; exit ${PIPESTATUS[0]}"])
+def test_finished_run_whose_table_nobody_gets_is_finished(
+    reader: str, buffered: str, folder: Path
+) -> None:
+    done = _shell(f"export PYTHONUNBUFFERED={buffered}; $V run case.yaml {reader}")
+    assert done.returncode == 0
+    last = done.stderr.splitlines()[-1]
+    assert last.startswith("case: the run is finished; its table cannot be printed: ")
+    assert "step" in done.stderr.splitlines()[-2]
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no full device here")
+@pytest.mark.parametrize(
+    "words",
+    ["show finished", "check case.yaml", "example", "schema", "--help", "run --help", "--version"],
+)
+def test_full_output_is_said_in_one_line(words: str, folder: Path, finished: Path) -> None:
+    words = words.replace("finished", str(finished))
+    for buffered in ("", "1"):
+        done = _shell(f"export PYTHONUNBUFFERED={buffered}; $V {words} >/dev/full")
+        assert done.returncode == 1
+        assert done.stderr == (
+            "viscontact: the output cannot be written: No space left on device\n"
+        )
+    # messages nobody can read do not change how a run ends
+    assert _shell(f"$V {words} 2>/dev/full").returncode == 0
+
+
+@pytest.mark.parametrize("name", ["~", "~x", " lead", "trail ", "file:", "http:", "a:b", "#a", "é"])
+def test_directories_of_odd_names_hold_runs(
+    name: str, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    if os.name == "nt":
+        pytest.skip("Windows has no such names")
+    home = folder / "home"
+    home.mkdir()
+    monkeypatch.setenv("HOME", str(home))
+    assert main(["run", "case.yaml", "-o", name]) == 0
+    assert main(["show", name]) == 0
+    assert (folder / name / "result.nc").is_file()
+    assert {path.name for path in folder.iterdir()} == {"case.yaml", "home", name}
+    assert not any(home.iterdir())
+
+
+@pytest.mark.parametrize("name", [b"x\\y", b"\\", b"a\xffb"])
+def test_directories_that_netcdf_cannot_name_are_refused(
+    name: bytes, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    if os.name == "nt":
+        pytest.skip("Windows has no such names")
+    assert main(["run", "case.yaml", "-o", os.fsdecode(name)]) == 2
+    [line] = capsys.readouterr().err.splitlines()
+    assert "netCDF" in line
+    assert [path.name for path in folder.iterdir()] == ["case.yaml"]
+
+
+def test_too_little_memory_for_the_libraries_is_said(folder: Path) -> None:
+    done = _shell("ulimit -v 300000 || exit 99; $V run case.yaml")
+    if done.returncode == 99:
+        pytest.skip("no limit of memory here")
+    assert done.returncode == 1
+    assert "too little memory" in done.stderr
+    assert "fault of viscontact" not in done.stderr

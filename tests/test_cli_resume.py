@@ -548,3 +548,86 @@ def test_show_and_plot_tell_of_a_run_that_can_go_on(
     assert main(command[1:]) == 0
     assert main(["show", "a b"]) == 0
     assert "the run" not in capsys.readouterr().out
+
+
+#: A process in which signals come while something is imported, or at its very end.
+ASKED = """\
+import atexit, signal, sys
+class Asking:
+    def find_spec(self, name, path=None, target=None):
+        if name == {module!r}:
+            for _ in range({times}):
+                signal.raise_signal(signal.{name})
+sys.meta_path.insert(0, Asking())
+if {module!r} == "exit":
+    atexit.register(signal.raise_signal, signal.{name})
+sys.argv = ["viscontact", "run", "case.yaml", "-q"]
+from viscontact.cli import main
+sys.exit(main())
+"""
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no such signals")
+@pytest.mark.parametrize("module", ["typer", "numpy", "exit"])
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGHUP"])
+def test_request_during_imports_or_after_the_end_is_met_in_order(
+    name: str, module: str, folder: Path
+) -> None:
+    code = ASKED.format(name=name, module=module, times=2)
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    if module == "exit":
+        assert (done.returncode, done.stderr) == (0, "")
+        assert Path("case/result.nc").exists()
+    else:
+        assert (done.returncode, done.stderr) == (130, "interrupted\n")
+        assert not Path("case").exists()
+
+
+def test_case_in_the_directory_of_its_run_goes_on_there(folder: Path, whole: xr.Dataset) -> None:
+    kill(4, "-q", "-o", "runs/one")
+    assert main(["run", "runs/one/case.yaml", "--resume", "-q"]) == 0
+    assert same_bits("runs/one", whole)
+    assert not Path("runs/one/case").exists()
+
+
+def test_command_to_resume_names_files_that_look_like_options(
+    folder: Path, whole: xr.Dataset, capsys: pytest.CaptureFixture[str]
+) -> None:
+    Path("case.yaml").rename("-e.yaml")
+    undo = at_instant(4, lambda: signal.raise_signal(signal.SIGTERM))
+    assert main(["run", "-q", "--", "-e.yaml"]) == 130
+    undo()
+    *_, last = capsys.readouterr().err.splitlines()
+    assert main(shlex.split(last.removeprefix("go on with: "))[1:]) == 0
+    assert same_bits("./-e", whole)
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows removes no directory in use")
+def test_directory_that_is_gone_is_not_said_to_keep_anything(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def moved_and_stopped() -> None:
+        Path("case").rename("elsewhere")
+        signal.raise_signal(signal.SIGTERM)
+
+    undo = at_instant(4, moved_and_stopped)
+    assert main(["run", "case.yaml", "-q"]) in (1, 130)
+    undo()
+    said = capsys.readouterr().err
+    assert "case is not there any more" in said
+    assert "keeps" not in said
+    assert "--resume" not in said
+
+
+def test_request_after_the_last_instant_is_saved_changes_nothing(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    shown = execution.print_summary
+
+    def asked(directory: Path) -> None:
+        signal.raise_signal(signal.SIGTERM)
+        shown(directory)
+
+    monkeypatch.setattr(execution, "print_summary", asked)
+    assert main(["run", "case.yaml"]) == 0
+    assert "11 instants in" in capsys.readouterr().out

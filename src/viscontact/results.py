@@ -53,9 +53,10 @@ def open_results(path: str | Path) -> xr.Dataset:
         If the file cannot be read as netCDF.
     """
     file = Path(path)
-    file = file / RESULT_NAME if file.is_dir() else file
+    # Absolute: else "~", a blank in front or "file:" mean something of their own to the reader.
+    file = (file / RESULT_NAME if file.is_dir() else file).absolute()
     if not file.is_file():
-        raise FileNotFoundError(f"no result at {file}")
+        raise FileNotFoundError(f"no result at {path}")
     while True:
         before = _marks(file)
         try:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, closing, contextmanager, suppress
 from dataclasses import dataclass
@@ -14,13 +15,16 @@ from viscontact.cli.preparation import Prepared, prepare
 from viscontact.cli.progress import shown_progress
 from viscontact.cli.run_directory import chosen_directory, taken, write_case
 from viscontact.cli.run_request import RunRequest
-from viscontact.cli.stored import progress_made
+from viscontact.cli.stored import CASE_NAME, progress_made
+from viscontact.cli.streams import printing, unwritten
 from viscontact.cli.summary import print_summary
 from viscontact.cli.taking_up import Standing, refuse_changed, standing
 from viscontact.errors import ConvergenceError, DomainError
+from viscontact.recording.checkpoint import STATE_NAME
 from viscontact.recording.lock import DirectoryInUse, locked
 from viscontact.recording.recorded import ChangedCaseError, Recorded, remove_traces
 from viscontact.recording.run_record import RunRecord, Undisturbed
+from viscontact.recording.step_log import LOG_NAME
 from viscontact.results import RESULT_NAME
 from viscontact.units import in_words
 
@@ -106,10 +110,32 @@ class _Attempt:
 
 
 def _attempt(request: RunRequest, interruption: Interruption) -> _Attempt:
-    directory = chosen_directory(request.case, request.output)
+    directory = _directory(request)
     prepared = prepare(request.case, request.settings, request.threads)
     recorded = Recorded(directory, prepared.run, prepared.case.fields, prepared.case.title)
     return _Attempt(request, prepared, recorded, interruption)
+
+
+def _directory(request: RunRequest) -> Path:
+    """Where the run goes, as a path that netCDF takes as it is."""
+    case, beside = request.case, request.case.parent
+    is_runs_own = any((beside / name).is_file() for name in (RESULT_NAME, STATE_NAME))
+    if request.output is None and case.name == CASE_NAME and is_runs_own:
+        directory = beside  # the case as it was run
+    else:
+        directory = chosen_directory(case, request.output)
+    whole = str(directory.absolute())
+    if os.name != "nt" and "\\" in whole:
+        refuse(f"{directory}: netCDF files cannot lie below a name with a backslash: choose -o DIR")
+    try:
+        whole.encode()
+    except UnicodeEncodeError:
+        refuse(
+            f"{directory}: netCDF files cannot lie below a name that is not UTF-8: choose -o DIR"
+        )
+    # To netCDF, "~", a blank in front and "file:" mean something of their own.
+    is_plain = not directory.parts or not (directory.parts[0][0] in "~ \t" or ":" in str(directory))
+    return directory if is_plain else directory.absolute()
 
 
 def _run(attempt: _Attempt, stands: Standing) -> None:
@@ -119,7 +145,20 @@ def _run(attempt: _Attempt, stands: Standing) -> None:
     with closing(record):
         _march(attempt, record)
     if not attempt.request.quiet:
-        print_summary(attempt.recorded.directory)
+        _tell(attempt)
+
+
+def _tell(attempt: _Attempt) -> None:
+    """Print the summary; the run is finished, whether or not anybody reads it."""
+    directory = attempt.recorded.directory
+    try:
+        with printing():
+            print_summary(directory)
+    except OSError as error:
+        if unwritten("stdout") is None and not isinstance(error, BrokenPipeError):
+            stop(f"{directory}: the run is finished, but its result cannot be read: {error}")
+        why = error.strerror or str(error)
+        say(f"{directory}: the run is finished; its table cannot be printed: {why}")
 
 
 def _begun(attempt: _Attempt) -> RunRecord:
@@ -200,6 +239,7 @@ def _is_marched_to_the_end(attempt: _Attempt, record: RunRecord) -> bool:
                 record.checkpoint()
                 return False
         record.finish()
+        attempt.interruption.over = True
     return True
 
 
@@ -211,16 +251,26 @@ def _publish(record: RunRecord) -> None:
 
 
 def _kept(attempt: _Attempt, record: RunRecord) -> str:
+    directory = attempt.recorded.directory
+    if _is_gone(attempt, record):
+        return f"{directory} is not there any more, and what it kept has gone with it"
     made = attempt.made(record.kept, record.reached)
     late = ""
     if record.published < record.kept:
         late = f"; {RESULT_NAME} shows {record.published} of them until the run goes on"
-    return f"{attempt.recorded.directory} keeps {made}{late}"
+    return f"{directory} keeps {made}{late}"
 
 
 def _remedy(attempt: _Attempt, record: RunRecord) -> str:
     """The command to type next; without a step there is nothing to go on from."""
-    return attempt.request.resuming if record.kept else attempt.request.repeating
+    keeps = record.kept and not _is_gone(attempt, record)
+    return attempt.request.resuming if keeps else attempt.request.repeating
+
+
+def _is_gone(attempt: _Attempt, record: RunRecord) -> bool:
+    """Whether somebody has removed or moved what is kept."""
+    files = (attempt.recorded.directory / name for name in (RESULT_NAME, STATE_NAME, LOG_NAME))
+    return record.kept > 0 and not any(file.exists() for file in files)
 
 
 def _say_finished(attempt: _Attempt) -> None:

@@ -29,10 +29,16 @@ class Interruption:
     ----------
     requested : bool
         Whether the run is to stop after its step.
+    seen : bool
+        Whether anything of the kind has come at all.
+    over : bool
+        Whether all is done: a request that comes now is too late, and changes nothing.
     """
 
     def __init__(self) -> None:
         self.requested = False
+        self.seen = False
+        self.over = False
         self._marching = False
         self._postponed = 0
         self._pending = False
@@ -66,8 +72,11 @@ class Interruption:
 
     def handle(self, number: int, frame: FrameType | None) -> None:
         """Note the first request; the second one ends the step as well."""
+        self.seen = True
         if number == getattr(signal, "SIGHUP", None):
             self._leave_terminal()
+        if self.over:
+            return
         again = clock.monotonic() - self._requested_at < _ONE_REQUEST
         if self.requested and again and number != signal.SIGINT:
             return
@@ -86,14 +95,23 @@ class Interruption:
 
 
 @contextmanager
-def watched_interruption() -> Iterator[Interruption]:
+def watched_interruption(*, until_exit: bool = False) -> Iterator[Interruption]:
     """Catch Ctrl-C and polite requests to end, for as long as the block runs.
+
+    Parameters
+    ----------
+    until_exit : bool
+        Afterwards the process ends: a request that comes too late must not change how.
 
     Yields
     ------
     Interruption
         Ask it after each step.
     """
+    standing = getattr(signal.getsignal(signal.SIGINT), "__self__", None)
+    if isinstance(standing, Interruption):
+        yield standing  # one for all who ask
+        return
     interruption = Interruption()
     before: dict[int, Any] = {}
     # Only the main thread may handle signals; elsewhere they stay as they are.
@@ -106,7 +124,8 @@ def watched_interruption() -> Iterator[Interruption]:
     finally:
         for caught, handler in before.items():
             # None: whoever set it did not do so from Python.
-            signal.signal(caught, signal.SIG_DFL if handler is None else handler)
+            after = signal.SIG_DFL if handler is None else handler
+            signal.signal(caught, signal.SIG_IGN if until_exit else after)
 
 
 def _is_to_be_ignored(number: int) -> bool:

@@ -6,8 +6,6 @@ import sys
 from contextlib import suppress
 from typing import NoReturn
 
-import typer
-
 DONE, STOPPED, REFUSED, INTERRUPTED = 0, 1, 2, 130
 
 
@@ -22,11 +20,17 @@ def refuse(*lines: str) -> NoReturn:
     """Say why nothing was done, and end with exit code 2."""
     for line in lines:
         say(line)
-    raise typer.Exit(REFUSED)
+    _leave(REFUSED)
 
 
 def stop(*lines: str, code: int = STOPPED) -> NoReturn:
     """Say why the work ended early, and end with exit code 1 or another one."""
     for line in lines:
         say(line)
+    _leave(code)
+
+
+def _leave(code: int) -> NoReturn:
+    import typer  # late: nothing heavy before signals are met
+
     raise typer.Exit(code)

@@ -58,15 +58,19 @@ class RunRequest:
         return _command(*self._words(), *(f"--{name}" for name in given))
 
     def _words(self) -> Iterator[str]:
-        yield str(self.case)
+        yield _no_option(self.case)
         if self.output is not None:
-            yield from ("-o", str(self.output))
+            yield from ("-o", _no_option(self.output))
         for setting in self.settings:
             yield from ("--set", setting)
         if self.threads != 1:
             yield from ("--threads", str(self.threads))
         if self.quiet:
             yield "--quiet"
+
+
+def _no_option(path: Path) -> str:
+    return f"./{path}" if str(path).startswith("-") else str(path)
 
 
 def _command(*words: str) -> str:

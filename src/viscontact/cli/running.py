@@ -37,10 +37,10 @@ def run(
     from viscontact.cli.interruption import watched_interruption
 
     try:
-        # From here on, so that a request to end is met with an orderly end while all is imported.
-        with watched_interruption():
-            from viscontact.cli.execution import execute
-
+        with watched_interruption() as interruption:
+            # An import that is interrupted may end in any error: the request waits for its end.
+            with interruption.postponed():
+                from viscontact.cli.execution import execute
             execute(
                 case,
                 output,
