@@ -310,7 +310,8 @@ def test_file_that_no_run_has_written_is_not_replaced(
     assert main(["run", "case.yaml", "-q", "-o", "d", *words]) == 2
     (line,) = said_in_lines(capsys)
     assert f"d/{name}" in line
-    assert "-o DIR" in line or (name, words) == ("state.npz", ["--resume"])
+    assert "-o DIR" in line
+    assert "--overwrite" not in line  # which is refused as well
     assert sorted(contents("d")) == [name]
 
 

@@ -88,7 +88,7 @@ def refuse_occupied(directory: Path, case: Case, *, overwrite: bool) -> None:
     typer.Exit
         With code 2.
     """
-    kept, is_runs = directory / CASE_NAME, _is_of_a_run(directory)
+    kept, is_runs = directory / CASE_NAME, is_of_a_run(directory)
     # What a run has left that was stopped in its first step is nothing to lose.
     if not overwrite and _holds_an_instant(directory / RESULT_NAME):
         refuse(
@@ -171,6 +171,22 @@ def is_same_file(one: Path, other: Path) -> bool:
     return one.exists() and other.exists() and one.samefile(other)
 
 
+def is_of_a_run(directory: Path) -> bool:
+    """Whether a run has begun there, be it that it came to nothing: one of its files is ours.
+
+    Parameters
+    ----------
+    directory : Path
+        Where that run would have been.
+    """
+    if any(is_ours(directory / name) for name, is_ours in _WRITTEN.items()):
+        return True
+    try:
+        return stored_run(directory / RESULT_NAME).case is not None
+    except ValueError:
+        return False
+
+
 def _write(path: Path, content: bytes) -> None:
     """Replace a file; a link in its place is replaced too, lest another file be written to."""
     if not path.is_symlink() and path.is_file() and path.read_bytes() == content:
@@ -185,16 +201,6 @@ def _write(path: Path, content: bytes) -> None:
         with suppress(OSError):
             fresh.unlink()
         raise
-
-
-def _is_of_a_run(directory: Path) -> bool:
-    """Whether a run has begun there, be it that it came to nothing: one of its files is ours."""
-    if any(is_ours(directory / name) for name, is_ours in _WRITTEN.items()):
-        return True
-    try:
-        return stored_run(directory / RESULT_NAME).case is not None
-    except ValueError:
-        return False
 
 
 def _refuse_other_programs(directory: Path) -> None:

@@ -10,7 +10,7 @@ from typing import NoReturn
 from viscontact.case import Case
 from viscontact.cli.case_changes import case_changes
 from viscontact.cli.messages import refuse
-from viscontact.cli.run_directory import refuse_no_directory, refuse_occupied
+from viscontact.cli.run_directory import is_of_a_run, refuse_no_directory, refuse_occupied
 from viscontact.cli.run_request import RunRequest
 from viscontact.cli.stored import CASE_NAME
 from viscontact.recording.checkpoint import STATE_NAME
@@ -59,7 +59,7 @@ def standing(request: RunRequest, recorded: Recorded, case: Case) -> Standing:
     is_complete = isinstance(stored, StoredRun) and stored.complete
     if isinstance(stored, StoredRun) and is_complete and stored.case == recorded.case:
         return Standing.FINISHED
-    if (directory / STATE_NAME).exists():
+    if (directory / STATE_NAME).exists() and is_of_a_run(directory):
         return Standing.STOPPED
     if isinstance(stored, str):
         refuse(f"{stored}; replace it with --overwrite, or choose another directory with -o DIR")
