@@ -37,6 +37,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     occupy_streams()
     if arguments is None:
         remember_output()
+    try:
+        return _watched(arguments)
+    except KeyboardInterrupt:  # in the first or the last moment
+        say("interrupted")
+        return INTERRUPTED
+
+
+def _watched(arguments: Sequence[str] | None) -> int:
     with watched_interruption(until_exit=arguments is None) as interruption:
         # Inner products over a contact are too short for the threads of a BLAS, which then wait
         # for one another: ten times slower on a busy machine. NumPy reads this when imported.
@@ -54,7 +62,7 @@ def _answered(typed: list[str] | None, interruption: Interruption) -> int:
             from viscontact.cli.shell import app
         return int(app(typed, prog_name="viscontact", standalone_mode=False) or 0)
     except KeyboardInterrupt:
-        return _interrupted()
+        return _interrupted(interruption)
     except SystemExit:  # rich and Typer, when the reader of a pipe has had enough
         return STOPPED
     except Exception as error:
@@ -72,7 +80,8 @@ def _written(code: int) -> int:
     return code
 
 
-def _interrupted() -> int:
+def _interrupted(interruption: Interruption) -> int:
+    interruption.over = True  # once more changes nothing
     say("interrupted")
     return INTERRUPTED
 
@@ -85,7 +94,7 @@ def _error_code(error: Exception, interruption: Interruption) -> int:
             show_itself()
         return int(getattr(error, "exit_code", REFUSED))
     if interruption.seen:  # whatever an import or a library has made of it
-        return _interrupted()
+        return _interrupted(interruption)
     if isinstance(error, OSError) and (reason := unwritten("stdout")) is not None:
         if not isinstance(reason, BrokenPipeError):
             say(f"viscontact: the output cannot be written: {reason.strerror}")

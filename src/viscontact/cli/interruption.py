@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import signal
 import sys
@@ -42,7 +43,7 @@ class Interruption:
         self._marching = False
         self._postponed = 0
         self._pending = False
-        self._requested_at = 0.0
+        self._requested_at = -math.inf
         # A stream that has no terminal, such as a log, outlives the terminal.
         self._on_terminal = [name for name in ("stdout", "stderr") if getattr(sys, name).isatty()]
 
@@ -78,10 +79,11 @@ class Interruption:
         if self.over:
             return
         again = clock.monotonic() - self._requested_at < _ONE_REQUEST
-        if self.requested and again and number != signal.SIGINT:
+        if again and number != signal.SIGINT:
             return
+        self._requested_at = clock.monotonic()
         if self._marching and not self.requested:
-            self.requested, self._requested_at = True, clock.monotonic()
+            self.requested = True
             _notice("stopping after this step; once more to stop now")
         elif self._postponed:
             self._pending = True
