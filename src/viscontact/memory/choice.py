@@ -17,6 +17,10 @@ from viscontact.memory.superposition import SuperposedMemory
 #: Increments of the fields are kept and summed as long as they take no more than this [bytes].
 ROOM = 256 * 2**20
 
+#: Where a run chooses its steps, there is room for so many times the planned ones: it is taken
+#: only as steps come, and never has to be moved, which would take it twice.
+TO_SPARE = 4
+
 #: Beyond this many steps a sum over all of them would take longer than the contact itself.
 MOST_STEPS = 2000
 
@@ -60,7 +64,9 @@ class MemoryPlan:
         """Return an empty memory for a field of a shape."""
         if isinstance(self.compliance, SeriesCompliance):
             return RecursiveMemory(self.compliance, shape)
-        return SuperposedMemory(self.compliance, shape, self.instants, self.steps)
+        chosen_as_it_goes = not self.instants.size
+        room = TO_SPARE * self.steps if chosen_as_it_goes else self.steps
+        return SuperposedMemory(self.compliance, shape, self.instants, room)
 
 
 def plan_memory(
