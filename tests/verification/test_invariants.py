@@ -3,7 +3,7 @@
 Truth: eqs. 1 to 5 and 7 of Spinu & Cerlinca (2018), evaluated by `independent.audit`, which
 shares no numerics with the package. A violation is relative to the largest displacement so far,
 to the force, and to force times the contact's extent; the solver has promised `tolerance` for all
-of them.
+of them. The thousand problems take a minute and a half on one core.
 """
 
 import numpy as np
