@@ -150,10 +150,18 @@ def _outermost(points: list[LoadPoint]) -> list[LoadPoint]:
     ways = ("eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y")
     extremes = [max(points, key=level_of)]
     for way in ways:
-        ranked = sorted(points, key=lambda p, way=way: (getattr(p, way) or 0.0, level_of(p)))  # type: ignore[misc]
-        extremes += [ranked[0], ranked[-1]]
+        extremes += _farthest(points, way)
     highest = sorted(points, key=level_of, reverse=True)[: MOST_CORNERS // 2]
     return list(dict.fromkeys([*extremes, *highest]))
+
+
+def _farthest(points: list[LoadPoint], way: str) -> list[LoadPoint]:
+    """The loads that act or tilt farthest one way and the other."""
+
+    def reach(point: LoadPoint) -> tuple[float, float]:
+        return getattr(point, way) or 0.0, level_of(point)
+
+    return [min(points, key=reach), max(points, key=reach)]
 
 
 def _largest_compliance(

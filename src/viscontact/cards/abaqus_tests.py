@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from typing import Literal
 
 from viscontact.cards.abaqus_syntax import Block, DataLine
 from viscontact.cards.card import CardUnits
@@ -115,13 +116,13 @@ def _law(
     ends = infinite is not None and math.isclose(infinite, relative[-1], rel_tol=_ROUNDING)
     if infinite is not None and not ends:
         notes.append(f"{block.where}: SHRINF is not used beyond the last of the test data")
-    beyond = "last" if ends else "slope"
+    beyond: Literal["last", "slope"] = "last" if ends else "slope"
     try:
         if creep:
             values = [value / (2 * at_once) for value in relative]
-            return TabulatedCreep(times, values, beyond=beyond)  # type: ignore[arg-type]
+            return TabulatedCreep(times, values, beyond=beyond)
         values = [value * at_once for value in relative]
-        return TabulatedRelaxation(times, values, beyond=beyond)  # type: ignore[arg-type]
+        return TabulatedRelaxation(times, values, beyond=beyond)
     except ValueError as error:
         lines = [f"1 at once ({block.where})", *(line.where for line in block.data)]
         raise ValueError(

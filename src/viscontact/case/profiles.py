@@ -24,6 +24,8 @@ Interpolation = Literal["smooth", "linear"]
 class Line(Section):
     """A generating line, by its kind."""
 
+    kind: str
+
     @property
     def arguments(self) -> dict[str, Any]:
         """What `viscontact.Roller` takes for this profile besides its name."""
@@ -55,9 +57,8 @@ class Line(Section):
             If the profile makes no sense or does not fit; the message begins with the key.
         """
         try:
-            kind = self.kind  # type: ignore[attr-defined]
             arguments = {**others, **self.arguments}
-            return indenters.Roller(radius, half_length, profile=kind, **arguments)
+            return indenters.Roller(radius, half_length, profile=self.kind, **arguments)
         except ValueError as error:
             raise ValueError(self._at_key(str(error))) from error
 

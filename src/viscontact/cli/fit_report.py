@@ -6,6 +6,7 @@ import dataclasses
 import warnings
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -111,12 +112,12 @@ def _found(table: Table, wishes: Wishes) -> tuple[str, _Drawing]:
     points, measured = _columns(table)
     options = _options(table, wishes)
     if "compliance" in measured:
-        fit = fit_creep(points, measured["compliance"], **options)  # type: ignore[arg-type]
+        fit = fit_creep(points, measured["compliance"], **options)
     elif "modulus" in measured:
-        fit = fit_relaxation(points, measured["modulus"], **options)  # type: ignore[arg-type]
+        fit = fit_relaxation(points, measured["modulus"], **options)
     else:
         storage, loss = measured["storage"], measured["loss"]
-        fit = fit_dynamic(points, storage, loss, **options)  # type: ignore[arg-type]
+        fit = fit_dynamic(points, storage, loss, **options)
     print(table.located(ValueError(repr(fit))))
     fit = _with_volume(fit, wishes)
     return material_section(fit), _Drawing("fitted_series", fit)
@@ -199,14 +200,14 @@ def _read(file: Path) -> Table:
         refuse(str(error))
 
 
-def _options(table: Table, wishes: Wishes) -> dict[str, object]:
+def _options(table: Table, wishes: Wishes) -> dict[str, Any]:
     data = wishes.data or table.data
     if data is None:
         raise ValueError(
             f"{table.source.name}: the headings do not say what kind of test it is; add "
             "--data shear, --data uniaxial or --data deviatoric"
         )
-    options: dict[str, object] = {"data": data, "fluid": wishes.fluid, "terms": wishes.terms}
+    options: dict[str, Any] = {"data": data, "fluid": wishes.fluid, "terms": wishes.terms}
     if data == "uniaxial" and wishes.poisson_ratio is None and wishes.bulk_modulus is None:
         raise ValueError(
             f"{table.source.name}: uniaxial data need --poisson-ratio, such as 0.38, or "

@@ -9,11 +9,11 @@ import sys
 import time as clock
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from pathlib import Path
 from types import FrameType
 from typing import Any
 
 from viscontact.cli.messages import say
+from viscontact.cli.streams import lead_nowhere
 
 #: Where they exist: Ctrl-C, what batch systems send, a terminal that closes, Ctrl-Break.
 _SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK")
@@ -93,7 +93,7 @@ class Interruption:
     def _leave_terminal(self) -> None:
         """Write to nowhere instead of to a terminal that is gone, which would be an error."""
         for name in self._on_terminal:
-            setattr(sys, name, Path(os.devnull).open("w", encoding="utf-8"))  # noqa: SIM115
+            lead_nowhere(name)
 
 
 @contextmanager

@@ -42,12 +42,17 @@ def occupy_streams() -> None:
                 os.close(opened)
     for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
         if getattr(sys, name) is None:
-            # Not by its number, which a file may have taken before this.
-            setattr(sys, name, Path(os.devnull).open(mode, encoding="utf-8"))  # noqa: SIM115
+            lead_nowhere(name, mode)
     # A terminal that cannot write "mm²" gets "mm?", not an error.
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")
+
+
+def lead_nowhere(name: str, mode: str = "w") -> None:
+    """Let a stream of `sys` lead to nowhere, as long as the process lasts."""
+    # Not by its number, which a file may have taken before this.
+    setattr(sys, name, Path(os.devnull).open(mode, encoding="utf-8"))  # noqa: SIM115
 
 
 def remember_output() -> None:

@@ -6,17 +6,17 @@ import json
 import math
 import os
 from pathlib import Path
-from types import TracebackType
 from typing import Any, Self
 
 from viscontact.dataset import SCALARS
+from viscontact.recording.closing import Closing
 from viscontact.state import ContactState, Outcome
 
 #: How much of a file is read at once [bytes].
 BLOCK = 2**16
 
 
-class ProgressLog:
+class ProgressLog(Closing):
     r"""A file with a line of JSON for each state.
 
     A line holds the instant, all scalars of the result in SI units by their names there, the
@@ -145,17 +145,6 @@ class ProgressLog:
     def close(self) -> None:
         """Close the file; further calls do nothing."""
         self._file.close()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
 
 
 def is_course(path: Path) -> bool:

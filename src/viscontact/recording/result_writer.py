@@ -6,7 +6,6 @@ import time as clock
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from types import TracebackType
 from typing import Any, Self
 
 import netCDF4
@@ -15,6 +14,7 @@ from numpy.typing import NDArray
 
 from viscontact.grid import Grid
 from viscontact.instants import field_instants
+from viscontact.recording.closing import Closing
 from viscontact.recording.layout import Extent, Layout, write_fields, write_scalars
 from viscontact.recording.soundness import sound_times
 from viscontact.recording.two_copies import TwoCopies
@@ -27,7 +27,7 @@ TRIES, PAUSE = 40, 0.25
 START: Mapping[str, Any] = {"rows": 0, "field_rows": 0, "warnings": (), "wall_time": 0.0}
 
 
-class ResultWriter:
+class ResultWriter(Closing):
     """A result that grows by a state at a time and can be read at any moment.
 
     Rows are written to a hidden working copy; `publish` closes it and puts it in the place of the
@@ -282,14 +282,3 @@ class ResultWriter:
         except RuntimeError as error:  # what netCDF says where the disk is full
             raise OSError(f"{self._path} cannot be written ({error}); is the disk full?") from error
         self._failed = False
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()

@@ -12,9 +12,9 @@ import os
 import zlib
 from collections.abc import Iterator
 from pathlib import Path
-from types import TracebackType
-from typing import BinaryIO, Self
+from typing import BinaryIO
 
+from viscontact.recording.closing import Closing
 from viscontact.recording.plain_file import read_plain, write_plain
 from viscontact.solved_step import SolvedStep
 
@@ -27,7 +27,7 @@ _MAGIC = b"viscontact steps 1\n"
 _COUNT = 8
 
 
-class StepLog:
+class StepLog(Closing):
     """A log that is being written.
 
     Parameters
@@ -75,17 +75,6 @@ class StepLog:
     def close(self) -> None:
         """Close the file."""
         self._file.close()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
 
 
 def is_step_log(path: Path) -> bool:
