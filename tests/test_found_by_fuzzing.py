@@ -109,6 +109,12 @@ def test_text_that_is_no_case_is_refused_at_once(
     assert why in refusal(tmp_path / name, text)
 
 
+def test_as_many_values_as_a_case_may_have_are_read_at_once(tmp_path: Path) -> None:
+    # Entries of two are the slowest form; with five times as many the parser took ten seconds.
+    assert "many" in refusal(tmp_path / "case.yaml", CASE + "many:\n" + "- [0 s, 1 N]\n" * 6_600)
+    assert "lines and commas" in refusal(tmp_path / "case.yaml", "many:\n" + "- [0, 1]\n" * 33_000)
+
+
 def test_many_tables_of_one_name_keep_their_lines(tmp_path: Path) -> None:
     good = "[[indenter]]\nshape = 'sphere'\nradius = '1 mm'\n" * 2_000
     said = refusal(tmp_path / "case.toml", good + "[[indenter]]\nshape = 'x'\n")
