@@ -23,7 +23,17 @@ FLOORS = (
     # 0 words: they do not know each other
     ("errors", "real", "carried", "grid", "load", "indenters", "laws"),
     # 1 single ideas
-    ("compliance", "material", "influence", "stress_influence", "memory", "state", "rim", "hull"),
+    (
+        "compliance",
+        "material",
+        "influence",
+        "stress_influence",
+        "memory",
+        "state",
+        "rim",
+        "hull",
+        "richardson",
+    ),
     ("convolution", "subsurface", "balance", "bedding", "half_space"),  # 2 operators on fields
     ("contact_problem", "search", "contact"),  # 3 equilibrium at one instant
     # 4 time

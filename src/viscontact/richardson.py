@@ -1,0 +1,130 @@
+"""How far a value is off, told from the same value at three spacings (Richardson 1911)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+#: Orders of convergence that are believed: a rim between cells makes errors of about first order,
+#: smooth pressure of second; nothing here is better than that.
+LOWEST_ORDER, HIGHEST_ORDER = 0.5, 2.0
+
+#: Below this order a value that moves on and on has no limit: a logarithm has order 0, the inverse
+#: root of an edge -1/2.
+NO_ORDER = 0.2
+
+#: What changes by no more than this part of itself says nothing about a limit.
+UNCHANGED = 1e-3
+
+#: Orders within which the observed one is looked for, and halvings that find it to 1e-12.
+_SPAN, _HALVINGS = (-4.0, 8.0), 44
+
+
+@dataclass(frozen=True, eq=False)
+class Richardson:
+    """What three spacings tell of the values on the finest.
+
+    Attributes
+    ----------
+    error : ndarray
+        Estimated error of the finest values, without sign, in their unit; inf where they have no
+        limit.
+    order : ndarray
+        Observed order of convergence [-]; NaN where the values go to and fro, or stand still.
+    converges : ndarray of bool
+        False where the values grow or fall from each spacing to the next by as much or more, as a
+        singular pressure does.
+    """
+
+    error: NDArray[np.float64]
+    order: NDArray[np.float64]
+    converges: NDArray[np.bool_]
+
+
+def richardson(values: ArrayLike, spacings: ArrayLike) -> Richardson:
+    """Estimate the error of the values on the finest of three spacings.
+
+    Parameters
+    ----------
+    values : array_like, shape (3, ...)
+        The same values on three spacings, finest first, all in one unit.
+    spacings : array_like, shape (3,)
+        Cells or steps, strictly increasing, in any one unit.
+
+    Returns
+    -------
+    Richardson
+        Error, observed order and verdict for each value; shapes as of ``values[0]``.
+
+    Raises
+    ------
+    ValueError
+        If there are not three sets of values, or the spacings are not positive and increasing.
+
+    Notes
+    -----
+    With f = f0 + c h^p the three values give (f3 - f2)/(f2 - f1) = (h3^p - h2^p)/(h2^p - h1^p),
+    whose right side rises with p (Roache 1998, Verification and Validation in Computational
+    Science and Engineering, section 5.10). The error of f1 is then |f2 - f1|/((h2/h1)^p - 1), with
+    p kept within 0.5 and 2. Where values go to and fro no p is observed; the error is the larger
+    one of what the two differences amount to at first order.
+
+    Examples
+    --------
+    >>> spacings = np.array([1.0, 2.0, 4.0])
+    >>> found = richardson(5.0 + 0.01 * spacings**2, spacings)
+    >>> round(float(found.error), 6), round(float(found.order), 6), bool(found.converges)
+    (0.01, 2.0, True)
+    >>> bool(richardson(-np.log(spacings), spacings).converges)
+    False
+    """
+    found, lengths = _checked(values, spacings)
+    fine, coarse = found[1] - found[0], found[2] - found[1]
+    order = _observed_order(fine, coarse, lengths)
+    believed = np.clip(order, LOWEST_ORDER, HIGHEST_ORDER)
+    smooth = np.abs(fine) / ((lengths[1] / lengths[0]) ** believed - 1)
+    rough = lengths[0] * np.maximum(
+        np.abs(fine) / (lengths[1] - lengths[0]), np.abs(coarse) / (lengths[2] - lengths[1])
+    )
+    moves = np.abs(fine) > UNCHANGED * np.abs(found[0])
+    endless = moves & (order < NO_ORDER)
+    error = np.where(np.isnan(order), rough, smooth)
+    return Richardson(np.where(endless, np.inf, error), order, ~endless)
+
+
+def _checked(
+    values: ArrayLike, spacings: ArrayLike
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    found, lengths = np.asarray(values, dtype=float), np.asarray(spacings, dtype=float)
+    if found.ndim == 0 or len(found) != 3:
+        raise ValueError(f"values: wanted three sets of values, got shape {found.shape}")
+    if lengths.shape != (3,) or not 0 < lengths[0] < lengths[1] < lengths[2] < np.inf:
+        raise ValueError(f"spacings: wanted three, positive and increasing, got {spacings!r}")
+    return found, lengths
+
+
+def _observed_order(
+    fine: NDArray[np.float64], coarse: NDArray[np.float64], lengths: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """The order at which both differences are of one power law; NaN where there is none."""
+    monotone = fine * coarse > 0
+    wanted = np.where(monotone, np.abs(coarse), 1.0) / np.where(monotone, np.abs(fine), 1.0)
+    low, high = (np.full(wanted.shape, end) for end in _SPAN)
+    for _ in range(_HALVINGS):
+        middle = (low + high) / 2
+        below = _ratio(middle, lengths) < wanted
+        low, high = np.where(below, middle, low), np.where(below, high, middle)
+    return np.where(monotone, (low + high) / 2, np.nan)
+
+
+def _ratio(order: NDArray[np.float64], lengths: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(h3^p - h2^p)/(h2^p - h1^p), at p = 0 the ratio of the logarithms."""
+    # Nowhere 0/0: an order that close to 0 differs from it by less than rounding.
+    power = np.where(np.abs(order) < 1e-9, 1e-9, order)
+    first, second = (np.log(lengths[k + 1] / lengths[k]) for k in (0, 1))
+    ratio: NDArray[np.float64] = (
+        (lengths[1] / lengths[0]) ** power * np.expm1(power * second) / np.expm1(power * first)
+    )
+    return ratio
