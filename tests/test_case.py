@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from importlib.resources import as_file, files
 from pathlib import Path
 
 import numpy as np
 import pytest
+from pydantic import ValidationError
 
 import viscontact as vc
 from viscontact.case import CaseError, case_schema, read_case
+from viscontact.case.schedule import Cells
 
 ROLLER = """\
 title: Crowned roller on PMMA, load off centre
@@ -401,3 +404,30 @@ def test_tags_that_name_code_do_not_run_it(tag: str, tmp_path: Path) -> None:
     with pytest.raises(CaseError):
         read_case(case)
     assert not trace.exists()
+
+
+@pytest.mark.parametrize(
+    ("grid", "wish"),
+    [
+        ({"tolerance": "0.5 %", "quantities": ["approach"]}, (0.005, ["approach"])),
+        ({"tolerance": 0.03}, (0.03, vc.AutomaticGrid().quantities)),
+        ({}, (0.01, vc.AutomaticGrid().quantities)),
+    ],
+)
+def test_an_automatic_grid_is_asked_for_in_words(grid, wish):
+    assert Cells(**grid).noun() == vc.AutomaticGrid(*wish)
+
+
+@pytest.mark.parametrize(
+    ("grid", "complaint"),
+    [
+        ({"tolerance": "2 mm"}, "cannot read '2 mm' as a share; write e.g. '0.5 %'"),
+        ({"tolerance": "90 %"}, "less than or equal to 0.5"),
+        ({"tolerance": 0.01, "shape": [64, 64]}, "tolerance goes with an automatic grid"),
+        ({"shape": [64, 64]}, "size is missing"),
+        ({"quantities": []}, "must name some of peak_pressure"),
+    ],
+)
+def test_grids_that_are_half_given_are_refused(grid, complaint):
+    with pytest.raises(ValidationError, match=re.escape(complaint)):
+        Cells(**grid)

@@ -80,6 +80,7 @@ FLOORS = (
 NEIGHBOURS = {
     ("load", "real"),  # what counts as a number
     ("indenters", "real"),
+    ("grid", "real"),
     ("material", "compliance"),  # what contact sees of it
     ("memory", "compliance"),  # the past is weighted by it
     ("bedding", "balance"),  # which resultants the first guess carries

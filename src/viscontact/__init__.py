@@ -12,7 +12,7 @@ __getattr__, __dir__, __all__ = _lazy.attach(
     submodules=["reference", "surfaces", "verify"],
     submod_attrs={
         "errors": ["AccuracyWarning", "ConvergenceError", "DomainError"],
-        "grid": ["Grid"],
+        "grid": ["AutomaticGrid", "Grid"],
         "indenters": [
             "Chamfer",
             "Cone",

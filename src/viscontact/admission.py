@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from viscontact.compliance import ContactCompliance
 from viscontact.extent import largest_load
-from viscontact.grid import Grid
+from viscontact.grid import AutomaticGrid, Grid
 from viscontact.hull import Reach
 from viscontact.indenters import Indenter
 from viscontact.load import LoadHistory
@@ -26,16 +26,17 @@ def check_kinds(
     indenter: object, material: object, load: object, grid: object, indenter_material: object
 ) -> None:
     """Refuse arguments that are not the nouns they should be, by name."""
-    wanted: list[tuple[str, object, type, bool]] = [
-        ("indenter", indenter, Indenter, False),
-        ("material", material, Material, False),
-        ("load", load, LoadHistory, False),
-        ("grid", grid, Grid, True),
-        ("indenter_material", indenter_material, Material, True),
+    wanted: list[tuple[str, object, tuple[type, ...], bool]] = [
+        ("indenter", indenter, (Indenter,), False),
+        ("material", material, (Material,), False),
+        ("load", load, (LoadHistory,), False),
+        ("grid", grid, (Grid, AutomaticGrid), True),
+        ("indenter_material", indenter_material, (Material,), True),
     ]
-    for name, value, kind, optional in wanted:
-        if not (isinstance(value, kind) or (optional and value is None)):
-            raise ValueError(f"{name} must be of kind {kind.__name__}, got {value!r}")
+    for name, value, kinds, optional in wanted:
+        if not (isinstance(value, kinds) or (optional and value is None)):
+            named = " or ".join(kind.__name__ for kind in kinds)
+            raise ValueError(f"{name} must be of kind {named}, got {value!r}")
 
 
 def check_numbers(tolerance: object, threads: object) -> None:

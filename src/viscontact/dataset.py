@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact import __version__
 from viscontact.description import describe_run
 from viscontact.errors import ConvergenceError, DomainError
-from viscontact.grid import Grid
+from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.instants import field_instants
 from viscontact.load import LoadHistory
@@ -94,7 +94,7 @@ def simulate(
     indenter: Indenter,
     material: Material,
     load: LoadHistory,
-    grid: Grid | None = None,
+    grid: Grid | AutomaticGrid | None = None,
     times: ArrayLike | AdaptiveTimes | None = None,
     *,
     indenter_material: Material | None = None,
@@ -113,8 +113,9 @@ def simulate(
         Material of the half-space.
     load : LoadHistory
         Force or approach, eccentricity and prescribed tilts over time.
-    grid : Grid, optional
-        Cells that carry the pressure; `auto_grid` chooses when left out.
+    grid : Grid or AutomaticGrid, optional
+        Cells that carry the pressure, or what is asked of them: then, and when left out, the
+        run chooses them.
     times : array_like or AdaptiveTimes, optional
         Instants of the result, strictly increasing, none before 0 [s]; chosen from load and
         law when left out. With `adaptive_times` the run chooses its steps, and ``time`` holds

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from viscontact.grid import Grid
+from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import (
     Chamfer,
     CombinedIndenter,
@@ -62,7 +62,7 @@ NOUNS = {
         *(Elastic, Maxwell, Zener, Burgers, CreepSeries, RelaxationSeries),
         *(PowerLaw, FractionalMaxwell, FractionalZener, BesideSpring),
         *(TabulatedCreep, TabulatedRelaxation),
-        *(Material, ForceHistory, ApproachHistory, HarmonicHistory, Grid),
+        *(Material, ForceHistory, ApproachHistory, HarmonicHistory, Grid, AutomaticGrid),
     )
 }
 
@@ -155,7 +155,8 @@ def describe_run(run: Run) -> dict[str, Any]:
     Returns
     -------
     dict
-        Indenter, materials, load, grid, times [s] and tolerance.
+        Indenter, materials, load, grid (and what was asked of it if it is automatic), times [s]
+        and tolerance.
     """
     return {
         "indenter": describe(run.indenter),
@@ -163,6 +164,7 @@ def describe_run(run: Run) -> dict[str, Any]:
         "indenter_material": describe(run.indenter_material),
         "load": describe(run.load),
         "grid": describe(run.grid),
+        "automatic": describe(run.automatic),
         "times": describe(run.times),
         "adaptive": describe(run.adaptive),
         "tolerance": run.tolerance,

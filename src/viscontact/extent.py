@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,11 +11,10 @@ from scipy import fft
 
 from viscontact.compliance import ContactCompliance, SeriesCompliance
 from viscontact.estimate import estimate_contact, level_of
-from viscontact.grid import Grid
+from viscontact.grid import GRID_QUANTITIES, AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.load import LoadHistory, LoadPoint
 from viscontact.material import Material
-from viscontact.real import as_real
 
 #: More cells than these are no choice to make for somebody.
 MOST_CELLS = 2**22
@@ -35,6 +35,7 @@ def auto_grid(
     load: LoadHistory,
     tolerance: float = 0.01,
     *,
+    quantities: Sequence[str] = GRID_QUANTITIES,
     end: float | None = None,
     indenter_material: Material | None = None,
 ) -> Grid:
@@ -49,7 +50,9 @@ def auto_grid(
     load : LoadHistory
         Force or approach, eccentricity and prescribed tilts over time.
     tolerance : float
-        Aimed-at relative error of peak pressure, area and approach.
+        Aimed-at relative error of the named quantities, between 1e-4 and 0.5 [-].
+    quantities : sequence of str
+        What has to be that exact, as in `AutomaticGrid`.
     end : float, optional
         Last instant of the run [s]; the load's last point, or the end of all creep, when left
         out.
@@ -74,18 +77,51 @@ def auto_grid(
     >>> vc.auto_grid(vc.Sphere(0.01), rubber, vc.step(1.0)).shape
     (54, 54)
     """
-    number = as_real(tolerance)
-    if number is None or not 1e-4 <= number <= 0.5:
-        raise ValueError(f"tolerance must lie between 1e-4 and 0.5, got {tolerance!r}")
+    wish = AutomaticGrid(tolerance, quantities)
     _require_kinds(indenter, material, load, indenter_material)
     compliance = material.contact_compliance()
     if indenter_material is not None:
         compliance = compliance + indenter_material.contact_compliance()
+    return choose_grid(indenter, compliance, load, wish, end)
+
+
+def choose_grid(
+    indenter: Indenter,
+    compliance: ContactCompliance,
+    load: LoadHistory,
+    wish: AutomaticGrid,
+    end: float | None,
+) -> Grid:
+    """Choose a grid for a run whose bodies' compliance is known; see `auto_grid`.
+
+    Parameters
+    ----------
+    indenter : Indenter
+        Shape of the pressed body.
+    compliance : ContactCompliance
+        J(t) of both bodies together.
+    load : LoadHistory
+        Force or approach, eccentricity and prescribed tilts over time.
+    wish : AutomaticGrid
+        What is asked of the grid.
+    end : float or None
+        Last instant of the run [s].
+
+    Returns
+    -------
+    Grid
+        As `auto_grid` does.
+
+    Raises
+    ------
+    ValueError
+        As `auto_grid` does.
+    """
     largest = _largest_compliance(compliance, load, end)
     reach, extents = _reach_of_history(indenter, largest, load, end)
     size = 2 * MARGIN * reach
     # Cells across the contact, then over the grid: errors are at worst of second order.
-    cells = (4 / math.sqrt(number)) * size / extents
+    cells = (4 / math.sqrt(wish.tolerance)) * size / extents
     if not float(np.prod(cells)) <= MOST_CELLS:
         raise ValueError(
             f"grid: a contact of {extents[0]:.3g} m x {extents[1]:.3g} m within {size[0]:.3g} m x "

@@ -1,13 +1,22 @@
-"""The uniform rectangular grid that carries pressure and displacement."""
+"""The uniform rectangular grid that carries pressure and displacement, or the wish for one."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from numbers import Real
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from viscontact.real import as_real
+
+#: What a mesh can be chosen for.
+GRID_QUANTITIES = ("peak_pressure", "contact_area", "approach")
+
+#: The tolerances that a mesh can be chosen for.
+FINEST, COARSEST = 1e-4, 0.5
 
 #: Larger whole numbers are no floats.
 _LARGEST = 1e300
@@ -73,6 +82,47 @@ class Grid:
     def y(self) -> NDArray[np.float64]:
         """Cell centres along y, shape (ny,) [m]."""
         return _centres(self.shape[1], self.size[1])
+
+
+@dataclass(frozen=True)
+class AutomaticGrid:
+    """A grid to be chosen by the run itself, fine enough for the tolerance asked for.
+
+    Parameters
+    ----------
+    tolerance : float
+        Relative error of the named quantities that the mesh may cause, between 1e-4 and 0.5 [-].
+    quantities : sequence of str
+        What has to be that exact: of ``"peak_pressure"``, ``"contact_area"``, ``"approach"``.
+
+    Raises
+    ------
+    ValueError
+        If the tolerance is out of range, or there is no such quantity.
+
+    Examples
+    --------
+    >>> AutomaticGrid(tolerance=0.005, quantities=["approach"])
+    AutomaticGrid(tolerance=0.005, quantities=('approach',))
+    """
+
+    tolerance: float = 0.01
+    quantities: Sequence[str] = GRID_QUANTITIES
+
+    def __post_init__(self) -> None:
+        allowed = as_real(self.tolerance)
+        if allowed is None or not FINEST <= allowed <= COARSEST:
+            raise ValueError(
+                f"tolerance must lie between {FINEST:g} and {COARSEST:g}, got {self.tolerance!r}"
+            )
+        named = self.quantities
+        names = tuple(named) if isinstance(named, tuple | list) else ()
+        if not names or any(name not in GRID_QUANTITIES for name in names):
+            raise ValueError(
+                f"quantities must name some of {', '.join(GRID_QUANTITIES)}, got {named!r}"
+            )
+        object.__setattr__(self, "tolerance", allowed)
+        object.__setattr__(self, "quantities", tuple(dict.fromkeys(names)))
 
 
 def _pair(name: str, given: Any) -> tuple[Any, Any]:

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 from numpy.typing import ArrayLike
 
 from viscontact.errors import AccuracyWarning
-from viscontact.grid import Grid
+from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.load import LoadHistory
 from viscontact.material import Material
@@ -26,7 +26,7 @@ def march(
     indenter: Indenter,
     material: Material,
     load: LoadHistory,
-    grid: Grid | None = None,
+    grid: Grid | AutomaticGrid | None = None,
     times: ArrayLike | AdaptiveTimes | None = None,
     *,
     indenter_material: Material | None = None,
@@ -45,8 +45,9 @@ def march(
         Material of the half-space.
     load : LoadHistory
         Force or approach, eccentricity and prescribed tilts over time.
-    grid : Grid, optional
-        Cells that carry the pressure; `auto_grid` chooses when left out.
+    grid : Grid or AutomaticGrid, optional
+        Cells that carry the pressure, or what is asked of them: then, and when left out, the
+        run chooses them.
     times : array_like or AdaptiveTimes, optional
         Instants of the states, strictly increasing, none before 0 [s]; chosen from load and
         law when left out. At a jump the state is the one just after it. With `adaptive_times`

@@ -19,8 +19,8 @@ from viscontact.admission import (
     check_touch,
 )
 from viscontact.compliance import ContactCompliance
-from viscontact.extent import auto_grid
-from viscontact.grid import Grid
+from viscontact.extent import choose_grid
+from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.instants import field_instants, run_instants
 from viscontact.load import LoadHistory
@@ -55,6 +55,8 @@ class Run:
         Force or approach, eccentricity and prescribed tilts over time.
     grid : Grid
         The cells.
+    automatic : AutomaticGrid or None
+        What was asked of them; None for a grid that was given.
     open_gap : ndarray, shape (nx, ny)
         The indenter's gap on the grid [m], +inf outside its outline.
     times : ndarray
@@ -75,12 +77,18 @@ class Run:
     compliance: ContactCompliance
     load: LoadHistory
     grid: Grid
+    automatic: AutomaticGrid | None
     open_gap: NDArray[np.float64]
     times: NDArray[np.float64]
     adaptive: AdaptiveTimes | None
     memory: MemoryPlan
     tolerance: float
     threads: int
+
+    @property
+    def grows(self) -> bool:
+        """Whether the grid may be enlarged when the contact overruns it: who gave none said so."""
+        return self.automatic is not None
 
     @property
     def is_mirrored(self) -> bool:
@@ -104,7 +112,7 @@ def prepare_run(
     indenter: Indenter,
     material: Material,
     load: LoadHistory,
-    grid: Grid | None = None,
+    grid: Grid | AutomaticGrid | None = None,
     times: ArrayLike | AdaptiveTimes | None = None,
     *,
     indenter_material: Material | None = None,
@@ -138,21 +146,23 @@ def prepare_run(
     instants = run_instants(times, fields, load, compliance)
     end = float(instants[-1])
     field_instants(fields, instants)
-    check_magnitudes(compliance, load, grid, end)
+    automatic = _automatic(grid)
+    given = grid if isinstance(grid, Grid) else None
+    check_magnitudes(compliance, load, given, end)
     check_creep(compliance, instants)
     check_jumps(compliance, load, end)
-    if grid is None:
-        grid = auto_grid(indenter, material, load, end=end, indenter_material=indenter_material)
-    open_gap = indenter.gap(grid.x[:, None], grid.y[None, :])
-    check_touch(compliance, open_gap, grid, load)
-    check_balance(open_gap, grid, load, end)
+    cells = given or choose_grid(indenter, compliance, load, automatic or AutomaticGrid(), end)
+    open_gap = indenter.gap(cells.x[:, None], cells.y[None, :])
+    check_touch(compliance, open_gap, cells, load)
+    check_balance(open_gap, cells, load, end)
     return Run(
         indenter,
         material,
         indenter_material,
         compliance,
         load,
-        grid,
+        cells,
+        automatic,
         open_gap,
         instants,
         adaptive,
@@ -160,6 +170,12 @@ def prepare_run(
         float(tolerance),
         int(threads),
     )
+
+
+def _automatic(grid: Grid | AutomaticGrid | None) -> AutomaticGrid | None:
+    if isinstance(grid, Grid):
+        return None
+    return AutomaticGrid() if grid is None else grid
 
 
 def _is_mirrored(open_gap: NDArray[np.float64], load: LoadHistory) -> bool:

@@ -5,10 +5,18 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Any
 
-from pydantic import BaseModel, ConfigDict, Field, GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    GetCoreSchemaHandler,
+    GetJsonSchemaHandler,
+)
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
+from viscontact.grid import COARSEST, FINEST
 from viscontact.load.shapes import MOST_CYCLES
 from viscontact.units import DIMENSIONS, parse_quantity
 
@@ -130,6 +138,27 @@ CellCount = Annotated[int, Field(ge=1, le=_MOST_CELLS)]
 StepCount = Annotated[int, Field(ge=1, le=_MOST_STEPS)]
 TimeTolerance = Annotated[float, Field(ge=1e-6, le=0.1)]
 CycleCount = Annotated[int, Field(ge=1, le=MOST_CYCLES)]
+
+
+def _fraction(given: Any) -> Any:
+    """A number, or what a text such as ``"0.5 %"`` says."""
+    if not isinstance(given, str):
+        return given
+    number, percent, rest = given.partition("%")
+    try:
+        value = float(number)
+    except ValueError:
+        rest = given
+    if rest.strip():
+        raise _problem(f"cannot read {given!r} as a share; write e.g. '0.5 %' or 0.005")
+    return value / 100 if percent else value
+
+
+GridTolerance = Annotated[
+    float,
+    BeforeValidator(_fraction, json_schema_input_type=float | str),
+    Field(ge=FINEST, le=COARSEST, examples=["0.5 %", 0.005]),
+]
 
 
 class Section(BaseModel):

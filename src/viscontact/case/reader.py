@@ -21,7 +21,7 @@ from viscontact.case.schedule import kept_fields, with_instants
 from viscontact.case.sections import CaseFile
 from viscontact.case.wording import corrected, noun_problem, problem
 from viscontact.case.yaml_source import with_overrides
-from viscontact.grid import Grid
+from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.load import LoadHistory
 from viscontact.material import Material
@@ -53,8 +53,8 @@ class Case:
         Force or approach, eccentricity and prescribed tilts over time.
     times : ndarray or AdaptiveTimes
         Instants of the run, those of the fields among them [s], or the wish for adaptive ones.
-    grid : Grid or None
-        The grid; None for an automatic one.
+    grid : Grid, AutomaticGrid or None
+        The grid, or what is asked of an automatic one; None if nothing is said of it.
     fields : str or tuple of float
         ``"all"``, ``"none"``, or the instants whose fields are kept [s].
     tolerance : float
@@ -77,7 +77,7 @@ class Case:
     indenter_material: Material | None
     load: LoadHistory
     times: NDArray[np.float64] | AdaptiveTimes
-    grid: Grid | None
+    grid: Grid | AutomaticGrid | None
     fields: str | tuple[float, ...]
     tolerance: float
     load_file: Path | None

@@ -12,6 +12,7 @@ from viscontact import grid
 from viscontact.case.quantities import (
     CellCount,
     Duration,
+    GridTolerance,
     Instant,
     Length,
     Section,
@@ -28,6 +29,9 @@ ADAPTIVE_TOLERANCE = 1e-3
 
 #: Without `output`, so many instants keep their fields.
 DEFAULT_FIELDS = 10
+
+#: Without `tolerance`, the cells of an automatic grid keep the error they cause below this.
+DEFAULT_TOLERANCE = 0.01
 
 
 class Time(Section):
@@ -81,21 +85,47 @@ _GOES_WITH = {"steps": ("uniform", "log"), "first": ("log",), "tolerance": ("ada
 
 
 class Cells(Section):
-    """The grid of pressure cells, centred on the origin."""
+    """The grid of pressure cells, centred on the origin, or what is asked of an automatic one."""
 
-    shape: Annotated[tuple[CellCount, CellCount], Field(strict=False)] = Field(
-        description="numbers of cells along x and y", examples=[[256, 128]]
+    shape: Annotated[tuple[CellCount, CellCount], Field(strict=False)] | None = Field(
+        default=None, description="numbers of cells along x and y", examples=[[256, 128]]
     )
-    size: Annotated[tuple[Length, Length], Field(strict=False)] = Field(
-        description="extents along x and y", examples=[["50 mm", "5 mm"]]
+    size: Annotated[tuple[Length, Length], Field(strict=False)] | None = Field(
+        default=None, description="extents along x and y", examples=[["50 mm", "5 mm"]]
+    )
+    tolerance: GridTolerance | None = Field(
+        default=None,
+        description="in place of shape and size: relative error that the cells of an automatic "
+        f"grid may cause; {DEFAULT_TOLERANCE:g} if not",
+    )
+    quantities: list[Literal["peak_pressure", "contact_area", "approach"]] | None = Field(
+        default=None,
+        description="with an automatic grid: what has to be that exact; all of them if not",
     )
 
-    def noun(self) -> grid.Grid:
-        """Return the grid."""
-        return grid.Grid(self.shape, self.size)
+    def noun(self) -> grid.Grid | grid.AutomaticGrid:
+        """Return the grid, or the wish for one."""
+        if self.shape and self.size:
+            return grid.Grid(self.shape, self.size)
+        quantities = grid.GRID_QUANTITIES if self.quantities is None else self.quantities
+        return grid.AutomaticGrid(self.tolerance or DEFAULT_TOLERANCE, quantities)
 
     @model_validator(mode="after")
     def _accepted(self) -> Cells:
+        wish = [name for name in ("tolerance", "quantities") if getattr(self, name) is not None]
+        cells = [name for name in ("shape", "size") if getattr(self, name) is not None]
+        if wish and cells:
+            raise ValueError(
+                f"{wish[0]} goes with an automatic grid, which has no {cells[0]} of yours; leave "
+                "out the one or the other"
+            )
+        if len(cells) == 1:
+            missing = "size" if self.shape else "shape"
+            example = "[50 mm, 5 mm]" if self.shape else "[256, 128]"
+            raise ValueError(
+                f"{missing} is missing; write e.g. '{missing}: {example}', or leave out the whole "
+                "section for an automatic grid"
+            )
         self.noun()
         return self
 

@@ -112,7 +112,7 @@ def _listed(rows: list[tuple[str, str]]) -> Table:
 def _needs(prepared: Prepared, expected: Forecast) -> list[tuple[str, str]]:
     run = prepared.run
     (nx, ny), (lx, ly), (dx, dy) = run.grid.shape, run.grid.size, run.grid.cell_size
-    chosen = " (automatic)" if prepared.case.grid is None else ""
+    chosen = " (automatic)" if run.automatic is not None else ""
     kept = prepared.case.fields
     return [
         ("grid", f"{nx} x {ny} cells on {in_words(lx, 'm')} x {in_words(ly, 'm')}{chosen}"),

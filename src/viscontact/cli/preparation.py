@@ -74,7 +74,7 @@ def _prepared_run(case: Case, threads: int) -> Run:
 
 def _refuse_beyond_memory(case: Case) -> None:
     """Refuse the grid before anything of its size is allocated."""
-    if case.grid is None:
+    if not isinstance(case.grid, Grid):
         return
     compliance = case.material.contact_compliance()
     # What any other law keeps depends on the steps, of which nothing is known yet.
