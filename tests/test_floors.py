@@ -52,6 +52,7 @@ FLOORS = (
         "instants",
         "admission",
         "run",
+        "growth",
         "cycles",
         "observation",
         "solved_step",
@@ -59,7 +60,14 @@ FLOORS = (
         "step_by_step",
         "marching",
     ),
-    ("description", "dataset", "results", "stresses", "recording"),  # 5 labels and files
+    (
+        "description",
+        "outgrown",
+        "dataset",
+        "results",
+        "stresses",
+        "recording",
+    ),  # 5 labels and files
     (
         "examples",
         "units",
@@ -116,6 +124,10 @@ NEIGHBOURS = {
     ("past", "time_error"),  # makes an error,
     ("cycles", "schedule"),
     ("observation", "cycles"),  # what they cost
+    ("growth", "extent"),  # how large a grid may become
+    ("past", "growth"),  # what it is on a larger grid,
+    ("observation", "growth"),
+    ("step_by_step", "growth"),  # which is needed when the contact outgrows its own
     ("step_by_step", "run"),
     ("step_by_step", "schedule"),  # the loop goes through the schedule's steps,
     ("step_by_step", "past"),  # takes each,
@@ -124,6 +136,8 @@ NEIGHBOURS = {
     ("marching", "run"),
     ("marching", "stepping"),
     ("marching", "step_by_step"),
+    ("dataset", "outgrown"),  # fields on a grid that has been enlarged meanwhile
+    ("recording", "outgrown"),
     ("dataset", "description"),  # the case travels with the result
     ("recording", "dataset"),  # the file is laid out as the dataset is
     ("recording", "description"),  # whose a record is

@@ -17,6 +17,7 @@ import numpy as np
 import pytest
 
 from viscontact.recording import result_writer
+from viscontact.recording.account import Account
 from viscontact.recording.result_writer import ResultWriter
 from written_states import GRID, SOME, TIMES, begun, faults_of, names, resumed, state, write
 
@@ -188,14 +189,13 @@ def test_interruption_within_a_row_does_not_publish_a_torn_copy(
 
 
 def test_interruption_between_rows_loses_none(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    class Interrupting(list[str]):
-        def __iadd__(self, _: object) -> Any:
-            raise KeyboardInterrupt
+    def interrupt(*_: Any) -> None:
+        raise KeyboardInterrupt
 
     with begun(path) as writer:
         write(writer, 3)
         with monkeypatch.context() as patched:
-            patched.setattr(writer, "_said", Interrupting())
+            patched.setattr(Account, "add", interrupt)
             with pytest.raises(KeyboardInterrupt):
                 writer.append(state(9))
         assert writer.position["rows"] == 3

@@ -154,7 +154,9 @@ def solved(number: int) -> SolvedStep:
     random = np.random.default_rng(number)
     found = Guess(random.random((4, 3)), random.random((4, 3)), random.random(3))
     solution = ContactSolution(found, random.random((4, 3)), 1e-7, number, 2, converged=True)
-    return SolvedStep(number / 7, (0.5,) * number, solution, Outcome.CONVERGED, (0, 4, 0, 3))
+    return SolvedStep(
+        number / 7, (0.5,) * number, solution, Outcome.CONVERGED, (0, 4, 0, 3), (4, 3)
+    )
 
 
 def test_log_cut_anywhere_gives_its_whole_steps(tmp_path: Path) -> None:

@@ -14,7 +14,7 @@ from viscontact.schedule import Step
 from viscontact.time_error import ALONE, FIRST, SAFETY, TimeErrors
 
 FLUID = SeriesCompliance(1.0, [], [], 0.01)  # so stiff that steps of 1 s rise all the way
-FIELD = np.array([[0.5, 1.0]])
+FIELD = np.array([[0.0, 0.0], [0.5, 1.0]])  # pressure, which does not count, and deflection
 
 
 def follow(values, duration=1.0, compliance=FLUID):

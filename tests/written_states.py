@@ -32,6 +32,7 @@ def state(row: int, grid: Grid = GRID, times: NDArray[np.float64] = TIMES) -> Co
     return ContactState(
         time=float(times[row]),
         **fields,
+        grid=grid,
         **scalars,
         iterations=int(random.integers(99)),
         cells_across=row,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import time as clock
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -21,6 +21,7 @@ from viscontact.instants import field_instants
 from viscontact.load import LoadHistory
 from viscontact.marching import Progress, march_run
 from viscontact.material import Material
+from viscontact.outgrown import enlargements, on_wider
 from viscontact.run import Run, prepare_run
 from viscontact.state import ContactState, Outcome
 from viscontact.stepping import AdaptiveTimes
@@ -218,13 +219,19 @@ def to_dataset(
         )
         for name, variable in SCALARS.items()
     }
-    dataset = xr.Dataset(scalars, coords=_coordinates(run.grid, times))
+    grid = states[-1].grid  # the widest: a grid is enlarged only
+    dataset = xr.Dataset(scalars, coords=_coordinates(grid, times))
     dataset["outcome"].attrs.update(OUTCOME_FLAGS)
     kept = [state for state in states if state.pressure.size]
     if kept:
-        dataset = dataset.assign(_field_arrays(kept, field_axis(fields)))
+        dataset = dataset.assign(_field_arrays(kept, grid, field_axis(fields)))
     said = [text for state in states for text in state.warnings]
-    return dataset.assign_attrs(run_attributes(run), wall_time=wall_time, warnings="\n".join(said))
+    return dataset.assign_attrs(
+        run_attributes(run),
+        wall_time=wall_time,
+        warnings="\n".join(said),
+        grid_enlarged="\n".join(enlargements(run.grid, states)),
+    )
 
 
 def field_axis(fields: str | Sequence[float]) -> str:
@@ -276,12 +283,11 @@ def _coordinates(grid: Grid, times: NDArray[np.float64]) -> dict[str, Any]:
     }
 
 
-def _field_arrays(states: Iterable[ContactState], axis: str) -> dict[str, Any]:
-    states = list(states)
+def _field_arrays(states: Sequence[ContactState], grid: Grid, axis: str) -> dict[str, Any]:
     arrays: dict[str, Any] = {
         name: (
             (axis, "x", "y"),
-            np.stack([getattr(state, name) for state in states]),
+            np.stack([on_wider(name, getattr(s, name), s.grid, grid) for s in states]),
             variable.attributes,
         )
         for name, variable in FIELDS.items()

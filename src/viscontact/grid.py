@@ -83,6 +83,70 @@ class Grid:
         """Cell centres along y, shape (ny,) [m]."""
         return _centres(self.shape[1], self.size[1])
 
+    def widened(self, shape: tuple[int, int]) -> Grid:
+        """The same cells, and more of them around.
+
+        Parameters
+        ----------
+        shape : tuple of int
+            Numbers of cells, no fewer than now, and even where they are even now.
+
+        Returns
+        -------
+        Grid
+            The centres of the old cells are among the new ones, to rounding.
+
+        Raises
+        ------
+        ValueError
+            If the old cells would not be cells any more.
+
+        Examples
+        --------
+        >>> Grid((4, 8), (0.02, 0.02)).widened((6, 8)).size
+        (0.03, 0.02)
+        """
+        more = [new - old for new, old in zip(shape, self.shape, strict=True)]
+        if any(count < 0 or count % 2 for count in more):
+            raise ValueError(
+                f"a grid of {self.shape} cells is widened by as many cells on either side, "
+                f"not to {shape}"
+            )
+        pairs = zip(self.size, self.shape, shape, strict=True)
+        along, across = (s if old == new else s / old * new for s, old, new in pairs)
+        return Grid(shape, (along, across))
+
+    def embed(
+        self, field: NDArray[np.float64], wider: Grid, beyond: float = 0.0
+    ) -> NDArray[np.float64]:
+        """A field over this grid as one over a wider one.
+
+        Parameters
+        ----------
+        field : ndarray, shape (..., nx, ny)
+            The field.
+        wider : Grid
+            This grid, `widened`.
+        beyond : float
+            What it is outside this grid.
+
+        Returns
+        -------
+        ndarray
+            The field where this grid has cells.
+
+        Examples
+        --------
+        >>> small = Grid((4, 4), (1.0, 1.0))
+        >>> small.embed(np.ones((4, 4)), small.widened((6, 4)))[:, 0].tolist()
+        [0.0, 1.0, 1.0, 1.0, 1.0, 0.0]
+        """
+        (nx, ny), (wide_x, wide_y) = self.shape, wider.shape
+        whole = np.full((*field.shape[:-2], wide_x, wide_y), beyond)
+        first_x, first_y = (wide_x - nx) // 2, (wide_y - ny) // 2
+        whole[..., first_x : first_x + nx, first_y : first_y + ny] = field
+        return whole
+
 
 @dataclass(frozen=True)
 class AutomaticGrid:

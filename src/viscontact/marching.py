@@ -76,8 +76,9 @@ def march(
     ConvergenceError
         If the contact solver stagnates, from the iterator.
     DomainError
-        If pressure reaches the outermost cells, or the largest contact has fewer than four
-        cells across; from the iterator.
+        If pressure reaches the outermost cells of a grid that was given, or of one that cannot be
+        enlarged any further, or the largest contact has fewer than four cells across; from the
+        iterator.
 
     Notes
     -----

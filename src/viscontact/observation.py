@@ -13,6 +13,8 @@ from viscontact.carried import Carried
 from viscontact.cycles import Cycles
 from viscontact.errors import DomainError
 from viscontact.geometry_doubts import Geometry, geometry_doubts
+from viscontact.grid import Grid
+from viscontact.growth import Enlargement
 from viscontact.load.history import LoadPoint
 from viscontact.material_doubts import data_doubts, early_doubts, law_doubts, passivity_doubts
 from viscontact.plausibility import (
@@ -42,21 +44,11 @@ class Observer:
     """
 
     def __init__(self, run: Run) -> None:
-        self._run = run
-        self._plane = RigidPlane(run.grid.x, run.grid.y, run.grid.cell_size)
-        self._outline = trace_outline(run.indenter, run.grid)
-        bodies = [body for body in (run.material, run.indenter_material) if body is not None]
-        self._geometry = Geometry(
-            run.indenter,
-            run.open_gap,
-            run.grid,
-            thickness=min(body.thickness or math.inf for body in bodies),
-            indenter_gives=run.indenter_material is not None,
-        )
+        self._look_at(run)
         self._doubts = Doubts()
         self._open = law_doubts(run.memory.error, run.compliance.inversion_error)
-        self._measured_from = max(body.known_from for body in bodies)
-        for body in bodies:
+        self._measured_from = max(body.known_from for body in run.bodies)
+        for body in run.bodies:
             self._open |= passivity_doubts(body.law, float(run.times[-1]))
         self._work = 0.0
         self._before: Instant | None = None
@@ -65,6 +57,32 @@ class Observer:
         self._cycles = Cycles(run.load.load_cycles)
         self._largest_area, self._cells_at_largest, self._spots_at_largest = 0.0, 0, 0.0
         self._peak, self._peak_time, self._peak_told = 0.0, 0.0, 0.0
+
+    def _look_at(self, run: Run) -> None:
+        self._run = run
+        self._plane = RigidPlane(run.grid.x, run.grid.y, run.grid.cell_size)
+        self._outline = trace_outline(run.indenter, run.grid)
+        self._geometry = Geometry(
+            run.indenter,
+            run.open_gap,
+            run.grid,
+            thickness=min(body.thickness or math.inf for body in run.bodies),
+            indenter_gives=run.indenter_material is not None,
+        )
+
+    def enlarge(self, run: Run, onto: Enlargement) -> None:
+        """Go on with the same run on a larger grid.
+
+        Parameters
+        ----------
+        run : Run
+            The run on its new grid.
+        onto : Enlargement
+            From the old half-space to the new one.
+        """
+        self._look_at(run)
+        if self._before is not None:
+            self._before = onto.instant(self._before)
 
     def observe(self, step: Step, instant: Instant) -> ContactState:
         """Describe the end of a step.
@@ -87,7 +105,9 @@ class Observer:
         self._work += self._work_of(step, instant, resultants)
         self._cycles.pass_by(step, self._work)
         self._collect_doubts(step, instant, rim)
-        state = _state(step, instant, rim, resultants, self._work, self._cycles.last_loss)
+        state = _state(
+            step, instant, self._run.grid, rim, resultants, self._work, self._cycles.last_loss
+        )
         if state.contact_area > self._largest_area:
             self._largest_area, self._cells_at_largest = state.contact_area, state.cells_across
             self._spots_at_largest = cells_across_spots(contact)
@@ -241,6 +261,7 @@ class Observer:
 def _state(
     step: Step,
     instant: Instant,
+    grid: Grid,
     rim: Rim,
     resultants: NDArray[np.float64],
     work: float,
@@ -256,6 +277,7 @@ def _state(
         pressure=instant.pressure,
         gap=instant.gap,
         displacement=instant.displacement,
+        grid=grid,
         force=force,
         eccentricity_x=moment_x / force if touching else math.nan,
         eccentricity_y=moment_y / force if touching else math.nan,

@@ -11,6 +11,7 @@ from viscontact.balance import Support
 from viscontact.carried import Carried
 from viscontact.contact import ContactSolution, solve_contact
 from viscontact.contact_problem import ContactProblem, Guess
+from viscontact.growth import Enlargement
 from viscontact.half_space import HalfSpace
 from viscontact.load import LoadPoint
 from viscontact.memory import Memory, RecursiveMemory, Response
@@ -136,6 +137,15 @@ class Past:
         self._twins = [Twin(**twin) for twin in carried["twins"]]
         self._motion = carried["motion"]
 
+    def enlarge(self, run: Run, half_space: HalfSpace) -> None:
+        """Go on in the same run on a larger grid."""
+        grown = Enlargement(self._half_space, half_space).pairs
+        self._run, self._half_space = run, half_space
+        self._shape = half_space.fold(run.open_gap)
+        self._memory.enlarge(grown)
+        self._errors.enlarge(grown)
+        self._twins = [replace(twin, fields=grown(twin.fields)) for twin in self._twins]
+
     def _posed(self, step: Step) -> Posed:
         """Ask the memories what the step will meet."""
         point = self._run.load.at(step.time, side=step.side)
@@ -159,7 +169,7 @@ class Past:
         values = np.stack([solution.found.pressure, solution.found.deflection])
         response = posed.response
         twin = Twin(step.time, posed.drive, response.of(values), solution.found.motion)
-        error = self._errors.of_step(step, values[1], response)
+        error = self._errors.of_step(step, values, response)
         return Trial(solution, values, posed.force, response, twin, outcome, error)
 
     def accept(self, step: Step, trial: Trial) -> Instant:
@@ -169,7 +179,7 @@ class Past:
         self._motion = trial.solution.found.motion
         self._memory.accept(trial.values)
         self._force_memory.accept(np.array([trial.force]))
-        time_error = self._errors.after(step, trial.values[1], trial.response, trial.error)
+        time_error = self._errors.after(step, trial.values, trial.response, trial.error)
         instant = _whole(self._half_space, trial, time_error)
         self._scale = max(self._scale, HISTORY_COUNTS * float(instant.displacement.max()))
         return instant
@@ -245,21 +255,23 @@ def _whole(half_space: HalfSpace, trial: Trial, time_error: float) -> Instant:
     """The instant on the whole grid."""
     solution = trial.solution
     found = solution.found
-    pressure, gap, displacement = (
-        half_space.unfold(field) for field in (found.pressure, solution.gap, trial.twin.fields[1])
-    )
-    for field in (pressure, gap, displacement):
+    twin_pressure, displacement = trial.twin.fields
+    fields = {
+        "pressure": half_space.unfold(found.pressure),
+        "gap": half_space.unfold(solution.gap),
+        "displacement": half_space.unfold(displacement),
+        "twin_pressure": half_space.unfold(twin_pressure),
+    }
+    for field in fields.values():
         field.flags.writeable = False  # the run goes on from them
     energy = half_space.fold_count * float((found.pressure * found.deflection).sum()) / 2
     return Instant(
-        pressure,
-        gap,
-        displacement,
-        found.motion,
-        energy * half_space.grid.cell_area,
-        solution.residual,
-        solution.iterations,
-        trial.outcome,
-        trial.response.resolved,
-        time_error,
+        **fields,
+        motion=found.motion,
+        energy=energy * half_space.grid.cell_area,
+        residual=solution.residual,
+        iterations=solution.iterations,
+        outcome=trial.outcome,
+        resolved=trial.response.resolved,
+        time_error=time_error,
     )

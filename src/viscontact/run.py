@@ -96,10 +96,19 @@ class Run:
         return _is_mirrored(self.open_gap, self.load)
 
     @property
+    def bodies(self) -> tuple[Material, ...]:
+        """The materials of the bodies that give way."""
+        both = (self.material, self.indenter_material)
+        return tuple(body for body in both if body is not None)
+
+    @property
     def measured_until(self) -> float:
         """Last time on which the laws rest on data [s]; inf for formulas."""
-        bodies = (self.material, self.indenter_material)
-        return min(body.known_until for body in bodies if body is not None)
+        return min(body.known_until for body in self.bodies)
+
+    def on(self, grid: Grid) -> Run:
+        """The same run on another grid."""
+        return replace(self, grid=grid, open_gap=_gap_on(self.indenter, grid))
 
     def steps(self) -> Steps:
         """The run's steps from the start."""
@@ -152,7 +161,7 @@ def prepare_run(
     check_creep(compliance, instants)
     check_jumps(compliance, load, end)
     cells = given or choose_grid(indenter, compliance, load, automatic or AutomaticGrid(), end)
-    open_gap = indenter.gap(cells.x[:, None], cells.y[None, :])
+    open_gap = _gap_on(indenter, cells)
     check_touch(compliance, open_gap, cells, load)
     check_balance(open_gap, cells, load, end)
     return Run(
@@ -176,6 +185,10 @@ def _automatic(grid: Grid | AutomaticGrid | None) -> AutomaticGrid | None:
     if isinstance(grid, Grid):
         return None
     return AutomaticGrid() if grid is None else grid
+
+
+def _gap_on(indenter: Indenter, grid: Grid) -> NDArray[np.float64]:
+    return indenter.gap(grid.x[:, None], grid.y[None, :])
 
 
 def _is_mirrored(open_gap: NDArray[np.float64], load: LoadHistory) -> bool:

@@ -26,6 +26,8 @@ class SolvedStep:
         How it ended.
     patch : tuple of int
         Span of the patch that the half-space keeps for the next step.
+    cells : tuple of int
+        Numbers of cells of the grid it was solved on.
     """
 
     time: float
@@ -33,6 +35,7 @@ class SolvedStep:
     solution: ContactSolution
     outcome: Outcome
     patch: tuple[int, int, int, int]
+    cells: tuple[int, int]
 
     def plain(self) -> Carried:
         """The same as plain data."""
@@ -49,6 +52,7 @@ class SolvedStep:
             "convolutions": int(solution.convolutions),
             "outcome": int(self.outcome),
             "patch": list(self.patch),
+            "cells": list(self.cells),
         }
 
     @classmethod
@@ -65,4 +69,6 @@ class SolvedStep:
         )
         first_row, last_row, first_column, last_column = plain["patch"]
         patch = (first_row, last_row, first_column, last_column)
-        return cls(plain["time"], tuple(plain["refused"]), solution, outcome, patch)
+        along, across = plain["cells"]
+        refused = tuple(plain["refused"])
+        return cls(plain["time"], refused, solution, outcome, patch, (along, across))

@@ -8,6 +8,8 @@ from enum import IntEnum
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.grid import Grid
+
 
 class Outcome(IntEnum):
     """How an instant ended."""
@@ -27,6 +29,8 @@ class Instant:
         Pressure [Pa].
     gap, displacement : ndarray, shape (nx, ny)
         Gap and total displacement of the surface [m].
+    twin_pressure : ndarray, shape (nx, ny)
+        ∫ J dp, the pressure whose deflection the displacement is [-].
     motion : ndarray, shape (3,)
         Approach [m] and tilts [rad].
     energy : float
@@ -46,6 +50,7 @@ class Instant:
     pressure: NDArray[np.float64]
     gap: NDArray[np.float64]
     displacement: NDArray[np.float64]
+    twin_pressure: NDArray[np.float64]
     motion: NDArray[np.float64]
     energy: float
     residual: float
@@ -69,6 +74,9 @@ class ContactState:
         Gap, positive when open, +inf outside the indenter's outline [m].
     displacement : ndarray, shape (nx, ny)
         Surface displacement, positive into the half-space [m].
+    grid : Grid
+        The cells of these fields. A run that chooses its grid may have enlarged it since the state
+        before.
     force : float
         Integral of the pressure [N].
     eccentricity_x, eccentricity_y : float
@@ -107,6 +115,7 @@ class ContactState:
     pressure: NDArray[np.float64]
     gap: NDArray[np.float64]
     displacement: NDArray[np.float64]
+    grid: Grid
     force: float
     eccentricity_x: float
     eccentricity_y: float

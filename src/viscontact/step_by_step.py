@@ -7,6 +7,8 @@ from dataclasses import dataclass
 
 from viscontact.carried import Carried
 from viscontact.errors import ConvergenceError, DomainError
+from viscontact.grid import Grid
+from viscontact.growth import FREE, Enlargement, next_grid, overrun
 from viscontact.half_space import HalfSpace
 from viscontact.observation import Observer
 from viscontact.past import Past, Trial
@@ -64,8 +66,10 @@ class March:
     """
 
     def __init__(self, run: Run, carried: Carried | None = None) -> None:
+        if carried is not None:
+            run = run.on(run.grid.widened(tuple(carried["cells"])))
         self._run = run
-        self._half_space = HalfSpace(run.grid, mirrored=run.is_mirrored, threads=run.threads)
+        self._half_space = _half_space(run)
         self._past = Past(run, self._half_space)
         self._steps = run.steps()
         self._observer = Observer(run)
@@ -105,6 +109,8 @@ class March:
         step = self._steps.upcoming()
         if step is None or step.time != solved.time:
             raise ValueError(f"a step to t = {solved.time:.9g} s is not the next one of this run")
+        if solved.cells != self._run.grid.shape:
+            self._enlarge(self._run.grid.widened(solved.cells))
         trial = self._past.repeat(step, solved.solution, solved.outcome)
         if not self._steps.accepts(trial.error.relative):
             raise ValueError(f"the step to t = {solved.time:.9g} s is not one that this run takes")
@@ -118,6 +124,7 @@ class March:
             "steps": self._steps.carried(),
             "observer": self._observer.carried(),
             "patch": list(self._half_space.kept_patch),
+            "cells": list(self._run.grid.shape),
             "done": self._done,
         }
 
@@ -130,19 +137,41 @@ class March:
         self._done = carried["done"]
 
     def _advance(self) -> Taken:
-        """Solve and take the next step; adaptive steps may be refused, and tried again shorter."""
+        """Solve and take the next step; one may be tried again, on a larger grid or shorter."""
         refused: list[float] = []
         while True:
             step = self._steps.upcoming()
             assert step is not None  # its caller has seen one, and a refused one is replaced
             trial = self._past.trial(step)
+            if self._outgrows(step, trial):
+                continue
             failed = trial.outcome is Outcome.NOT_CONVERGED
             if failed or self._steps.accepts(trial.error.relative):
                 break
             refused.append(trial.error.relative)
         patch = self._half_space.kept_patch
-        solved = SolvedStep(step.time, tuple(refused), trial.solution, trial.outcome, patch)
+        cells = self._run.grid.shape
+        solved = SolvedStep(step.time, tuple(refused), trial.solution, trial.outcome, patch, cells)
         return self._taken(step, trial, solved)
+
+    def _outgrows(self, step: Step, trial: Trial) -> bool:
+        """Whether a contact has come near the rim of a grid that may grow, and now has grown."""
+        over = overrun(self._half_space.unfold(trial.solution.found.pressure), FREE)
+        if not (self._run.grows and any(over)):
+            return False
+        larger = next_grid(self._run.grid, *over)
+        if larger is None:
+            raise DomainError(_too_large(self._run, step))
+        self._enlarge(larger)
+        return True
+
+    def _enlarge(self, grid: Grid) -> None:
+        """Go on from the same state on a larger grid."""
+        run = self._run.on(grid)
+        half_space = _half_space(run)
+        self._past.enlarge(run, half_space)
+        self._observer.enlarge(run, Enlargement(self._half_space, half_space))
+        self._run, self._half_space = run, half_space
 
     def _taken(self, step: Step, trial: Trial, solved: SolvedStep) -> Taken:
         instant = self._past.accept(step, trial)
@@ -156,13 +185,24 @@ class March:
         return Taken(solved, state, self._done, self._steps.left)
 
 
+def _half_space(run: Run) -> HalfSpace:
+    return HalfSpace(run.grid, mirrored=run.is_mirrored, threads=run.threads)
+
+
 def _refuse_rim(run: Run, step: Step, instant: Instant) -> None:
-    pressure = instant.pressure
-    if not (pressure[[0, -1]].any() or pressure[:, [0, -1]].any()):
+    if not any(overrun(instant.pressure)):
         return
     raise DomainError(
         f"grid: the contact reaches the grid's rim at t = {step.time:.6g} s; "
         f"enlarge grid.size, now {run.grid.size[0]:.4g} m x {run.grid.size[1]:.4g} m"
+    )
+
+
+def _too_large(run: Run, step: Step) -> str:
+    return (
+        f"grid: the contact outgrows {run.grid.size[0]:.4g} m x {run.grid.size[1]:.4g} m at "
+        f"t = {step.time:.6g} s, and with cells as fine as these an automatic grid cannot be "
+        "larger; give a grid of your own, or look whether the load carries the body off"
     )
 
 

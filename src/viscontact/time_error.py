@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from viscontact.carried import Carried
 from viscontact.load import LoadHistory
-from viscontact.memory import MemoryPlan, RecursiveMemory, Response
+from viscontact.memory import Enlarging, MemoryPlan, RecursiveMemory, Response
 from viscontact.schedule import Step
 
 #: The bulge of a first step after a kink is guessed from the curvature in its successor, which is
@@ -81,15 +81,15 @@ class TimeErrors:
         self._pending: tuple[float, float] | None = None
         self._size = 0.0
 
-    def of_step(self, step: Step, field: NDArray[np.float64], response: Response) -> StepError:
+    def of_step(self, step: Step, values: NDArray[np.float64], response: Response) -> StepError:
         """Return what a step adds to the error of the pressure at its end.
 
         Parameters
         ----------
         step : Step
             The step, not taken yet.
-        field : ndarray
-            Deflection ``K p`` at its end [Pa m].
+        values : ndarray, shape (2, nx, ny)
+            Pressure ``p`` [Pa] and deflection ``K p`` [Pa m] at its end.
         response : Response
             Of the memory to it.
 
@@ -99,22 +99,22 @@ class TimeErrors:
             For the first step after a kink a guess from the change over it.
         """
         # Deflections are positive: the kernel is.
-        size = max(self._size, float(field.max()))
+        size = max(self._size, float(values[1].max()))
         if step.is_jump or size == 0:
             return StepError(0.0, 0.0, size)
-        bulge = self._bulge(step, field, response)
+        bulge = self._bulge(step, values[1], response)
         crept = self._compliance(step.duration) - self._compliance.instant
         to_come = size * self._growth_to_come(step)
         return StepError(bulge, bulge * crept / (response.compliance * to_come), size)
 
     def after(
-        self, step: Step, field: NDArray[np.float64], response: Response, error: StepError
+        self, step: Step, values: NDArray[np.float64], response: Response, error: StepError
     ) -> float:
         """Take a step, and return the estimated relative error of the pressure after it.
 
         Parameters
         ----------
-        step, field, response
+        step, values, response
             As in `of_step`.
         error : StepError
             From `of_step`.
@@ -133,12 +133,12 @@ class TimeErrors:
             if self._compliance.instant > 0:  # else nothing jumps
                 self._make_good(self._wrong.jump())
         elif len(self._past) < 2:
-            change = float(np.abs(field - self._past[-1][1]).max()) if self._past else 0.0
+            change = float(np.abs(self._change_to(values[1])).max()) if self._past else 0.0
             self._pending = (step.duration, change)
         else:
             self._settle(alone=False, bulge=error.bulge / step.duration**2)
             self._remember(step.duration, error.bulge)
-        self._past = [*self._past[-1:], (step.time, field)]
+        self._past = [*self._past[-1:], (step.time, values)]
         return self._error / self._size if self._size > 0 else 0.0
 
     def carried(self) -> Carried:
@@ -146,7 +146,7 @@ class TimeErrors:
         return {
             "bulges": self._bulges.carried(),
             "wrong": self._wrong.carried(),
-            "past": [{"time": time, "field": field} for time, field in self._past],
+            "past": [{"time": time, "values": values} for time, values in self._past],
             "pending": None if self._pending is None else list(self._pending),
             "error": self._error,
             "size": self._size,
@@ -157,12 +157,16 @@ class TimeErrors:
         """Go on from what was `carried` under the same load by the same law."""
         self._bulges.restore(carried["bulges"])
         self._wrong.restore(carried["wrong"])
-        self._past = [(point["time"], point["field"]) for point in carried["past"]]
+        self._past = [(point["time"], point["values"]) for point in carried["past"]]
         pending = carried["pending"]
         self._pending = None if pending is None else (pending[0], pending[1])
         self._error, self._size, self._level = (
             carried[name] for name in ("error", "size", "level")
         )
+
+    def enlarge(self, grown: Enlarging) -> None:
+        """Go on with larger fields, which `grown` makes of those that are remembered."""
+        self._past = [(time, grown(values)) for time, values in self._past]
 
     def _growth_to_come(self, step: Step) -> float:
         """By how much pressure and deflection will still grow with the load, at least."""
@@ -177,15 +181,20 @@ class TimeErrors:
         """Mean distance of the field from the path that the memory takes, within a step."""
         if step.is_jump or not self._past:
             return 0.0
-        change = field - self._past[-1][1]
+        change = self._change_to(field)
         travel = float(np.abs(change).max())
         late = response.held * travel / 2
         if not step.smooth or len(self._past) < 2:
             return max(late, ALONE * travel)
         before = self._past[-1][0] - self._past[-2][0]
-        slopes = change / step.duration - (self._past[-1][1] - self._past[-2][1]) / before
+        earlier = self._past[-1][1][1] - self._past[-2][1][1]
+        slopes = change / step.duration - earlier / before
         curvature = 2 * float(np.abs(slopes).max()) / (step.duration + before)
         return SAFETY * step.duration**2 / 12 * curvature + late
+
+    def _change_to(self, deflection: NDArray[np.float64]) -> NDArray[np.float64]:
+        """From the last deflection on."""
+        return np.asarray(deflection - self._past[-1][1][1])
 
     def _settle(self, *, alone: bool, bulge: float = 0.0) -> None:
         """Remember a first step, with or without a successor that tells the bulge per d²."""

@@ -113,6 +113,7 @@ def _needs(prepared: Prepared, expected: Forecast) -> list[tuple[str, str]]:
     run = prepared.run
     (nx, ny), (lx, ly), (dx, dy) = run.grid.shape, run.grid.size, run.grid.cell_size
     chosen = " (automatic)" if run.automatic is not None else ""
+    growing = "; more if the grid has to grow" if run.grows else ""
     kept = prepared.case.fields
     return [
         ("grid", f"{nx} x {ny} cells on {in_words(lx, 'm')} x {in_words(ly, 'm')}{chosen}"),
@@ -121,7 +122,7 @@ def _needs(prepared: Prepared, expected: Forecast) -> list[tuple[str, str]]:
         ("fields kept", kept if isinstance(kept, str) else f"at {len(kept)} instants"),
         (
             "memory",
-            f"about {_bytes(expected.memory)}, {_bytes(expected.available)} are free",
+            f"about {_bytes(expected.memory)}, {_bytes(expected.available)} are free{growing}",
         ),
         ("time", f"{_duration(expected.seconds)} on this machine"),
     ]

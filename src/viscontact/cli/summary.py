@@ -50,6 +50,8 @@ def _print(ds: xr.Dataset, directory: Path) -> None:
     attributes = (str(ds.attrs["memory"]), float(ds.attrs["inversion_error"]))
     for line in accuracy_lines(ds["time_error"].values, *attributes):
         console.print(line, highlight=False)
+    for line in str(ds.attrs.get("grid_enlarged", "")).splitlines():
+        console.print(f"grid enlarged at {line}", highlight=False)
     for line in _warnings(directory / PROGRESS_NAME):
         console.print(f"[yellow]warning:[/] {escape(line)}")
     console.print(f"{directory / RESULT_NAME}", soft_wrap=True, highlight=False)

@@ -8,10 +8,11 @@ contact solver computes anyway: history costs no convolution.
 from viscontact.memory.choice import MemoryPlan, plan_memory
 from viscontact.memory.exponentials import as_exponentials
 from viscontact.memory.recursion import RecursiveMemory
-from viscontact.memory.response import Memory, Response
+from viscontact.memory.response import Enlarging, Memory, Response
 from viscontact.memory.superposition import SuperposedMemory
 
 __all__ = [
+    "Enlarging",
     "Memory",
     "MemoryPlan",
     "RecursiveMemory",

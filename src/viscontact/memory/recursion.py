@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from viscontact.carried import Carried
 from viscontact.compliance import SeriesCompliance
-from viscontact.memory.response import Memory, Response, is_resolved, longest_smooth_rise
+from viscontact.memory.response import Enlarging, Memory, Response, is_resolved, longest_smooth_rise
 
 
 class RecursiveMemory(Memory):
@@ -107,6 +107,10 @@ class RecursiveMemory(Memory):
     def carried(self) -> Carried:
         """The internal fields and the last value; see `Memory.carried`."""
         return {"fields": self._fields.copy(), "value": self._value, "jumped": self._jumped}
+
+    def enlarge(self, grown: Enlarging) -> None:
+        """Go on with a larger field; see `Memory.enlarge`."""
+        self._fields, self._value = grown(self._fields), grown(self._value)
 
     def restore(self, carried: Carried) -> None:
         """Go on from what was carried; see `Memory.restore`."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,6 +22,9 @@ RESOLVED = 0.5
 #: Maxwell body's relaxation is met within 0.07 of what it began with, by a single step of any
 #: length; at 1 it would be within 0.14, and zero beyond two relaxation times.
 AFTER_JUMP = 2 / 3
+
+#: What makes larger fields of smaller ones.
+Enlarging = Callable[[NDArray[np.float64]], NDArray[np.float64]]
 
 
 @dataclass(frozen=True)
@@ -95,6 +99,17 @@ class Memory(ABC):
     @abstractmethod
     def carried(self) -> Carried:
         """What has to be kept to go on from here; asked for after an `accept`."""
+
+    @abstractmethod
+    def enlarge(self, grown: Enlarging) -> None:
+        """Go on with a larger field.
+
+        Parameters
+        ----------
+        grown : callable
+            Makes a larger field of any field like the ones remembered, or of a stack of them; must
+            be linear.
+        """
 
     @abstractmethod
     def restore(self, carried: Carried) -> None:

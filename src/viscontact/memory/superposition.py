@@ -13,7 +13,13 @@ from numpy.typing import NDArray
 
 from viscontact.carried import Carried
 from viscontact.compliance import ContactCompliance
-from viscontact.memory.response import Memory, Response, is_resolved, longest_smooth_rise
+from viscontact.memory.response import (
+    Enlarging,
+    Memory,
+    Response,
+    is_resolved,
+    longest_smooth_rise,
+)
 
 #: Steps ahead for which the sum over the past is made at once, as one product of matrices.
 STEPS_AHEAD = 16
@@ -113,6 +119,16 @@ class SuperposedMemory(Memory):
             "ahead": self._ahead,
             "ahead_from": self._ahead_from,
         }
+
+    def enlarge(self, grown: Enlarging) -> None:
+        """Go on with a larger field; see `Memory.enlarge`."""
+        old, increments, ahead = self._shape, self._increments, self._ahead
+        self._value = grown(self._value)
+        self._shape, size = self._value.shape, self._value.size
+        self._increments = np.zeros((len(increments), size))
+        for row in range(self._count):
+            self._increments[row] = grown(increments[row].reshape(old)).ravel()
+        self._ahead = grown(ahead.reshape(len(ahead), *old)).reshape(len(ahead), size)
 
     def restore(self, carried: Carried) -> None:
         """Go on from what was carried; see `Memory.restore`."""

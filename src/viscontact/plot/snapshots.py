@@ -191,8 +191,9 @@ def _in_contact(results: xr.Dataset, instants: NDArray[np.float64]) -> NDArray[n
 
 def _body_end(results: xr.Dataset) -> Outline | None:
     # Only a body that ends has an infinite gap beside it.
-    first = results["gap"].isel({_time_dimension(results): 0}).values
-    if np.isfinite(first).all() or "case" not in results.attrs:
+    # The last is known on all of the grid, should that have been enlarged meanwhile.
+    last = results["gap"].isel({_time_dimension(results): -1}).values
+    if np.isfinite(last).all() or "case" not in results.attrs:
         return None
     try:
         indenter = recorded_noun(results, "indenter", "snapshot")

@@ -21,6 +21,7 @@ from viscontact.dataset import (
 )
 from viscontact.grid import Grid
 from viscontact.instants import field_instants
+from viscontact.outgrown import on_wider
 from viscontact.state import ContactState
 
 #: Memory that rows on their way from one file to another may take [bytes].
@@ -200,16 +201,23 @@ def write_fields(file: netCDF4.Dataset, layout: Layout, row: int, state: Contact
     row : int
         The row of the fields.
     state : ContactState
-        The state.
+        The state, on the grid of the layout or a smaller one.
     """
     for name in FIELDS:
-        file.variables[name][row] = getattr(state, name)
+        field = getattr(state, name)
+        file.variables[name][row] = on_wider(name, field, state.grid, layout.grid)
     if layout.axis not in (None, "time"):
         file.variables[layout.axis][row] = state.time
 
 
 def copy_rows(
-    source: netCDF4.Dataset, target: netCDF4.Dataset, layout: Layout, begin: Extent, end: Extent
+    source: netCDF4.Dataset,
+    target: netCDF4.Dataset,
+    layout: Layout,
+    begin: Extent,
+    end: Extent,
+    *,
+    wider: Grid | None = None,
 ) -> None:
     """Copy rows from one result to another of the same layout, a few at a time.
 
@@ -219,6 +227,8 @@ def copy_rows(
         From where, and where to; the second one open for appending.
     layout : Layout
         Their layout.
+    wider : Grid, optional
+        Grid of the second one; that of the layout when left out.
     begin, end : Extent
         The first rows to be copied, and those behind the last.
     """
@@ -227,8 +237,14 @@ def copy_rows(
             continue
         along_fields = name in FIELDS or name == layout.axis != "time"
         first, last = (where.field_rows if along_fields else where.rows for where in (begin, end))
-        for rows in _blocks(first, last, layout.grid.shape if name in FIELDS else ()):
-            target.variables[name][rows] = source.variables[name][rows]
+        if name not in FIELDS:
+            for rows in _blocks(first, last, ()):
+                target.variables[name][rows] = source.variables[name][rows]
+            continue
+        grid = wider or layout.grid
+        for rows in _blocks(first, last, grid.shape):
+            fields = on_wider(name, source.variables[name][rows], layout.grid, grid)
+            target.variables[name][rows] = fields
 
 
 def _blocks(first: int, last: int, shape: tuple[int, ...]) -> Iterator[slice]:

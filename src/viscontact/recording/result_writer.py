@@ -5,6 +5,7 @@ from __future__ import annotations
 import time as clock
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, Self
 
@@ -14,9 +15,10 @@ from numpy.typing import NDArray
 
 from viscontact.grid import Grid
 from viscontact.instants import field_instants
+from viscontact.recording.account import NOTHING_YET, Account
 from viscontact.recording.closing import Closing
 from viscontact.recording.layout import Extent, Layout, write_fields, write_scalars
-from viscontact.recording.soundness import sound_times
+from viscontact.recording.soundness import sound_times, stored_grid
 from viscontact.recording.two_copies import TwoCopies
 from viscontact.state import ContactState
 
@@ -24,7 +26,7 @@ from viscontact.state import ContactState
 WAITING = 4096
 #: How often, and after how long [s], the last publication is tried where the place is held.
 TRIES, PAUSE = 40, 0.25
-START: Mapping[str, Any] = {"rows": 0, "field_rows": 0, "warnings": (), "wall_time": 0.0}
+START: Mapping[str, Any] = {"rows": 0, "field_rows": 0, **NOTHING_YET}
 
 
 class ResultWriter(Closing):
@@ -41,7 +43,7 @@ class ResultWriter(Closing):
     path : path
         The result. What is there stays as it is until the first `publish`.
     grid : Grid
-        Grid of the fields.
+        Grid of the fields; a state on a wider one has the result laid out anew.
     times : ndarray
         Instants of the run [s].
     fields : "all", "none" or sequence of float
@@ -51,8 +53,8 @@ class ResultWriter(Closing):
 
     Notes
     -----
-    Global attributes of its own: `warnings`, a line each; `wall_time` [s], summed over
-    resumptions; `complete`, 1 once the run is over.
+    Global attributes of its own: `warnings` and `grid_enlarged`, a line each; `wall_time` [s],
+    summed over resumptions; `complete`, 1 once the run is over.
 
     Examples
     --------
@@ -80,7 +82,7 @@ class ResultWriter(Closing):
         fields: str | Sequence[float] = "all",
         attributes: Mapping[str, Any] | None = None,
     ) -> None:
-        self._set_up(Path(path), grid, times, START, fields=fields, attributes=attributes)
+        self._set_up(Path(path), grid, times, START, fields, attributes, is_there=False)
         with self._writing():
             self._copies.begin(self._all_attributes())
 
@@ -102,7 +104,7 @@ class ResultWriter(Closing):
         path : path
             The result. Rows it has beyond the position are written again as they come.
         grid : Grid
-            Grid of the fields.
+            Grid of the fields when the run began.
         times : ndarray
             Instants of the run [s].
         position : dict
@@ -123,7 +125,7 @@ class ResultWriter(Closing):
             If the result cannot be read, is another run's, or has fewer rows than that.
         """
         writer = cls.__new__(cls)
-        writer._set_up(Path(path), grid, times, position, fields=fields, attributes=attributes)
+        writer._set_up(Path(path), grid, times, position, fields, attributes, is_there=True)
         there = sound_times(writer._path, writer._layout, writer._done)
         writer._ahead = there[writer._done.rows :].tolist()
         writer._copies.take_over(writer._done)
@@ -135,15 +137,17 @@ class ResultWriter(Closing):
         grid: Grid,
         times: NDArray[np.float64],
         position: Mapping[str, Any],
-        *,
         fields: str | Sequence[float],
         attributes: Mapping[str, Any] | None,
+        *,
+        is_there: bool,
     ) -> None:
-        self._started = clock.monotonic() - position["wall_time"]
-        self._said = list(position["warnings"])
         self._done = Extent(position["rows"], position["field_rows"])
         self._kept = set(field_instants(fields, times).tolist())
-        self._path, self._layout = path, Layout.of(grid, times, fields)
+        self._account = Account(grid, position)
+        # A file that is gone on with may be ahead of the position, on a wider grid.
+        laid_out = stored_grid(path, self._account.grid) if is_there else grid
+        self._path, self._layout = path, Layout.of(laid_out, times, fields)
         self._copies = TwoCopies(path, self._layout)
         self._attributes = {**(attributes or {}), "complete": np.int32(0)}
         # States without fields, of rows from `_written` on.
@@ -160,14 +164,13 @@ class ResultWriter(Closing):
         Returns
         -------
         dict
-            Plain data: ``rows`` and ``field_rows``, how many there are; ``warnings``, a list of
-            those said so far; ``wall_time`` [s].
+            Plain data: ``rows`` and ``field_rows``, how many there are, and an account of the run
+            so far.
         """
         return {
             "rows": self._done.rows,
             "field_rows": self._done.field_rows,
-            "warnings": list(self._said),
-            "wall_time": clock.monotonic() - self._started,
+            **self._account.position,
         }
 
     def append(self, state: ContactState) -> None:
@@ -186,13 +189,14 @@ class ResultWriter(Closing):
         """
         rows, field_rows = self._done
         self._follow(state.time)
+        self._make_room(state.grid)
         if self._layout.axis == "time" or state.time in self._kept:
             with self._writing():
                 write_fields(self._copies.file, self._layout, field_rows, state)
             field_rows += 1
         # What an interruption here has left does not count.
         self._waiting[rows - self._written :] = [state.without_fields()]
-        self._said += state.warnings
+        self._account.add(state)
         self._done = Extent(rows + 1, field_rows)
         if len(self._waiting) >= WAITING:
             with self._writing():
@@ -253,6 +257,17 @@ class ResultWriter(Closing):
             self._copies.cut(self._done, self._all_attributes())
         self._ahead = []
 
+    def _make_room(self, grid: Grid) -> None:
+        """Lay the file out anew if the run has enlarged its grid beyond that of the file."""
+        room = self._layout.grid.shape
+        if grid.shape[0] <= room[0] and grid.shape[1] <= room[1]:
+            return
+        layout = replace(self._layout, grid=grid)
+        with self._writing():
+            self._write_waiting(self._copies.file)
+            self._copies.widen(layout, self._done, self._all_attributes())
+        self._layout, self._ahead = layout, []
+
     def _publish(self) -> bool:
         with self._writing():
             file = self._copies.file
@@ -264,8 +279,7 @@ class ResultWriter(Closing):
             return self._copies.publish(self._done)
 
     def _all_attributes(self) -> dict[str, Any]:
-        said, wall_time = "\n".join(self._said), clock.monotonic() - self._started
-        return {**self._attributes, "warnings": said, "wall_time": wall_time}
+        return {**self._attributes, **self._account.attributes}
 
     def _write_waiting(self, file: netCDF4.Dataset) -> None:
         write_scalars(file, self._written, self._waiting[: self._done.rows - self._written])

@@ -9,6 +9,7 @@ import netCDF4
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.grid import Grid
 from viscontact.recording.layout import Extent, Layout, opened
 
 REMEDY = "start the run anew with --overwrite"
@@ -49,6 +50,28 @@ def sound_times(path: Path, layout: Layout, extent: Extent) -> NDArray[np.float6
     if fault:
         raise ValueError(f"{path} is not the result of this run so far: {fault}; {REMEDY}")
     return times
+
+
+def stored_grid(path: Path, grid: Grid) -> Grid:
+    """The grid of a result whose run may have enlarged it.
+
+    Parameters
+    ----------
+    path : Path
+        The result.
+    grid : Grid
+        The run's grid so far.
+
+    Returns
+    -------
+    Grid
+        The same cells, as many as the result has; the grid itself where it has no such grid.
+    """
+    try:
+        with opened(path, "r") as file:
+            return grid.widened((len(file.dimensions["x"]), len(file.dimensions["y"])))
+    except (OSError, RuntimeError, ValueError, KeyError):
+        return grid  # what is wrong with it is told by `sound_times`
 
 
 def _fault(file: netCDF4.Dataset, layout: Layout, extent: Extent) -> str:

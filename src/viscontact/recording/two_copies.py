@@ -137,14 +137,32 @@ class TwoCopies:
         attributes : mapping
             Global attributes.
         """
+        self._write_anew(self._layout, extent, attributes)
+
+    def widen(self, layout: Layout, extent: Extent, attributes: Mapping[str, Any]) -> None:
+        """Lay the working copy out anew on a larger grid; what is published stays until `publish`.
+
+        Parameters
+        ----------
+        layout : Layout
+            The same on the larger grid.
+        extent : Extent
+            Rows to be kept.
+        attributes : mapping
+            Global attributes.
+        """
+        self._write_anew(layout, extent, attributes)
+        self._layout = layout
+
+    def _write_anew(self, layout: Layout, extent: Extent, attributes: Mapping[str, Any]) -> None:
         source = self.file
         self._aside.unlink(missing_ok=True)
-        shorter = created(self._aside, self._layout, attributes)
-        copy_rows(source, shorter, self._layout, Extent(0, 0), extent)
-        shorter.close()
+        fresh = created(self._aside, layout, attributes)
+        copy_rows(source, fresh, self._layout, Extent(0, 0), extent, wider=layout.grid)
+        fresh.close()
         self._close(extent)
         self._aside.replace(self._working)
-        # The published file has those rows still: it is of no use as a working copy.
+        # The published file is another one in its rows or its grid: of no use as a working copy.
         self.published = None
 
     def discard(self) -> None:
