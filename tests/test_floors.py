@@ -51,6 +51,7 @@ FLOORS = (
         "extent",
         "instants",
         "admission",
+        "period",
         "run",
         "growth",
         "cycles",
@@ -107,6 +108,7 @@ NEIGHBOURS = {
     ("run", "instants"),
     ("admission", "extent"),  # where a load is largest
     ("run", "admission"),  # what is refused
+    ("run", "period"),  # what is no period
     ("run", "schedule"),  # where its steps come from
     ("run", "adaptive"),
     ("run", "extent"),  # the grid when none is given

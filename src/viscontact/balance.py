@@ -66,6 +66,10 @@ class Support:
             (self.motions[0], self.motions[1], 0.0),
         )
 
+    def level(self) -> Support:
+        """Support of one period of a body: it does not tilt, or periods would not fit together."""
+        return Support((self.resultants[0], None, None), (self.motions[0], 0.0, 0.0))
+
     @property
     def free(self) -> NDArray[np.bool_]:
         """Which of the three motions the balances determine."""

@@ -86,7 +86,7 @@ def describe(noun: Any) -> Any:
     Examples
     --------
     >>> describe(Grid((4, 8), (0.1, 0.2)))
-    {'type': 'Grid', 'shape': [4, 8], 'size': [0.1, 0.2]}
+    {'type': 'Grid', 'shape': [4, 8], 'size': [0.1, 0.2], 'periodic': False}
     """
     if is_dataclass(noun) and not isinstance(noun, type):
         arguments = {item.name: describe(getattr(noun, item.name)) for item in fields(noun)}

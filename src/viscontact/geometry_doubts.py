@@ -21,6 +21,10 @@ STEEP_SLOPE, WIDE_CONTACT, DEEP_APPROACH, DEEP_PUNCH = 0.3, 0.3, 0.1, 0.5
 #: Cells across a contact whose extents can be measured against the approach.
 FEW_CELLS = 4
 
+#: From one side of a period's border to the other the gap may change by so many times what it does
+#: from cell to cell elsewhere.
+SEAM = 2.0
+
 #: A body counts as deep if the contact's half width is no larger part of its thickness. At that
 #: bound an incompressible layer bonded to a rigid base carries 28 % more under a sphere at the same
 #: approach (Dimitriadis et al. 2002, Biophys. J. 82, 2798).
@@ -108,7 +112,7 @@ def strain_doubts(geometry: Geometry, rim: Rim, motion: NDArray[np.float64]) -> 
         Sentences by kind of doubt; empty if there is none.
     """
     doubts: dict[str, str] = {}
-    open_gap = geometry.open_gap[rim.rows, rim.columns]
+    open_gap = rim.cut(geometry.open_gap)
     half_width, radius = _half_width(rim), geometry.indenter.radius_of_curvature
     # A roller's length is no measure of its width, and may be less.
     extents = zip((rim.length, rim.width), geometry.indenter.curvatures, strict=True)
@@ -154,7 +158,13 @@ def body_doubts(geometry: Geometry, rim: Rim) -> dict[str, str]:
     """
     doubts: dict[str, str] = {}
     half_width, (be, reach) = _half_width(rim), geometry._verbs
-    if _touches_end(geometry.open_gap[rim.rows, rim.columns], rim.contact):
+    if geometry.grid.periodic and _touches_seam(geometry, rim):
+        doubts["seam"] = (
+            f"the contact {reach} the border of the period, where the body does not continue: "
+            "beside its next period it has a step, at which the peak pressure depends on the mesh; "
+            "press a body that fits to itself, or not periodically"
+        )
+    if _touches_end(rim.cut(geometry.open_gap), rim.contact):
         doubts["end"] = (
             f"the contact {reach} the end of the indenter's profile: pressure is singular there "
             "and the peak pressure depends on the mesh. The half-space goes on beyond it: a body "
@@ -175,6 +185,22 @@ def body_doubts(geometry: Geometry, rim: Rim) -> dict[str, str]:
     return doubts
 
 
+def _touches_seam(geometry: Geometry, rim: Rim) -> bool:
+    """Whether contact lies at a step from the period's last cells to its first.
+
+    A step is much larger than those from cell to cell elsewhere.
+    """
+    for axis, lines in enumerate((rim.rows, rim.columns)):
+        gap = np.moveaxis(geometry.open_gap, axis, 0)
+        touched = np.isin([0, len(gap) - 1], lines[rim.contact.any(axis=1 - axis)])
+        seam, inner = np.abs(gap[0] - gap[-1]), np.abs(np.diff(gap, axis=0))
+        known = np.isfinite(seam)
+        largest = float(inner[np.isfinite(inner)].max(initial=0.0))
+        if touched.any() and float(seam[known].max(initial=0.0)) > SEAM * largest:
+            return True
+    return False
+
+
 def _spans(contact: NDArray[np.bool_], cells: int) -> bool:
     return all(int(contact.any(axis=axis).sum()) >= cells for axis in (0, 1))
 
@@ -187,12 +213,21 @@ def _ends_within(geometry: Geometry, rim: Rim, distance: float) -> bool:
     """Whether the indenter ends near the box around the contact, within the grid."""
     block = []
     for axis, lines in enumerate((rim.rows, rim.columns)):
-        touched = np.flatnonzero(rim.contact.any(axis=1 - axis)) + lines.start
+        touched = lines[rim.contact.any(axis=1 - axis)]
         if not touched.size:
             return False
         near = math.ceil(distance / geometry.grid.cell_size[axis])
-        block.append(slice(max(int(touched[0]) - near, 0), int(touched[-1]) + near + 1))
-    return bool(np.isinf(geometry.open_gap[block[0], block[1]]).any())
+        block.append(_around(touched, near, geometry.grid, axis))
+    return bool(np.isinf(geometry.open_gap[np.ix_(*block)]).any())
+
+
+def _around(lines: NDArray[np.intp], distance: int, grid: Grid, axis: int) -> NDArray[np.intp]:
+    """Lines of the grid from so many before the first of some to so many behind the last."""
+    count = grid.shape[axis]
+    first, last = int(lines[0]) - distance, int(lines[-1]) + distance
+    if grid.periodic:
+        return np.arange(first, first + min((last - first) % count + 1, count)) % count
+    return np.arange(max(first, 0), min(last + 1, count))
 
 
 def _steepest_slope(

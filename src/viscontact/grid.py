@@ -32,12 +32,15 @@ class Grid:
         Numbers of cells (nx, ny) along x and y; at least 4 each.
     size : tuple of float
         Extents (lx, ly) of the whole grid [m].
+    periodic : bool, optional
+        Whether the grid is one period of a surface that repeats itself without end, both ways;
+        otherwise it is a part of a half-space that is free beside it.
 
     Raises
     ------
     ValueError
-        If a number of cells is not a whole number of at least 4, or an extent is not
-        positive and finite.
+        If a number of cells is not a whole number of at least 4, an extent is not
+        positive and finite, or periodic is neither true nor false.
 
     Examples
     --------
@@ -50,6 +53,7 @@ class Grid:
 
     shape: tuple[int, int]
     size: tuple[float, float]
+    periodic: bool = False
 
     def __post_init__(self) -> None:
         cells, extents = _pair("shape", self.shape), _pair("size", self.size)
@@ -59,6 +63,9 @@ class Grid:
         for name, extent in zip(("lx", "ly"), extents, strict=True):
             if not (_is_number(extent) and extent > 0):
                 raise ValueError(f"grid.size: {name} must be a positive length, got {extent!r} m")
+        if not isinstance(self.periodic, bool | np.bool_):
+            raise ValueError(f"grid.periodic must be true or false, got {self.periodic!r}")
+        object.__setattr__(self, "periodic", bool(self.periodic))
         object.__setattr__(self, "shape", (int(cells[0]), int(cells[1])))
         object.__setattr__(self, "size", (float(extents[0]), float(extents[1])))
 
@@ -72,6 +79,11 @@ class Grid:
         """Area of a cell [m²]."""
         dx, dy = self.cell_size
         return dx * dy
+
+    @property
+    def area(self) -> float:
+        """Area of the whole grid [m²]: of a period, mean pressure is force over it."""
+        return self.size[0] * self.size[1]
 
     @property
     def x(self) -> NDArray[np.float64]:

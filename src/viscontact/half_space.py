@@ -9,9 +9,17 @@ from numpy.typing import NDArray
 from scipy import fft
 
 from viscontact.balance import RigidPlane, Support
-from viscontact.convolution import Convolution, MirroredConvolution, Preconditioner
+from viscontact.convolution import (
+    Convolution,
+    MirroredConvolution,
+    PeriodicConvolution,
+    Preconditioner,
+)
 from viscontact.grid import Grid
 from viscontact.influence import influence_table
+
+#: From pressure to displacement, on cells.
+Operator = Convolution | MirroredConvolution | PeriodicConvolution
 
 #: Free cells kept around a contact in its patch, as a part of the contact's extent.
 PATCH_MARGIN = 0.06
@@ -32,7 +40,7 @@ class Patch:
         Area of a cell [m²].
     arm : float
         Its longer edge, the measure of moments against forces [m].
-    convolution : Convolution or MirroredConvolution
+    convolution : Convolution, MirroredConvolution or PeriodicConvolution
         Deflection of the patch under a change of pressure on the patch, in single precision.
     preconditioner : Preconditioner
         Rough inverse of it.
@@ -44,7 +52,7 @@ class Patch:
     columns: slice
     cell_area: float
     arm: float
-    convolution: Convolution | MirroredConvolution
+    convolution: Operator
     preconditioner: Preconditioner
     plane: RigidPlane
 
@@ -70,14 +78,17 @@ class HalfSpace:
     precision, costs a fraction of what the whole grid does; what is found is convolved on the
     whole grid in double precision and checked there. The last patch is kept, for a contact that
     creeps stays in it for many steps. A problem that is even across y = 0 needs only the cells at
-    y > 0: fields are then `fold`-ed, and supports halved, before they are used here.
+    y > 0: fields are then `fold`-ed, and supports halved, before they are used here. On a
+    periodic grid all cells are worked with: nothing is padded there, and the preconditioner is an
+    exact inverse.
 
     Parameters
     ----------
     grid : Grid
         The cells that carry pressure and displacement.
     mirrored : bool
-        Whether the problem is even across y = 0; the grid must have an even number of columns.
+        Whether the problem is even across y = 0; the grid must have an even number of columns,
+        and not be periodic.
     threads : int
         Threads of one transform.
 
@@ -85,7 +96,7 @@ class HalfSpace:
     ----------
     whole : Patch
         The patch of all cells that are worked with.
-    convolution : Convolution or MirroredConvolution
+    convolution : Convolution, MirroredConvolution or PeriodicConvolution
         Deflection of all of them under a pressure, in double precision.
 
     Examples
@@ -95,20 +106,21 @@ class HalfSpace:
     (4, 4)
     """
 
-    convolution: Convolution | MirroredConvolution
-    _operator: type[Convolution] | type[MirroredConvolution]
+    convolution: Operator
 
     def __init__(self, grid: Grid, *, mirrored: bool = False, threads: int = 1) -> None:
         if mirrored and grid.shape[1] % 2:
             raise ValueError(f"a mirrored grid needs an even number of columns, got {grid.shape}")
+        if mirrored and grid.periodic:
+            raise ValueError("a periodic grid is worked with as a whole, not mirrored")
         self.grid = grid
         self.mirrored = mirrored
         self._threads = threads
         self._first_column = grid.shape[1] // 2 if mirrored else 0
         self.shape = (grid.shape[0], grid.shape[1] - self._first_column)
-        self._coefficients = influence_table(grid.shape, grid.cell_size)
-        self._operator = MirroredConvolution if mirrored else Convolution
-        self.convolution = self._operator(self._coefficients, threads=threads)
+        if not grid.periodic:
+            self._coefficients = influence_table(grid.shape, grid.cell_size)
+        self.convolution = self._operator(self.shape, single=False)
         self.whole = self._patch(slice(0, self.shape[0]), slice(0, self.shape[1]))
         self._last = self.whole
 
@@ -127,6 +139,8 @@ class HalfSpace:
 
     def share(self, support: Support) -> Support:
         """What the part that is worked with has to carry of the whole body's load."""
+        if self.grid.periodic:
+            return support.level()
         return support.halved() if self.mirrored else support
 
     def patch_around(self, cells: NDArray[np.bool_]) -> Patch:
@@ -142,7 +156,7 @@ class HalfSpace:
         Patch
             The last one if it fits well, the whole if a patch would save little.
         """
-        if not cells.any():
+        if self.grid.periodic or not cells.any():
             return self.whole
         rows, columns = _span(np.any(cells, axis=1)), _span(np.any(cells, axis=0))
         if self.mirrored:
@@ -181,17 +195,26 @@ class HalfSpace:
     def _patch(self, rows: slice, columns: slice) -> Patch:
         grid = self.grid
         shape = (rows.stop - rows.start, columns.stop - columns.start)
-        both_halves = 2 * shape[1] if self.mirrored else shape[1]
-        coefficients = self._coefficients[: shape[0], :both_halves]
         return Patch(
             rows,
             columns,
             grid.cell_area,
             float(max(np.multiply(shape, grid.cell_size))),
-            self._operator(coefficients, single=True, threads=self._threads),
+            self._operator(shape, single=True),
             Preconditioner(shape, grid.cell_size, mirrored=self.mirrored, threads=self._threads),
             RigidPlane(grid.x[rows], grid.y[self._first_column :][columns], grid.cell_size),
         )
+
+    def _operator(self, shape: tuple[int, int], *, single: bool) -> Operator:
+        """The operator over a block of cells, or over the whole of a period."""
+        threads = self._threads
+        if self.grid.periodic:
+            cell_size = self.grid.cell_size
+            return PeriodicConvolution(shape, cell_size, single=single, threads=threads)
+        kind = MirroredConvolution if self.mirrored else Convolution
+        both_halves = 2 * shape[1] if self.mirrored else shape[1]
+        coefficients = self._coefficients[: shape[0], :both_halves]
+        return kind(coefficients, single=single, threads=threads)
 
 
 def _span(occupied: NDArray[np.bool_] | np.bool_) -> slice:

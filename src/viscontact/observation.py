@@ -110,7 +110,8 @@ class Observer:
         )
         if state.contact_area > self._largest_area:
             self._largest_area, self._cells_at_largest = state.contact_area, state.cells_across
-            self._spots_at_largest = cells_across_spots(contact)
+            periodic = self._run.grid.periodic
+            self._spots_at_largest = cells_across_spots(contact, periodic=periodic)
         if state.peak_pressure > self._peak and step.time >= self._run.times[0]:
             self._peak, self._peak_time = state.peak_pressure, step.time
         self._before, self._resultants = instant, resultants
@@ -269,6 +270,8 @@ def _state(
 ) -> ContactState:
     force, moment_x, moment_y = (float(resultant) for resultant in resultants)
     touching = force > 0
+    # Where the surface goes on without end there is no middle that a force could be off.
+    centred = touching and not rim.grid.periodic
     peak = float(instant.pressure.max())
     # A few cells enclose next to nothing; but no mean pressure exceeds the peak.
     area = max(rim.area, force / peak) if touching else 0.0
@@ -279,8 +282,8 @@ def _state(
         displacement=instant.displacement,
         grid=grid,
         force=force,
-        eccentricity_x=moment_x / force if touching else math.nan,
-        eccentricity_y=moment_y / force if touching else math.nan,
+        eccentricity_x=moment_x / force if centred else math.nan,
+        eccentricity_y=moment_y / force if centred else math.nan,
         approach=float(instant.motion[0]),
         tilt_x=float(instant.motion[1]),
         tilt_y=float(instant.motion[2]),
@@ -294,6 +297,6 @@ def _state(
         time_error=instant.time_error,
         iterations=instant.iterations,
         residual=instant.residual,
-        cells_across=int(min(rim.contact.any(axis=1).sum(), rim.contact.any(axis=0).sum())),
+        cells_across=rim.cells_across,
         outcome=instant.outcome,
     )

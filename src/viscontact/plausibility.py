@@ -194,18 +194,20 @@ def mesh_doubts(cells_across: int, across_spots: float = math.inf) -> dict[str, 
     }
 
 
-def cells_across_spots(contact: NDArray[np.bool_]) -> float:
+def cells_across_spots(contact: NDArray[np.bool_], *, periodic: bool = False) -> float:
     """Mean number of cells in a row within a contact, along the axis where it is smaller.
 
     Parameters
     ----------
     contact : ndarray of bool, shape (nx, ny)
         Cells under pressure.
+    periodic : bool
+        Whether rows and columns go on where they began.
 
     Returns
     -------
     float
-        Cells; 0 without contact.
+        Cells; 0 without contact, as many as a row or column has where no contact ends.
 
     Notes
     -----
@@ -222,10 +224,11 @@ def cells_across_spots(contact: NDArray[np.bool_]) -> float:
     cells = int(contact.sum())
     if not cells:
         return 0.0
-    begun = [
-        int(line[0].sum()) + int((line[1:] & ~line[:-1]).sum()) for line in (contact, contact.T)
-    ]
-    return cells / max(begun)
+    begun = []
+    for lines in (contact, contact.T):
+        before = lines[-1:] if periodic else np.zeros_like(lines[:1])
+        begun.append(int((lines & ~np.concatenate([before, lines[:-1]])).sum()))
+    return cells / max(begun) if any(begun) else float(max(contact.shape))
 
 
 @dataclass

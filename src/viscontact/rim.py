@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -50,16 +51,17 @@ class Rim:
     along_x, along_y : ndarray
         In that block: distance of the rim from the centre of the inner cell, in cells, as in
         `Outline`; slightly negative where that cell's centre lies just outside.
-    rows, columns : slice
-        Where the block lies in the grid.
+    rows, columns : ndarray of int
+        Where the block lies in the grid. On a periodic grid it may run on across the border; where
+        the contact does so all around, the block ends with the row that it begins with.
     """
 
     grid: Grid
     contact: NDArray[np.bool_]
     along_x: NDArray[np.float64]
     along_y: NDArray[np.float64]
-    rows: slice
-    columns: slice
+    rows: NDArray[np.intp]
+    columns: NDArray[np.intp]
 
     @property
     def area(self) -> float:
@@ -68,13 +70,34 @@ class Rim:
 
     @cached_property
     def length(self) -> float:
-        """Extent of the contact along x [m]."""
-        return _extent(self.contact, self.along_x) * self.grid.cell_size[0]
+        """Extent of the contact along x, on a periodic grid at most a period [m]."""
+        if len(self.rows) > self.grid.shape[0]:
+            return self.grid.size[0]
+        return min(_extent(self.contact, self.along_x) * self.grid.cell_size[0], self.grid.size[0])
 
     @cached_property
     def width(self) -> float:
-        """Extent of the contact along y [m]."""
-        return _extent(self.contact.T, self.along_y.T) * self.grid.cell_size[1]
+        """Extent of the contact along y, on a periodic grid at most a period [m]."""
+        if len(self.columns) > self.grid.shape[1]:
+            return self.grid.size[1]
+        cells = _extent(self.contact.T, self.along_y.T)
+        return min(cells * self.grid.cell_size[1], self.grid.size[1])
+
+    @property
+    def cells_across(self) -> int:
+        """Rows or columns of cells that have contact, the fewer of the two.
+
+        Those along which the contact goes on without end, as it may on a periodic grid, do not
+        count: where it does so both ways, it is as many as the grid has.
+        """
+        lines, counts = (self.rows, self.columns), self.grid.shape
+        touched = [int(self.contact.any(axis=1 - axis).sum()) for axis in (0, 1)]
+        ends = [k for k in (0, 1) if len(lines[k]) <= counts[k]]
+        return min(touched[k] for k in ends) if ends else max(counts)
+
+    def cut(self, field: NDArray[Any]) -> NDArray[Any]:
+        """The block's part of a field on the grid."""
+        return field[np.ix_(self.rows, self.columns)]
 
 
 def trace_outline(indenter: Indenter, grid: Grid) -> Outline:
@@ -171,6 +194,8 @@ def trace_rim(
     >>> float(round(rim.along_x[1, 0], 12))
     0.0
     """
+    if grid.periodic:
+        return _trace_around(grid, contact, gap, outline)
     rows, columns = _block(contact, axis=0), _block(contact, axis=1)
     contact, gap = contact[rows, columns], gap[rows, columns]
     end_x = end_y = None
@@ -179,7 +204,8 @@ def trace_rim(
         end_y = outline.along_y[rows, columns][:, : contact.shape[1] - 1].T
     along_x = _crossings(contact, gap, end_x)
     along_y = _crossings(contact.T, gap.T, end_y).T
-    return Rim(grid, contact, along_x, along_y, rows, columns)
+    lines = (np.arange(n)[block] for n, block in zip(grid.shape, (rows, columns), strict=True))
+    return Rim(grid, contact, along_x, along_y, *lines)
 
 
 def _block(contact: NDArray[np.bool_], axis: int) -> slice:
@@ -188,6 +214,43 @@ def _block(contact: NDArray[np.bool_], axis: int) -> slice:
     if len(touched) == 0:
         return slice(0, 2)
     return slice(max(int(touched[0]) - 2, 0), int(touched[-1]) + 3)
+
+
+def _trace_around(
+    grid: Grid, contact: NDArray[np.bool_], gap: NDArray[np.float64], outline: Outline | None
+) -> Rim:
+    """Trace the rim of a contact that goes on across the border of its period."""
+    rows, columns = _turn(contact, axis=0), _turn(contact, axis=1)
+    # Two more cells each way, which tell the rim's place between those of the block.
+    wide = np.ix_(_beyond(rows, grid.shape[0]), _beyond(columns, grid.shape[1]))
+    contact, gap = contact[wide], gap[wide]
+    end_x = end_y = None
+    if outline is not None:
+        # The border itself is where a body ends that reaches it: the middle between two centres.
+        end_x = np.pad(outline.along_x, ((0, 1), (0, 0)), constant_values=np.nan)[wide][:-1]
+        end_y = np.pad(outline.along_y, ((0, 0), (0, 1)), constant_values=np.nan)[wide][:, :-1].T
+    along_x = _crossings(contact, gap, end_x)[2:-2, 2:-2]
+    along_y = _crossings(contact.T, gap.T, end_y).T[2:-2, 2:-2]
+    return Rim(grid, contact[2:-2, 2:-2], along_x, along_y, rows, columns)
+
+
+def _turn(contact: NDArray[np.bool_], axis: int) -> NDArray[np.intp]:
+    """The lines of a contact and an open one on both sides, where none is open a whole turn."""
+    touched = np.flatnonzero(contact.any(axis=1 - axis))
+    count = contact.shape[axis]
+    if len(touched) == 0:
+        return np.arange(2)
+    if len(touched) == count:
+        return np.append(np.arange(count), 0)
+    # The contact begins behind the widest opening.
+    begins = np.diff(touched, prepend=touched[-1] - count).argmax()
+    extent = (int(touched[begins - 1]) - int(touched[begins])) % count
+    return np.asarray((np.arange(-1, extent + 2) + touched[begins]) % count)
+
+
+def _beyond(lines: NDArray[np.intp], count: int) -> NDArray[np.intp]:
+    """Those lines, and the two before and behind them."""
+    return np.asarray((np.arange(-2, len(lines) + 2) + lines[0]) % count)
 
 
 def _crossings(

@@ -26,6 +26,7 @@ from viscontact.instants import field_instants, run_instants
 from viscontact.load import LoadHistory
 from viscontact.material import Material
 from viscontact.memory import MemoryPlan, plan_memory
+from viscontact.period import check_period
 from viscontact.schedule import FixedSteps
 from viscontact.stepping import AdaptiveTimes
 
@@ -93,7 +94,7 @@ class Run:
     @property
     def is_mirrored(self) -> bool:
         """Whether shape and load are even across y = 0, so that one half tells all."""
-        return _is_mirrored(self.open_gap, self.load)
+        return _is_mirrored(self.open_gap, self.load, self.grid)
 
     @property
     def bodies(self) -> tuple[Material, ...]:
@@ -163,6 +164,7 @@ def prepare_run(
     cells = given or choose_grid(indenter, compliance, load, automatic or AutomaticGrid(), end)
     open_gap = _gap_on(indenter, cells)
     check_touch(compliance, open_gap, cells, load)
+    check_period(indenter, open_gap, cells, load)
     check_balance(open_gap, cells, load, end)
     return Run(
         indenter,
@@ -175,7 +177,7 @@ def prepare_run(
         open_gap,
         instants,
         adaptive,
-        _planned_memory(compliance, load, instants, adaptive, open_gap),
+        _planned_memory(compliance, load, instants, adaptive, open_gap, cells),
         float(tolerance),
         int(threads),
     )
@@ -191,8 +193,8 @@ def _gap_on(indenter: Indenter, grid: Grid) -> NDArray[np.float64]:
     return indenter.gap(grid.x[:, None], grid.y[None, :])
 
 
-def _is_mirrored(open_gap: NDArray[np.float64], load: LoadHistory) -> bool:
-    even_grid = open_gap.shape[1] % 2 == 0
+def _is_mirrored(open_gap: NDArray[np.float64], load: LoadHistory, grid: Grid) -> bool:
+    even_grid = open_gap.shape[1] % 2 == 0 and not grid.periodic
     return bool(even_grid and load.is_even and np.array_equal(open_gap, open_gap[:, ::-1]))
 
 
@@ -202,9 +204,10 @@ def _planned_memory(
     instants: NDArray[np.float64],
     adaptive: AdaptiveTimes | None,
     open_gap: NDArray[np.float64],
+    grid: Grid,
 ) -> MemoryPlan:
     # Pressure and deflection are remembered, of all cells that are worked with.
-    numbers = 2 * open_gap.size // (2 if _is_mirrored(open_gap, load) else 1)
+    numbers = 2 * open_gap.size // (2 if _is_mirrored(open_gap, load, grid) else 1)
     if adaptive is None:
         return plan_memory(compliance, FixedSteps(instants, load).instants, numbers)
     # The steps are not known yet: as if there were many, over all decades that may count.

@@ -158,11 +158,13 @@ def sampling_doubts(
     dict of str to str
         Sentences by kind of doubt; empty if there is none.
     """
-    missed = float(sampling.missed[rim.rows, rim.columns][rim.contact].max(initial=0.0))
+    missed = float(rim.cut(sampling.missed)[rim.contact].max(initial=0.0))
     extent = min(rim.length, rim.width)
     strain = 2 * float(motion[0]) / extent if extent > 0 else math.inf
     cell = max(sampling.grid.cell_size)
     doubts = map_doubts(missed, cell, strain) | texture_doubts(sampling.indenter.period, cell)
+    if sampling.grid.periodic:
+        return doubts  # the next period is beside it, not the body
     x, y, gap = sampling.beyond
     # Pressure is all within the grid, so displacement falls from its rim outwards.
     rim_displacement = max(displacement[[0, -1]].max(), displacement[:, [0, -1]].max())

@@ -80,15 +80,17 @@ class ContactState:
     force : float
         Integral of the pressure [N].
     eccentricity_x, eccentricity_y : float
-        Where that resultant acts; NaN without contact [m].
+        Where that resultant acts; NaN without contact, and on a periodic grid, which has no
+        middle [m].
     approach : float
-        Rigid approach of the bodies, positive when they come closer [m].
+        Rigid approach of the bodies, positive when they come closer; on a periodic grid to the
+        mean plane of the displaced surface [m].
     tilt_x, tilt_y : float
         Rigid slopes, positive when they press the +x or +y end deeper [rad].
     contact_area : float
         Area inside the rim, resolved below the cell size [m²].
     contact_length, contact_width : float
-        Extents of the contact along x and y [m].
+        Extents of the contact along x and y, on a periodic grid at most a period [m].
     peak_pressure, mean_pressure : float
         Largest cell pressure, and force over area [Pa].
     work : float

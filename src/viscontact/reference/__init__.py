@@ -33,6 +33,7 @@ from viscontact.reference.ting import TingHump, ting_hump
 from viscontact.reference.ting_cycles import TingCycles, ting_cycles
 from viscontact.reference.ting_force_triangle import TingForceTriangle, ting_force_triangle
 from viscontact.reference.ting_triangle import TingTriangle, ting_triangle
+from viscontact.reference.wavy import WavyContact, full_contact_pressure, westergaard
 
 __all__ = [
     "AxisymmetricContact",
@@ -51,9 +52,11 @@ __all__ = [
     "TingForceTriangle",
     "TingHump",
     "TingTriangle",
+    "WavyContact",
     "clustered_times",
     "cone",
     "flat_punch",
+    "full_contact_pressure",
     "hertz_elliptical",
     "hertz_line",
     "hertz_sphere",
@@ -69,4 +72,5 @@ __all__ = [
     "ting_force_triangle",
     "ting_hump",
     "ting_triangle",
+    "westergaard",
 ]
