@@ -66,6 +66,7 @@ FLOORS = (
         "outgrown",
         "dataset",
         "results",
+        "stated_errors",
         "stresses",
         "recording",
     ),  # 5 labels and files

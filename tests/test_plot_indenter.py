@@ -75,7 +75,7 @@ def test_exaggeration_that_is_told_is_the_one_that_is_drawn(body: vc.Indenter) -
     units = {"nm": 1e-9, "µm": 1e-6, "mm": 1e-3}
     for panel in (0, 1, 2):
         axes = figure.axes[panel]
-        told = float(re.findall(r"drawn ([\d.]+)×", axes.get_title(loc="right"))[0])
+        told = float(re.findall(r"([\d.]+)×", axes.get_title(loc="right"))[0])
         x, y = (
             units[re.findall(r"\[(\w+)\]", label)[0]]
             for label in (axes.get_xlabel(), axes.get_ylabel())

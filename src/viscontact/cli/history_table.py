@@ -11,26 +11,44 @@ from typing import IO
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
-from rich.box import SIMPLE_HEAD
+from rich.box import SIMPLE, SIMPLE_HEAD
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from viscontact.cli.accuracy import accuracy_lines
+from viscontact.cli.accuracy import (
+    LargestError,
+    accuracy_lines,
+    has_errors,
+    largest_error,
+    mesh_lines,
+    unknown_lines,
+)
 from viscontact.cli.messages import refuse
 from viscontact.cli.stored import early_end
 from viscontact.dataset import SCALARS
 from viscontact.state import Outcome
-from viscontact.units import in_digits, in_words, is_rounding_tilt, readable_unit
+from viscontact.stated_errors import error_name, stated_error
+from viscontact.units import (
+    in_digits,
+    in_error_digits,
+    in_percent,
+    in_supported_digits,
+    in_words,
+    is_rounding_tilt,
+    readable_unit,
+)
 
 _COLUMNS = (
     *("force", "approach", "tilt_x", "tilt_y", "contact_area", "contact_length"),
     *("contact_width", "peak_pressure"),
 )
 _ROWS = 20
+#: In place of the error of a number that depends on the mesh; a line below the table says more.
+_SINGULAR = "mesh"
 
 
-def print_history(ds: xr.Dataset, *, everything: bool = False) -> None:
+def print_history(ds: xr.Dataset, *, everything: bool = False, errors: bool = False) -> None:
     """Print scalars over time in readable units.
 
     Parameters
@@ -39,14 +57,19 @@ def print_history(ds: xr.Dataset, *, everything: bool = False) -> None:
         A result.
     everything : bool
         Every instant; else as many as fit on a page, first and last among them.
+    errors : bool
+        The error of every number below it.
     """
+    if errors and not has_errors(ds):
+        refuse("--errors: the result states none; it is older, or was run with errors: false")
     console = Console()
     count = ds.sizes["time"]
     rows = np.arange(count) if everything else _spread(count)
-    console.print(_table(ds, rows))
+    shown = [name for name in _COLUMNS if _is_shown(ds, name)]
+    console.print(_table(ds, shown, rows, errors=errors))
     if len(rows) < count:
         console.print(f"{len(rows)} of {count} instants; --all shows every one")
-    for line in _footers(ds):
+    for line in _footers(ds, shown):
         console.print(line, highlight=False)
     if ended := early_end(ds):
         console.print(f"[yellow]{escape(ended)}[/]", highlight=False, soft_wrap=True)
@@ -74,15 +97,19 @@ def write_csv(ds: xr.Dataset, output: Path | None) -> None:
         refuse(f"{output}: cannot be written: {error}")
 
 
-def _footers(ds: xr.Dataset) -> Iterator[str]:
-    """Loss per cycle, where the load has cycles, and what to know of errors in time."""
+def _footers(ds: xr.Dataset, shown: list[str]) -> Iterator[str]:
+    """Loss per cycle, where the load has cycles, and what to know of errors."""
     losses = ds["loss_per_cycle"].values
     # The last whole cycle's loss stands at every instant until the next is over.
     known = losses[np.isfinite(losses)]
     if known.size:
         first, last = (in_words(float(loss), "J") for loss in known[[0, -1]])
         several = f"{first} in the first cycle, {last} in the last"
-        yield f"loss per cycle: {last if np.ptp(known) == 0 else several}"
+        yield f"loss per cycle: {last if np.ptp(known) == 0 else several}{_loss_error(ds)}"
+    if any(largest_error(ds, name) for name in shown):
+        yield "±: error at most, as a part of the largest value; --errors shows each one"
+    yield from unknown_lines(ds, shown)
+    yield from mesh_lines(ds, shown)
     attributes = (str(ds.attrs.get("memory", "")), float(ds.attrs.get("inversion_error", 0.0)))
     yield from accuracy_lines(ds["time_error"].values, *attributes)
 
@@ -91,26 +118,75 @@ def _spread(count: int) -> NDArray[np.int_]:
     return np.unique(np.linspace(0, count - 1, min(_ROWS, count)).round().astype(int))
 
 
-def _table(ds: xr.Dataset, rows: NDArray[np.int_]) -> Table:
+def _loss_error(ds: xr.Dataset) -> str:
+    found = largest_error(ds, "loss_per_cycle")
+    return f", within {in_percent(found.part)}" if found and np.isfinite(found.part) else ""
+
+
+def _is_shown(ds: xr.Dataset, name: str) -> bool:
+    return bool(_largest(ds, name) > 0) and not (name.startswith("tilt") and _is_rounding(ds, name))
+
+
+def _largest(ds: xr.Dataset, name: str) -> float:
+    return float(np.nanmax(np.abs(ds[name].values), initial=0.0))
+
+
+def _table(ds: xr.Dataset, shown: list[str], rows: NDArray[np.int_], *, errors: bool) -> Table:
+    stated = any(largest_error(ds, name) for name in shown)
     # Narrow enough for nine columns on eighty characters.
     table = Table(
-        box=SIMPLE_HEAD, padding=(0, 1, 0, 0), show_edge=False, title=ds.attrs.get("title") or None
+        box=SIMPLE if stated else SIMPLE_HEAD,
+        padding=(0, 1, 0, 0),
+        show_edge=False,
+        show_footer=stated,
+        title=ds.attrs.get("title") or None,
     )
     cells = []
-    for name in ("time", *_COLUMNS):
-        values = ds[name].values
-        largest = float(np.nanmax(np.abs(values), initial=0.0))
-        if largest == 0.0 or (name.startswith("tilt") and _is_rounding(ds, name)):
-            continue
-        unit = readable_unit(largest, ds[name].attrs["units"])
+    for name in ("time", *shown) if _largest(ds, "time") > 0 else shown:
+        unit = readable_unit(_largest(ds, name), ds[name].attrs["units"])
         heading = rf"{name.replace('_', ' ')} \[{unit.symbol}]"
-        table.add_column(heading, justify="right", vertical="bottom")
-        digits = [in_digits(float(value) / unit.factor) for value in values[rows]]
-        # Steps that a run chose begin small: "0.005" leaves room that "0.005000" would not.
-        cells.append([_trimmed(each) for each in digits] if name == "time" else digits)
+        footer = "error" if name == "time" else _error_told(largest_error(ds, name))
+        table.add_column(heading, footer, justify="right")
+        cells.append(_cells(ds, name, rows, unit.factor, errors=errors))
     for row in zip(*cells, strict=True):
         table.add_row(*row)
     return table
+
+
+def _cells(
+    ds: xr.Dataset, name: str, rows: NDArray[np.int_], factor: float, *, errors: bool
+) -> list[str]:
+    values, error = ds[name].values[rows] / factor, stated_error(ds, name)
+    if name == "time":
+        # Steps that a run chose begin small: "0.005" leaves room that "0.005000" would not.
+        told = [_trimmed(in_digits(float(value))) for value in values]
+        return [f"{text}\n" for text in told] if errors else told
+    if error is None:
+        return [in_digits(float(value)) for value in values]
+    bars = error[rows] / factor
+    pairs = [(float(v), float(e)) for v, e in zip(values, bars, strict=True)]
+    told = [in_supported_digits(*pair) for pair in pairs]
+    if not errors:
+        return told
+    return [f"{text}\n{_bar(*pair)}" for text, pair in zip(told, pairs, strict=True)]
+
+
+def _bar(value: float, error: float) -> str:
+    """The error below its number; none where the number is a dash, or has no limit."""
+    if np.isnan(value):
+        return ""
+    return _SINGULAR if np.isinf(error) else f"[dim]{in_error_digits(error)}[/]"
+
+
+def _error_told(found: LargestError | None) -> str:
+    if found is None:
+        return ""
+    if np.isnan(found.half_width):
+        return in_error_digits(np.nan)
+    if np.isinf(found.half_width):
+        return _SINGULAR
+    percent = in_percent(found.part)
+    return percent if percent.startswith("<") else f"±{percent}"
 
 
 def _trimmed(digits: str) -> str:
@@ -123,20 +199,28 @@ def _is_rounding(ds: xr.Dataset, tilt: str) -> bool:
 
 def _write_rows(ds: xr.Dataset, file: IO[str]) -> None:
     writer = csv.writer(file, lineterminator="\n")
-    writer.writerow(_header())
+    writer.writerow(_header(ds))
     writer.writerows(_rows(ds))
 
 
-def _header() -> Iterator[str]:
+def _header(ds: xr.Dataset) -> Iterator[str]:
     yield "time [s]"
-    for name, variable in SCALARS.items():
-        unit = {"m2": "m^2"}.get(variable.units, variable.units)
+    for name in (*SCALARS, *_errors(ds)):
+        units = SCALARS[name].units if name in SCALARS else str(ds[name].attrs["units"])
+        unit = {"m2": "m^2"}.get(units, units)
         yield name if unit == "1" else f"{name} [{unit}]"
 
 
+def _errors(ds: xr.Dataset) -> list[str]:
+    """The errors that a result states; older ones do not."""
+    return [error_name(name) for name in SCALARS if error_name(name) in ds]
+
+
 def _rows(ds: xr.Dataset) -> Iterator[list[object]]:
-    columns = [ds["time"].values, *(ds[name].values for name in SCALARS if name != "outcome")]
-    assert list(SCALARS)[-1] == "outcome"  # the one column of words
-    for *numbers, outcome in zip(*columns, ds["outcome"].values, strict=True):
+    numbers = [ds["time"].values, *(ds[name].values for name in (*SCALARS, *_errors(ds)))]
+    place = 1 + list(SCALARS).index("outcome")  # the one column of words
+    for row in zip(*numbers, strict=True):
         # repr: every digit, so that the numbers are those of the result
-        yield [*(number.item() for number in numbers), Outcome(int(outcome)).name.lower()]
+        cells: list[object] = [number.item() for number in row]
+        cells[place] = Outcome(int(row[place])).name.lower()
+        yield cells

@@ -17,13 +17,16 @@ def show(
     everything: Annotated[
         bool, typer.Option("--all", help="Every instant, not only as many as fit.")
     ] = False,
+    errors: Annotated[
+        bool, typer.Option("--errors", help="The error of every number below it.")
+    ] = False,
 ) -> None:
     """Print the history of a run as a table."""
     from viscontact.cli.history_table import print_history
     from viscontact.cli.stored import opened
 
     with opened(directory) as ds:
-        print_history(ds, everything=everything)
+        print_history(ds, everything=everything, errors=errors)
 
 
 def export(

@@ -7,16 +7,25 @@ import math
 from collections.abc import Iterator
 from pathlib import Path
 
+import numpy as np
 import xarray as xr
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from viscontact.cli.accuracy import accuracy_lines
+from viscontact.cli.accuracy import accuracy_lines, largest_error, mesh_lines, unknown_lines
 from viscontact.dataset import SCALARS
 from viscontact.recording.recorded import PROGRESS_NAME
 from viscontact.results import RESULT_NAME, open_results
-from viscontact.units import in_digits, in_words, is_rounding_tilt, readable_unit
+from viscontact.stated_errors import MESH_DEPENDENT, stated_error
+from viscontact.units import (
+    in_error_digits,
+    in_percent,
+    in_supported_digits,
+    in_words,
+    is_rounding_tilt,
+    readable_unit,
+)
 
 _ROWS = (
     *("force", "eccentricity_x", "eccentricity_y", "approach", "tilt_x", "tilt_y"),
@@ -48,6 +57,9 @@ def _print(ds: xr.Dataset, directory: Path) -> None:
         f"iterations, residual at most {float(ds['residual'].max()):.1e}"
     )
     attributes = (str(ds.attrs["memory"]), float(ds.attrs["inversion_error"]))
+    shown = [name for name in _ROWS if not _is_rounding(ds, name)]
+    for line in (*unknown_lines(ds, shown), *mesh_lines(ds, shown)):
+        console.print(line, highlight=False)
     for line in accuracy_lines(ds["time_error"].values, *attributes):
         console.print(line, highlight=False)
     for line in str(ds.attrs.get("grid_enlarged", "")).splitlines():
@@ -70,24 +82,48 @@ def _table(ds: xr.Dataset) -> Table:
     first, last = (float(ds["time"][index]) for index in (0, -1))
     table = Table()
     table.add_column("")
-    for heading in (f"t = {in_words(first, 's')}", f"t = {in_words(last, 's')}"):
+    for heading in (f"t = {in_words(first, 's')}", f"t = {in_words(last, 's')}", "largest"):
         table.add_column(heading, justify="right")
-    table.add_column("largest", justify="right")
-    for name in _ROWS:
-        values = ds[name].values.tolist()
-        largest = max((abs(value) for value in values if math.isfinite(value)), default=0.0)
-        if not _is_rounding(ds, name, largest):
-            unit = readable_unit(largest, SCALARS[name].units)
-            table.add_row(
-                f"{name.replace('_', ' ')} [{unit.symbol}]".replace("[", r"\["),
-                *(in_digits(value / unit.factor) for value in (values[0], values[-1])),
-                in_digits(largest / unit.factor),
-            )
+    shown = [name for name in _ROWS if not _is_rounding(ds, name)]
+    with_errors = any(largest_error(ds, name) for name in shown)
+    if with_errors:
+        table.add_column("error at most", justify="right", no_wrap=True)
+    for name in shown:
+        table.add_row(*_row(ds, name, with_error=with_errors))
     return table
 
 
-def _is_rounding(ds: xr.Dataset, name: str, largest: float) -> bool:
+def _row(ds: xr.Dataset, name: str, *, with_error: bool) -> Iterator[str]:
+    values, error = ds[name].values, stated_error(ds, name)
+    largest = _largest(ds, name)
+    unit = readable_unit(largest, SCALARS[name].units)
+    yield f"{name.replace('_', ' ')} [{unit.symbol}]".replace("[", r"\[")
+    bars = np.full(len(values), np.nan) if error is None else error
+    at_largest = int(np.nanargmax(np.abs(values)))
+    for index in (0, -1):
+        yield in_supported_digits(float(values[index]) / unit.factor, bars[index] / unit.factor)
+    yield in_supported_digits(largest / unit.factor, float(bars[at_largest]) / unit.factor)
+    if with_error:
+        yield _error_told(ds, name, unit.factor)
+
+
+def _error_told(ds: xr.Dataset, name: str, factor: float) -> str:
+    """The largest error, in the row's unit and as a part of the largest value."""
+    found = largest_error(ds, name)
+    if found is None or math.isnan(found.half_width):
+        return "not known"
+    if math.isinf(found.half_width):
+        return MESH_DEPENDENT
+    return f"{in_error_digits(found.half_width / factor)} ({in_percent(found.part)})"
+
+
+def _largest(ds: xr.Dataset, name: str) -> float:
+    values = ds[name].values
+    return float(np.abs(values[np.isfinite(values)]).max(initial=0.0))
+
+
+def _is_rounding(ds: xr.Dataset, name: str) -> bool:
     if name.startswith("tilt"):
         lengths, approaches = ds["contact_length"].values, ds["approach"].values
         return is_rounding_tilt(ds[name].values, lengths, approaches)
-    return largest <= (_NEGLIGIBLE if name.startswith("eccentricity") else 0.0)
+    return _largest(ds, name) <= (_NEGLIGIBLE if name.startswith("eccentricity") else 0.0)

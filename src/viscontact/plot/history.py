@@ -8,14 +8,23 @@ from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.plot import style
+from viscontact.plot.error_band import (
+    band_key,
+    draw_band,
+    has_bands,
+    keep_curves_in_sight,
+    peak_note,
+)
 from viscontact.plot.readable import DisplayUnit, display_unit
 from viscontact.plot.span import within_span
+from viscontact.stated_errors import error_name, stated_error
 from viscontact.units import is_rounding_tilt
 
 _NAME = "history"
@@ -23,6 +32,8 @@ _NAME = "history"
 #: A change by less than this part is rounding; a load that is held from this part of the time on
 #: leaves the rest to creep, which is even in log time.
 _STEADY, _SOON = 1e-5, 0.05
+#: What changes by less than this part, its error included, is rounding, not to fill an axis.
+_ROUNDING = 1e-6
 
 
 @dataclass(frozen=True)
@@ -60,7 +71,9 @@ def history(results: xr.Dataset, *, times: ArrayLike | None = None) -> Figure:
     -------
     matplotlib.figure.Figure
         One panel a quantity. Force and tilts have one only where they change. Time is
-        logarithmic where the run's steps are and the load is held nearly from the start.
+        logarithmic where the run's steps are and the load is held nearly from the start. Bands
+        are the errors that the result states; a peak pressure that depends on the mesh is called
+        so.
 
     Raises
     ------
@@ -83,7 +96,7 @@ def compare_histories(runs: Mapping[str, xr.Dataset], *, times: ArrayLike | None
     Returns
     -------
     matplotlib.figure.Figure
-        One panel a quantity, one line a run.
+        One panel a quantity, one line a run, and a band around it where its error is known.
 
     Raises
     ------
@@ -92,17 +105,21 @@ def compare_histories(runs: Mapping[str, xr.Dataset], *, times: ArrayLike | None
     """
     if not runs:
         raise ValueError(f"{_NAME}: needs at least one run to compare, got none")
-    drawn = (*(quantity.name for quantity in _QUANTITIES), "contact_length")
-    shown = {name: within_span(run, drawn, times, _NAME, name) for name, run in runs.items()}
+    shown = {name: within_span(run, _drawn(run), times, _NAME, name) for name, run in runs.items()}
     quantities = [quantity for quantity in _QUANTITIES if _worth_a_panel(quantity, shown)]
     figure, panels = _panels(len(quantities))
     time_unit = display_unit("s", *(run["time"].values for run in shown.values()))
     for axes, quantity in zip(panels, quantities, strict=True):
         _draw(axes, quantity, shown, time_unit)
     _scale_time(panels, shown, time_unit)
-    if len(shown) > 1:
-        _add_runs(figure, panels[0], list(shown))
+    _add_key(figure, panels, list(shown))
     return figure
+
+
+def _drawn(run: xr.Dataset) -> list[str]:
+    names = [quantity.name for quantity in _QUANTITIES]
+    errors = [error_name(name) for name in names if error_name(name) in run]
+    return [*names, *errors, "contact_length"]
 
 
 def _worth_a_panel(quantity: _Quantity, runs: Mapping[str, xr.Dataset]) -> bool:
@@ -139,10 +156,19 @@ def _draw(
     unit = display_unit(quantity.si_unit, *(run[quantity.name].values for run in runs.values()))
     for (name, run), look in zip(runs.items(), style.run_styles(len(runs)), strict=True):
         values = run[quantity.name].values
-        axes.plot(time_unit(run["time"].values), unit(values), label=name, **look)
+        instants, error = time_unit(run["time"].values), stated_error(run, quantity.name)
+        axes.plot(instants, unit(values), label=name, **look)
+        bar = None if error is None else unit(error)
+        draw_band(axes, instants, unit(values), bar, look["color"])
     axes.set_ylabel(unit.label(quantity.label))
     if quantity.name == "force":
         axes.set_ylim(0.0, 1.08 * axes.dataLim.y1)
+    elif np.ptp(axes.dataLim.intervaly) <= _ROUNDING * abs(axes.dataLim.y1):
+        axes.set_ylim(0.0, 1.15 * axes.dataLim.y1 or 1.0)
+    if has_bands(axes):
+        keep_curves_in_sight(axes, *(unit(run[quantity.name].values) for run in runs.values()))
+    if quantity.name == "peak_pressure":
+        style.add_heading(axes, peak_note(runs.values()), aside=True)
 
 
 def _scale_time(panels: list[Axes], runs: Mapping[str, xr.Dataset], time_unit: DisplayUnit) -> None:
@@ -189,12 +215,19 @@ def _held_from(run: xr.Dataset) -> bool:
     return bool(min(held_from) <= _SOON * times[-1])
 
 
-def _add_runs(figure: Figure, axes: Axes, names: list[str]) -> None:
+def _add_key(figure: Figure, panels: list[Axes], names: list[str]) -> None:
+    """Name the runs if there are several, and the bands if there are any."""
+    entries: list[tuple[Artist, str]] = []
+    if len(names) > 1:
+        entries += zip(panels[0].get_lines(), names, strict=True)
+    if any(has_bands(axes) for axes in panels):
+        entries.append(band_key(style.FAINT if len(names) > 1 else style.LINE))
+    if not entries:
+        return
     figure.legend(
-        axes.get_lines(),
-        names,
-        loc="outside upper center",
-        ncols=min(len(names), 4),
+        *zip(*entries, strict=True),
+        loc="outside upper center" if len(names) > 1 else "outside upper right",
+        ncols=min(len(entries), 4),
         frameon=False,
         fontsize=style.TICK_SIZE,
         labelcolor=style.INK,

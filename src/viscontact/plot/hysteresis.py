@@ -7,13 +7,16 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.plot import style
+from viscontact.plot.error_band import band_key, draw_band, has_bands
 from viscontact.plot.readable import display_unit
 from viscontact.plot.span import within_span
+from viscontact.stated_errors import error_name, stated_error
 from viscontact.units import in_words
 
 _NAME = "hysteresis"
@@ -63,7 +66,7 @@ def compare_hysteresis(runs: Mapping[str, xr.Dataset], *, times: ArrayLike | Non
     Returns
     -------
     matplotlib.figure.Figure
-        One line a run.
+        One line a run, with bands for the errors of approach and force where they are known.
 
     Raises
     ------
@@ -72,10 +75,7 @@ def compare_hysteresis(runs: Mapping[str, xr.Dataset], *, times: ArrayLike | Non
     """
     if not runs:
         raise ValueError(f"{_NAME}: needs at least one run to compare, got none")
-    shown = {
-        name: within_span(run, ("approach", "force"), times, _NAME, name)
-        for name, run in runs.items()
-    }
+    shown = {name: within_span(run, _drawn(run), times, _NAME, name) for name, run in runs.items()}
     figure = style.new_figure(style.ONE_COLUMN, 3.3)
     axes = figure.subplots()
     style.dress(axes)
@@ -84,12 +84,50 @@ def compare_hysteresis(runs: Mapping[str, xr.Dataset], *, times: ArrayLike | Non
     for (name, run), look in zip(shown.items(), style.run_styles(len(shown)), strict=True):
         x, y = x_unit(run["approach"].values), y_unit(run["force"].values)
         axes.plot(x, y, label=name, **look)
+        for quantity, unit in (("approach", x_unit), ("force", y_unit)):
+            error = stated_error(run, quantity)
+            if error is not None:
+                _draw_bands(axes, x, y, unit(error), look["color"], sideways=unit is x_unit)
         _add_arrows(axes, x, y, look)
     axes.set(xlabel=x_unit.label("Approach"), ylabel=y_unit.label("Force"))
     _frame(axes)
-    if len(shown) > 1:
-        style.add_legend(axes, axes.get_lines(), list(shown), loc="best")
+    _add_key(axes, list(shown))
     return figure
+
+
+def _drawn(run: xr.Dataset) -> list[str]:
+    names = ("approach", "force")
+    return [*names, *(error_name(name) for name in names if error_name(name) in run)]
+
+
+def _draw_bands(
+    axes: Axes,
+    x: NDArray[np.float64],
+    y: NDArray[np.float64],
+    error: NDArray[np.float64],
+    colour: str,
+    *,
+    sideways: bool,
+) -> None:
+    """A band for each way up and each way down: one that turns back would cut holes in itself."""
+    along = y if sideways else x
+    turns = np.flatnonzero(np.diff(np.sign(np.diff(along)))) + 1
+    for part in np.split(np.arange(x.size), turns):
+        # Each part begins where the one before it ends.
+        way = np.append(part, part[-1] + 1)[: x.size - int(part[0])]
+        draw_band(axes, x[way], y[way], error[way], colour, sideways=sideways)
+
+
+def _add_key(axes: Axes, names: list[str]) -> None:
+    """Name the runs if there are several, and the bands if there are any."""
+    entries: list[tuple[Artist, str]] = []
+    if len(names) > 1:
+        entries += zip(axes.get_lines(), names, strict=True)
+    if has_bands(axes):
+        entries.append(band_key(style.FAINT if len(names) > 1 else style.LINE))
+    if entries:
+        handles, labels = zip(*entries, strict=True)
+        style.add_legend(axes, handles, labels, loc="best")
 
 
 def _add_arrows(

@@ -111,7 +111,8 @@ def _draw_section(
         ylabel=height.label("gap"),
     )
     # The middle of an even mesh is zero but for a rounding.
-    where = _length(place) if abs(place) > 1e-6 * section.position[-1] else "0"
+    # Three digits: the exaggeration has to find its place beside it.
+    where = _length(place, digits=3) if abs(place) > 1e-6 * section.position[-1] else "0"
     style.add_heading(axes, f"along {along}, at {fixed} = {where}")
 
 
@@ -263,4 +264,4 @@ def _stretched(what: str, stretch: float) -> str:
     digits = 1 if stretch > 100 else 2
     if abs(math.log(stretch)) < math.log(1.05):
         return "true shape"
-    return f"{what} drawn {display_number(stretch, digits)}×"
+    return f"{what} {display_number(stretch, digits)}×"

@@ -16,6 +16,7 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.plot import style
+from viscontact.plot.error_band import peak_note
 from viscontact.plot.readable import DisplayUnit, display_number, display_unit, time_labels
 from viscontact.plot.rim_polygons import rim_path, rim_polygons
 from viscontact.plot.snapshots import Snapshot, take_snapshots
@@ -44,7 +45,8 @@ def pressure_map(results: xr.Dataset, *, times: ArrayLike | None = None) -> Figu
     -------
     matplotlib.figure.Figure
         Panels with common axes and pressure levels. A long narrow contact is drawn with its
-        width stretched by the factor printed in the first panel.
+        width stretched by the factor printed in the first panel. That also says where the peak
+        pressure depends on the mesh.
 
     Raises
     ------
@@ -60,8 +62,8 @@ def pressure_map(results: xr.Dataset, *, times: ArrayLike | None = None) -> Figu
     ):
         _draw_contours(axes, snapshot, levels, unit, window)
         style.add_heading(axes, f"t = {label}")
-    if window.note:
-        style.add_heading(panels[0], window.note, aside=True)
+    notes = window.note, peak_note([results], [snapshot.time for snapshot in snapshots])
+    style.add_heading(panels[0], "; ".join(filter(None, notes)), aside=True)
     _add_colour_bar(figure, panels, levels, unit)
     return figure
 

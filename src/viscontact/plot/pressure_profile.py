@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.plot import style
+from viscontact.plot.error_band import peak_note
 from viscontact.plot.readable import DisplayUnit, display_unit, time_labels
 from viscontact.plot.snapshots import Snapshot, take_snapshots
 
@@ -65,6 +66,8 @@ def pressure_profile(
             length(positions), pressure(values), color=colour, linewidth=style.LINE_WIDTH
         )
     _frame(axes, snapshots, along, length, pressure)
+    drawn = [snapshot.time for snapshot in snapshots]
+    style.add_heading(axes, peak_note([results], drawn), aside=True)
     style.add_legend(axes, lines, labels)
     return style.figure_of(axes)
 
@@ -121,6 +124,7 @@ def compare_pressure_profiles(
             labels.append(name)
         _frame(axes, everything, along, length, pressure)
         style.add_heading(axes, _instants_drawn(at_instant))
+        style.add_heading(axes, peak_note(runs.values(), [instants[column]]), aside=True)
         if column == 0:
             style.add_legend(axes, lines, labels)
     for axes in panels[:-1]:

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.indenters import Indenter, Sphere
 from viscontact.plot import style
+from viscontact.plot.error_band import peak_note
 from viscontact.plot.exact_sphere import exact_sphere
 from viscontact.plot.readable import DisplayUnit, display_unit, time_labels
 from viscontact.plot.recorded import recorded_noun
@@ -76,6 +77,8 @@ def pressure_radial(results: xr.Dataset, *, times: ArrayLike | None = None) -> F
     lowest.set_xlabel(length.label("Distance from the axis"))
     axes.set(ylabel=pressure.label("Pressure"), xlim=(0.0, 1.05 * axes.dataLim.x1))
     axes.set_ylim(0.0, 1.05 * axes.dataLim.y1)
+    drawn = [snapshot.time for snapshot in snapshots]
+    style.add_heading(axes, peak_note([results], drawn), aside=True)
     _add_key(axes, snapshots, colours, _exact_label(results) if exact else None)
     return figure
 

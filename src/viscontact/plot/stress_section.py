@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.grid import Grid
 from viscontact.plot import style
+from viscontact.plot.error_band import peak_note
 from viscontact.plot.readable import DisplayUnit, display_unit, time_labels
 from viscontact.plot.snapshots import Snapshot, field_times, take_snapshots
 from viscontact.stresses import recorded_poisson_ratio
@@ -103,7 +104,8 @@ def stress_section(results: xr.Dataset, *, times: ArrayLike | None = None) -> Fi
         style.add_heading(axes, f"t = {label}")
         largest, depth, _ = section.largest
         said = f"largest {in_words(largest, 'Pa', 3)}, {in_words(depth, 'm', 3)} deep"
-        style.add_heading(axes, said, aside=True)
+        # Below an infinite pressure the stress has no largest value either.
+        style.add_heading(axes, peak_note([results], [section.time]) or said, aside=True)
     panels[-1].set_xlabel(length.label(sections[-1].axis))
     bar = figure.colorbar(drawn, ax=panels.tolist(), shrink=0.9, aspect=25, pad=0.02)
     bar.set_label(stress.label("Von Mises stress"), size=style.LABEL_SIZE, color=style.INK)
@@ -149,6 +151,7 @@ def von_mises_history(results: xr.Dataset, *, times: ArrayLike | None = None) ->
         axes.set_ylim(0.0, 1.1 * float(unit(values.max())) or 1.0)
         style.dress(axes)
     panels[-1].set_xlabel(time.label("Time"))
+    style.add_heading(panels[0], peak_note([results], instants), aside=True)
     return figure
 
 

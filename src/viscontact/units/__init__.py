@@ -4,6 +4,7 @@ Case files and the command line take ``"5 mm"``; everything behind them is SI. T
 figures turn SI numbers back into units a person reads.
 """
 
+from viscontact.units.error_bars import in_error_digits, in_percent, in_supported_digits
 from viscontact.units.quantities import (
     DIMENSIONS,
     Dimension,
@@ -21,6 +22,9 @@ __all__ = [
     "ReadableUnit",
     "Scale",
     "in_digits",
+    "in_error_digits",
+    "in_percent",
+    "in_supported_digits",
     "in_words",
     "is_rounding_tilt",
     "parse_quantity",
