@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
+from matplotlib.text import Text
 
 import viscontact as vc
 from viscontact.cli import main
@@ -167,3 +168,28 @@ def test_check_refuses_a_picture_in_one_line(
     error = capsys.readouterr().err
     assert said in error
     assert error.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        vc.Cone(1.5).shifted(-1.2345e-5, 9.8765e-5),
+        vc.Sphere(5e-3).shifted(-2.6613e-4, 1.2345e-4),
+        ROLLER.shifted(x=1.2345e-3, y=-9.876e-5),
+    ],
+    ids=["cone", "sphere", "roller"],
+)
+def test_headings_keep_apart(body: vc.Indenter) -> None:
+    """Odd places are long to write, and a section across is narrow."""
+    figure = draw_indenter(body, (4e-3, 1.5e-3), contact=(0.0, 0.0, 1.234e-3, 5.678e-4))
+    figure.draw_without_rendering()
+    for axes in figure.axes[:3]:
+        left, right = (
+            next(
+                each.get_window_extent()
+                for each in axes.findobj(Text)
+                if isinstance(each, Text) and each.get_text() == axes.get_title(loc=side)
+            )
+            for side in ("left", "right")
+        )
+        assert left.x1 + 4 < right.x0

@@ -5,7 +5,9 @@ from __future__ import annotations
 import csv
 import sys
 from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
+from textwrap import wrap
 from typing import IO
 
 import numpy as np
@@ -44,6 +46,9 @@ _COLUMNS = (
     *("contact_width", "peak_pressure"),
 )
 _ROWS = 20
+#: Blanks between columns, and the room below which heads are broken here: where it is left to
+#: the terminal's width, words are broken as well.
+_GAP, _TO_SPARE = 2, 8
 #: In place of the error of a number that depends on the mesh; a line below the table says more.
 _SINGULAR = "mesh"
 
@@ -66,7 +71,12 @@ def print_history(ds: xr.Dataset, *, everything: bool = False, errors: bool = Fa
     count = ds.sizes["time"]
     rows = np.arange(count) if everything else _spread(count)
     shown = [name for name in _COLUMNS if _is_shown(ds, name)]
-    console.print(_table(ds, shown, rows, errors=errors))
+    columns = _columns(ds, ["time", *shown], rows, errors=errors)
+    # Rather too wide for a terminal than with digits left out.
+    least = sum(column.width + _GAP for column in columns)
+    scarce = least + _TO_SPARE > console.width
+    table = _table(ds, columns, narrow=scarce)
+    console.print(table, width=max(console.width, least), crop=False)
     if len(rows) < count:
         console.print(f"{len(rows)} of {count} instants; --all shows every one")
     for line in _footers(ds, shown):
@@ -131,8 +141,38 @@ def _largest(ds: xr.Dataset, name: str) -> float:
     return float(np.nanmax(np.abs(ds[name].values), initial=0.0))
 
 
-def _table(ds: xr.Dataset, shown: list[str], rows: NDArray[np.int_], *, errors: bool) -> Table:
-    stated = any(largest_error(ds, name) for name in shown)
+@dataclass(frozen=True)
+class _Column:
+    """A column of the table: the words of its head, its cells, and what ends it."""
+
+    head: tuple[str, ...]
+    cells: list[str]
+    foot: str
+
+    @property
+    def width(self) -> int:
+        """Of its longest word."""
+        lines = (line for cell in self.cells for line in cell.splitlines())
+        return max(map(len, (*self.head, *lines, self.foot)))
+
+
+def _columns(
+    ds: xr.Dataset, names: list[str], rows: NDArray[np.int_], *, errors: bool
+) -> list[_Column]:
+    columns = []
+    for name in names:
+        largest = _largest(ds, name)
+        if largest == 0:  # of a single instant at time 0
+            continue
+        unit = readable_unit(largest, ds[name].attrs["units"])
+        foot = "error" if name == "time" else _error_told(largest_error(ds, name))
+        cells = _cells(ds, name, rows, unit.factor, errors=errors)
+        columns.append(_Column((*name.split("_"), f"[{unit.symbol}]"), cells, foot))
+    return columns
+
+
+def _table(ds: xr.Dataset, columns: list[_Column], *, narrow: bool) -> Table:
+    stated = any(column.foot for column in columns[1:])
     # Narrow enough for nine columns on eighty characters.
     table = Table(
         box=SIMPLE if stated else SIMPLE_HEAD,
@@ -141,14 +181,11 @@ def _table(ds: xr.Dataset, shown: list[str], rows: NDArray[np.int_], *, errors: 
         show_footer=stated,
         title=ds.attrs.get("title") or None,
     )
-    cells = []
-    for name in ("time", *shown) if _largest(ds, "time") > 0 else shown:
-        unit = readable_unit(_largest(ds, name), ds[name].attrs["units"])
-        heading = rf"{name.replace('_', ' ')} \[{unit.symbol}]"
-        footer = "error" if name == "time" else _error_told(largest_error(ds, name))
-        table.add_column(heading, footer, justify="right")
-        cells.append(_cells(ds, name, rows, unit.factor, errors=errors))
-    for row in zip(*cells, strict=True):
+    for each in columns:
+        head = " ".join(each.head)
+        head = escape("\n".join(wrap(head, each.width)) if narrow else head)
+        table.add_column(head, each.foot, justify="right", min_width=each.width)
+    for row in zip(*(column.cells for column in columns), strict=True):
         table.add_row(*row)
     return table
 
@@ -175,7 +212,7 @@ def _bar(value: float, error: float) -> str:
     """The error below its number; none where the number is a dash, or has no limit."""
     if np.isnan(value):
         return ""
-    return _SINGULAR if np.isinf(error) else f"[dim]{in_error_digits(error)}[/]"
+    return _SINGULAR if np.isinf(error) else in_error_digits(error)
 
 
 def _error_told(found: LargestError | None) -> str:
@@ -185,7 +222,7 @@ def _error_told(found: LargestError | None) -> str:
         return in_error_digits(np.nan)
     if np.isinf(found.half_width):
         return _SINGULAR
-    percent = in_percent(found.part)
+    percent = in_percent(found.part).replace(" ", "")
     return percent if percent.startswith("<") else f"±{percent}"
 
 

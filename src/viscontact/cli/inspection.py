@@ -14,8 +14,17 @@ from viscontact.cli.messages import refuse
 from viscontact.cli.preparation import Prepared
 from viscontact.estimate import ContactEstimate
 from viscontact.forecast import Forecast, forecast
+from viscontact.indenters import (
+    CombinedIndenter,
+    Cone,
+    Indenter,
+    PlacedIndenter,
+    Pyramid,
+    Wedge,
+)
 from viscontact.plausibility import DOUBTFUL_CELLS
 from viscontact.run import Run
+from viscontact.stated_errors import MESH_DEPENDENT
 from viscontact.units import in_digits, in_words
 
 #: An end of the body within so many times the grid is drawn as well.
@@ -53,7 +62,7 @@ def print_forecast(prepared: Prepared) -> Forecast:
             f"Under the largest {control}, with {expected.compliance} (a coarse elastic solve):",
             soft_wrap=True,
         )
-        console.print(_listed(_expectations(expected, expected.estimate, control)))
+        console.print(_listed(_expectations(prepared, expected, expected.estimate, control)))
     return expected
 
 
@@ -135,7 +144,7 @@ def _steps(run: Run) -> str:
 
 
 def _expectations(
-    expected: Forecast, found: ContactEstimate, control: str
+    prepared: Prepared, expected: Forecast, found: ContactEstimate, control: str
 ) -> list[tuple[str, str]]:
     # What is prescribed is known.
     follows = (
@@ -146,9 +155,24 @@ def _expectations(
     return [
         ("contact", f"{in_words(found.length, 'm', 3)} long, {in_words(found.width, 'm', 3)} wide"),
         ("cells in it", f"{expected.cells_along:.0f} along, {expected.cells_across:.0f} across"),
-        ("peak pressure", in_words(found.peak_pressure, "Pa", 3)),
+        ("peak pressure", _peak_told(prepared, expected, found)),
         follows,
     ]
+
+
+def _peak_told(prepared: Prepared, expected: Forecast, found: ContactEstimate) -> str:
+    told = in_words(found.peak_pressure, "Pa", 3)
+    is_sharp = "end" in expected.doubts or _has_tip(prepared.run.indenter)
+    return f"{MESH_DEPENDENT} ({told} on a coarse one)" if is_sharp else told
+
+
+def _has_tip(indenter: Indenter) -> bool:
+    """Whether it touches with a tip or an edge; ends and corners are found by the coarse solve."""
+    if isinstance(indenter, CombinedIndenter):
+        return any(_has_tip(part) for part in indenter.parts)
+    if isinstance(indenter, PlacedIndenter):
+        return _has_tip(indenter.body)
+    return isinstance(indenter, (Cone, Pyramid, Wedge))
 
 
 def _doubts(expected: Forecast) -> list[str]:

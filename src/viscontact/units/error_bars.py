@@ -40,11 +40,10 @@ def in_supported_digits(value: float, error: float, digits: int = _DIGITS) -> st
     if math.isinf(error):
         return f">{in_digits(value, digits)}"
     last = _leading(error) + 1 - _ERROR_DIGITS
-    kept = 0 if value == 0 else _leading(value) - last + 1
-    if kept >= digits:
-        return in_digits(value, digits)
     rounded = round(value / 10.0**last) * 10.0**last
-    return "0" if rounded == 0 else in_digits(rounded, max(_leading(rounded) - last + 1, 1))
+    if rounded == 0:
+        return "0"
+    return in_digits(rounded, min(max(_leading(rounded) - last + 1, 1), digits))
 
 
 def in_error_digits(error: float) -> str:
