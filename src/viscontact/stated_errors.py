@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 #: Said of a value whose stated error is infinite, and why it is.
 MESH_DEPENDENT = "depends on the mesh"
 WHY_MESH_DEPENDENT = (
-    "in theory the pressure at a sharp edge or tip is infinite; the number is the largest mean "
-    "over a cell, and smaller cells give more"
+    "at a sharp edge or tip the pressure is infinite in theory, and roughness finer than the cells "
+    "is as good as sharp; the number is the largest mean over a cell, and smaller cells give more"
 )
 
 

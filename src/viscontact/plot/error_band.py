@@ -54,7 +54,7 @@ def draw_band(
 
     Examples
     --------
-    >>> axes = Figure().subplots()
+    >>> axes = style.new_figure(4.0, 3.0).subplots()
     >>> draw_band(axes, np.arange(2.0), np.ones(2), np.array([0.1, 0.2]), "black")
     True
     >>> axes.collections[0].get_datalim(axes.transData).intervaly.round(12).tolist()
