@@ -19,6 +19,9 @@ from viscontact.search import Search, measure
 
 MAX_ITERATIONS = 400
 
+#: How far a coarser grid's answer has to converge to start from.
+NESTED_TOLERANCE = 1e-3
+
 #: Rounds of search and check. A second one is due where a contact outgrows its patch, or where the
 #: tolerance asks for more than single precision gives in one.
 MAX_ROUNDS = 20
@@ -37,7 +40,8 @@ class ContactSolution:
     residual : float
         Largest gap under pressure or penetration elsewhere, over the largest displacement.
     iterations, convolutions : int
-        Search directions used, and convolutions (on patches or the whole grid) spent.
+        Search directions used, and convolutions (on patches or the whole grid) spent; those on
+        coarser grids, from which a solve without a guess starts, are not counted.
     converged : bool
         Whether residual and balances are within the tolerance.
     """
@@ -68,7 +72,8 @@ def solve_contact(
         Grid and operators.
     guess : Guess, optional
         Start; its deflection must belong to its pressure. Negative pressure is cut off, balances
-        are restored. A bedding of about the right stiffness when left out.
+        are restored. The answer of a coarser grid when left out, and on the coarsest a bedding of
+        about the right stiffness.
     tolerance : float
         Bound on the relative residual of the returned pressure, and on the balances.
     max_iterations : int
@@ -96,9 +101,8 @@ def solve_contact(
         if found.converged:
             return found
     # A guess can be worse than none, after a load has changed beyond recognition.
-    cold = _solve_from(
-        _bedding(problem, half_space), problem, half_space, tolerance, max_iterations
-    )
+    start = _cold_start(problem, half_space)
+    cold = _solve_from(start, problem, half_space, tolerance, max_iterations)
     if found is None:
         return cold
     better = cold if cold.converged or cold.residual < found.residual else found
@@ -153,6 +157,22 @@ def _is_balanced(
     whole = half_space.whole
     off = problem.support.imbalance(whole.plane.sums(pressure) * whole.cell_area, whole.arm)
     return off <= tolerance
+
+
+def _cold_start(problem: ContactProblem, half_space: HalfSpace) -> Guess:
+    """What a coarser grid says, and at the bottom of these a bedding."""
+    coarser = half_space.coarser()
+    # A body may be too narrow to lie under any four cells.
+    if coarser is None or not np.isfinite((coarsened := problem.coarsened()).open_gap).any():
+        return _bedding(problem, half_space)
+    coarse = solve_contact(coarsened, coarser, tolerance=NESTED_TOLERANCE)
+    # Each cell's pressure on all four of it: smoother ways to hand it down, and finer tolerances,
+    # take more directions rather than fewer, as they blur the rim.
+    pressure = np.repeat(np.repeat(coarse.found.pressure, 2, axis=0), 2, axis=1)
+    # Fewer cells may not touch at all, or not carry where the fine ones do.
+    if not (coarse.converged and pressure.any()):
+        return _bedding(problem, half_space)
+    return Guess(pressure, half_space.convolution.apply(pressure), coarse.found.motion)
 
 
 def _bedding(problem: ContactProblem, half_space: HalfSpace) -> Guess:

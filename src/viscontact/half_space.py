@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +23,9 @@ Operator = Convolution | MirroredConvolution | PeriodicConvolution
 
 #: Free cells kept around a contact in its patch, as a part of the contact's extent.
 PATCH_MARGIN = 0.06
+
+#: A coarser half-space has at least so many cells each way.
+FEWEST_CELLS = 32
 
 #: A patch of more than this part of the grid saves nothing.
 WORTHWHILE = 0.8
@@ -123,6 +126,14 @@ class HalfSpace:
         self.convolution = self._operator(self.shape, single=False)
         self.whole = self._patch(slice(0, self.shape[0]), slice(0, self.shape[1]))
         self._last = self.whole
+
+    def coarser(self) -> HalfSpace | None:
+        """The same region in cells twice as long and wide; None where they do not pair, or few."""
+        if any(cells % 2 or cells < 2 * FEWEST_CELLS for cells in self.shape):
+            return None
+        nx, ny = self.grid.shape
+        halved = replace(self.grid, shape=(nx // 2, ny // 2))
+        return HalfSpace(halved, mirrored=self.mirrored, threads=self._threads)
 
     def fold(self, field: NDArray[np.float64]) -> NDArray[np.float64]:
         """The part of a field on the grid that is worked with."""
