@@ -76,7 +76,7 @@ def test_where_a_solve_starts_does_not_change_its_answer(
     nested = solve_contact(problem, half_space, tolerance=1e-9)
     monkeypatch.setattr(HalfSpace, "coarser", lambda self: None)
     direct = solve_contact(problem, half_space, tolerance=1e-9)
-    assert direct.iterations > nested.iterations
+    assert (direct.found.pressure != nested.found.pressure).any(), "both began alike"
     peak = direct.found.pressure.max()
     assert np.abs(nested.found.pressure - direct.found.pressure).max() < 1e-6 * peak
     assert nested.found.motion == pytest.approx(direct.found.motion, rel=1e-8, abs=1e-9)
