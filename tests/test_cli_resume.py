@@ -126,6 +126,19 @@ def test_resumed_run_ends_in_the_bits_of_an_uninterrupted_one(
     assert sorted(contents("case")) == ["case.yaml", "progress.jsonl", "result.nc"]
 
 
+def test_resumed_periodic_run_ends_in_the_same_bits(folder: Path) -> None:
+    """The sphere becomes one of a square array, which creeps over the border of its period."""
+    text = CASE.replace("size: [3 mm, 3 mm]", "size: [0.9 mm, 0.9 mm], periodic: true")
+    (folder / "case.yaml").write_text(text, encoding="utf-8")
+    assert main(["run", "case.yaml", "-q", "-o", "at once"]) == 0
+    with xr.open_dataset(folder / "at once" / "result.nc") as ds:
+        at_once = ds.load()
+    assert at_once.pressure.values[-1, 0].any()
+    kill(4, "-q")
+    assert main(["run", "case.yaml", "--resume"]) == 0
+    assert same_bits("case", at_once)
+
+
 def test_resume_starts_where_nothing_is_saved(
     folder: Path, whole: xr.Dataset, capsys: pytest.CaptureFixture[str]
 ) -> None:

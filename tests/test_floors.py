@@ -49,6 +49,7 @@ FLOORS = (
         "geometry_doubts",
         "estimate",
         "extent",
+        "period_estimate",
         "instants",
         "admission",
         "period",
@@ -119,6 +120,7 @@ NEIGHBOURS = {
     ("observation", "geometry_doubts"),
     ("geometry_doubts", "sampling_doubts"),  # what the grid does not see
     ("extent", "estimate"),  # of the contact that has to fit
+    ("period_estimate", "estimate"),  # whose answer it gives as well
     ("forecast", "foresight"),  # of doubts
     ("observation", "plausibility"),  # which warnings it deserves
     ("past", "run"),

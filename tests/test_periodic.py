@@ -27,7 +27,7 @@ def test_periodic_is_true_or_false(given):
 
 @pytest.mark.parametrize("name", ["eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y"])
 def test_load_off_centre_or_tilted_is_refused(name):
-    with pytest.raises(ValueError, match=rf"load\.{name} must be 0 on a periodic grid"):
+    with pytest.raises(ValueError, match=rf"load\.{name}: must be 0 on a periodic grid"):
         run(load=vc.step(1e-4, **{name: 1e-6}))
 
 
@@ -144,3 +144,10 @@ def test_step_at_the_border_is_told():
         vc.AccuracyWarning, match="border of the period, where the body does not continue"
     ):
         run(ramp, vc.step(1e-2))
+
+
+def test_stresses_of_a_periodic_result_are_periodic():
+    """The mean of σzz over a period is the mean pressure at every depth; a free grid's falls."""
+    found = vc.section_stresses(run(vc.Waviness(1e-6, wavelength_x=1e-3), vc.step(3e-3)), y=0.0)
+    mean = 3e-3 / PERIOD.area
+    assert found.stress_zz.mean("x").values == pytest.approx(-mean, rel=1e-6)

@@ -18,6 +18,8 @@ from viscontact.estimate import ContactEstimate, estimate_contact, level_of
 from viscontact.extent import largest_load
 from viscontact.foresight import foreseen_doubts
 from viscontact.grid import Grid
+from viscontact.load import LoadPoint
+from viscontact.period_estimate import estimate_period
 from viscontact.run import Run
 from viscontact.schedule import FixedSteps
 
@@ -102,7 +104,7 @@ def forecast(run: Run) -> Forecast:
     time, point = largest_load(run.load, float(run.times[-1]))
     compliance, named = _telling_compliance(run, time)
     if level_of(point) > 0:
-        estimate = estimate_contact(run.indenter, compliance, point)
+        estimate = _estimate(run, compliance, point)
         extents, reach = (estimate.length, estimate.width), estimate.reach
     else:
         estimate, extents, reach = None, (0.0, 0.0), (0.0, 0.0)
@@ -117,7 +119,8 @@ def forecast(run: Run) -> Forecast:
         compliance=named,
         cells_along=along,
         cells_across=across,
-        fits=all(r < size / 2 for r, size in zip(reach, run.grid.size, strict=True)),
+        fits=run.grid.periodic
+        or all(r < size / 2 for r, size in zip(reach, run.grid.size, strict=True)),
         doubts=foreseen_doubts(run, estimate),
     )
 
@@ -202,6 +205,12 @@ def _windows_memory() -> float:
     if not kernel.GlobalMemoryStatusEx(ctypes.byref(status)):
         raise OSError("the system does not say how much memory is free")
     return float(status.free)
+
+
+def _estimate(run: Run, compliance: float, point: LoadPoint) -> ContactEstimate:
+    if run.grid.periodic:
+        return estimate_period(run.indenter, compliance, point, run.grid)
+    return estimate_contact(run.indenter, compliance, point)
 
 
 def _telling_compliance(run: Run, time: float) -> tuple[float, str]:

@@ -111,7 +111,7 @@ class Grid:
         Raises
         ------
         ValueError
-            If the old cells would not be cells any more.
+            If the old cells would not be cells any more, or the period another one.
 
         Examples
         --------
@@ -124,9 +124,11 @@ class Grid:
                 f"a grid of {self.shape} cells is widened by as many cells on either side, "
                 f"not to {shape}"
             )
+        if self.periodic and any(more):
+            raise ValueError(f"a period of {self.shape} cells has no more, got {shape}")
         pairs = zip(self.size, self.shape, shape, strict=True)
         along, across = (s if old == new else s / old * new for s, old, new in pairs)
-        return Grid(shape, (along, across))
+        return Grid(shape, (along, across), self.periodic)
 
     def embed(
         self, field: NDArray[np.float64], wider: Grid, beyond: float = 0.0

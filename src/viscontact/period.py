@@ -59,8 +59,8 @@ def check_period(
     for name in TAIL:
         if np.any(getattr(load, name, None) or 0.0):
             raise ValueError(
-                f"load.{name} must be 0 on a periodic grid, where a body that tilted would not fit "
-                "to its next period; leave it out"
+                f"load.{name}: must be 0 on a periodic grid, where a body that tilted would not "
+                "fit to its next period; leave it out"
             )
     for part in _parts(indenter):
         _refuse_misfit(part, grid)

@@ -80,7 +80,7 @@ def section_stresses(
     ratio = recorded_poisson_ratio(results) if poisson_ratio is None else poisson_ratio
     below = _usual_depths(results) if depths is None else np.atleast_1d(np.asarray(depths, float))
     pressure = _chosen(results["pressure"], times)
-    grid = _grid(results)
+    grid = recorded_grid(results)
     found = [stress_on_section(field, grid, below, ratio, x=x, y=y) for field in pressure.values]
     return _labelled(results, pressure, found, below, "x" if x is None else "y")
 
@@ -128,10 +128,24 @@ def _usual_depths(results: xr.Dataset) -> NDArray[np.float64]:
     return np.linspace(0.0, REACH * half_width, DEPTHS)
 
 
-def _grid(results: xr.Dataset) -> Grid:
+def recorded_grid(results: xr.Dataset) -> Grid:
+    """Grid that a result belongs to.
+
+    Parameters
+    ----------
+    results : xarray.Dataset
+        What `simulate` or `open_results` returned.
+
+    Returns
+    -------
+    Grid
+        From its coordinates, and whether it is periodic from its case.
+    """
     x, y = results["x"].values, results["y"].values
     shape = (x.size, y.size)
-    return Grid(shape, (float(x[1] - x[0]) * shape[0], float(y[1] - y[0]) * shape[1]))
+    size = (float(x[1] - x[0]) * shape[0], float(y[1] - y[0]) * shape[1])
+    told = json.loads(results.attrs.get("case", "{}")).get("grid") or {}
+    return Grid(shape, size, bool(told.get("periodic", False)))
 
 
 def _labelled(

@@ -106,7 +106,9 @@ def stress_on_section(
     -----
     Each line of cells acts on the section as a convolution along it with Love's closed form
     (`stress_influence`), made by fast Fourier transforms, zero-padded; exact for pressure that is
-    constant within cells.
+    constant within cells. On a periodic grid each wave of the pressure has stresses of its own
+    (Johnson 1985, Contact Mechanics, section 13.2, turned to its direction), and the mean pressure
+    is carried without strain along the surface: σxx = σyy = ν/(1 - ν) σzz.
 
     Examples
     --------
@@ -120,10 +122,12 @@ def stress_on_section(
     if x is not None and y is not None:
         raise ValueError("a section lies at an x or at a y; give one of them")
     if x is not None:
-        turned = Grid(grid.shape[::-1], grid.size[::-1])
+        turned = Grid(grid.shape[::-1], grid.size[::-1], grid.periodic)
         stress = stress_on_section(pressure.T, turned, below, poisson_ratio, y=x)
         # What runs along x on the turned grid runs along y.
         return Stress(stress.components[[1, 0, 2, 4, 3, 5]])
+    if grid.periodic:
+        return _below_period(pressure, grid, below, poisson_ratio, y or 0.0)
     lines = np.flatnonzero(pressure.any(axis=0))
     loaded = slice(lines[0], lines[-1] + 1) if lines.size else slice(0, 1)
     return _along_x(pressure[:, loaded], grid, loaded, below, poisson_ratio, y or 0.0)
@@ -153,6 +157,41 @@ def _along_x(
         wrapped[:, padded - cells + 1 :] = kernel[:, : cells - 1]
         product = np.einsum("cky,ky->ck", fft.rfft(wrapped, axis=1), spectrum)
         found[:, index] = fft.irfft(product, padded, axis=1)[:, :cells]
+    return Stress(found)
+
+
+def _below_period(
+    pressure: NDArray[np.float64],
+    grid: Grid,
+    depths: NDArray[np.float64],
+    poisson_ratio: float,
+    y: float,
+) -> Stress:
+    """Wave by wave: those along the section are summed by a transform, those across it plainly."""
+    along = 2 * np.pi * fft.fftfreq(grid.shape[0], grid.cell_size[0])[:, None]
+    across = 2 * np.pi * fft.fftfreq(grid.shape[1], grid.cell_size[1])[None, :]
+    q = np.hypot(along, across)
+    q[0, 0] = 1.0  # of the mean, which has no direction: put in below
+    east, north = along / q, across / q
+    spectrum = fft.fft2(pressure) * np.exp(1j * across * (y - grid.y[0])) / grid.shape[1]
+    mean = spectrum[0, 0]
+    lateral = poisson_ratio / (1 - poisson_ratio)
+    found = np.empty((6, len(depths), grid.shape[0]))
+    for index, depth in enumerate(depths.tolist()):
+        waves, qz = spectrum * np.exp(-q * depth), q * depth
+        ahead, aside = -(1 - qz) * waves, -2 * poisson_ratio * waves
+        components = np.stack(
+            [
+                east**2 * ahead + north**2 * aside,
+                north**2 * ahead + east**2 * aside,
+                -(1 + qz) * waves,
+                1j * north * qz * waves,
+                1j * east * qz * waves,
+                east * north * (ahead - aside),
+            ]
+        )
+        components[:, 0, 0] = -mean * np.array([lateral, lateral, 1.0, 0.0, 0.0, 0.0])
+        found[:, index] = fft.ifft(components.sum(axis=2), axis=1).real
     return Stress(found)
 
 

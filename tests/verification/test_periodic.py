@@ -12,6 +12,7 @@ import viscontact as vc
 from verification.pressing import BALL, ELASTIC, MODULUS, RADIUS, order
 from viscontact import reference
 from viscontact.reference import full_contact_pressure, westergaard
+from viscontact.subsurface import stress_on_section
 
 WAVE, HEIGHT = 1e-3, 1e-6  # wavelength and amplitude [m]
 RIDGES = vc.Waviness(HEIGHT, wavelength_x=WAVE)
@@ -198,3 +199,30 @@ def test_work_is_the_elastic_energy_of_the_waves_pressed_flat():
     grid = square(32)
     (state,) = press(RIDGES, grid, 1.5 * FLAT_RIDGES)
     assert state.work == pytest.approx(FLAT_RIDGES * HEIGHT / 4 * grid.area, rel=1e-5)
+
+
+def test_stresses_below_a_wave_of_pressure_are_airys():
+    """Plane strain: φ = p (1 + q z) e^(-q z) cos(q x)/q² gives σ (Johnson 1985, section 13.2)."""
+    grid, q, depth = square(16), 2 * math.pi / WAVE, 0.15 * WAVE
+    wave = np.cos(q * grid.x)
+    qz, fall = q * depth, math.exp(-q * depth)
+    stress = stress_on_section(np.tile(2 + wave[:, None], 16), grid, [depth], 0.3)
+    xx = -(1 - qz) * fall * wave
+    zz = -(1 + qz) * fall * wave
+    assert stress["xx"][0] == pytest.approx(xx - 2 * 0.3 / 0.7, abs=1e-12)
+    assert stress["zz"][0] == pytest.approx(zz - 2, abs=1e-12)
+    assert stress["yy"][0] == pytest.approx(0.3 * (xx + zz) - 2 * 0.3 / 0.7, abs=1e-12)
+    assert stress["xz"][0] == pytest.approx(-qz * fall * np.sin(q * grid.x), abs=1e-12)
+
+
+@pytest.mark.parametrize("where", [{"x": 3e-5}, {"y": -2e-5}])
+def test_stresses_below_a_spot_are_those_of_a_free_half_space(where):
+    """By Love's closed form, where the images are far: their part is about the mean pressure."""
+    grid = square(64)
+    x, y = grid.x[:, None] / 5e-5, grid.y[None, :] / 4e-5
+    spot = np.exp(-(x**2) - y**2)
+    depths = [3e-5, 6e-5, 1e-4]
+    alone = stress_on_section(spot, vc.Grid(grid.shape, grid.size), depths, 0.3, **where)
+    found = stress_on_section(spot, grid, depths, 0.3, **where)
+    assert found.components == pytest.approx(alone.components, abs=1.5 * spot.mean())
+    assert spot.mean() < 0.01

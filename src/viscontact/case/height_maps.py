@@ -18,6 +18,7 @@ from viscontact.case.quantities import Length, NotNegativeLength, Section
 from viscontact.case.shape import Shape
 from viscontact.surfaces.doubts import described, levelling_note
 from viscontact.surfaces.pressing import require_complete, require_map
+from viscontact.units import in_words
 
 
 def _as_pair(given: Any) -> Any:
@@ -48,6 +49,18 @@ class Crop(Section):
 
     x: Range | None = Field(default=None, description="from where to where; all when left out")
     y: Range | None = Field(default=None, description="from where to where; all when left out")
+
+
+def _period_note(surface: surfaces.Surface) -> tuple[str, ...]:
+    """How a periodic map is pressed without borders."""
+    if not surface.periodic:
+        return ()
+    nx, ny = surface.shape
+    lx, ly = (in_words(length, "m", 9) for length in surface.size)
+    return (
+        f"{surface.name} is periodic: with 'shape: [{nx}, {ny}]', 'size: [{lx}, {ly}]' and "
+        "'periodic: true' under grid it is pressed without borders",
+    )
 
 
 class HeightMap(Shape):
@@ -109,7 +122,7 @@ class HeightMap(Shape):
         """The map in numbers, what was taken off it, and what about it looks wrong."""
         surface = self.surface
         told = (levelling_note(self._raw, self.level), described(surface))
-        return (*filter(None, told), *surfaces.surface_doubts(surface))
+        return (*filter(None, told), *surfaces.surface_doubts(surface), *_period_note(surface))
 
     def noun(self) -> indenters.HeightMap:
         """Return the map, read, repaired and levelled."""

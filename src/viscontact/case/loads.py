@@ -14,11 +14,23 @@ from viscontact.case.course import SentenceError, course_of
 from viscontact.case.levels import APPROACH_EXAMPLE, ForceOrApproach, Level, Tilt
 from viscontact.case.load_table import read_load_table
 from viscontact.case.problems import dotted
-from viscontact.case.quantities import Angle, CycleCount, Duration, Force, Instant, Offset, Section
+from viscontact.case.quantities import (
+    Angle,
+    CycleCount,
+    Duration,
+    Force,
+    Instant,
+    Offset,
+    Pressure,
+    Section,
+)
 from viscontact.case.sentences import Sentences
 from viscontact.load import ApproachHistory, ForceHistory, LoadHistory
 from viscontact.load.history import Control
 from viscontact.units import DIMENSIONS
+
+#: How a mean pressure is written; a modulus' example would be a high one.
+PRESSURE_EXAMPLE = "2 MPa"
 
 _FREE = "prescribed slope along {}, in place of the moment balance; free: no moment"
 
@@ -32,13 +44,18 @@ class Load(Section):
     tilt_y: Tilt = Field(default=None, description=_FREE.format("y"))
 
     @abstractmethod
-    def noun(self) -> LoadHistory:
-        """Return the history that is described."""
+    def noun(self, area: float = 1.0) -> LoadHistory:
+        """Return the history that is described; a mean pressure acts on so much area [m²]."""
 
     @property
     def table(self) -> Path | None:
         """The file that the history is read from, if there is one."""
         return None
+
+    @property
+    def is_by_pressure(self) -> bool:
+        """Whether a mean pressure is prescribed, which takes an area to act on."""
+        return getattr(self, "mean_pressure", None) is not None
 
     @property
     def _tail(self) -> dict[str, Any]:
@@ -62,10 +79,19 @@ class Controlled(Load):
         description="prescribed approach, in place of the force",
         examples=[APPROACH_EXAMPLE],
     )
+    mean_pressure: Pressure | None = Field(
+        default=None,
+        description="on a periodic grid, in place of the force: force over the grid's area",
+        examples=[PRESSURE_EXAMPLE],
+    )
 
-    @property
-    def _height(self) -> dict[Control, float]:
-        return _one_of(self.approach, "force", self.force)
+    def _height(self, area: float) -> dict[Control, float]:
+        if self.mean_pressure is None:
+            return _one_of(self.approach, "force", self.force)
+        for name in ("force", "approach"):
+            if getattr(self, name) is not None:
+                raise ValueError(f"mean_pressure and {name} exclude each other; give one of them")
+        return {"force": self.mean_pressure * area}
 
 
 class Step(Controlled):
@@ -73,9 +99,9 @@ class Step(Controlled):
 
     kind: Literal["step"]
 
-    def noun(self) -> LoadHistory:
+    def noun(self, area: float = 1.0) -> LoadHistory:
         """Return the step."""
-        return load.step(**self._height, **self._tail)
+        return load.step(**self._height(area), **self._tail)
 
 
 class Ramp(Controlled):
@@ -84,9 +110,9 @@ class Ramp(Controlled):
     kind: Literal["ramp"]
     duration: Duration
 
-    def noun(self) -> LoadHistory:
+    def noun(self, area: float = 1.0) -> LoadHistory:
         """Return the ramp."""
-        return load.ramp(**self._height, duration=self.duration, **self._tail)
+        return load.ramp(**self._height(area), duration=self.duration, **self._tail)
 
 
 class Triangle(Controlled):
@@ -96,9 +122,9 @@ class Triangle(Controlled):
     rise: Duration
     fall: Duration | None = Field(default=None, description="as long as rise when left out")
 
-    def noun(self) -> LoadHistory:
+    def noun(self, area: float = 1.0) -> LoadHistory:
         """Return the triangle."""
-        return load.triangle(**self._height, rise=self.rise, fall=self.fall, **self._tail)
+        return load.triangle(**self._height(area), rise=self.rise, fall=self.fall, **self._tail)
 
 
 class Harmonic(Load):
@@ -116,7 +142,7 @@ class Harmonic(Load):
     cycles: CycleCount = Field(description="after these the level stays where it is")
     phase: Angle = Field(default=0.0, description="at time 0")
 
-    def noun(self) -> LoadHistory:
+    def noun(self, area: float = 1.0) -> LoadHistory:
         """Return the harmonic load."""
         middle = _one_of(self.approach, "mean", self.mean)
         control: Control = "approach" if "approach" in middle else "force"
@@ -146,6 +172,11 @@ class History(Load):
         "twice is a jump",
         examples=[[["0 s", "0 N"], ["1 s", "10 kN"]]],
     )
+    mean_pressure: list[Annotated[tuple[Instant, Pressure], Field(strict=False)]] | None = Field(
+        default=None,
+        description="on a periodic grid: [time, pressure] each, in place of points",
+        examples=[[["0 s", "0 MPa"], ["1 s", PRESSURE_EXAMPLE]]],
+    )
     file: str | None = Field(
         default=None,
         description="CSV with a header such as: time [s], force [kN], eccentricity_x [mm]; or "
@@ -164,15 +195,18 @@ class History(Load):
         """The file that the history is read from, if there is one."""
         return None if self.file is None else Path(self.file)
 
-    def noun(self) -> LoadHistory:
+    def noun(self, area: float = 1.0) -> LoadHistory:
         """Return the history, from its points, its file or its sentences."""
-        if [self.points, self.file, self.sentences].count(None) != 2:
+        given = [self.points, self.mean_pressure, self.file, self.sentences]
+        if given.count(None) != len(given) - 1:
             raise ValueError(
                 "give points (e.g. '[[0 s, 0 N], [1 s, 10 kN]]'), file or sentences (e.g. 'ramp to "
                 "10 kN in 1 s'), and only one of them"
             )
         if self.file is not None:
             return self._from_file(Path(self.file))
+        if self.mean_pressure is not None:
+            return self._from_pressures(area)
         if self.sentences is not None:
             return self._from_sentences()
         return self._from_points()
@@ -189,6 +223,12 @@ class History(Load):
                     "negative force pulls, and adhesion is not modelled"
                 )
         return _history(control, times, [level.value for level in levels], self._tail)
+
+    def _from_pressures(self, area: float) -> LoadHistory:
+        if not self.mean_pressure:
+            raise ValueError("mean_pressure is empty; write e.g. '[[0 s, 0 MPa], [1 s, 2 MPa]]'")
+        times, pressures = zip(*self.mean_pressure, strict=True)
+        return _history("force", times, [each * area for each in pressures], self._tail)
 
     def _from_sentences(self) -> LoadHistory:
         said = [sentence for entry in self.sentences or () for sentence in entry]

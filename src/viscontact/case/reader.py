@@ -203,7 +203,7 @@ def _case(document: Document, found: CaseFile) -> Case:
         indenter=combined(found.indenter),
         material=found.material.noun(),
         indenter_material=of_indenter.noun() if of_indenter else None,
-        load=found.load.noun(),
+        load=found.history(),
         times=with_instants(times, fields),
         grid=found.grid.noun() if found.grid else None,
         fields=fields,

@@ -93,6 +93,10 @@ class Cells(Section):
     size: Annotated[tuple[Length, Length], Field(strict=False)] | None = Field(
         default=None, description="extents along x and y", examples=[["50 mm", "5 mm"]]
     )
+    periodic: bool = Field(
+        default=False,
+        description="whether it is one period of a surface that goes on without end, both ways",
+    )
     tolerance: GridTolerance | None = Field(
         default=None,
         description="in place of shape and size: relative error that the cells of an automatic "
@@ -106,7 +110,7 @@ class Cells(Section):
     def noun(self) -> grid.Grid | grid.AutomaticGrid:
         """Return the grid, or the wish for one."""
         if self.shape and self.size:
-            return grid.Grid(self.shape, self.size)
+            return grid.Grid(self.shape, self.size, self.periodic)
         quantities = grid.GRID_QUANTITIES if self.quantities is None else self.quantities
         return grid.AutomaticGrid(self.tolerance or DEFAULT_TOLERANCE, quantities)
 
@@ -118,6 +122,11 @@ class Cells(Section):
             raise ValueError(
                 f"{wish[0]} goes with an automatic grid, which has no {cells[0]} of yours; leave "
                 "out the one or the other"
+            )
+        if self.periodic and not cells:
+            raise ValueError(
+                "periodic goes with shape and size, an automatic grid knows no period; write e.g. "
+                "'shape: [128, 128]' and 'size: [1 mm, 1 mm]'"
             )
         if len(cells) == 1:
             missing = "size" if self.shape else "shape"

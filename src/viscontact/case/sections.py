@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from viscontact.case.indenters import Shapes
 from viscontact.case.loads import AnyLoad
 from viscontact.case.materials import AnyMaterial
 from viscontact.case.quantities import Section
 from viscontact.case.schedule import Cells, Output, Time
+from viscontact.grid import Grid
+from viscontact.load import LoadHistory
 
 
 class CaseFile(Section):
@@ -29,6 +31,20 @@ class CaseFile(Section):
     tolerance: Annotated[float, Field(ge=1e-13, le=1e-2)] = Field(
         default=1e-6, description="relative error of pressure and balances at every step"
     )
+
+    @model_validator(mode="after")
+    def _accepted(self) -> CaseFile:
+        if self.load.is_by_pressure and not (self.grid and self.grid.periodic):
+            raise ValueError(
+                "load.mean_pressure: it goes with a periodic grid, whose area makes a force of it; "
+                "write 'periodic: true' under grid, or give the force"
+            )
+        return self
+
+    def history(self) -> LoadHistory:
+        """Return the load; a mean pressure acts on the area of the grid."""
+        cells = self.grid.noun() if self.grid else None
+        return self.load.noun(cells.area if isinstance(cells, Grid) else 1.0)
 
 
 def case_schema() -> dict[str, Any]:

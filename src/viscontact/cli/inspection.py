@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +15,7 @@ from viscontact.cli.messages import refuse
 from viscontact.cli.preparation import Prepared
 from viscontact.estimate import ContactEstimate
 from viscontact.forecast import Forecast, forecast
+from viscontact.grid import Grid
 from viscontact.indenters import (
     CombinedIndenter,
     Cone,
@@ -48,7 +50,7 @@ def print_forecast(prepared: Prepared) -> Forecast:
         expected = forecast(prepared.run)
     except ValueError as error:
         refuse(*prepared.case.error(str(error)).problems)
-    console, doubts = Console(), _doubts(expected)
+    console, doubts = Console(), _doubts(expected, prepared.run.grid)
     verdict = "can be read, but:" if doubts else "no problems found"
     console.print(f"{prepared.case.document.path}: {verdict}", highlight=False, soft_wrap=True)
     for line in doubts:
@@ -123,9 +125,10 @@ def _needs(prepared: Prepared, expected: Forecast) -> list[tuple[str, str]]:
     (nx, ny), (lx, ly), (dx, dy) = run.grid.shape, run.grid.size, run.grid.cell_size
     chosen = " (automatic)" if run.automatic is not None else ""
     growing = "; more if the grid has to grow" if run.grows else ""
+    period = ", periodic" if run.grid.periodic else ""
     kept = prepared.case.fields
     return [
-        ("grid", f"{nx} x {ny} cells on {in_words(lx, 'm')} x {in_words(ly, 'm')}{chosen}"),
+        ("grid", f"{nx} x {ny} cells on {in_words(lx, 'm')} x {in_words(ly, 'm')}{chosen}{period}"),
         ("cell", f"{in_words(dx, 'm', 3)} x {in_words(dy, 'm', 3)}"),
         ("steps", f"{_steps(run)} to t = {in_words(float(run.times[-1]), 's')}"),
         ("fields kept", kept if isinstance(kept, str) else f"at {len(kept)} instants"),
@@ -175,7 +178,7 @@ def _has_tip(indenter: Indenter) -> bool:
     return isinstance(indenter, (Cone, Pyramid, Wedge))
 
 
-def _doubts(expected: Forecast) -> list[str]:
+def _doubts(expected: Forecast, grid: Grid) -> list[str]:
     """What a run would warn of, as far as the coarse solve can tell."""
     if expected.estimate is None:
         return list(expected.doubts.values())
@@ -186,7 +189,10 @@ def _doubts(expected: Forecast) -> list[str]:
             f"the contact will probably overrun the grid: it reaches {reach} from the middle "
             "along x and y; enlarge grid.size"
         )
-    if min(expected.cells_along, expected.cells_across) < DOUBTFUL_CELLS:
+    across = (expected.cells_along, expected.cells_across)
+    # Where a contact goes on from period to period there is nothing that the cells lie across.
+    ended = [n for n, k in zip(across, grid.shape, strict=True) if not grid.periodic or n < k]
+    if min(ended, default=math.inf) < DOUBTFUL_CELLS:
         doubts.append(
             f"fewer than {DOUBTFUL_CELLS} cells across the contact; use more cells or a smaller "
             "grid.size"

@@ -17,7 +17,7 @@ from viscontact.plot import style
 from viscontact.plot.error_band import peak_note
 from viscontact.plot.readable import DisplayUnit, display_unit, time_labels
 from viscontact.plot.snapshots import Snapshot, field_times, take_snapshots
-from viscontact.stresses import recorded_poisson_ratio
+from viscontact.stresses import recorded_grid, recorded_poisson_ratio
 from viscontact.subsurface import stress_on_section
 from viscontact.units import in_words
 
@@ -92,7 +92,7 @@ def stress_section(results: xr.Dataset, *, times: ArrayLike | None = None) -> Fi
     """
     ratio = recorded_poisson_ratio(results)
     snapshots = take_snapshots(results, times, _SECTION, count=2)
-    sections = _sections(snapshots, ratio)
+    sections = _sections(snapshots, recorded_grid(results), ratio)
     length = display_unit("m", *(section.half_width * _ASIDE for section in sections))
     stress = display_unit("Pa", max(section.largest[0] for section in sections))
     levels = _levels(sections, stress)
@@ -137,7 +137,7 @@ def von_mises_history(results: xr.Dataset, *, times: ArrayLike | None = None) ->
     ratio = recorded_poisson_ratio(results)
     chosen = field_times(results, _HISTORY) if times is None else times
     snapshots = take_snapshots(results, chosen, _HISTORY)
-    sections = _sections(snapshots, ratio)
+    sections = _sections(snapshots, recorded_grid(results), ratio)
     instants = np.array([section.time for section in sections])
     largest, depths, _ = np.array([section.largest for section in sections]).T
     time = display_unit("s", instants)
@@ -155,10 +155,10 @@ def von_mises_history(results: xr.Dataset, *, times: ArrayLike | None = None) ->
     return figure
 
 
-def _sections(snapshots: list[Snapshot], poisson_ratio: float) -> list[Section]:
+def _sections(snapshots: list[Snapshot], grid: Grid, poisson_ratio: float) -> list[Section]:
     touching = [snapshot for snapshot in snapshots if snapshot.touching]
     half_width = max(_half_width(snapshot) for snapshot in touching)
-    return [_section(snapshot, half_width, poisson_ratio) for snapshot in touching]
+    return [_section(snapshot, grid, half_width, poisson_ratio) for snapshot in touching]
 
 
 def _half_width(snapshot: Snapshot) -> float:
@@ -166,13 +166,11 @@ def _half_width(snapshot: Snapshot) -> float:
     return min(right - left, back - front) / 2
 
 
-def _section(snapshot: Snapshot, half_width: float, poisson_ratio: float) -> Section:
+def _section(snapshot: Snapshot, grid: Grid, half_width: float, poisson_ratio: float) -> Section:
     """The section as deep as the largest contact of all that are shown asks for."""
     left, right, front, back = snapshot.extent()
     is_long = right - left >= back - front
     i, j = np.unravel_index(int(snapshot.pressure.argmax()), snapshot.pressure.shape)
-    dx, dy = snapshot.cell_size
-    grid = Grid(snapshot.pressure.shape, (dx * snapshot.x.size, dy * snapshot.y.size))
     depths = np.linspace(0.0, _DEEP * half_width, _DEPTHS)
     where: dict[str, Any] = {"x": float(snapshot.x[i])} if is_long else {"y": float(snapshot.y[j])}
     stress = stress_on_section(snapshot.pressure, grid, depths, poisson_ratio, **where)

@@ -74,9 +74,10 @@ def described(surface: Surface) -> str:
     nx, ny = surface.shape
     dx, dy = (in_words(step, "m", 3) for step in surface.spacing)
     apart = dx if dx == dy else f"{dx} and {dy}"
+    fits = ", periodic" if surface.periodic else ""
     missing = f", {surface.missing_share:.2%} missing" if surface.missing.any() else ""
     return (
-        f"{surface.name}: {nx} x {ny} points, {apart} apart{missing}; rms height "
+        f"{surface.name}: {nx} x {ny} points, {apart} apart{fits}{missing}; rms height "
         f"{in_words(surface.rms_height, 'm', 3)}, rms slope {in_digits(surface.rms_slope, 2)}"
     )
 
@@ -102,7 +103,7 @@ def levelling_note(surface: Surface, level: Level) -> str | None:
     >>> levelling_note(ramp, "plane")
     'surface: a tilt of 10 mrad was taken off (level: plane)'
     """
-    if level not in ("plane", "quadratic"):
+    if level not in ("plane", "quadratic") or surface.periodic:
         return None
     form = " and the paraboloid that fits best were" if level == "quadratic" else " was"
     slope = in_words(math.hypot(*tilt(surface)), "rad", 3)

@@ -40,12 +40,14 @@ def levelled(surface: Surface, level: Level = "plane") -> Surface:
     Raises
     ------
     ValueError
-        If the level is unknown, or the known points do not determine the polynomial.
+        If the level is unknown, a periodic surface's form is to be taken off, or the known points
+        do not determine the polynomial.
 
     Notes
     -----
     Least squares over the known points. A form that is to be pressed (a ball's, a roller's)
-    is levelled by ``"plane"`` at most.
+    is levelled by ``"plane"`` at most. A periodic surface is not tilted, or it would not be
+    periodic: of it ``"plane"`` takes the mean only.
 
     Examples
     --------
@@ -57,7 +59,12 @@ def levelled(surface: Surface, level: Level = "plane") -> Surface:
         raise ValueError(f"level must be {', '.join(TERMS)}, got {level!r}")
     if level == "none":
         return surface
-    return surface.with_heights(surface.heights - polynomial(surface, TERMS[level]).of(surface))
+    if surface.periodic and level == "quadratic":
+        raise ValueError(
+            f"level: {surface.name} is periodic, and has no form; level it by its mean, or crop it"
+        )
+    terms = TERMS["mean" if surface.periodic else level]
+    return surface.with_heights(surface.heights - polynomial(surface, terms).of(surface))
 
 
 class Polynomial:

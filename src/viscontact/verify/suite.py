@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from viscontact.verify import elastic, fixed_contact, growing, unloading
+from viscontact.verify import elastic, fixed_contact, growing, periodic, unloading
 from viscontact.verify.case import Case, Result, run_case
 
 CASES: tuple[Case, ...] = (
@@ -12,6 +12,7 @@ CASES: tuple[Case, ...] = (
     *growing.CASES,
     *unloading.CASES,
     *fixed_contact.CASES,
+    *periodic.CASES,
 )
 
 #: Called before each case with the case, how many are done, and how many there are.
