@@ -72,11 +72,10 @@ def print_history(ds: xr.Dataset, *, everything: bool = False, errors: bool = Fa
     rows = np.arange(count) if everything else _spread(count)
     shown = [name for name in _COLUMNS if _is_shown(ds, name)]
     columns = _columns(ds, ["time", *shown], rows, errors=errors)
-    # Rather too wide for a terminal than with digits left out.
     least = sum(column.width + _GAP for column in columns)
-    scarce = least + _TO_SPARE > console.width
-    table = _table(ds, columns, narrow=scarce)
-    console.print(table, width=max(console.width, least), crop=False)
+    table = _table(ds, columns, narrow=least + _TO_SPARE > console.width)
+    # Rather too wide for a terminal than with digits left out.
+    console.print(table, crop=False)
     if len(rows) < count:
         console.print(f"{len(rows)} of {count} instants; --all shows every one")
     for line in _footers(ds, shown):
