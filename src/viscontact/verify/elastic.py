@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 from viscontact import reference
 from viscontact.grid import Grid
@@ -11,7 +10,7 @@ from viscontact.indenters import Cone, FlatPunch, Paraboloid, Roller
 from viscontact.laws import Elastic
 from viscontact.load import step
 from viscontact.material import Material
-from viscontact.verify.case import Case, Comparison, Quantity, single
+from viscontact.verify.case import Case, Comparison, Quantity, single, with_mean_error
 from viscontact.verify.indentation import BALL, FORCE, RADIUS, grid_around, press
 
 MODULUS = 2e9  # contact modulus of the body [Pa]
@@ -66,11 +65,7 @@ def _punch(cells: int) -> tuple[Comparison, ...]:
         (state,) = press(BODY, load, [0.0], grid, indenter=FlatPunch(_PUNCH)).states
         found.append((single(exact.approach, state.approach), single(exact.tilt_x, state.tilt_x)))
     approaches, tilts = zip(*found, strict=True)
-    return _with_mean_error(approaches), _with_mean_error(tilts)
-
-
-def _with_mean_error(found: tuple[Comparison, ...]) -> Comparison:
-    return replace(found[-1], error=sum(one.error for one in found) / len(found))
+    return with_mean_error(approaches), with_mean_error(tilts)
 
 
 def _cone(cells: int) -> tuple[Comparison, ...]:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from viscontact.verify import elastic, fixed_contact, growing, periodic, unloading
+from viscontact.verify import edges, elastic, fixed_contact, growing, periodic, unloading
 from viscontact.verify.case import Case, Result, run_case
 
 CASES: tuple[Case, ...] = (
     *elastic.CASES,
+    *edges.CASES,
     *growing.CASES,
     *unloading.CASES,
     *fixed_contact.CASES,
