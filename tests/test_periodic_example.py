@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import viscontact as vc
+from viscontact import surfaces
 from viscontact.case import CaseError, read_case
 from viscontact.cli import main
 from viscontact.reference import full_contact_pressure
@@ -99,3 +100,12 @@ def test_result_remembers_its_period(tmp_path, monkeypatch):
     with vc.open_results("case") as results:
         stresses = vc.section_stresses(results, [0.0, 1e-3])
         assert stresses.stress_zz.mean("x").values == pytest.approx(-2e3, rel=1e-6)
+
+
+def test_periodic_map_is_levelled_by_its_mean():
+    """A saw tooth has a fitting plane, but what repeats itself has no tilt."""
+    heights = np.tile(np.array([0.0, 1.0, 2.0, 3.0])[:, None] * 1e-6, 4)
+    surface = surfaces.Surface(heights, 1e-5, periodic=True)
+    assert surfaces.levelled(surface).heights == pytest.approx(heights - 1.5e-6, abs=1e-18)
+    with pytest.raises(ValueError, match="level: surface is periodic"):
+        surfaces.levelled(surface, "quadratic")
