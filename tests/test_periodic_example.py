@@ -37,6 +37,7 @@ def test_waves_creep_to_nearly_full_contact(tmp_path, capsys):
     said = capsys.readouterr().out
     assert "no problems found" in said
     assert "periodic" in said
+    assert "1 mm long, 1 mm wide" in said  # on the period itself, nearly full
     assert main(["run", str(case), "--quiet"]) == 0
     for figure in ("contact-outline", "stress-section"):
         assert main(["plot", str(directory), figure]) == 0
