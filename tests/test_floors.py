@@ -50,8 +50,10 @@ FLOORS = (
         "estimate",
         "extent",
         "period_estimate",
+        "resolution",
         "instants",
         "admission",
+        "mesh",
         "period",
         "run",
         "growth",
@@ -113,7 +115,12 @@ NEIGHBOURS = {
     ("run", "period"),  # what is no period
     ("run", "schedule"),  # where its steps come from
     ("run", "adaptive"),
-    ("run", "extent"),  # the grid when none is given
+    ("run", "mesh"),  # the grid when none is given
+    ("mesh", "admission"),  # of nouns that are none
+    ("mesh", "extent"),  # holds the contact
+    ("mesh", "estimate"),
+    ("mesh", "resolution"),  # and resolves it,
+    ("mesh", "sampling_doubts"),  # its waves and a map's points among it
     ("observation", "run"),  # which instants are kept
     ("observation", "schedule"),  # the step that ended
     ("observation", "material_doubts"),

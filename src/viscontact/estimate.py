@@ -73,6 +73,11 @@ class ContactEstimate:
     motion: NDArray[np.float64]
 
     @property
+    def extents(self) -> tuple[float, float]:
+        """Length and width of the contact [m]."""
+        return self.length, self.width
+
+    @property
     def reach(self) -> tuple[float, float]:
         """Farthest distances of the contact from the origin along x and y [m]."""
         return abs(self.centre_x) + self.length / 2, abs(self.centre_y) + self.width / 2

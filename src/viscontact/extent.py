@@ -1,20 +1,18 @@
-"""How large a grid has to be: coarse elastic solves at the largest compliance and load."""
+"""How large a contact becomes in a run: coarse solves at the largest compliance and load."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import fft
 
 from viscontact.compliance import ContactCompliance, SeriesCompliance
-from viscontact.estimate import estimate_contact, level_of
-from viscontact.grid import GRID_QUANTITIES, AutomaticGrid, Grid
+from viscontact.estimate import ContactEstimate, estimate_contact, level_of
 from viscontact.indenters import Indenter
 from viscontact.load import LoadHistory, LoadPoint
-from viscontact.material import Material
 
 #: More cells than these are no choice to make for somebody.
 MOST_CELLS = 2**22
@@ -22,77 +20,81 @@ MOST_CELLS = 2**22
 #: Of a history of more points only so many are looked at, and so many are solved for.
 MOST_INSTANTS, MOST_CORNERS = 1000, 60
 
-#: Room around the contact in the grid that is returned.
-MARGIN = 1.3
+#: Loads of at least this part of the largest are as good as it, where the force moves.
+AS_LARGE = 0.9
+
+#: Instants between which a load is followed to its crest.
+CREST_INSTANTS = 200
 
 #: A load that swings shows its crest within so many of its longest steps.
 SWING_STEPS = 128
 
 
-def auto_grid(
-    indenter: Indenter,
-    material: Material,
-    load: LoadHistory,
-    tolerance: float = 0.01,
-    *,
-    quantities: Sequence[str] = GRID_QUANTITIES,
-    end: float | None = None,
-    indenter_material: Material | None = None,
-) -> Grid:
-    """Choose a grid for a run.
+@dataclass(frozen=True, eq=False)
+class PointContact:
+    """The contact under one load of a history.
+
+    Attributes
+    ----------
+    point : LoadPoint
+        The load.
+    compliance : float
+        Compliance of the elastic body that it presses [1/Pa].
+    estimate : ContactEstimate
+        The contact, coarsely.
+    """
+
+    point: LoadPoint
+    compliance: float
+    estimate: ContactEstimate
+
+
+def contacts_of_history(
+    indenter: Indenter, compliance: float, load: LoadHistory, end: float | None
+) -> list[PointContact]:
+    """Estimate the contact under every corner of a load's history.
 
     Parameters
     ----------
     indenter : Indenter
         Shape of the pressed body.
-    material : Material
-        Material of the half-space.
+    compliance : float
+        The largest contact compliance of the run [1/Pa].
     load : LoadHistory
         Force or approach, eccentricity and prescribed tilts over time.
-    tolerance : float
-        Aimed-at relative error of the named quantities, between 1e-4 and 0.5 [-].
-    quantities : sequence of str
-        What has to be that exact, as in `AutomaticGrid`.
-    end : float, optional
-        Last instant of the run [s]; the load's last point, or the end of all creep, when left
-        out.
-    indenter_material : Material, optional
-        Material of the indenter; rigid when left out.
+    end : float or None
+        Last instant of the run [s]; the load's last point when None.
 
     Returns
     -------
-    Grid
-        Holds the contact at the largest compliance under every corner of the load's history,
-        with a margin. The number of cells is a rule of thumb, not yet an error estimate.
+    list of PointContact
+        One or more.
 
     Raises
     ------
     ValueError
-        If the tolerance makes no sense, no end of the creep is known, or no grid fits.
-
-    Examples
-    --------
-    >>> import viscontact as vc
-    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
-    >>> vc.auto_grid(vc.Sphere(0.01), rubber, vc.step(1.0)).shape
-    (54, 54)
+        If nothing ever presses, or no grid fits a contact.
     """
-    wish = AutomaticGrid(tolerance, quantities)
-    _require_kinds(indenter, material, load, indenter_material)
-    compliance = material.contact_compliance()
-    if indenter_material is not None:
-        compliance = compliance + indenter_material.contact_compliance()
-    return choose_grid(indenter, compliance, load, wish, end)
+    points = _corners(load, end)
+    if not points:
+        raise ValueError(
+            f"load: the {load.control} is never above zero, so no grid can be fitted to a contact; "
+            "give a grid"
+        )
+    return [
+        PointContact(point, compliance, estimate_contact(indenter, compliance, point))
+        for point in points
+    ]
 
 
-def choose_grid(
+def hardest_contact(
     indenter: Indenter,
     compliance: ContactCompliance,
     load: LoadHistory,
-    wish: AutomaticGrid,
     end: float | None,
-) -> Grid:
-    """Choose a grid for a run whose bodies' compliance is known; see `auto_grid`.
+    found: Sequence[PointContact],
+) -> PointContact:
+    """Return the smallest contact under the largest load: where that acts, and before it creeps.
 
     Parameters
     ----------
@@ -102,61 +104,53 @@ def choose_grid(
         J(t) of both bodies together.
     load : LoadHistory
         Force or approach, eccentricity and prescribed tilts over time.
-    wish : AutomaticGrid
-        What is asked of the grid.
     end : float or None
-        Last instant of the run [s].
+        Last instant of the run [s]; the load's last point when None.
+    found : sequence of PointContact
+        The run's contacts at the largest compliance.
 
     Returns
     -------
-    Grid
-        As `auto_grid` does.
+    PointContact
+        One of those, or one of a stiffer body.
 
     Raises
     ------
     ValueError
-        As `auto_grid` does.
+        If no grid fits that contact.
     """
-    largest = _largest_compliance(compliance, load, end)
-    reach, extents = _reach_of_history(indenter, largest, load, end)
-    size = 2 * MARGIN * reach
-    # Cells across the contact, then over the grid: errors are at worst of second order.
-    cells = (4 / math.sqrt(wish.tolerance)) * size / extents
-    if not float(np.prod(cells)) <= MOST_CELLS:
-        raise ValueError(
-            f"grid: a contact of {extents[0]:.3g} m x {extents[1]:.3g} m within {size[0]:.3g} m x "
-            f"{size[1]:.3g} m needs {float(np.prod(cells)):.2g} cells, more than an automatic grid "
-            "has; give a grid"
-        )
-    shape = [max(16, fft.next_fast_len(math.ceil(count), real=True)) for count in cells]
-    return Grid((shape[0], shape[1]), (float(size[0]), float(size[1])))
+    highest = max(level_of(each.point) for each in found)
+    as_large = [each for each in found if level_of(each.point) >= AS_LARGE * highest]
+    smallest = min(as_large, key=lambda each: min(each.estimate.extents))
+    if load.control == "approach":  # where the compliance scales the pressure, and nothing else
+        return smallest
+    stiffer = _compliance_at_crest(compliance, load, end)
+    if not 0 < stiffer < smallest.compliance:
+        return smallest
+    estimate = estimate_contact(indenter, stiffer, smallest.point)
+    return PointContact(smallest.point, stiffer, estimate)
 
 
-def _require_kinds(indenter: object, material: object, load: object, other: object) -> None:
-    for name, value, kind in (
-        ("indenter", indenter, Indenter),
-        ("material", material, Material),
-        ("load", load, LoadHistory),
-        ("indenter_material", other, Material),
-    ):
-        if not isinstance(value, kind) and not (name == "indenter_material" and value is None):
-            raise ValueError(f"{name} must be of kind {kind.__name__}, got {value!r}")
+def _compliance_at_crest(
+    compliance: ContactCompliance, load: LoadHistory, end: float | None
+) -> float:
+    """What has been seen of the compliance when the load is first largest [1/Pa].
 
-
-def _reach_of_history(
-    indenter: Indenter, compliance: float, load: LoadHistory, end: float | None
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Farthest reach over the history, and the extents of the contact under the largest force."""
-    points = _corners(load, end)
-    if not points:
-        raise ValueError(
-            f"load: the {load.control} is never above zero, so no grid can be fitted to a contact; "
-            "give a grid"
-        )
-    found = [estimate_contact(indenter, compliance, point) for point in points]
-    reach = np.array([estimate.reach for estimate in found], dtype=np.float64).max(axis=0)
-    largest = found[int(np.argmax([level_of(point) for point in points]))]
-    return reach, np.array([largest.length, largest.width])
+    A contact that has only grown is that of an elastic body whose compliance is the mean over the
+    ages of the load's parts.
+    """
+    crest, _ = largest_load(load, float(load.kinks[-1]) if end is None else end)
+    instants = np.union1d(np.linspace(0.0, crest, CREST_INSTANTS), load.kinks[load.kinks <= crest])
+    sides = [load.level_at(instants, side=side) for side in ("left", "right")]
+    levels = np.maximum.accumulate(np.stack(sides, axis=1).ravel()).reshape(-1, 2)
+    levels = np.maximum(levels, 0.0)
+    # What jumps to an instant's right is as old as the instant, what rose before it on average.
+    jumps = np.append(levels[0, 1], np.diff(levels, axis=1)[1:, 0])
+    ages = crest - instants
+    rises = levels[1:, 0] - levels[:-1, 1]
+    seen = float(jumps @ np.asarray(compliance(ages)))
+    seen += float(rises @ np.asarray(compliance.mean(ages[1:], ages[:-1])))
+    return seen / float(levels[-1, 1])
 
 
 def _corners(load: LoadHistory, end: float | None) -> list[LoadPoint]:
@@ -200,9 +194,30 @@ def _farthest(points: list[LoadPoint], way: str) -> list[LoadPoint]:
     return [min(points, key=reach), max(points, key=reach)]
 
 
-def _largest_compliance(
+def largest_compliance(
     compliance: ContactCompliance, load: LoadHistory, end: float | None
 ) -> float:
+    """Return the contact compliance at the end of a run.
+
+    Parameters
+    ----------
+    compliance : ContactCompliance
+        J(t) of both bodies together.
+    load : LoadHistory
+        The load.
+    end : float or None
+        Last instant of the run [s]; the end of all creep when None.
+
+    Returns
+    -------
+    float
+        The compliance [1/Pa].
+
+    Raises
+    ------
+    ValueError
+        If creep never ends, and no end is given.
+    """
     if end is not None:
         return float(compliance(end))
     latest = compliance.settled_after

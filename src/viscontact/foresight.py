@@ -33,9 +33,11 @@ def foreseen_doubts(run: Run, estimate: ContactEstimate | None) -> dict[str, str
     -------
     dict of str to str
         Sentences by kind of doubt, as a run would say them; empty if there is none. Those about
-        the mesh are left to who knows whether the grid fits.
+        a mesh that was given are left to who knows whether the grid fits.
     """
     doubts = _material_doubts(run) | _step_doubts(run)
+    if run.mesh is not None:
+        doubts |= run.mesh.doubts
     return doubts if estimate is None else doubts | _contact_doubts(run, estimate)
 
 

@@ -47,6 +47,8 @@ class Observer:
         self._look_at(run)
         self._doubts = Doubts()
         self._open = law_doubts(run.memory.error, run.compliance.inversion_error)
+        if run.mesh is not None:
+            self._open |= run.mesh.doubts
         self._measured_from = max(body.known_from for body in run.bodies)
         for body in run.bodies:
             self._open |= passivity_doubts(body.law, float(run.times[-1]))

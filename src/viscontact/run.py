@@ -19,13 +19,13 @@ from viscontact.admission import (
     check_touch,
 )
 from viscontact.compliance import ContactCompliance
-from viscontact.extent import choose_grid
 from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.instants import field_instants, run_instants
 from viscontact.load import LoadHistory
 from viscontact.material import Material
 from viscontact.memory import MemoryPlan, plan_memory
+from viscontact.mesh import Mesh, choose_mesh
 from viscontact.period import check_period
 from viscontact.schedule import FixedSteps
 from viscontact.stepping import AdaptiveTimes
@@ -58,6 +58,8 @@ class Run:
         The cells.
     automatic : AutomaticGrid or None
         What was asked of them; None for a grid that was given.
+    mesh : Mesh or None
+        What is expected of them where they were chosen.
     open_gap : ndarray, shape (nx, ny)
         The indenter's gap on the grid [m], +inf outside its outline.
     times : ndarray
@@ -79,6 +81,7 @@ class Run:
     load: LoadHistory
     grid: Grid
     automatic: AutomaticGrid | None
+    mesh: Mesh | None
     open_gap: NDArray[np.float64]
     times: NDArray[np.float64]
     adaptive: AdaptiveTimes | None
@@ -156,37 +159,35 @@ def prepare_run(
     instants = run_instants(times, fields, load, compliance)
     end = float(instants[-1])
     field_instants(fields, instants)
-    automatic = _automatic(grid)
     given = grid if isinstance(grid, Grid) else None
     check_magnitudes(compliance, load, given, end)
     check_creep(compliance, instants)
     check_jumps(compliance, load, end)
-    cells = given or choose_grid(indenter, compliance, load, automatic or AutomaticGrid(), end)
-    open_gap = _gap_on(indenter, cells)
-    check_touch(compliance, open_gap, cells, load)
-    check_period(indenter, open_gap, cells, load)
-    check_balance(open_gap, cells, load, end)
+    automatic = mesh = None
+    if not isinstance(grid, Grid):
+        automatic = grid or AutomaticGrid()
+        mesh = choose_mesh(indenter, compliance, load, automatic, end)
+        grid = mesh.grid
+    open_gap = _gap_on(indenter, grid)
+    check_touch(compliance, open_gap, grid, load)
+    check_period(indenter, open_gap, grid, load)
+    check_balance(open_gap, grid, load, end)
     return Run(
         indenter,
         material,
         indenter_material,
         compliance,
         load,
-        cells,
+        grid,
         automatic,
+        mesh,
         open_gap,
         instants,
         adaptive,
-        _planned_memory(compliance, load, instants, adaptive, open_gap, cells),
+        _planned_memory(compliance, load, instants, adaptive, open_gap, grid),
         float(tolerance),
         int(threads),
     )
-
-
-def _automatic(grid: Grid | AutomaticGrid | None) -> AutomaticGrid | None:
-    if isinstance(grid, Grid):
-        return None
-    return AutomaticGrid() if grid is None else grid
 
 
 def _gap_on(indenter: Indenter, grid: Grid) -> NDArray[np.float64]:

@@ -227,6 +227,36 @@ def _map_points(indenter: Indenter) -> Iterator[Points]:
             yield from _map_points(part)
 
 
+def map_spacing(indenter: Indenter) -> tuple[float, float]:
+    """Return the smallest steps along x and y of the height maps in a body.
+
+    Parameters
+    ----------
+    indenter : Indenter
+        The body.
+
+    Returns
+    -------
+    tuple of float
+        Steps [m]; 0 without a map, and the smaller one both ways if it is turned.
+
+    Examples
+    --------
+    >>> map_spacing(HeightMap([0.0, 1.0, 3.0], [0.0, 2.0], np.zeros((3, 2))))
+    (1.0, 2.0)
+    """
+    if isinstance(indenter, HeightMap):
+        return float(np.diff(indenter.x).min()), float(np.diff(indenter.y).min())
+    if isinstance(indenter, PlacedIndenter):
+        steps = map_spacing(indenter.body)
+        return steps if indenter.angle == 0 else (min(steps), min(steps))
+    parts = indenter.parts if isinstance(indenter, CombinedIndenter) else ()
+    found = [steps for steps in map(map_spacing, parts) if min(steps) > 0]
+    if not found:
+        return 0.0, 0.0
+    return min(along for along, _ in found), min(across for _, across in found)
+
+
 def _mesh(x: NDArray[np.float64], y: NDArray[np.float64]) -> Points:
     """All points of a mesh, one after the other."""
     along, across = np.meshgrid(x, y, indexing="ij")

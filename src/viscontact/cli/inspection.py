@@ -130,6 +130,7 @@ def _needs(prepared: Prepared, expected: Forecast) -> list[tuple[str, str]]:
     return [
         ("grid", f"{nx} x {ny} cells on {in_words(lx, 'm')} x {in_words(ly, 'm')}{chosen}{period}"),
         ("cell", f"{in_words(dx, 'm', 3)} x {in_words(dy, 'm', 3)}"),
+        *_expected_errors(run),
         ("steps", f"{_steps(run)} to t = {in_words(float(run.times[-1]), 's')}"),
         ("fields kept", kept if isinstance(kept, str) else f"at {len(kept)} instants"),
         (
@@ -138,6 +139,17 @@ def _needs(prepared: Prepared, expected: Forecast) -> list[tuple[str, str]]:
         ),
         ("time", f"{_duration(expected.seconds)} on this machine"),
     ]
+
+
+def _expected_errors(run: Run) -> list[tuple[str, str]]:
+    """How exact the cells are under the largest load, where they were chosen for it."""
+    if run.mesh is None:
+        return []
+    told = [
+        f"{name.replace('_', ' ')} {in_digits(100 * error, 1)} %"
+        for name, error in run.mesh.errors.items()
+    ]
+    return [("expected errors", ", ".join(told))] if told else []
 
 
 def _steps(run: Run) -> str:

@@ -1,0 +1,211 @@
+"""Automatic grids keep the tolerance they are asked for, and say where they cannot.
+
+The truth is Hertz's where there is one, at every instant by correspondence, and else a much finer
+grid of ours, whose cells lie elsewhere.
+"""
+
+import math
+import re
+
+import numpy as np
+import pytest
+
+import viscontact as vc
+from viscontact import mesh as meshes
+from viscontact import reference
+from viscontact.run import prepare_run
+
+STIFF = vc.Material(vc.Elastic(1e9), 0.4)
+#: J(inf)/J(0) = 10.
+CREEPING = vc.Material(vc.Zener(1e9, 1e9 / 9, 1e8), 0.4)
+QUANTITIES = ("peak_pressure", "contact_area", "approach")
+
+pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
+
+
+def told(indenter, load, grid, material=STIFF, times=(0.0,)):
+    """The three quantities over time, shape (3, times)."""
+    result = vc.simulate(indenter, material, load, grid, list(times), fields="none")
+    return np.array([result[name].values for name in QUANTITIES])
+
+
+def random_ellipse(seed):
+    """A paraboloid, a load, and Hertz's answer: any scale, aspect ratio up to 30, lying or not."""
+    rng = np.random.default_rng(seed)
+    # Radii go about as the 3/2 power of the axes: 190 of one are 30 of the other.
+    radius, ratio = 10 ** rng.uniform(-6, 0), 190 ** rng.uniform()
+    radii = (radius * ratio, radius)[:: rng.choice((-1, 1))]
+    J = STIFF.contact_compliance()(0.0)
+    force = 10 ** rng.uniform(-6, -4) * radius**2 / J
+    exact = reference.hertz_elliptical(force, *radii, 1 / J)
+    area = math.pi * exact.semi_axis_x * exact.semi_axis_y
+    truth = np.array([exact.peak_pressure, area, exact.approach])
+    return vc.Paraboloid(*radii), vc.step(force), truth
+
+
+@pytest.mark.parametrize(
+    ("tolerance", "seeds"),
+    [
+        (0.01, range(8)),
+        pytest.param(0.03, range(100, 120), marks=pytest.mark.slow),
+        pytest.param(0.01, range(200, 260), marks=pytest.mark.slow),
+        pytest.param(0.003, range(300, 315), marks=pytest.mark.slow),
+        pytest.param(0.001, range(400, 405), marks=pytest.mark.slow),
+    ],
+)
+def test_elliptical_contacts_are_hertzs_within_what_is_asked_and_what_is_expected(tolerance, seeds):
+    cells = []
+    for seed in seeds:
+        indenter, load, truth = random_ellipse(seed)
+        run = prepare_run(indenter, STIFF, load, vc.AutomaticGrid(tolerance), [0.0])
+        (values,) = told(indenter, load, run.grid).T
+        errors = np.abs(values / truth - 1)
+        assert errors.max() <= tolerance, f"case {seed}: {errors}"
+        # The estimate is no less than the error, and no more than what was asked for.
+        expected = np.array([run.mesh.errors[name] for name in QUANTITIES])
+        assert (errors <= expected).all(), f"case {seed}: {errors}, expected {expected}"
+        assert expected.max() <= tolerance
+        cells.append(math.prod(run.grid.shape))
+    # Affordable, however long the contact is; the error of the area falls with the cells' length.
+    assert np.mean(cells) <= 3000 + 0.1 / tolerance**2
+
+
+def test_cost_follows_the_tolerance_and_the_quantities():
+    indenter, load = vc.Paraboloid(0.1, 0.01), vc.step(1.0)
+    wishes = [(0.03, QUANTITIES), (0.01, QUANTITIES), (0.003, QUANTITIES)]
+    cells = [
+        math.prod(vc.auto_grid(indenter, STIFF, load, tolerance, quantities=names).shape)
+        for tolerance, names in [*wishes, (0.003, ["approach"])]
+    ]
+    assert cells[0] < cells[1] < cells[2]
+    assert cells[3] < cells[2]  # the approach is the easiest to know
+
+
+@pytest.mark.parametrize("tolerance", [0.01, pytest.param(0.003, marks=pytest.mark.slow)])
+def test_every_instant_of_a_creeping_run_is_within_the_tolerance(tolerance):
+    # Correspondence: under a held load the contact at t is that of an elastic body of J(t); the
+    # pressure is so at t = 0 and after all creep. Here the contact grows from 1 to 10^(1/3).
+    load, times = vc.step(10.0), np.append(0.0, np.geomspace(0.05, 1e4, 12))
+    grid = vc.AutomaticGrid(tolerance)
+    values = told(vc.Paraboloid(0.01, 0.01), load, grid, CREEPING, times)
+    compliance = CREEPING.contact_compliance()
+    assert compliance(1e4) / compliance(0.0) == pytest.approx(10)
+    exact = [reference.hertz_sphere(10.0, 0.01, 1 / compliance(t)) for t in times]
+    area = np.array([math.pi * each.contact_radius**2 for each in exact])
+    np.testing.assert_allclose(values[1], area, rtol=tolerance)
+    np.testing.assert_allclose(values[2], [each.approach for each in exact], rtol=tolerance)
+    # The small contact at the beginning counts, not only the large one at the end.
+    cells = vc.auto_grid(vc.Paraboloid(0.01, 0.01), CREEPING, load, tolerance, end=1e4)
+    assert 2 * exact[0].contact_radius > 20 * cells.cell_size[0]
+    peaks = [exact[0].peak_pressure, exact[-1].peak_pressure]
+    np.testing.assert_allclose(values[0, [0, -1]], peaks, rtol=tolerance)
+
+
+ROLLER = vc.Roller(5e-3, 9.565e-3, 75e-3)
+#: Contacts without an exact solution: shape, load, and how much finer the grid is that tells.
+CONTACTS = {
+    "crowned roller": (ROLLER, vc.step(1e4), 2),
+    "eccentric crowned roller": (ROLLER, vc.step(1e4, eccentricity_x=4.78e-3), 2),
+    "tilted crowned roller": (ROLLER, vc.step(approach=3e-5, tilt_x=1e-3), 2),
+    "tightly crowned roller": (vc.Roller(5e-3, 9.565e-3, 5e-3), vc.step(1e3), 2),
+    "logarithmic roller": (
+        vc.Roller(5e-3, 9.565e-3, profile=vc.LogarithmicProfile(2e-5)),
+        vc.step(1e3),
+        2,
+    ),
+    "ring": (vc.Torus(5e-3, 5e-3), vc.step(3e3), 2),
+    "wavy sphere": (vc.Sphere(0.01) + vc.Waviness(1e-6, 2e-4), vc.step(100.0), 2),
+    "two spheres": (vc.Sphere(0.01) + vc.Sphere(0.03), vc.step(10.0), 3),
+    "askew": (vc.Paraboloid(1.0, 0.01).rotated(0.6), vc.step(10.0), 2),
+    "approach": (vc.Sphere(0.01), vc.step(approach=1e-5), 3),
+    "load and unload": (vc.Sphere(0.01), vc.triangle(10.0, 3.0, 3.0), 3),
+}
+BY_DEFAULT = ("eccentric crowned roller", "tilted crowned roller", "wavy sphere", "load and unload")
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        each if each in BY_DEFAULT else pytest.param(each, marks=pytest.mark.slow)
+        for each in CONTACTS
+    ],
+)
+def test_a_much_finer_grid_agrees_within_the_tolerance(name):
+    indenter, load, finer = CONTACTS[name]
+    times = [3.0] if load.kinks[-1] > 3 else [0.0]
+    run = prepare_run(indenter, STIFF, load, None, times)
+    assert tuple(run.mesh.errors) == QUANTITIES
+    # Not whole multiples: their errors would be alike.
+    shape = tuple(2 * round(1.08 * finer * count / 2) for count in run.grid.shape)
+    grids = run.grid, vc.Grid(shape, run.grid.size)
+    (coarse, fine) = (told(indenter, load, grid, times=times).ravel() for grid in grids)
+    np.testing.assert_allclose(coarse, fine, rtol=0.01)
+
+
+SHARP = {
+    "punch": (vc.FlatPunch(0.01), vc.step(1.0)),
+    "roller": (vc.Roller(0.05, 0.2), vc.step(20.0)),
+    "cone": (vc.Cone(1.4), vc.step(1.0)),
+}
+
+
+@pytest.mark.parametrize("name", SHARP)
+def test_a_singular_pressure_is_left_out_and_told(name):
+    indenter, load = SHARP[name]
+    run = prepare_run(indenter, STIFF, load, None, [0.0])
+    assert tuple(run.mesh.errors) == QUANTITIES[1:]
+    assert math.prod(run.grid.shape) < 2**16
+    result = vc.simulate(indenter, STIFF, load, None, [0.0], fields="none")
+    assert "the peak pressure depends on the mesh here" in str(result.attrs["warnings"])
+    exact = {
+        # Boussinesq: F = 2 E* a delta; Love: F = 2 E* delta^2 tan(beta)/pi, a = pi delta tan/2.
+        "punch": (math.pi * 0.01**2, 1.0 * STIFF.contact_compliance()(0.0) / (2 * 0.01)),
+        "cone": None,
+        "roller": None,
+    }[name]
+    if exact is not None:
+        found = float(result.contact_area[0]), float(result.approach[0])
+        assert found == pytest.approx(exact, rel=0.01)
+
+
+def test_a_smooth_contact_is_not_told_to_be_singular():
+    run = prepare_run(vc.Sphere(0.01), STIFF, vc.step(10.0), None, [0.0])
+    assert run.mesh.doubts == {}
+
+
+def test_cells_are_spent_the_way_that_needs_them():
+    # An eccentric load peaks where the crown begins: along the roller, over a tenth of its length.
+    load = vc.step(1e4, eccentricity_x=4.78e-3)
+    nx, ny = vc.auto_grid(ROLLER, STIFF, load).shape
+    assert nx >= 2 * ny
+    across = vc.step(1e4, eccentricity_y=4.78e-3)
+    assert vc.auto_grid(ROLLER.rotated(math.pi / 2), STIFF, across).shape == (ny, nx)
+
+
+def test_a_wave_has_ten_cells_and_a_map_no_more_than_it_has_points():
+    wave = vc.Waviness(1e-9, 5e-5)
+    grid = vc.auto_grid(vc.Sphere(0.01) + wave, STIFF, vc.step(10.0), 0.1)
+    assert grid.cell_size[0] <= 5e-5 / 10
+    steps = np.linspace(-1e-3, 1e-3, 41)
+    heights = 1e-6 * np.random.default_rng(5).standard_normal((41, 41))
+    rough = vc.HeightMap(steps, steps, heights)
+    mesh = prepare_run(rough, STIFF, vc.step(30.0), vc.AutomaticGrid(1e-3), [0.0]).mesh
+    assert min(mesh.grid.cell_size) > 0.8 * 5e-5  # but for good sizes of transforms
+    assert "steps of the height map" in mesh.doubts["map spacing"]
+
+
+def test_what_cannot_be_reached_is_refused_with_what_can(monkeypatch):
+    monkeypatch.setattr(meshes, "MOST_CELLS", 2**13)
+    indenter, load = vc.Sphere(0.01), vc.step(10.0)
+    with pytest.raises(ValueError, match=r"relative error of 0\.001") as refusal:
+        vc.auto_grid(indenter, STIFF, load, 1e-3)
+    (reachable,) = re.findall(r"tolerance of (\S+) or more", str(refusal.value))
+    assert 1e-3 < float(reachable) < 0.02
+    assert math.prod(vc.auto_grid(indenter, STIFF, load, float(reachable)).shape) <= 2**13
+
+
+def test_a_contact_that_grows_out_of_all_proportion_is_told():
+    fluid = vc.Material(vc.Maxwell(1e9, 1e9), 0.4)
+    run = prepare_run(vc.Paraboloid(0.01, 0.01), fluid, vc.step(1e-3), None, [0.0, 1e6])
+    assert math.prod(run.grid.shape) <= 1.1 * 2**18  # but for good sizes of transforms
+    assert "much smaller when the load is first largest" in run.mesh.doubts["early"]
