@@ -1,6 +1,7 @@
 """A program that lets runs be killed within what they write, and resumes them.
 
-`python killed_run.py lines|limits FOLDER SEED`: FOLDER holds case.yaml. Each run is a process of
+`python killed_run.py lines|limits FOLDER SEED [growing]`: FOLDER holds case.yaml; asked to, its
+grid is too small, and grows. Each run is a process of
 its own that does what ``viscontact run`` does. With ``lines`` it kills itself before a certain line
 of the code that records it, half of the times at a certain line of a resumption as well; with
 ``limits`` the system kills it within the very call that would make a file longer than a limit,
@@ -18,6 +19,7 @@ import resource
 import signal
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from types import FrameType
 from typing import Any
@@ -26,8 +28,10 @@ import numpy as np
 import xarray as xr
 
 import viscontact
-from viscontact.cli import execution, main
+from viscontact.cli import execution, main, preparation
+from viscontact.grid import AutomaticGrid, Grid
 from viscontact.recording import run_record
+from viscontact.run import Run, prepare_run
 
 SOURCES = Path(viscontact.__file__).parent
 WATCHED = (str(SOURCES / "recording"), str(SOURCES / "cli" / "run_directory.py"))
@@ -44,13 +48,21 @@ def differing(result: Path, whole: xr.Dataset) -> list[str]:
     except (OSError, ValueError, RuntimeError) as error:
         return [f"{result} does not open: {error!r}"]
     faults = [f"has no {name}" for name in set(whole.variables) - set(ds.variables)]
+    whole = whole.isel({axis: middle(whole.sizes[axis], ds.sizes[axis]) for axis in ("x", "y")})
     for name, variable in ds.variables.items():
         reference = whole[name].values[: len(variable)]
         if variable.values.tobytes() != reference.tobytes():
             faults.append(f"{name} differs within {len(variable)} rows")
-    if not str(whole.attrs["warnings"]).startswith(str(ds.attrs["warnings"])):
-        faults.append("warnings differ")
+    for name in ("warnings", "grid_enlarged"):
+        if not str(whole.attrs[name]).startswith(str(ds.attrs[name])):
+            faults.append(f"{name} differ")
     return faults
+
+
+def middle(whole: int, part: int) -> slice:
+    """Where the cells lie of a grid that is still to be enlarged."""
+    first = (whole - part) // 2
+    return slice(first, first + part)
 
 
 def complete(directory: Path, whole: xr.Dataset) -> list[str]:
@@ -213,9 +225,19 @@ def at_limits(campaign: Campaign, kind: str) -> None:
         size += STEP
 
 
-def judge(mode: str, folder: Path, seed: int) -> None:
+def outgrown(*arguments: Any, **options: Any) -> Run:
+    """Prepare a run on an automatic grid that is too small."""
+    run = prepare_run(*arguments, **options).on(Grid((16, 16), (2e-3, 2e-3)))
+    return replace(run, automatic=AutomaticGrid())
+
+
+def judge(mode: str, folder: Path, seed: int, *, growing: bool) -> None:
     """Do all of one mode, with checkpoints after every step, and after the first only."""
+    global KILLS, STEP
     os.chdir(folder)
+    if growing:
+        preparation.prepare_run = outgrown
+        KILLS, STEP = KILLS // 3, 3 * STEP  # what else there is to it has been seen without
     os.fsync = lambda descriptor: None  # type: ignore[assignment]  # nothing here cuts the power
     process(nothing, "-o", "whole", "-q")
     with xr.open_dataset("whole/result.nc") as ds:
@@ -224,9 +246,11 @@ def judge(mode: str, folder: Path, seed: int) -> None:
     for kind, pause in (("always", 0.0), ("once", 1e9)):
         run_record.PAUSE, run_record.SHARE = pause, 0.0
         at_lines(campaign, kind, chance) if mode == "lines" else at_limits(campaign, kind)
-    print(json.dumps({"killed": campaign.killed, "faults": campaign.faults}))
+    enlarged = campaign.whole.attrs["grid_enlarged"]
+    found = {"killed": campaign.killed, "faults": campaign.faults, "grid_enlarged": enlarged}
+    print(json.dumps(found))
 
 
 if __name__ == "__main__":
     assert execution  # imported before any of the processes begins
-    judge(sys.argv[1], Path(sys.argv[2]), int(sys.argv[3]))
+    judge(sys.argv[1], Path(sys.argv[2]), int(sys.argv[3]), growing="growing" in sys.argv[4:])

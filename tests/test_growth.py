@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import viscontact as vc
+from measured_swing import write_swing
 from test_run_record import finish, same_bits, stop_after
 from test_step_by_step import differing, through_a_file
 from viscontact.dataset import to_dataset
@@ -58,6 +59,14 @@ def staged(grid: vc.Grid) -> Run:
     return prepare_run(vc.Sphere(0.01), ZENER, load, grid, times, tolerance=TOLERANCE)
 
 
+def jumping(grid: vc.Grid) -> Run:
+    """By a jump to far beyond the first grid: work is done on what had given way out there."""
+    load = vc.ForceHistory([0, 1, 1, 2], [0.01, 0.02, 0.2, 0.2])
+    return prepare_run(
+        vc.Sphere(0.01), ZENER, load, grid, vc.uniform_times(2.0, 8), tolerance=TOLERANCE
+    )
+
+
 def chosen_steps(grid: vc.Grid) -> Run:
     return sphere(grid, times=vc.adaptive_times(3.0, 0.03))
 
@@ -66,6 +75,7 @@ RUNS = {
     "sphere": (sphere, vc.Grid((20, 20), (8e-4, 8e-4))),
     "eccentric": (eccentric, vc.Grid((25, 28), (1e-3, 1.12e-3))),
     "staged": (staged, vc.Grid((20, 20), (8e-4, 8e-4))),
+    "jumping": (jumping, vc.Grid((20, 20), (8e-4, 8e-4))),
     "steps of its choice": (chosen_steps, vc.Grid((20, 20), (8e-4, 8e-4))),
 }
 
@@ -162,6 +172,25 @@ def test_result_holds_what_is_known_on_the_last_grid_and_tells_when_it_grew() ->
     told = ds.attrs["grid_enlarged"].splitlines()
     assert told[0].startswith("t = 0.25 s: from 20 x 20 cells on 0.0008 m x 0.0008 m to 30 x 30")
     assert len(told) == len({state.grid.shape for state in states}) - 1
+
+
+def test_contact_that_the_automatic_extent_has_not_foreseen_is_followed(tmp_path: Path) -> None:
+    """Of a long measured load only the largest and the farthest rows are looked at beforehand."""
+    write_swing(tmp_path / "load.csv")
+    time, force, offset = np.loadtxt(tmp_path / "load.csv", delimiter=",", skiprows=1).T
+    load = vc.ForceHistory(time, force, eccentricity_x=offset)
+    gel = vc.Material(vc.Elastic(1e6), 0.5)
+    ds = vc.simulate(vc.Sphere(0.01), gel, load, AutomaticGrid(tolerance=0.1), [0.2, 1.0])
+    ds = ds.sel(time=[0.2])
+    assert ds.attrs["grid_enlarged"].startswith("t = 0.2 s: from ")
+    # Hertz: a³ = 3 W R / (16 G), here about the eccentricity, as the sphere is free to tilt.
+    radius = (3 * 0.18 * 0.01 / 16e6) ** (1 / 3)
+    assert ds.force[-1] == pytest.approx(0.18, rel=1e-6)
+    assert ds.eccentricity_x[-1] == pytest.approx(6e-4, rel=1e-5)
+    assert ds.contact_length[-1] / 2 == pytest.approx(radius, rel=0.05)
+    pressed = ds.x.values[ds.pressure.values[-1].any(axis=1)]
+    cell = float(ds.x[1] - ds.x[0])
+    assert pressed.max() == pytest.approx(6e-4 + radius, abs=cell)
 
 
 # --- on disk ----------------------------------------------------------------------------------

@@ -155,21 +155,24 @@ def test_run_that_is_killed_at_random_moments_loses_nothing(
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("mode", ["lines", "limits"])
+@pytest.mark.parametrize("mode", ["lines", "limits", "lines growing", "limits growing"])
 def test_run_that_is_killed_within_what_it_writes_loses_nothing(
     mode: str, tmp_path: Path, campaign: Callable[[str], None]
 ) -> None:
     (tmp_path / "case.yaml").write_text(SHORT, encoding="utf-8")
-    command = [sys.executable, str(HERE / "killed_run.py"), mode, str(tmp_path), "1"]
+    at, *grows = mode.split()
+    command = [sys.executable, str(HERE / "killed_run.py"), at, str(tmp_path), "1", *grows]
     done = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True)
     found = json.loads(done.stdout)
     where = {
         "lines": "between two lines of the code that writes",
         "limits": "by the system within a call that writes",
     }
-    campaign(f"{found['killed']} runs killed {where[mode]}: faults {len(found['faults'])}")
+    kind = " whose grid grows" if grows else ""
+    campaign(f"{found['killed']} runs{kind} killed {where[at]}: faults {len(found['faults'])}")
     assert found["faults"] == []
-    assert found["killed"] > 50
+    assert (found["grid_enlarged"] != "") == bool(grows)
+    assert found["killed"] > (15 if grows else 50)
 
 
 @pytest.mark.slow
