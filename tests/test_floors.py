@@ -63,6 +63,9 @@ FLOORS = (
         "past",
         "step_by_step",
         "marching",
+        "sharpness",
+        "companions",
+        "error_bars",
     ),
     (
         "description",
@@ -150,6 +153,12 @@ NEIGHBOURS = {
     ("marching", "step_by_step"),
     ("dataset", "outgrown"),  # fields on a grid that has been enlarged meanwhile
     ("recording", "outgrown"),
+    ("companions", "run"),
+    ("companions", "schedule"),  # coarser steps
+    ("companions", "sharpness"),
+    ("companions", "step_by_step"),  # are marched as any run
+    ("error_bars", "companions"),
+    ("error_bars", "run"),
     ("dataset", "description"),  # the case travels with the result
     ("recording", "dataset"),  # the file is laid out as the dataset is
     ("recording", "description"),  # whose a record is

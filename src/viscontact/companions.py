@@ -1,0 +1,295 @@
+"""Coarser companions of a run, whose differences from it tell how far it is off."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from viscontact.compliance import ContactCompliance
+from viscontact.errors import ConvergenceError, DomainError
+from viscontact.grid import Grid
+from viscontact.load import LoadHistory, LoadPoint
+from viscontact.load.history import Control, Cycle
+from viscontact.memory import plan_memory
+from viscontact.run import Run
+from viscontact.schedule import FixedSteps
+from viscontact.sharpness import is_sharp, touches_end
+from viscontact.state import ContactState
+from viscontact.step_by_step import March
+
+#: Cells of the companions, in cells of the run, and whether they lie about the origin as the run's
+#: do: where a cell's centre was, there may be an edge between two.
+SPACINGS = ((1.5, False), (2.4, True))
+
+#: Their steps, in steps of the run, and how many steps the run must have for that.
+PACES = ((16, (2, 4)), (7, (2, 2)), (0, (1, 1)))
+
+#: Cells that the coarsest companion has across the largest contact; fewer are no contact.
+FEWEST_ACROSS = 4.5
+
+#: The least difference that is worth a run.
+LEAST_COARSENING = 1.6
+
+#: Scalars of a history by name, each over its instants, among them ``time``.
+History = Mapping[str, NDArray[np.float64]]
+
+
+@dataclass(frozen=True, eq=False)
+class Companion:
+    """A run beside a run.
+
+    Attributes
+    ----------
+    spacing : float
+        Its cells, in cells of the run.
+    pace : float
+        Its steps, in steps of the run: 2 for every second one, 0.5 for halves.
+    run : Run
+        What is marched.
+    """
+
+    spacing: float
+    pace: float
+    run: Run
+
+
+@dataclass(frozen=True, eq=False)
+class Course:
+    """What a companion has come to.
+
+    Attributes
+    ----------
+    spacing, pace : float
+        As of the companion.
+    scalars : mapping of str to ndarray
+        The scalars over its instants, ``time`` among them.
+    at_end : ndarray of bool
+        Where contact reaches the end of the body.
+    is_sharp : bool
+        Whether the largest pressure lies on a point or a ridge of the body.
+    """
+
+    spacing: float
+    pace: float
+    scalars: History
+    at_end: NDArray[np.bool_]
+    is_sharp: bool
+
+
+def companions_of(run: Run, history: History) -> Iterator[Companion]:
+    """Yield the companions of a run that is over, the cheapest first.
+
+    Parameters
+    ----------
+    run : Run
+        The run.
+    history : mapping of str to ndarray
+        Its ``time`` [s] and its ``cells_across``.
+
+    Yields
+    ------
+    Companion
+        Two that are coarser in cells and in steps. Where steps are so few that none can be left
+        out, and the bodies creep, one more with halved steps on the coarsest grid.
+    """
+    times = history["time"]
+    count = len(FixedSteps(times, run.load).steps)
+    paces = next(paces for least, paces in PACES if count >= least)
+    spacings = _spacings(float(history["cells_across"].max(initial=0.0)))
+    for (spacing, alike), pace in zip(reversed(spacings), reversed(paces), strict=True):
+        kept = times[::-1][::pace][::-1]
+        yield _companion(run, spacing, alike, float(pace), kept)
+    if paces[-1] == 1 and _creeps(run.compliance, times):
+        instants = np.unique(np.append(0.0, FixedSteps(times, run.load).instants))
+        middles = (instants[1:] + instants[:-1]) / 2
+        yield _companion(run, *spacings[-1], 0.5, np.union1d(times, middles))
+
+
+def coarser_grid(grid: Grid, spacing: float, alike: bool) -> Grid:
+    """Return a grid of larger cells over the same region and a little more.
+
+    Parameters
+    ----------
+    grid : Grid
+        The finer one.
+    spacing : float
+        Cells of the coarser one, in its cells.
+    alike : bool
+        Whether numbers of cells stay even or odd.
+
+    Returns
+    -------
+    Grid
+        A cell larger than the other at least, lest the contact touch its rim.
+
+    Examples
+    --------
+    >>> coarser_grid(Grid((30, 31), (30.0, 31.0)), 2.0, alike=True)
+    Grid(shape=(16, 17), size=(32.0, 34.0))
+    """
+    shape = []
+    for count in grid.shape:
+        coarse = max(4, int(np.ceil(count / spacing - 1e-9)) + 1)
+        shape.append(coarse + ((coarse - count) % 2 == alike))
+    cells = [spacing * cell for cell in grid.cell_size]
+    size = (shape[0] * cells[0], shape[1] * cells[1])
+    return replace(grid, shape=(shape[0], shape[1]), size=size)
+
+
+def marched(companion: Companion, on_step: Callable[[], None] | None = None) -> Course | None:
+    """March a companion.
+
+    Parameters
+    ----------
+    companion : Companion
+        What to march.
+    on_step : callable, optional
+        Called after each of its steps; what it raises ends the march.
+
+    Returns
+    -------
+    Course or None
+        None if it could not be marched to its end: it tells nothing then.
+    """
+    run, states, ends = companion.run, [], []
+    peak = 0.0
+    sharp = False
+    try:
+        for taken in March(run):
+            if on_step is not None:
+                on_step()
+            if taken.state is None:
+                continue
+            states.append(taken.state.without_fields())
+            ends.append(touches_end(run.open_gap, taken.state.pressure > 0))
+            if taken.state.peak_pressure > 1.1 * peak:
+                peak = taken.state.peak_pressure
+                sharp = sharp or _peaks_at_point(run, taken.state)
+    except (ConvergenceError, DomainError):
+        return None
+    return Course(
+        companion.spacing, companion.pace, history_of(states), np.array(ends, dtype=bool), sharp
+    )
+
+
+#: What of a state tells how far it is off.
+SCALARS = (
+    "time",
+    "force",
+    "eccentricity_x",
+    "eccentricity_y",
+    "approach",
+    "tilt_x",
+    "tilt_y",
+    "contact_area",
+    "contact_length",
+    "contact_width",
+    "peak_pressure",
+    "mean_pressure",
+    "work",
+    "loss_per_cycle",
+    "cells_across",
+)
+
+
+def history_of(states: list[ContactState]) -> History:
+    """Return the scalars of states over their instants."""
+    return {name: np.array([getattr(state, name) for state in states], float) for name in SCALARS}
+
+
+def _spacings(across: float) -> tuple[tuple[float, bool], ...]:
+    """The spacings, closer together where the run has few cells across its contact."""
+    coarsest = SPACINGS[-1][0]
+    most = min(coarsest, max(across / FEWEST_ACROSS, LEAST_COARSENING))
+    closer = (most - 1) / (coarsest - 1)
+    return tuple((1 + (spacing - 1) * closer, alike) for spacing, alike in SPACINGS)
+
+
+def _creeps(compliance: ContactCompliance, times: NDArray[np.float64]) -> bool:
+    return bool(compliance(float(times[-1])) != compliance.instant)
+
+
+def _companion(
+    run: Run, spacing: float, alike: bool, pace: float, times: NDArray[np.float64]
+) -> Companion:
+    grid = coarser_grid(run.grid, spacing, alike)
+    open_gap = run.indenter.gap(grid.x[:, None], grid.y[None, :])
+    load = run.load if pace <= 1 else LooserLoad(run.load, pace)
+    coarse = replace(
+        run, grid=grid, open_gap=open_gap, times=times, load=load, adaptive=None, automatic=None
+    )
+    numbers = 2 * open_gap.size // (2 if coarse.is_mirrored else 1)
+    memory = plan_memory(run.compliance, FixedSteps(times, load).instants, numbers)
+    return Companion(spacing, pace, replace(coarse, memory=memory))
+
+
+@dataclass(frozen=True, eq=False)
+class LooserLoad(LoadHistory):
+    """A load that asks for fewer steps of its own.
+
+    Attributes
+    ----------
+    load : LoadHistory
+        The load.
+    pace : float
+        Its longest step, in longest steps of the load.
+    """
+
+    load: LoadHistory
+    pace: float
+
+    @property
+    def control(self) -> Control:  # type: ignore[override]
+        """What the load prescribes along z."""
+        return self.load.control
+
+    def at(self, time: float, *, side: str = "right") -> LoadPoint:
+        """Return what is prescribed at an instant [s]."""
+        return self.load.at(time, side=side)
+
+    def level_at(self, times: ArrayLike, *, side: str = "right") -> NDArray[np.float64]:
+        """Return the force [N] or the approach [m] at many instants [s]."""
+        return self.load.level_at(times, side=side)
+
+    @property
+    def largest_level(self) -> float:
+        """Largest force [N] or approach [m] of the whole history."""
+        return self.load.largest_level
+
+    @property
+    def kinks(self) -> NDArray[np.float64]:
+        """The load's kinks [s]."""
+        return self.load.kinks
+
+    @property
+    def jumps(self) -> NDArray[np.float64]:
+        """The load's jumps [s]."""
+        return self.load.jumps
+
+    @property
+    def longest_step(self) -> float:
+        """Longest step, so many times the load's [s]."""
+        return self.pace * self.load.longest_step
+
+    @property
+    def load_cycles(self) -> tuple[Cycle, ...]:
+        """The load's cycles."""
+        return self.load.load_cycles
+
+    @property
+    def is_even(self) -> bool:
+        """Whether the load is even across y = 0."""
+        return self.load.is_even
+
+
+def _peaks_at_point(run: Run, state: ContactState) -> bool:
+    i, j = np.unravel_index(int(state.pressure.argmax()), state.pressure.shape)
+    dx, dy = run.grid.cell_size
+    place = (float(run.grid.x[i]), float(run.grid.y[j]))
+    extent = min(state.contact_length, state.contact_width)
+    slope = 2 * state.approach / extent if extent > 0 else np.inf
+    return is_sharp(run.indenter, place, (1.5 * dx, 1.5 * dy), float(slope))
