@@ -70,6 +70,7 @@ FLOORS = (
     (
         "description",
         "outgrown",
+        "variables",
         "dataset",
         "results",
         "stated_errors",
@@ -159,7 +160,9 @@ NEIGHBOURS = {
     ("companions", "step_by_step"),  # are marched as any run
     ("error_bars", "companions"),
     ("error_bars", "run"),
+    ("dataset", "variables"),
     ("dataset", "description"),  # the case travels with the result
+    ("recording", "variables"),
     ("recording", "dataset"),  # the file is laid out as the dataset is
     ("recording", "description"),  # whose a record is
     ("recording", "results"),  # what the result is called

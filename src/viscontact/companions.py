@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import itertools
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -13,7 +12,7 @@ from viscontact.compliance import ContactCompliance
 from viscontact.errors import ConvergenceError, DomainError
 from viscontact.grid import Grid
 from viscontact.load import LoadHistory, LoadPoint
-from viscontact.load.history import Control, Cycle
+from viscontact.load.history import Cycle
 from viscontact.memory import plan_memory
 from viscontact.run import Run
 from viscontact.schedule import FixedSteps
@@ -97,8 +96,7 @@ def companions_of(run: Run, history: History) -> Iterator[Companion]:
         out, and the bodies creep, one more with halved steps on the coarsest grid.
     """
     times = history["time"]
-    count = len(FixedSteps(times, run.load).steps)
-    paces = next(paces for least, paces in PACES if count >= least)
+    paces = _paces(len(FixedSteps(times, run.load).steps))
     spacings = _spacings(float(history["cells_across"].max(initial=0.0)))
     for (spacing, alike), pace in zip(reversed(spacings), reversed(paces), strict=True):
         kept = times[::-1][::pace][::-1]
@@ -107,6 +105,27 @@ def companions_of(run: Run, history: History) -> Iterator[Companion]:
         instants = np.unique(np.append(0.0, FixedSteps(times, run.load).instants))
         middles = (instants[1:] + instants[:-1]) / 2
         yield _companion(run, *spacings[-1], 0.5, np.union1d(times, middles))
+
+
+def usual_companions(steps: int) -> tuple[tuple[float, int], ...]:
+    """Return spacings and paces of the companions that a run of so many steps has.
+
+    Parameters
+    ----------
+    steps : int
+        Its steps.
+
+    Examples
+    --------
+    >>> usual_companions(60)
+    ((1.5, 2), (2.4, 4))
+    """
+    paces = _paces(steps)
+    return tuple((spacing, pace) for (spacing, _), pace in zip(SPACINGS, paces, strict=True))
+
+
+def _paces(steps: int) -> tuple[int, int]:
+    return next(paces for least, paces in PACES if steps >= least)
 
 
 def coarser_grid(grid: Grid, spacing: float, alike: bool) -> Grid:
@@ -124,13 +143,17 @@ def coarser_grid(grid: Grid, spacing: float, alike: bool) -> Grid:
     Returns
     -------
     Grid
-        A cell larger than the other at least, lest the contact touch its rim.
+        A cell larger than the other at least, lest the contact touch its rim; of the same size if
+        periodic.
 
     Examples
     --------
     >>> coarser_grid(Grid((30, 31), (30.0, 31.0)), 2.0, alike=True)
     Grid(shape=(16, 17), size=(32.0, 34.0))
     """
+    if grid.periodic:
+        counts = [max(4, round(count / spacing)) for count in grid.shape]
+        return replace(grid, shape=(counts[0], counts[1]))
     shape = []
     for count in grid.shape:
         coarse = max(4, int(np.ceil(count / spacing - 1e-9)) + 1)
@@ -196,7 +219,7 @@ SCALARS = (
 )
 
 
-def history_of(states: list[ContactState]) -> History:
+def history_of(states: Sequence[ContactState]) -> History:
     """Return the scalars of states over their instants."""
     return {name: np.array([getattr(state, name) for state in states], float) for name in SCALARS}
 
@@ -217,12 +240,9 @@ def _companion(
     run: Run, spacing: float, alike: bool, pace: float, times: NDArray[np.float64]
 ) -> Companion:
     grid = coarser_grid(run.grid, spacing, alike)
-    open_gap = run.indenter.gap(grid.x[:, None], grid.y[None, :])
     load = run.load if pace <= 1 else LooserLoad(run.load, pace)
-    coarse = replace(
-        run, grid=grid, open_gap=open_gap, times=times, load=load, adaptive=None, automatic=None
-    )
-    numbers = 2 * open_gap.size // (2 if coarse.is_mirrored else 1)
+    coarse = replace(run.on(grid), times=times, load=load, adaptive=None, automatic=None)
+    numbers = 2 * coarse.open_gap.size // (2 if coarse.is_mirrored else 1)
     memory = plan_memory(run.compliance, FixedSteps(times, load).instants, numbers)
     return Companion(spacing, pace, replace(coarse, memory=memory))
 
@@ -242,10 +262,9 @@ class LooserLoad(LoadHistory):
     load: LoadHistory
     pace: float
 
-    @property
-    def control(self) -> Control:  # type: ignore[override]
-        """What the load prescribes along z."""
-        return self.load.control
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "control", self.load.control)
+        object.__setattr__(self, "unit", self.load.unit)
 
     def at(self, time: float, *, side: str = "right") -> LoadPoint:
         """Return what is prescribed at an instant [s]."""

@@ -40,7 +40,7 @@ class Trust:
     factor: float
 
 
-_BULK, _AREA, _EXTENT, _PEAK = Trust(2.0, 1.15), Trust(2.0, 1.3), Trust(1.0, 0.5), Trust(2.0, 1.5)
+_BULK, _AREA, _EXTENT, _PEAK = Trust(2.0, 1.5), Trust(2.0, 2.0), Trust(1.0, 0.75), Trust(2.0, 3.0)
 
 #: Scalars that have a bar. Pressure is smooth but for the rim, which lies somewhere between cells.
 TRUSTS = {
@@ -59,8 +59,9 @@ TRUSTS = {
     "loss_per_cycle": _BULK,
 }
 
-#: At the end of a body pressure is singular, and cells make a staircase of the end.
-AT_END = Trust(0.7, 0.6)
+#: Approach, force and work where a contact reaches the end of a body: pressure is singular there,
+#: and cells make a staircase of the end.
+AT_END = Trust(0.7, 1.2)
 
 #: What a difference between steps and halved ones counts: four thirds at second order, twice at
 #: first.
@@ -73,8 +74,10 @@ AROUND = 3
 SOLVER = 3.0
 
 #: Scalars that are exactly zero without contact.
-ZERO_APART = ("force", "contact_area", "contact_length", "contact_width", "peak_pressure")
-ZERO_APART += ("mean_pressure",)
+ZERO_APART = (
+    *("force", "contact_area", "contact_length", "contact_width"),
+    *("peak_pressure", "mean_pressure"),
+)
 
 #: What has no limit grows by at least this part of the mean pressure as cells shrink by a factor e:
 #: under a wedge it is 0.64, under a cone 1.
@@ -105,9 +108,7 @@ class ErrorBars:
     warnings: tuple[str, ...]
 
 
-def error_bars(
-    run: Run, history: History, on_step: Callable[[], None] | None = None
-) -> ErrorBars:
+def error_bars(run: Run, history: History, on_step: Callable[[], None] | None = None) -> ErrorBars:
     """Estimate how far the scalars of a run are off, from companions that are marched for it.
 
     Parameters
@@ -163,9 +164,7 @@ def bars_from(run: Run, history: History, courses: Iterable[Course]) -> ErrorBar
     if not found:
         return ErrorBars({name: np.full(len(history["time"]), np.nan) for name in TRUSTS}, ())
     at_end = _around(_flags_at(history["time"], found)) > 0
-    values = {
-        name: _bar(run, name, _Levels.of(name, history, found), at_end) for name in TRUSTS
-    }
+    values = {name: _bar(run, name, _Levels.of(name, history, found), at_end) for name in TRUSTS}
     apart = _surely_apart(run, history)
     for name in ZERO_APART:
         values[name][apart] = 0.0
@@ -194,7 +193,9 @@ class _Levels:
         rows = np.stack([own, *(_aligned(name, times, course) for course in grids)])
         by_steps = np.zeros(len(times))
         for twin in twins:
-            like = [row for row, c in zip(rows[1:], grids, strict=True) if c.spacing == twin.spacing]
+            like = [
+                row for row, c in zip(rows[1:], grids, strict=True) if c.spacing == twin.spacing
+            ]
             for row in like:
                 by_steps = HALVED * np.abs(row - _aligned(name, times, twin))
         return cls((1.0, *(course.spacing for course in grids)), rows, by_steps)
@@ -211,7 +212,9 @@ class _Levels:
 def _bar(run: Run, name: str, levels: _Levels, at_end: NDArray[np.bool_]) -> Array:
     own = np.abs(levels.values[0])
     scale = _around(own)
-    by_cells = np.where(at_end, levels.by_cells(AT_END), levels.by_cells(TRUSTS[name]))
+    by_cells = levels.by_cells(TRUSTS[name])
+    if TRUSTS[name] is _BULK:
+        by_cells = np.where(at_end, levels.by_cells(AT_END), by_cells)
     nothing = np.where(np.isnan(by_cells), np.nan, 0.0)
     parts = [
         _around(np.divide(part, scale, out=nothing.copy(), where=scale > 0))
@@ -222,15 +225,17 @@ def _bar(run: Run, name: str, levels: _Levels, at_end: NDArray[np.bool_]) -> Arr
     return np.where(np.isnan(own), np.nan, bar)
 
 
-def _endless(history: History, courses: list[Course], at_end: NDArray[np.bool_]) -> Array:
+def _endless(
+    history: History, courses: list[Course], at_end: NDArray[np.bool_]
+) -> NDArray[np.bool_]:
     """Where the largest pressure has no limit: by the body's shape, or by what the grids show."""
-    contact = history["peak_pressure"] > 0
+    contact = np.asarray(history["peak_pressure"] > 0)
     if any(course.is_sharp for course in courses):
         return contact
     levels = _Levels.of("peak_pressure", history, courses)
     order = np.argsort(levels.spacings)
     if len(order) < 3:
-        return contact & at_end
+        return np.asarray(contact & at_end)
     three = order[[0, 1, -1]]
     peaks = levels.values[three]
     spacings = np.array(levels.spacings)[three]
@@ -241,12 +246,12 @@ def _endless(history: History, courses: list[Course], at_end: NDArray[np.bool_])
     # A contact of few cells is no contact on the coarsest grid.
     fine = history["cells_across"] >= FEWEST_ACROSS * spacings[-1]
     endless = np.where(known, ~verdict.converges & grows & fine, np.nan)
-    return contact & (at_end | (_mean_around(endless) > 0.5))
+    return np.asarray(contact & (at_end | (_mean_around(endless) > 0.5)))
 
 
 def _surely_apart(run: Run, history: History) -> NDArray[np.bool_]:
     """Where there is no contact, and none that is lost or made between two instants."""
-    apart = history["peak_pressure"] == 0
+    apart = np.asarray(history["peak_pressure"] == 0)
     if run.load.control == "force":
         return apart
     return np.asarray(apart & ~(_around(~apart, 1) > 0))

@@ -14,6 +14,7 @@ import numpy as np
 from scipy import fft
 
 from viscontact.adaptive import likely_steps
+from viscontact.companions import usual_companions
 from viscontact.estimate import ContactEstimate, estimate_contact, level_of
 from viscontact.extent import largest_load
 from viscontact.foresight import foreseen_doubts
@@ -74,13 +75,15 @@ class Forecast:
     doubts: dict[str, str]
 
 
-def forecast(run: Run) -> Forecast:
+def forecast(run: Run, *, errors: bool = False) -> Forecast:
     """Foresee a run.
 
     Parameters
     ----------
     run : Run
         A run that has been checked.
+    errors : bool
+        Whether the errors of its scalars are estimated as well.
 
     Returns
     -------
@@ -114,7 +117,7 @@ def forecast(run: Run) -> Forecast:
     return Forecast(
         memory=needed_memory(run.grid, run.memory.fields_kept) + BYTES_PER_STEP * _step_count(run),
         available=available_memory(),
-        seconds=_seconds(run),
+        seconds=_seconds(run, errors=errors),
         estimate=estimate,
         compliance=named,
         cells_along=along,
@@ -221,10 +224,14 @@ def _telling_compliance(run: Run, time: float) -> tuple[float, str]:
     return float(run.compliance(time)), "the compliance of that instant"
 
 
-def _seconds(run: Run) -> float:
-    steps = _step_count(run)
-    convolutions = FIRST_STEP + LATER_STEP * steps
-    return _convolution_time(run.grid) * convolutions + BESIDES * steps
+def _seconds(run: Run, *, errors: bool) -> float:
+    steps, each = _step_count(run), _convolution_time(run.grid)
+    marches = [(steps, each)]
+    if errors:
+        marches += [
+            (steps / pace, each / spacing**2) for spacing, pace in usual_companions(round(steps))
+        ]
+    return sum(one * (FIRST_STEP + LATER_STEP * count) + BESIDES * count for count, one in marches)
 
 
 def _step_count(run: Run) -> float:

@@ -157,7 +157,7 @@ def elastic_cone(rng: np.random.Generator, most: int) -> ExactRun:
 
 
 def elastic_punch(rng: np.random.Generator, most: int) -> ExactRun:
-    """Sneddon 1965: a round flat punch, the force beside its axis; infinite pressure at its edge."""
+    """Sneddon 1965: a round flat punch, the force beside its axis; infinite at its edge."""
     shear, ratio, modulus = moduli(rng)
     radius, force = 10 ** rng.uniform(-3, -1), 10 ** rng.uniform(-2, 3)
     aside = rng.uniform(0.0, 0.3) * radius

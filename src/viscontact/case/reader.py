@@ -57,6 +57,8 @@ class Case:
         The grid, or what is asked of an automatic one; None if nothing is said of it.
     fields : str or tuple of float
         ``"all"``, ``"none"``, or the instants whose fields are kept [s].
+    errors : bool
+        Whether the errors of the scalars are estimated.
     tolerance : float
         Relative error of pressure and balances.
     load_file : Path or None
@@ -79,6 +81,7 @@ class Case:
     times: NDArray[np.float64] | AdaptiveTimes
     grid: Grid | AutomaticGrid | None
     fields: str | tuple[float, ...]
+    errors: bool
     tolerance: float
     load_file: Path | None
     files: Mapping[KeyPath, Path]
@@ -207,6 +210,7 @@ def _case(document: Document, found: CaseFile) -> Case:
         times=with_instants(times, fields),
         grid=found.grid.noun() if found.grid else None,
         fields=fields,
+        errors=found.output.errors,
         tolerance=found.tolerance,
         load_file=found.load.table,
         files=files,

@@ -157,6 +157,11 @@ class Output(Section):
         description="instants whose pressure, gap and displacement are kept, or all, or none; "
         "ten of the run's instants when left out",
     )
+    errors: bool = Field(
+        default=True,
+        description="whether the errors of the scalars are estimated after the last step, from two "
+        "coarser companions of the run, which takes about two thirds of its time",
+    )
 
 
 def kept_fields(

@@ -112,7 +112,8 @@ class _Attempt:
 def _attempt(request: RunRequest, interruption: Interruption) -> _Attempt:
     directory = _directory(request)
     prepared = prepare(request.case, request.settings, request.threads)
-    recorded = Recorded(directory, prepared.run, prepared.case.fields, prepared.case.title)
+    case = prepared.case
+    recorded = Recorded(directory, prepared.run, case.fields, case.title, case.errors)
     return _Attempt(request, prepared, recorded, interruption)
 
 
@@ -230,7 +231,8 @@ def _march(attempt: _Attempt, record: RunRecord) -> None:
 
 def _is_marched_to_the_end(attempt: _Attempt, record: RunRecord) -> bool:
     """March until the end, or until somebody wants it to stop, and leave everything saved."""
-    run = attempt.recorded.run
+    recorded = attempt.recorded
+    run = recorded.run
     total = None if run.adaptive else len(run.times)
     with shown_progress(total, record.resumed, quiet=attempt.request.quiet) as progress:
         for state in record.steps(progress):
@@ -238,9 +240,17 @@ def _is_marched_to_the_end(attempt: _Attempt, record: RunRecord) -> bool:
             if attempt.interruption.requested and not is_last:
                 record.checkpoint()
                 return False
-        record.finish()
-        attempt.interruption.over = True
+    if recorded.errors:
+        attempt.say("estimating errors from two coarser companions of the run")
+    record.finish(record.estimate_errors(partial(_stop_if_asked, attempt.interruption)))
+    attempt.interruption.over = True
     return True
+
+
+def _stop_if_asked(interruption: Interruption) -> None:
+    """End the estimate of errors; it is made anew when the run is taken up."""
+    if interruption.requested:
+        raise KeyboardInterrupt
 
 
 def _publish(record: RunRecord) -> None:

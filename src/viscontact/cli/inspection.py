@@ -47,7 +47,7 @@ def print_forecast(prepared: Prepared) -> Forecast:
         What was printed.
     """
     try:
-        expected = forecast(prepared.run)
+        expected = forecast(prepared.run, errors=prepared.case.errors)
     except ValueError as error:
         refuse(*prepared.case.error(str(error)).problems)
     console, doubts = Console(), _doubts(expected, prepared.run.grid)

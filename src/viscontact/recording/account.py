@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time as clock
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from viscontact.grid import Grid
@@ -42,6 +42,10 @@ class Account:
         if state.grid != self.grid:
             self._enlarged.append(enlargement(state.time, self.grid, state.grid))
             self.grid = state.grid
+
+    def doubt(self, warnings: Sequence[str]) -> None:
+        """Take down warnings that no single state has raised."""
+        self._warnings += warnings
 
     @property
     def attributes(self) -> dict[str, Any]:

@@ -11,18 +11,20 @@ import netCDF4
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.dataset import (
-    COORDINATES,
-    FIELDS,
-    OUTCOME_FLAGS,
-    SCALARS,
-    Variable,
-    field_axis,
-)
+from viscontact.dataset import field_axis
 from viscontact.grid import Grid
 from viscontact.instants import field_instants
 from viscontact.outgrown import on_wider
 from viscontact.state import ContactState
+from viscontact.variables import (
+    COORDINATES,
+    ERRORS,
+    FIELDS,
+    OUTCOME_FLAGS,
+    SCALARS,
+    Variable,
+    scalar_attributes,
+)
 
 #: Memory that rows on their way from one file to another may take [bytes].
 BLOCK = 2**23
@@ -53,13 +55,23 @@ class Layout:
         Grid of the fields.
     axis : str or None
         The dimension over which fields are kept, ``time`` or ``field_time``; None without fields.
+    errors : bool
+        Whether there is room for the errors of the scalars, which are NaN until they are known.
     """
 
     grid: Grid
     axis: str | None
+    errors: bool = False
 
     @classmethod
-    def of(cls, grid: Grid, times: NDArray[np.float64], fields: str | Sequence[float]) -> Self:
+    def of(
+        cls,
+        grid: Grid,
+        times: NDArray[np.float64],
+        fields: str | Sequence[float],
+        *,
+        errors: bool = False,
+    ) -> Self:
         """Return the layout of a run's result.
 
         Parameters
@@ -70,6 +82,8 @@ class Layout:
             Instants of the run [s].
         fields : "all", "none" or sequence of float
             Instants [s] whose fields are kept.
+        errors : bool
+            Whether there is room for errors.
 
         Examples
         --------
@@ -77,13 +91,14 @@ class Layout:
         >>> Layout.of(grid, np.array([0.0, 1.0]), [1.0]).axis
         'field_time'
         """
-        return cls(grid, field_axis(fields) if field_instants(fields, times).size else None)
+        return cls(grid, field_axis(fields) if field_instants(fields, times).size else None, errors)
 
     @property
     def columns(self) -> dict[str, tuple[Variable, tuple[str, ...]]]:
         """Each variable with its dimensions, in the order of the file."""
         columns = {name: (variable, (name,)) for name, variable in COORDINATES.items()}
-        columns |= {name: (variable, ("time",)) for name, variable in SCALARS.items()}
+        scalars = SCALARS | ERRORS if self.errors else SCALARS
+        columns |= {name: (variable, ("time",)) for name, variable in scalars.items()}
         found: dict[str, tuple[Variable, tuple[str, ...]]] = dict(columns)
         if self.axis is None:
             return found
@@ -126,6 +141,8 @@ def created(path: Path, layout: Layout, attributes: Mapping[str, Any]) -> netCDF
     for name, (variable, dimensions) in layout.columns.items():
         _create(file, name, variable, dimensions)
     file["x"][:], file["y"][:] = layout.grid.x, layout.grid.y
+    for name in SCALARS:
+        file[name].setncatts(scalar_attributes(name, errors=layout.errors))
     file["outcome"].setncatts(OUTCOME_FLAGS)
     _keep_little(file)
     return file
@@ -187,6 +204,32 @@ def write_scalars(file: netCDF4.Dataset, row: int, states: Sequence[ContactState
     for name, variable in {"time": COORDINATES["time"], **SCALARS}.items():
         values = np.array([getattr(state, name) for state in states], dtype=variable.kind)
         file.variables[name][row : row + len(states)] = values
+
+
+def read_scalars(file: netCDF4.Dataset) -> dict[str, NDArray[np.float64]]:
+    """Read all scalars, and their instants.
+
+    Parameters
+    ----------
+    file : netCDF4.Dataset
+        A result.
+    """
+    names = ("time", *SCALARS)
+    return {name: np.asarray(file.variables[name][:], dtype=np.float64) for name in names}
+
+
+def write_errors(file: netCDF4.Dataset, values: Mapping[str, NDArray[np.float64]]) -> None:
+    """Write the errors of the scalars, for all rows at once.
+
+    Parameters
+    ----------
+    file : netCDF4.Dataset
+        Open for appending, laid out for errors.
+    values : mapping of str to ndarray
+        The errors by the scalar's name.
+    """
+    for name, errors in values.items():
+        file.variables[f"{name}_error"][: len(errors)] = errors
 
 
 def write_fields(file: netCDF4.Dataset, layout: Layout, row: int, state: ContactState) -> None:

@@ -8,9 +8,9 @@ import os
 from pathlib import Path
 from typing import Any, Self
 
-from viscontact.dataset import SCALARS
 from viscontact.recording.closing import Closing
 from viscontact.state import ContactState, Outcome
+from viscontact.variables import SCALARS
 
 #: How much of a file is read at once [bytes].
 BLOCK = 2**16

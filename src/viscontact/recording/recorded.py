@@ -56,25 +56,32 @@ class Recorded:
         Instants [s] whose fields are kept.
     title : str
         The result's title.
+    errors : bool
+        Whether the errors of the scalars are estimated once the march is over.
     """
 
     directory: Path
     run: Run
     fields: str | Sequence[float]
     title: str = ""
+    errors: bool = False
 
     @property
     def case(self) -> dict[str, Any]:
         """The run in plain words: what must be the same to go on with it."""
-        described = {**describe_run(self.run), "fields": describe(self.fields)}
+        described = {
+            **describe_run(self.run),
+            "fields": describe(self.fields),
+            "errors": self.errors,
+        }
         plain: dict[str, Any] = json.loads(json.dumps(described))
         return plain
 
     @property
     def attributes(self) -> dict[str, Any]:
         """Attributes of the result."""
-        fields = json.dumps(self.case["fields"])
-        return {"title": self.title, **run_attributes(self.run), "fields": fields}
+        about = {name: json.dumps(self.case[name]) for name in ("fields", "errors")}
+        return {"title": self.title, **run_attributes(self.run), **about}
 
 
 def saved_state(recorded: Recorded) -> Checkpoint:
@@ -136,6 +143,7 @@ def new_writer(recorded: Recorded) -> ResultWriter:
         recorded.run.times,
         fields=recorded.fields,
         attributes=recorded.attributes,
+        errors=recorded.errors,
     )
 
 
@@ -168,6 +176,7 @@ def same_writer(recorded: Recorded, position: Carried) -> ResultWriter:
         position,
         fields=recorded.fields,
         attributes=recorded.attributes,
+        errors=recorded.errors,
     )
 
 

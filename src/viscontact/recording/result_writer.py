@@ -13,11 +13,19 @@ import netCDF4
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.error_bars import ErrorBars
 from viscontact.grid import Grid
 from viscontact.instants import field_instants
 from viscontact.recording.account import NOTHING_YET, Account
 from viscontact.recording.closing import Closing
-from viscontact.recording.layout import Extent, Layout, write_fields, write_scalars
+from viscontact.recording.layout import (
+    Extent,
+    Layout,
+    read_scalars,
+    write_errors,
+    write_fields,
+    write_scalars,
+)
 from viscontact.recording.soundness import sound_times, stored_grid
 from viscontact.recording.two_copies import TwoCopies
 from viscontact.state import ContactState
@@ -50,6 +58,8 @@ class ResultWriter(Closing):
         Instants [s] whose fields are written.
     attributes : dict
         Global attributes.
+    errors : bool
+        Whether `finish` will be given errors of the scalars.
 
     Notes
     -----
@@ -81,8 +91,11 @@ class ResultWriter(Closing):
         *,
         fields: str | Sequence[float] = "all",
         attributes: Mapping[str, Any] | None = None,
+        errors: bool = False,
     ) -> None:
-        self._set_up(Path(path), grid, times, START, fields, attributes, is_there=False)
+        self._set_up(
+            Path(path), grid, times, START, fields, attributes, is_there=False, errors=errors
+        )
         with self._writing():
             self._copies.begin(self._all_attributes())
 
@@ -96,6 +109,7 @@ class ResultWriter(Closing):
         *,
         fields: str | Sequence[float] = "all",
         attributes: Mapping[str, Any] | None = None,
+        errors: bool = False,
     ) -> Self:
         """Go on with a result from a position.
 
@@ -113,6 +127,8 @@ class ResultWriter(Closing):
             Instants [s] whose fields are written.
         attributes : dict
             Global attributes.
+        errors : bool
+            As for a new result.
 
         Returns
         -------
@@ -125,7 +141,9 @@ class ResultWriter(Closing):
             If the result cannot be read, is another run's, or has fewer rows than that.
         """
         writer = cls.__new__(cls)
-        writer._set_up(Path(path), grid, times, position, fields, attributes, is_there=True)
+        writer._set_up(
+            Path(path), grid, times, position, fields, attributes, is_there=True, errors=errors
+        )
         there = sound_times(writer._path, writer._layout, writer._done)
         writer._ahead = there[writer._done.rows :].tolist()
         writer._copies.take_over(writer._done)
@@ -141,13 +159,14 @@ class ResultWriter(Closing):
         attributes: Mapping[str, Any] | None,
         *,
         is_there: bool,
+        errors: bool,
     ) -> None:
         self._done = Extent(position["rows"], position["field_rows"])
         self._kept = set(field_instants(fields, times).tolist())
         self._account = Account(grid, position)
         # A file that is gone on with may be ahead of the position, on a wider grid.
         laid_out = stored_grid(path, self._account.grid) if is_there else grid
-        self._path, self._layout = path, Layout.of(laid_out, times, fields)
+        self._path, self._layout = path, Layout.of(laid_out, times, fields, errors=errors)
         self._copies = TwoCopies(path, self._layout)
         self._attributes = {**(attributes or {}), "complete": np.int32(0)}
         # States without fields, of rows from `_written` on.
@@ -218,8 +237,31 @@ class ResultWriter(Closing):
         """
         return self._copies.published == self._done or self._publish()
 
-    def finish(self) -> None:
+    @property
+    def grid(self) -> Grid:
+        """Grid of the last state, the widest so far."""
+        return self._account.grid
+
+    def history(self) -> dict[str, NDArray[np.float64]]:
+        """Return all scalars so far, and their instants, as they are written.
+
+        Raises
+        ------
+        OSError
+            If they cannot be written.
+        """
+        with self._writing():
+            self._write_waiting(self._copies.file)
+            found = read_scalars(self._copies.file)
+        return {name: values[: self._done.rows] for name, values in found.items()}
+
+    def finish(self, bars: ErrorBars | None = None) -> None:
         """Publish for the last time, as complete, and remove the working copy.
+
+        Parameters
+        ----------
+        bars : ErrorBars, optional
+            Errors of the scalars, of all rows.
 
         Raises
         ------
@@ -228,6 +270,10 @@ class ResultWriter(Closing):
         """
         if self._ahead:
             self._cut()
+        if bars is not None:
+            with self._writing():
+                write_errors(self._copies.file, bars.values)
+            self._account.doubt(bars.warnings)
         self._attributes["complete"] = np.int32(1)
         for _ in range(TRIES):
             if self._publish():

@@ -9,6 +9,7 @@ from contextlib import AbstractContextManager, nullcontext, suppress
 from typing import Self
 
 from viscontact.carried import Carried
+from viscontact.error_bars import ErrorBars, error_bars
 from viscontact.marching import Progress
 from viscontact.recording.checkpoint import STATE_NAME, Checkpoint, save_checkpoint
 from viscontact.recording.progress import ProgressLog
@@ -213,8 +214,39 @@ class RunRecord:
             with self._undisturbed():
                 self._publish()
 
-    def finish(self) -> None:
+    def estimate_errors(self, on_step: Callable[[], None] | None = None) -> ErrorBars | None:
+        """Estimate the errors of the scalars, once all steps are taken; save these before.
+
+        Parameters
+        ----------
+        on_step : callable, optional
+            Called after each step of a companion; what it raises ends the estimate, which is made
+            anew then when the run is taken up.
+
+        Returns
+        -------
+        ErrorBars or None
+            None where none are wanted.
+
+        Raises
+        ------
+        OSError
+            If something cannot be written; what has been recorded stays.
+        """
+        if not self._recorded.errors:
+            return None
+        self.checkpoint()
+        with self._undisturbed():
+            history = self._writer.history()
+        return error_bars(self._recorded.run.on(self._writer.grid), history, on_step)
+
+    def finish(self, bars: ErrorBars | None = None) -> None:
         """Put the result in its place, complete; nothing is needed any more to go on.
+
+        Parameters
+        ----------
+        bars : ErrorBars, optional
+            From `estimate_errors`.
 
         Raises
         ------
@@ -225,7 +257,7 @@ class RunRecord:
             if self._lines is not None:
                 # Once the state is gone nothing could bring back a line that the power took.
                 self._lines.flush_to_disk()
-            self._writer.finish()
+            self._writer.finish(bars)
             self.published = self._instants
             self.close()
             remove_traces(self._recorded.directory)

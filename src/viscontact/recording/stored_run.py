@@ -59,4 +59,5 @@ def _case(file: netCDF4.Dataset) -> dict[str, Any] | None:
     if not {"case", "fields"} <= set(file.ncattrs()):
         return None
     case, fields = (json.loads(str(file.getncattr(name))) for name in ("case", "fields"))
-    return {**case, "fields": fields}
+    errors = json.loads(str(file.getncattr("errors"))) if "errors" in file.ncattrs() else False
+    return {**case, "fields": fields, "errors": errors}

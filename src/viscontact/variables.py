@@ -1,0 +1,102 @@
+"""What a result holds: its variables, their units and what they are."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from viscontact.error_bars import TRUSTS
+from viscontact.state import Outcome
+
+
+@dataclass(frozen=True)
+class Variable:
+    """A variable of the result.
+
+    Attributes
+    ----------
+    units : str
+        Its unit, as CF and UDUNITS write it.
+    long_name : str
+        What it is.
+    kind : str
+        NumPy's name of its type.
+    """
+
+    units: str
+    long_name: str
+    kind: str = "f8"
+
+    @property
+    def attributes(self) -> dict[str, Any]:
+        """Attributes the variable carries."""
+        return {"units": self.units, "long_name": self.long_name}
+
+
+COORDINATES = {
+    "time": Variable("s", "time"),
+    "x": Variable("m", "position along the indenter"),
+    "y": Variable("m", "position across the indenter"),
+}
+
+FIELDS = {
+    "pressure": Variable("Pa", "contact pressure, positive in compression"),
+    "gap": Variable("m", "gap, positive when open"),
+    "displacement": Variable("m", "surface displacement, positive into the half-space"),
+}
+
+SCALARS = {
+    "force": Variable("N", "force on the contact"),
+    "eccentricity_x": Variable("m", "position of the resultant along x"),
+    "eccentricity_y": Variable("m", "position of the resultant along y"),
+    "approach": Variable("m", "rigid approach, positive when the bodies come closer"),
+    "tilt_x": Variable("rad", "rigid slope along x, positive when the +x end is deeper"),
+    "tilt_y": Variable("rad", "rigid slope along y, positive when the +y end is deeper"),
+    "contact_area": Variable("m2", "contact area"),
+    "contact_length": Variable("m", "extent of the contact along x"),
+    "contact_width": Variable("m", "extent of the contact along y"),
+    "peak_pressure": Variable("Pa", "largest pressure"),
+    "mean_pressure": Variable("Pa", "force over contact area"),
+    "work": Variable("J", "work of the load on the contact since the start"),
+    "loss_per_cycle": Variable("J", "work that the last whole cycle of the load has cost"),
+    "time_error": Variable("1", "estimated relative error of pressure owed to the time steps"),
+    "iterations": Variable("1", "iterations of the contact solver", "i4"),
+    "residual": Variable("1", "relative violation of the contact conditions"),
+    "cells_across": Variable("1", "cells across the contact, along its shorter way", "i4"),
+    "outcome": Variable("1", "how the instant ended", "i1"),
+}
+
+#: CF's way to write an enumeration.
+OUTCOME_FLAGS = {
+    "flag_values": np.array([outcome.value for outcome in Outcome], dtype="i1"),
+    "flag_meanings": " ".join(outcome.name.lower() for outcome in Outcome),
+}
+
+#: The errors of scalars, by their own names.
+ERRORS = {
+    f"{name}_error": Variable(SCALARS[name].units, f"estimated error of: {SCALARS[name].long_name}")
+    for name in TRUSTS
+}
+
+
+def scalar_attributes(name: str, *, errors: bool) -> dict[str, Any]:
+    """Return what a scalar carries, with CF's pointer to its error if it has one.
+
+    Parameters
+    ----------
+    name : str
+        The scalar.
+    errors : bool
+        Whether the result has errors.
+
+    Examples
+    --------
+    >>> scalar_attributes("force", errors=True)["ancillary_variables"]
+    'force_error'
+    """
+    attributes = SCALARS[name].attributes
+    if errors and name in TRUSTS:
+        attributes["ancillary_variables"] = f"{name}_error"
+    return attributes
