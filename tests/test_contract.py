@@ -326,20 +326,27 @@ SCALARS = {
     **{"loss_per_cycle": "J", "time_error": "1"},
     **{"iterations": "1", "residual": "1", "cells_across": "1", "outcome": "1"},
 }
+ERRORS = {
+    f"{name}_error": unit
+    for name, unit in SCALARS.items()
+    if name not in ("time_error", "iterations", "residual", "cells_across", "outcome")
+}
 FIELDS = {"pressure": "Pa", "gap": "m", "displacement": "m"}
 COORDINATES = {"time": "s", "x": "m", "y": "m"}
 KINDS = {"iterations": "i", "cells_across": "i", "outcome": "i"}
 
 
 def _check_variables(ds: xr.Dataset) -> None:
-    assert set(ds.data_vars) == {*SCALARS, *FIELDS}
+    assert set(ds.data_vars) == {*SCALARS, *ERRORS, *FIELDS}
     assert set(ds.coords) == set(COORDINATES)
-    for name, unit in {**SCALARS, **FIELDS, **COORDINATES}.items():
+    for name, unit in {**SCALARS, **ERRORS, **FIELDS, **COORDINATES}.items():
         assert ds[name].attrs["units"] == unit, name
         assert ds[name].attrs["long_name"], name
         assert ds[name].dtype.kind == KINDS.get(name, "f"), name
         assert "axis" not in ds[name].attrs, name
-    assert all(ds[name].dims == ("time",) for name in SCALARS)
+    assert all(ds[name].dims == ("time",) for name in (*SCALARS, *ERRORS))
+    for name in ERRORS:
+        assert ds[name.removesuffix("_error")].attrs["ancillary_variables"] == name
     assert all(ds[name].dims == ("time", "x", "y") for name in FIELDS)
     assert all(ds[name].dtype == np.float64 for name in (*FIELDS, *COORDINATES))
     assert ds.outcome.attrs["flag_values"].tolist() == [0, 1, 2]
@@ -480,7 +487,7 @@ def test_fields_are_kept_at_all_instants_at_none_or_at_those_asked_for(ds: xr.Da
     by_array = vc.simulate(BALL, RUBBER, LOAD, GRID, np.array(TIMES), fields=np.array([0.0, 5.0]))
     np.testing.assert_array_equal(by_array.pressure, some.pressure)
     none = vc.simulate(BALL, RUBBER, LOAD, GRID, TIMES, fields="none")
-    assert set(none.data_vars) == set(SCALARS)
+    assert set(none.data_vars) == {*SCALARS, *ERRORS}
     np.testing.assert_array_equal(none.approach, ds.approach)
     with pytest.raises(ValueError, match=r"fields: 0\.7 s is not among the run's times"):
         vc.simulate(BALL, RUBBER, LOAD, GRID, TIMES, fields=[0.7])

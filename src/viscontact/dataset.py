@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact import __version__
 from viscontact.companions import history_of
 from viscontact.description import describe_run
-from viscontact.error_bars import ErrorBars, error_bars
+from viscontact.error_bars import ErrorBars, error_bars, unknown_bars
 from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
 from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
@@ -136,7 +136,9 @@ def simulate(
             states.append(state if kept else state.without_fields())
     except (ConvergenceError, DomainError) as stop:
         if states:
-            stop.partial = to_dataset(run, states, fields, clock.perf_counter() - started)
+            bars = unknown_bars(len(states)) if errors else None
+            wall_time = clock.perf_counter() - started
+            stop.partial = to_dataset(run, states, fields, wall_time, bars)
         raise
     bars = _bars(run, states) if errors else None
     return to_dataset(run, states, fields, clock.perf_counter() - started, bars)

@@ -162,7 +162,7 @@ def bars_from(run: Run, history: History, courses: Iterable[Course]) -> ErrorBar
     """
     found = list(courses)
     if not found:
-        return ErrorBars({name: np.full(len(history["time"]), np.nan) for name in TRUSTS}, ())
+        return unknown_bars(len(history["time"]))
     at_end = _around(_flags_at(history["time"], found)) > 0
     values = {name: _bar(run, name, _Levels.of(name, history, found), at_end) for name in TRUSTS}
     apart = _surely_apart(run, history)
@@ -171,6 +171,22 @@ def bars_from(run: Run, history: History, courses: Iterable[Course]) -> ErrorBar
     endless = _endless(history, found, at_end)
     values["peak_pressure"][endless] = np.inf
     return ErrorBars(values, (SINGULAR,) if endless.any() else ())
+
+
+def unknown_bars(count: int) -> ErrorBars:
+    """Return errors that are not known, of so many instants.
+
+    Parameters
+    ----------
+    count : int
+        How many.
+
+    Examples
+    --------
+    >>> unknown_bars(2).values["force"]
+    array([nan, nan])
+    """
+    return ErrorBars({name: np.full(count, np.nan) for name in TRUSTS}, ())
 
 
 @dataclass(frozen=True, eq=False)

@@ -81,6 +81,7 @@ def is_sharp(
     part = np.linspace(-1.0, 1.0, 2 * SAMPLES + 1)
     x, y = (centre + part * far for centre, far in zip(place, reach, strict=True))
     gap = indenter.gap(x[:, None], y[None, :])
+    gap = np.where(np.isinf(gap), np.nan, gap)  # where the body ends, nothing bends
     for axis, far in enumerate(reach):
         close, wide = (_bend(gap, axis, step) / (step * far / SAMPLES) for step in (1, 4))
         if close > MILD * slope and close > BENT * wide:
@@ -92,4 +93,4 @@ def _bend(gap: NDArray[np.float64], axis: int, step: int) -> float:
     """Largest second difference along an axis, positive where the body points downwards [m]."""
     lines = np.moveaxis(gap, axis, 0)
     bends = lines[2 * step :] - 2 * lines[step:-step] + lines[: -2 * step]
-    return float(np.nan_to_num(bends[np.isfinite(bends)]).max(initial=0.0))
+    return float(bends[np.isfinite(bends)].max(initial=0.0))
