@@ -34,7 +34,9 @@ def random_problem(seed):
     load = _load(rng, force, reach, duration)
     shape = (int(rng.integers(32, 65)), int(rng.integers(32, 65)))
     if size is None:
-        size = vc.auto_grid(indenter, material, load, end=float(times[-1])).size
+        # Only how large it is: as coarse as it may be.
+        wish = {"tolerance": 0.5, "quantities": ["approach"]}
+        size = vc.auto_grid(indenter, material, load, end=float(times[-1]), **wish).size
     return Problem(indenter, material, load, vc.Grid(shape, size), times)
 
 
