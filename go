@@ -54,10 +54,16 @@ def lint(args: list[str]) -> int:
 
 
 def bench(args: list[str]) -> int:
-    """Time a run in reference convolutions."""
-    if not (ROOT / "benchmarks" / "run.py").exists():
-        raise TaskError("there is no benchmarks/run.py")
-    return run(["benchmarks/run.py", *args])
+    """Time the paper's rollers, or what is named first: published, peers, growth, ..."""
+    folder = ROOT / "benchmarks"
+    if not folder.is_dir():
+        raise TaskError("there are no benchmarks here")
+    if not args or args[0].startswith("-"):
+        return run(["benchmarks/run.py", *args])
+    script = BENCHMARKS.get(args[0])
+    if script is None:
+        raise TaskError(f"no benchmark '{args[0]}'; there are {', '.join(BENCHMARKS)}")
+    return run([f"benchmarks/{script}", *args[1:]])
 
 
 def build(args: list[str]) -> int:
@@ -76,6 +82,18 @@ def lock(args: list[str]) -> int:
     uv = ["-m", "uv", "pip", "compile", "pyproject.toml"]
     return run([*uv, *options.split(), *wanted.split(), *written, *args])
 
+
+#: What `./go bench` takes as its first word.
+BENCHMARKS = {
+    "run": "run.py",
+    "costs": "cost_model.py",
+    "convolutions": "convolutions.py",
+    "growth": "growth.py",
+    "published": "published.py",
+    "build-peers": "peers/build.py",
+    "peers": "peers/compare.py",
+    "long-runs": "long_runs.py",
+}
 
 TASKS = {"demo": demo, "test": test, "lint": lint, "bench": bench, "build": build, "lock": lock}
 

@@ -1,0 +1,201 @@
+"""Where the time of the roller's run goes: by part of the step, and counted.
+
+The parts are timed exclusively (what a part calls is not its own), in CPU time, by clocks around
+functions of the package; the clocks themselves cost about 1 us a call. Memory is counted as page
+faults: 4 KiB each that the operating system had to hand out anew, because an array was allocated
+that no freed one made room for.
+
+    python benchmarks/cost_model.py [--tolerance 1e-5 1e-6 1e-8] [--cells 256 256] [--steps 120]
+"""
+
+from __future__ import annotations
+
+import argparse
+import functools
+import platform
+import resource
+import time
+from collections import Counter
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from datetime import date
+from typing import Any
+
+import numpy as np
+import scipy
+from cases import Case, roller
+from run import reference_convolution, seconds_of
+
+import viscontact as vc
+from viscontact import bedding, contact, convolution, half_space, past, search
+from viscontact.memory.recursion import RecursiveMemory
+from viscontact.observation import Observer
+
+#: Part of a step, and the functions that make it up: where they are looked up, and their names.
+PARTS: tuple[tuple[str, tuple[tuple[Any, str], ...]], ...] = (
+    ("operators: made", ((half_space.HalfSpace, "__init__"), (half_space.HalfSpace, "_patch"))),
+    (
+        "convolution",
+        ((convolution.Convolution, "apply"), (convolution.MirroredConvolution, "apply")),
+    ),
+    ("preconditioner", ((convolution.Preconditioner, "apply"),)),
+    ("measure: gap and error", ((search, "measure"), (contact, "measure"))),
+    ("directions: project, inner products", ((search.Search, "_advance"),)),
+    ("step: move, cut, balance", ((search.Search, "_step"), (search.Search, "__init__"))),
+    ("solve: embed, certify, balance", ((past, "solve_contact"),)),
+    ("cold start", ((contact, "settle_on_bedding"), (bedding, "settle_on_bedding"))),
+    ("memory: ask", ((RecursiveMemory, "ramp"), (RecursiveMemory, "jump"))),
+    ("memory: accept", ((RecursiveMemory, "accept"),)),
+    ("prediction", ((past, "predict"), (past, "_guess"))),
+    ("twin and time error", ((past.Past, "_tried"), (past.Past, "accept"))),
+    ("state: unfold", ((past, "_whole"),)),
+    ("state: rim, area, work, doubts", ((Observer, "observe"), (Observer, "judge"))),
+    ("preparation", ((vc.march.__globals__["prepare_run"].__globals__, "prepare_run"),)),
+)
+
+
+@dataclass
+class Clocks:
+    """Exclusive CPU time [s] and calls of each part."""
+
+    seconds: Counter[str] = field(default_factory=Counter)
+    calls: Counter[str] = field(default_factory=Counter)
+    _running: list[str] = field(default_factory=lambda: ["the rest"])
+    _since: float = 0.0
+
+    def start(self) -> None:
+        self._since = time.process_time()
+
+    def enter(self, part: str) -> None:
+        self._charge()
+        self.calls[part] += 1
+        self._running.append(part)
+
+    def leave(self) -> None:
+        self._charge()
+        self._running.pop()
+
+    def _charge(self) -> None:
+        now = time.process_time()
+        self.seconds[self._running[-1]] += now - self._since
+        self._since = now
+
+
+def clocked(act: Callable[..., Any], part: str, clocks: Clocks) -> Callable[..., Any]:
+    @functools.wraps(act)
+    def timed(*args: Any, **kwargs: Any) -> Any:
+        name = f"{part}, {_precision(args[0])}" if part == "convolution" else part
+        clocks.enter(name)
+        try:
+            return act(*args, **kwargs)
+        finally:
+            clocks.leave()
+
+    return timed
+
+
+def _precision(operator: Any) -> str:
+    single = operator._number is np.float32
+    return "single, on the patch" if single else "double, on the whole grid"
+
+
+@contextmanager
+def clocks_around_parts(clocks: Clocks) -> Iterator[None]:
+    """Put the clocks in, and take them out again."""
+    before = []
+    for part, functions in PARTS:
+        for owner, name in functions:
+            if isinstance(owner, dict) or not hasattr(owner, name):
+                continue
+            original = getattr(owner, name)
+            before.append((owner, name, original))
+            setattr(owner, name, clocked(original, part, clocks))
+    try:
+        yield
+    finally:
+        for owner, name, original in reversed(before):
+            setattr(owner, name, original)
+
+
+@dataclass(frozen=True)
+class Costs:
+    """What a run cost: seconds [s] and calls by part, iterations, new memory [bytes]."""
+
+    seconds: Counter[str]
+    calls: Counter[str]
+    iterations: int
+    steps: int
+    new_memory: int
+
+    @property
+    def total(self) -> float:
+        return sum(self.seconds.values())
+
+
+def costs_of(case: Case, tolerance: float) -> Costs:
+    clocks, iterations, steps = Clocks(), 0, 0
+    faults = resource.getrusage(resource.RUSAGE_SELF).ru_minflt
+    clocks.start()
+    with clocks_around_parts(clocks):
+        for state in case.march(tolerance):
+            iterations += state.iterations
+            steps += 1
+    clocks._charge()
+    new = (resource.getrusage(resource.RUSAGE_SELF).ru_minflt - faults) * resource.getpagesize()
+    return Costs(clocks.seconds, clocks.calls, iterations, steps, new)
+
+
+def table(costs: Costs, case: Case, reference: float) -> str:
+    per_step = 1e3 / costs.steps
+    lines = [f"{'':44} calls/step  ms/step  of the run"]
+    for part, seconds in costs.seconds.most_common():
+        if seconds < 0.004 * costs.total:
+            continue
+        lines.append(
+            f"{part:44} {costs.calls[part] / costs.steps:10.2f} {seconds * per_step:8.3f}"
+            f" {seconds / costs.total:10.1%}"
+        )
+    fields = costs.new_memory / costs.steps / (8 * np.prod(case.grid.shape))
+    lines.append(
+        f"{'all':44} {'':10} {costs.total * per_step:8.3f}"
+        f"   {costs.total:.2f} s, {costs.total / reference:.0f} reference convolutions,"
+        f" {costs.iterations / costs.steps:.2f} iterations a step,"
+        f" new memory a step: {fields:.1f} fields of the whole grid"
+    )
+    return "\n".join(lines)
+
+
+def where_and_when() -> str:
+    return (
+        f"{date.today()}, {platform.machine()}, Python {platform.python_version()}, "
+        f"NumPy {np.__version__}, SciPy {scipy.__version__}, viscontact {vc.__version__}"
+    )
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--tolerance", type=float, nargs="+", default=[1e-5, 1e-6, 1e-8])
+    parser.add_argument("--cells", type=int, nargs=2, default=(256, 256))
+    parser.add_argument("--steps", type=int, default=120)
+    parser.add_argument("--crown", type=float, nargs="+", default=[75.0, 7500.0], help="mm")
+    parser.add_argument("--eccentricity", type=float, nargs="+", default=[0.5], help="of L")
+    parser.add_argument("--repeat", type=int, default=3)
+    options = parser.parse_args()
+    print(where_and_when())
+    convolve = reference_convolution(tuple(options.cells))
+    convolve()
+    reference = min(seconds_of(convolve) for _ in range(60))
+    print(f"one reference convolution: {reference * 1e3:.2f} ms")
+    for crown in options.crown:
+        for eccentricity in options.eccentricity:
+            case = roller(crown * 1e-3, eccentricity, tuple(options.cells), options.steps)
+            for tolerance in options.tolerance:
+                runs = [costs_of(case, tolerance) for _ in range(options.repeat)]
+                best = min(runs, key=lambda costs: costs.total)
+                print(f"\ncrown {crown:g} mm, e/L = {eccentricity:g}, tolerance {tolerance:g}")
+                print(table(best, case, reference), flush=True)
+
+
+if __name__ == "__main__":
+    main()

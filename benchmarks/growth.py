@@ -1,0 +1,87 @@
+"""How a run's cost grows: with cells, steps, exponentials of the law, rows of a measured table.
+
+The paper's roller (crown 75 mm, e/L = 0.5) at tolerance 1e-6, from the preparation to the last
+state; CPU time, and reference convolutions for a step.
+
+    python benchmarks/growth.py [cells steps terms rows]
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator
+
+import numpy as np
+from cases import PMMA, Case, roller
+from run import reference_convolution, seconds_of
+
+import viscontact as vc
+
+CROWN, ECCENTRICITY, TOLERANCE = 75e-3, 0.5, 1e-6
+BASE_CELLS, BASE_STEPS = (128, 128), 120
+
+
+def series(terms: int) -> vc.Law:
+    """PMMA's creep, spread over as many exponentials between 1 s and 1000 s."""
+    amplitude = (6.17e-11 + 8.38e-11) / terms
+    return vc.CreepSeries(5.545e-10, [amplitude] * terms, np.geomspace(1.0, 1000.0, terms))
+
+
+def measured(rows: int) -> vc.Law:
+    """PMMA's creep as a table of that many rows."""
+    times = np.concatenate([[0.0], np.geomspace(1e-2, 2000.0, rows - 1)])
+    return vc.TabulatedCreep(times, PMMA(times))
+
+
+def cells() -> Iterator[tuple[str, Case]]:
+    for shape in ((64, 64), (128, 128), (256, 256), (512, 512), (1024, 1024)):
+        yield f"{np.prod(shape)} cells", roller(CROWN, ECCENTRICITY, shape, 30)
+
+
+def steps() -> Iterator[tuple[str, Case]]:
+    for count in (30, 120, 480, 1000):
+        yield f"{count} steps", roller(CROWN, ECCENTRICITY, BASE_CELLS, count)
+
+
+def terms() -> Iterator[tuple[str, Case]]:
+    for count in (1, 2, 5, 10, 20):
+        law = series(count)
+        yield f"{count} exponentials", roller(CROWN, ECCENTRICITY, BASE_CELLS, BASE_STEPS, law)
+
+
+def rows() -> Iterator[tuple[str, Case]]:
+    for count in (10, 100, 1000):
+        law = measured(count)
+        yield f"table of {count} rows", roller(CROWN, ECCENTRICITY, BASE_CELLS, BASE_STEPS, law)
+
+
+GROWTHS = {"cells": cells, "steps": steps, "terms": terms, "rows": rows}
+
+
+def cost(case: Case, repeats: int) -> str:
+    convolve = reference_convolution(case.grid.shape)
+    convolve()
+    reference = min(seconds_of(convolve) for _ in range(20))
+
+    def run() -> None:
+        for _ in case.march(TOLERANCE):
+            pass
+
+    seconds = min(seconds_of(run) for _ in range(repeats))
+    per_step = seconds / (len(case.times) - 1)
+    return f"{seconds:8.2f} s {per_step * 1e3:9.2f} ms {per_step / reference:14.2f}"
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("which", nargs="*", default=list(GROWTHS), help=", ".join(GROWTHS))
+    parser.add_argument("--repeat", type=int, default=2)
+    options = parser.parse_args()
+    print(f"{'':22}  the run       a step   in reference convolutions")
+    for which in options.which:
+        for name, case in GROWTHS[which]():
+            print(f"{name:22} {cost(case, options.repeat)}", flush=True)
+
+
+if __name__ == "__main__":
+    main()

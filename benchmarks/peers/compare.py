@@ -1,0 +1,232 @@
+"""The package beside its peers: the same problems, one thread each, at equal measured error.
+
+Each program climbs a ladder of tolerances in an environment of its own (see build.py). The error
+of a pressure is its relative L2 distance from the solution at tolerance 1e-12: this package's in
+free space, where all programs have the same influence coefficients (and agree to 1e-11), each
+program's own on a period. The CPU time at an error is read off the ladder between its rungs
+(log-log). For creep the pressures at five of 120 instants are taken together; the distances from
+a run in 16 times as many steps and from Lee and Radok's exact solution are printed beside.
+
+    python benchmarks/peers/compare.py [PROBLEM ...] [--programs NAME ...] [--points]
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import subprocess
+import sys
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from build import PACKAGES, python_of
+from problems import PROBLEMS, RECORDED, STEPS, SharedProblem
+
+import viscontact as vc
+
+HERE = Path(__file__).resolve().parent
+TARGETS = (1e-6, 1e-8)
+LADDER = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10)
+#: Of programs that take minutes: what is between is interpolated.
+SHORT_LADDER = (1e-5, 1e-7, 1e-9)
+TIGHTEST = 1e-12
+FULL = ("sphere512", "sphere1024", "roller", "rough-free", "rough-periodic", "zener256", "zener512")
+
+#: One thread each, whatever a program brings along.
+ONE_THREAD = {f"{name}_NUM_THREADS": "1" for name in ("OMP", "OPENBLAS", "MKL", "NUMBA")}
+
+
+@dataclass(frozen=True)
+class Program:
+    """A program, in one of the ways of using it."""
+
+    name: str
+    driver: str
+    arguments: tuple[str, ...] = ()
+    creep: bool | None = None  # None: both kinds
+    any_cells: bool = True
+    ladder: tuple[float, ...] = LADDER
+
+    def takes(self, problem: SharedProblem) -> str:
+        """Why it cannot take the problem; empty if it can."""
+        if self.creep is not None and problem.creeps != self.creep:
+            return "-"
+        if not self.any_cells and not problem.square_cells:
+            return "only square grids of square cells"
+        if self.name == "viscontact" and problem.name.startswith("free rough"):
+            return "-"  # it refuses contact at the rim; its solver is in the row below
+        return ""
+
+    @property
+    def python(self) -> Path:
+        return Path(sys.executable) if self.driver == "viscontact" else python_of(self.driver)
+
+
+PROGRAMS = (
+    Program("viscontact", "viscontact", ("{problem}",)),
+    Program("viscontact, solver", "viscontact", creep=False),
+    Program("ASPHER", "aspher", any_cells=False),
+    Program("tamaas", "tamaas", ladder=SHORT_LADDER),
+    Program("tamaas, Maxwell", "tamaas", ("maxwell",), creep=True, ladder=(1e-5,)),
+    Program("ContactMechanics", "contactmechanics", creep=False, ladder=SHORT_LADDER),
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Climb:
+    """What a program reached: a pressure and CPU and wall time [s] for each tolerance."""
+
+    version: str
+    tolerances: np.ndarray
+    pressures: np.ndarray
+    cpu: np.ndarray
+    wall: np.ndarray
+
+    def errors(self, truth: np.ndarray) -> np.ndarray:
+        return np.array([distance(pressure, truth) for pressure in self.pressures])
+
+
+def distance(pressure: np.ndarray, truth: np.ndarray) -> float:
+    return float(np.linalg.norm(pressure - truth) / np.linalg.norm(truth))
+
+
+def climb(
+    program: Program, name: str, problem: SharedProblem, tolerances: tuple[float, ...], limit: float
+) -> Climb | str:
+    """Run a driver; why there is nothing, in words, if there is nothing."""
+    with tempfile.TemporaryDirectory() as directory:
+        given, found = Path(directory) / "problem.npz", Path(directory) / "result.npz"
+        arrays = problem.arrays()
+        arrays["tolerances"] = np.array(tolerances)
+        arrays["repeats"], arrays["budget"] = np.array(5), np.array(3.0)
+        arrays["displacement_scale"] = np.array(_displacement(problem))
+        np.savez(given, **arrays)
+        driver = HERE / f"driver_{program.driver}.py"
+        arguments = [argument.format(problem=name) for argument in program.arguments]
+        command = [str(program.python), str(driver), str(given), str(found), *arguments]
+        environment = os.environ | ONE_THREAD
+        if program.driver != "viscontact":
+            environment.pop("PYTHONPATH", None)
+        try:
+            done = subprocess.run(
+                command, env=environment, text=True, capture_output=True, timeout=limit, check=False
+            )
+        except subprocess.TimeoutExpired:
+            return f"no answer within {limit:g} s"
+        if done.returncode or not found.exists():
+            return (done.stderr.strip().splitlines() or ["no reason given"])[-1]
+        result = np.load(found)
+        if not len(result["tolerances"]):
+            return done.stderr.strip().splitlines()[-1]
+        names = ("tolerances", "pressures", "cpu", "wall")
+        return Climb(str(result["version"]), *(result[each] for each in names))
+
+
+def _displacement(problem: SharedProblem) -> float:
+    """About the largest displacement [m], for a program that wants its tolerance as a length."""
+    force, (along, across) = problem.force, problem.size
+    return force / max(along, across)  # u = F/(pi E* r), a contact's width from the force
+
+
+def at_error(climbed: Climb, errors: np.ndarray, target: float) -> str:
+    """CPU time at an error, between the rungs of the ladder."""
+    known = errors > 0
+    order = np.argsort(errors[known])
+    error, cpu = errors[known][order], np.maximum.accumulate(climbed.cpu[known][order][::-1])[::-1]
+    if target < error[0]:
+        return "not reached"
+    seconds = float(np.exp(np.interp(np.log(target), np.log(error), np.log(cpu))))
+    return f"{'<' if target > error[-1] else ''}{seconds:.3g}"
+
+
+def truth_of(name: str, problem: SharedProblem, limit: float) -> np.ndarray | None:
+    """This package's solution at the tightest tolerance."""
+    for program in PROGRAMS[:2]:
+        if not program.takes(problem):
+            found = climb(program, name, problem, (TIGHTEST,), limit)
+            if isinstance(found, Climb):
+                return found.pressures[0]
+    return None
+
+
+def in_more_steps(problem: SharedProblem, times: int = 16) -> np.ndarray:
+    """Pressures at the recorded instants by this package in more steps."""
+    load = vc.step(problem.force, tilt_x=0.0, tilt_y=0.0)
+    instants = vc.uniform_times(float(STEPS), STEPS * times)
+    grid = vc.Grid(problem.shape, problem.size)
+    case = (problem.indenter, problem.material, load, grid, instants)
+    states = enumerate(vc.march(*case, tolerance=1e-9))
+    wanted = {step * times for step in RECORDED}
+    return np.stack([state.pressure for step, state in states if step in wanted])
+
+
+def exact(problem: SharedProblem) -> np.ndarray:
+    """Lee and Radok's pressures at the recorded instants and the cell centres."""
+    compliance = problem.material.contact_compliance()
+    arrays = problem.arrays()
+
+    def modulus(t: np.ndarray) -> np.ndarray:
+        branches = zip(arrays["moduli"], arrays["maxwell_times"], strict=True)
+        return arrays["equilibrium_modulus"] + sum(m * np.exp(-t / tau) for m, tau in branches)
+
+    contact = vc.reference.lee_radok_step(problem.force, 1.0, compliance, modulus)
+    x, y = problem.centres()
+    r = np.hypot(x[:, None], y[None, :])
+    # Smooth in r² but for the rim: thousands of radii are as good as all cells.
+    radii = np.linspace(0.0, r.max(), 4001)
+    return np.stack([np.interp(r, radii, contact.pressure(radii, float(t))) for t in RECORDED])
+
+
+def compare(name: str, programs: list[Program], limit: float, *, points: bool) -> None:
+    problem = PROBLEMS[name]()
+    print(f"\n{problem.name}", flush=True)
+    truth = truth_of(name, problem, limit)
+    far = (in_more_steps(problem), exact(problem)) if problem.creeps else ()
+    heading = f"{'':20} {'CPU s at 1e-6':>14} {'at 1e-8':>12}"
+    print(heading + ("   from 16 x steps  from exact" if far else ""))
+    for program in programs:
+        why = program.takes(problem)
+        if why == "-":
+            continue
+        if not why and not program.python.exists():
+            why = "not built: ./go bench build-peers"
+        own = problem.periodic or truth is None
+        ladder = (*program.ladder, TIGHTEST) if own else program.ladder
+        found = why or climb(program, name, problem, ladder, limit)
+        if isinstance(found, str):
+            print(f"{program.name:20} {found}", flush=True)
+            continue
+        errors = found.errors(found.pressures[-1] if own else truth)
+        line = f"{program.name:20} " + " ".join(
+            f"{at_error(found, errors, target):>{width}}"
+            for target, width in zip(TARGETS, (14, 12), strict=True)
+        )
+        best = found.pressures[-1]
+        line += "".join(f" {distance(best, other):15.2e}" for other in far)
+        print(f"{line}   {found.version}", flush=True)
+        if points:
+            rungs = zip(found.tolerances, errors, found.cpu, found.wall, strict=True)
+            for tolerance, error, cpu, wall in rungs:
+                print(
+                    f"{'':20} tolerance {tolerance:7g}: error {error:8.1e}, CPU {cpu:.3f} s"
+                    f" (wall {wall:.3f} s)"
+                )
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("problems", nargs="*", default=FULL, help=", ".join(PROBLEMS))
+    parser.add_argument("--programs", nargs="+", help=", ".join(p.name for p in PROGRAMS))
+    parser.add_argument("--points", action="store_true", help="print the ladder, rung by rung")
+    parser.add_argument("--limit", type=float, default=900.0, help="seconds for one program")
+    options = parser.parse_args()
+    wanted = [p for p in PROGRAMS if not options.programs or p.name in options.programs]
+    print(f"one thread; peers that can be built: {', '.join(PACKAGES)}")
+    for name in options.problems:
+        compare(name, wanted, options.limit, points=options.points)
+
+
+if __name__ == "__main__":
+    main()

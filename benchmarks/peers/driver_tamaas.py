@@ -1,0 +1,105 @@
+"""tamaas: Polonsky, Keer and Rey's solver; around it a loop for creep, and its own Maxwell solver.
+
+The first argument after the files, if it is `maxwell`, asks for the latter.
+"""
+
+from __future__ import annotations
+
+import sys
+
+import creep_loop
+import numpy as np
+import tamaas as tm
+from ladder import Problem, climb
+
+MOST_ITERATIONS = 20000
+
+
+def made(problem: Problem, modulus: float) -> tm.Model:
+    """A model of that E* (Poisson's ratio 0)."""
+    model = tm.ModelFactory.createModel(
+        tm.model_type.basic_2d, problem["size"].tolist(), list(problem["gap"].shape)
+    )
+    model.E, model.nu = modulus, 0.0
+    if not problem["periodic"]:
+        tm.ModelFactory.registerNonPeriodic(model, "dcfft")
+    return model
+
+
+def solver_of(problem: Problem, model: tm.Model, surface: np.ndarray, tolerance: float):
+    by = tm.PolonskyKeerRey.pressure
+    solver = tm.PolonskyKeerRey(model, surface, tolerance, by, by)
+    if not problem["periodic"]:
+        solver.setIntegralOperator("dcfft")
+    solver.max_iter = MOST_ITERATIONS
+    return solver
+
+
+def mean_pressure(problem: Problem) -> float:
+    return float(problem["force"] / problem["size"].prod())
+
+
+def elastic(problem: Problem, tolerance: float) -> np.ndarray:
+    model = made(problem, 1 / float(problem["instant"]))
+    solver = solver_of(problem, model, -problem["gap"], tolerance)
+    reached = solver.solve(mean_pressure(problem))
+    if not reached <= tolerance:
+        raise RuntimeError(f"stopped at {reached:g}")
+    return np.array(model.traction)
+
+
+def creep(problem: Problem, tolerance: float) -> np.ndarray:
+    model = made(problem, 1.0)
+    surface = np.zeros_like(problem["gap"])
+    solver = solver_of(problem, model, surface, tolerance)
+    operator = model.operators["dcfft"]
+
+    def solve(gap: np.ndarray, start: np.ndarray | None) -> tuple[np.ndarray, np.ndarray]:
+        solver.surface[...] = -gap.ravel()
+        if start is not None:
+            model.traction[...] = start
+        reached = solver.solve(mean_pressure(problem))
+        if not reached <= tolerance:
+            raise RuntimeError(f"stopped at {reached:g}")
+        pressure, deflection = np.array(model.traction), np.zeros_like(gap)
+        operator(pressure, deflection)
+        return pressure, deflection
+
+    return creep_loop.march(problem, solve)
+
+
+def maxwell(problem: Problem, tolerance: float) -> np.ndarray:
+    """Its own generalized Maxwell body (relaxation), by backward Euler in equal steps."""
+    steps = np.diff(problem["times"])
+    # E* = 4 G of an incompressible body: moduli of the branches are given as shear moduli.
+    shear = problem["moduli"] / 4
+    model = made(problem, 1.0)
+    model.nu = 0.5
+    model.E = 3 * float(problem["equilibrium_modulus"]) / 4
+    solver = tm.MaxwellViscoelastic(
+        model,
+        -problem["gap"],
+        tolerance,
+        time_step=float(steps[0]),
+        shear_moduli=shear.tolist(),
+        characteristic_times=problem["maxwell_times"].tolist(),
+    )
+    solver.setIntegralOperator("dcfft")
+    solver.max_iter = 300  # it goes on to the last at every step once it stagnates
+    recorded = []
+    for step in range(1, len(steps) + 1):
+        solver.solve(mean_pressure(problem))  # takes the step into its memory, too
+        if step in problem["recorded"]:
+            recorded.append(np.array(model.traction))
+    return np.stack(recorded)
+
+
+def solve(problem: Problem, tolerance: float) -> np.ndarray:
+    if "times" not in problem:
+        return elastic(problem, tolerance)
+    return (maxwell if "maxwell" in sys.argv[3:] else creep)(problem, tolerance)
+
+
+if __name__ == "__main__":
+    tm.set_log_level(tm.LogLevel.error)
+    climb(solve, f"tamaas {tm.__version__}")

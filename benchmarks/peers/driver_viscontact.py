@@ -1,0 +1,66 @@
+"""This package: its contact solver on the arrays that the others get, or its public run."""
+
+from __future__ import annotations
+
+import sys
+from functools import cache
+
+import numpy as np
+from ladder import Problem, climb
+from problems import PROBLEMS, RECORDED, STEPS, SharedProblem
+
+import viscontact as vc
+from viscontact.balance import Support
+from viscontact.contact import solve_contact
+from viscontact.contact_problem import ContactProblem
+from viscontact.half_space import HalfSpace
+
+
+def elastic(problem: Problem, tolerance: float) -> np.ndarray:
+    """The solver alone: arrays in, arrays out."""
+    shape = problem["gap"].shape
+    half_space = HalfSpace(_grid(shape, problem))
+    posed = ContactProblem(
+        problem["gap"],
+        float(problem["instant"]),
+        Support((float(problem["force"]), None, None)),
+        1e-12 * float((problem["size"] / shape).max()),
+    )
+    solution = solve_contact(posed, half_space, tolerance=tolerance)
+    if not solution.converged:
+        raise RuntimeError(f"stopped at {solution.residual:g}")
+    return solution.found.pressure
+
+
+def run(case: SharedProblem, tolerance: float) -> np.ndarray:
+    """The whole run, as its user calls it: checks, symmetry, areas and doubts with it."""
+    load = vc.step(case.force, tilt_x=0.0, tilt_y=0.0)
+    times = vc.uniform_times(float(STEPS), STEPS) if case.creeps else [0.0]
+    grid = _grid(case.shape, {"size": np.array(case.size), "periodic": case.periodic})
+    arguments = (case.indenter, case.material, load, grid, times)
+    recorded, pressures = RECORDED if case.creeps else (0,), []
+    for step, state in enumerate(vc.march(*arguments, tolerance=tolerance)):
+        if step in recorded:
+            pressures.append(state.pressure)
+    return np.stack(pressures) if case.creeps else pressures[0]
+
+
+def _grid(shape: tuple[int, int], problem: Problem) -> vc.Grid:
+    size = tuple(np.asarray(problem["size"]).tolist())
+    if not problem["periodic"]:
+        return vc.Grid(shape, size)
+    return vc.Grid(shape, size, periodic=True)
+
+
+@cache
+def shared(name: str) -> SharedProblem:
+    return PROBLEMS[name]()
+
+
+def solve(problem: Problem, tolerance: float) -> np.ndarray:
+    wanted = sys.argv[3:]
+    return run(shared(wanted[0]), tolerance) if wanted else elastic(problem, tolerance)
+
+
+if __name__ == "__main__":
+    climb(solve, f"viscontact {vc.__version__}")
