@@ -30,6 +30,7 @@ FLOORS = (
         "stress_influence",
         "memory",
         "state",
+        "outline",
         "rim",
         "hull",
         "richardson",
@@ -100,6 +101,7 @@ NEIGHBOURS = {
     ("grid", "real"),
     ("material", "compliance"),  # what contact sees of it
     ("memory", "compliance"),  # the past is weighted by it
+    ("rim", "outline"),  # where the body ends inside a cell
     ("bedding", "balance"),  # which resultants the first guess carries
     ("half_space", "balance"),  # the rigid planes and the operators over one grid
     ("half_space", "convolution"),

@@ -17,6 +17,7 @@ from viscontact.grid import Grid
 from viscontact.growth import Enlargement
 from viscontact.load.history import LoadPoint
 from viscontact.material_doubts import data_doubts, early_doubts, law_doubts, passivity_doubts
+from viscontact.outline import trace_outline
 from viscontact.plausibility import (
     REFUSED_CELLS,
     Doubts,
@@ -28,7 +29,7 @@ from viscontact.plausibility import (
     touch_doubts,
     untold_doubts,
 )
-from viscontact.rim import Rim, trace_outline, trace_rim
+from viscontact.rim import Rim, trace_rim
 from viscontact.run import Run
 from viscontact.schedule import SAME, Step
 from viscontact.state import ContactState, Instant, Outcome

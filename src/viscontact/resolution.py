@@ -18,7 +18,8 @@ from viscontact.grid import GRID_QUANTITIES, Grid
 from viscontact.half_space import HalfSpace
 from viscontact.indenters import Indenter
 from viscontact.load import LoadPoint
-from viscontact.rim import trace_outline, trace_rim
+from viscontact.outline import trace_outline
+from viscontact.rim import trace_rim
 
 #: A trial solve converges to this part of the tolerance, and at least to this.
 EXACT, EXACT_ENOUGH = 0.01, 1e-4

@@ -9,8 +9,8 @@ from contourpy import LineType, contour_generator
 from matplotlib.path import Path
 from numpy.typing import NDArray
 
+from viscontact.outline import Outline
 from viscontact.plot.snapshots import Snapshot
-from viscontact.rim import Outline
 
 
 def rim_polygons(snapshot: Snapshot) -> list[NDArray[np.float64]]:

@@ -11,8 +11,8 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.grid import Grid
+from viscontact.outline import Outline, trace_outline
 from viscontact.plot.recorded import recorded_noun
-from viscontact.rim import Outline, trace_outline
 
 
 @dataclass(frozen=True)

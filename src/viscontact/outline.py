@@ -1,0 +1,84 @@
+"""Where a body ends, between the centres of a grid's cells."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.grid import Grid
+from viscontact.indenters import Indenter
+
+#: Halvings of a cell that place the outline to rounding.
+BISECTIONS = 45
+
+
+@dataclass(frozen=True, eq=False)
+class Outline:
+    """Where the indenter's outline crosses the lines between neighbouring cell centres.
+
+    Attributes
+    ----------
+    along_x : ndarray, shape (nx - 1, ny)
+        Distance of the crossing from the inner centre, in cells; NaN where there is none.
+    along_y : ndarray, shape (nx, ny - 1)
+        The same along y.
+    """
+
+    along_x: NDArray[np.float64]
+    along_y: NDArray[np.float64]
+
+
+def trace_outline(indenter: Indenter, grid: Grid) -> Outline:
+    """Find where an indenter's outline crosses the grid's lines, by bisection.
+
+    Parameters
+    ----------
+    indenter : Indenter
+        Its gap is +inf outside the outline.
+    grid : Grid
+        The cells.
+
+    Returns
+    -------
+    Outline
+        Crossings, NaN where a line does not leave the body.
+
+    Examples
+    --------
+    >>> from viscontact.indenters import FlatPunch
+    >>> outline = trace_outline(FlatPunch(1.0), Grid((8, 8), (4.0, 4.0)))
+    >>> round(float(outline.along_x[5, 4]), 6)  # rim at x = sqrt(1 - 0.25²), centre at 0.75
+    0.436492
+    """
+    x, y = np.broadcast_arrays(grid.x[:, None], grid.y[None, :])
+    inside = np.isfinite(indenter.gap(x, y))
+    return Outline(
+        _outline_crossings(indenter, inside, x, y),
+        _outline_crossings(indenter, inside.T, x.T, y.T).T,
+    )
+
+
+def _outline_crossings(
+    indenter: Indenter,
+    inside: NDArray[np.bool_],
+    x: NDArray[np.float64],
+    y: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    crossings = np.full((inside.shape[0] - 1, inside.shape[1]), np.nan)
+    i, j = np.nonzero(inside[:-1] != inside[1:])
+    # From the centre inside the body towards the one outside.
+    inner, outer = np.where(inside[i, j], i, i + 1), np.where(inside[i, j], i + 1, i)
+    low, high = np.zeros(len(i)), np.ones(len(i))
+    for _ in range(BISECTIONS):
+        middle = (low + high) / 2
+        met = np.isfinite(
+            indenter.gap(
+                x[inner, j] + middle * (x[outer, j] - x[inner, j]),
+                y[inner, j] + middle * (y[outer, j] - y[inner, j]),
+            )
+        )
+        low, high = np.where(met, middle, low), np.where(met, high, middle)
+    crossings[i, j] = (low + high) / 2
+    return crossings
