@@ -55,6 +55,7 @@ FLOORS = (
         "instants",
         "admission",
         "mesh",
+        "automatic_grid",
         "period",
         "run",
         "growth",
@@ -122,7 +123,8 @@ NEIGHBOURS = {
     ("run", "schedule"),  # where its steps come from
     ("run", "adaptive"),
     ("run", "mesh"),  # the grid when none is given
-    ("mesh", "admission"),  # of nouns that are none
+    ("automatic_grid", "admission"),  # of nouns that are none
+    ("automatic_grid", "mesh"),  # as a run has it
     ("mesh", "extent"),  # holds the contact
     ("mesh", "estimate"),
     ("mesh", "resolution"),  # and resolves it,

@@ -81,7 +81,7 @@ __getattr__, __dir__, __all__ = _lazy.attach(
             "triangle",
         ],
         "stepping": ["adaptive_times", "log_times", "uniform_times"],
-        "mesh": ["auto_grid"],
+        "automatic_grid": ["auto_grid"],
         "state": ["ContactState", "Outcome"],
         "marching": ["march"],
         "dataset": ["simulate"],

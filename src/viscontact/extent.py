@@ -194,17 +194,13 @@ def _farthest(points: list[LoadPoint], way: str) -> list[LoadPoint]:
     return [min(points, key=reach), max(points, key=reach)]
 
 
-def largest_compliance(
-    compliance: ContactCompliance, load: LoadHistory, end: float | None
-) -> float:
+def largest_compliance(compliance: ContactCompliance, end: float | None) -> float:
     """Return the contact compliance at the end of a run.
 
     Parameters
     ----------
     compliance : ContactCompliance
         J(t) of both bodies together.
-    load : LoadHistory
-        The load.
     end : float or None
         Last instant of the run [s]; the end of all creep when None.
 

@@ -1,15 +1,13 @@
-"""The automatic grid: large enough for the contact, and fine enough for what is asked of it."""
+"""The mesh of a run: large enough for its contacts, and fine enough for what is asked of it."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.admission import check_kinds
 from viscontact.compliance import ContactCompliance
 from viscontact.estimate import level_of
 from viscontact.extent import (
@@ -19,10 +17,9 @@ from viscontact.extent import (
     hardest_contact,
     largest_compliance,
 )
-from viscontact.grid import GRID_QUANTITIES, AutomaticGrid, Grid
+from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.load import LoadHistory
-from viscontact.material import Material
 from viscontact.resolution import RIM_SCATTER, USUAL_ORDER, Pressing, Resolution, resolve
 from viscontact.sampling_doubts import CELLS_OF_A_WAVE, map_spacing
 
@@ -74,70 +71,6 @@ class Mesh:
     doubts: dict[str, str]
 
 
-def auto_grid(
-    indenter: Indenter,
-    material: Material,
-    load: LoadHistory,
-    tolerance: float = 0.01,
-    *,
-    quantities: Sequence[str] = GRID_QUANTITIES,
-    end: float | None = None,
-    indenter_material: Material | None = None,
-) -> Grid:
-    """Choose a grid for a run.
-
-    Parameters
-    ----------
-    indenter : Indenter
-        Shape of the pressed body.
-    material : Material
-        Material of the half-space.
-    load : LoadHistory
-        Force or approach, eccentricity and prescribed tilts over time.
-    tolerance : float
-        Aimed-at relative error of the named quantities, between 1e-4 and 0.5 [-].
-    quantities : sequence of str
-        What has to be that exact, as in `AutomaticGrid`.
-    end : float, optional
-        Last instant of the run [s]; the load's last point, or the end of all creep, when left
-        out.
-    indenter_material : Material, optional
-        Material of the indenter; rigid when left out.
-
-    Returns
-    -------
-    Grid
-        Holds the contact at the largest compliance under every corner of the load's history,
-        with a margin; fine enough for the tolerance under the largest load, from its first
-        instant on. A peak pressure that has no limit (at a sharp edge or tip) is left out.
-
-    Raises
-    ------
-    ValueError
-        If the tolerance makes no sense, no end of the creep is known, no grid fits, or the
-        tolerance would need millions of cells.
-
-    Notes
-    -----
-    Elastic contacts are solved on a mesh and on cells twice as long, each way; what changes by
-    less than the tolerance on halving the cells, and falls at least as fast as they do, is off by
-    less. Where the change is too large the mesh is refined the way that causes it.
-
-    Examples
-    --------
-    >>> import viscontact as vc
-    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
-    >>> vc.auto_grid(vc.Sphere(0.01), rubber, vc.step(1.0)).shape
-    (32, 32)
-    """
-    wish = AutomaticGrid(tolerance, quantities)
-    check_kinds(indenter, material, load, None, indenter_material)
-    compliance = material.contact_compliance()
-    if indenter_material is not None:
-        compliance = compliance + indenter_material.contact_compliance()
-    return choose_mesh(indenter, compliance, load, wish, end).grid
-
-
 def choose_mesh(
     indenter: Indenter,
     compliance: ContactCompliance,
@@ -158,7 +91,7 @@ def choose_mesh(
     wish : AutomaticGrid
         What is asked of the grid.
     end : float or None
-        Last instant of the run [s]; as in `auto_grid` when None.
+        Last instant of the run [s]; the load's last point, or the end of all creep, when None.
 
     Returns
     -------
@@ -168,9 +101,10 @@ def choose_mesh(
     Raises
     ------
     ValueError
-        As `auto_grid` does.
+        If no end of the creep is known, no grid fits, or the tolerance would need millions of
+        cells.
     """
-    largest = largest_compliance(compliance, load, end)
+    largest = largest_compliance(compliance, end)
     found = contacts_of_history(indenter, largest, load, end)
     highest = max(level_of(each.point) for each in found)
     late = next(each for each in found if level_of(each.point) == highest)
