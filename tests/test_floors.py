@@ -165,6 +165,7 @@ NEIGHBOURS = {
     ("error_bars", "companions"),
     ("error_bars", "run"),
     ("dataset", "variables"),
+    ("stated_errors", "variables"),  # what an error is called
     ("dataset", "description"),  # the case travels with the result
     ("recording", "variables"),
     ("recording", "dataset"),  # the file is laid out as the dataset is

@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from viscontact.dataset import SCALARS
 from viscontact.recording.progress import ProgressLog
 from viscontact.state import ContactState
+from viscontact.variables import SCALARS
 from written_states import state
 
 

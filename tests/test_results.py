@@ -14,9 +14,9 @@ import pytest
 import xarray as xr
 
 import viscontact as vc
-from viscontact.dataset import FIELDS, SCALARS
 from viscontact.recording import result_writer
 from viscontact.recording.result_writer import ResultWriter
+from viscontact.variables import FIELDS, SCALARS
 from written_states import GRID, SOME, TIMES, begun, faults_of, names, resumed, state, write
 
 ROWS = len(TIMES)

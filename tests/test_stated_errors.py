@@ -25,9 +25,9 @@ from matplotlib.figure import Figure
 import viscontact as vc
 from viscontact.cli import main
 from viscontact.cli.summary import print_summary
-from viscontact.dataset import SCALARS
 from viscontact.plot import COMPARISONS, FIGURES
 from viscontact.units import in_error_digits, in_percent, in_supported_digits
+from viscontact.variables import SCALARS
 
 CASE = """\
 indenter: {shape: sphere, radius: 10 mm}

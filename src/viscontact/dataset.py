@@ -27,13 +27,15 @@ from viscontact.outgrown import enlargements, on_wider
 from viscontact.run import Run, prepare_run
 from viscontact.state import ContactState
 from viscontact.stepping import AdaptiveTimes
-from viscontact.variables import COORDINATES as COORDINATES
-from viscontact.variables import ERRORS as ERRORS
-from viscontact.variables import FIELDS as FIELDS
-from viscontact.variables import OUTCOME_FLAGS as OUTCOME_FLAGS
-from viscontact.variables import SCALARS as SCALARS
-from viscontact.variables import Variable as Variable
-from viscontact.variables import scalar_attributes
+from viscontact.variables import (
+    COORDINATES,
+    ERRORS,
+    FIELDS,
+    OUTCOME_FLAGS,
+    SCALARS,
+    error_name,
+    scalar_attributes,
+)
 
 
 def simulate(
@@ -189,8 +191,8 @@ def to_dataset(
     }
     if bars is not None:
         scalars |= {
-            name: ("time", bars.values[name.removesuffix("_error")], variable.attributes)
-            for name, variable in ERRORS.items()
+            error_name(name): ("time", errors, ERRORS[error_name(name)].attributes)
+            for name, errors in bars.values.items()
         }
     grid = states[-1].grid  # the widest: a grid is enlarged only
     dataset = xr.Dataset(scalars, coords=_coordinates(grid, times))

@@ -6,23 +6,14 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from viscontact.variables import error_name
+
 #: Said of a value whose stated error is infinite, and why it is.
 MESH_DEPENDENT = "depends on the mesh"
 WHY_MESH_DEPENDENT = (
     "at a sharp edge or tip the pressure is infinite in theory, and roughness finer than the cells "
     "is as good as sharp; the number is the largest mean over a cell, and smaller cells give more"
 )
-
-
-def error_name(name: str) -> str:
-    """Return what the error of a variable is called in a result.
-
-    Examples
-    --------
-    >>> error_name("peak_pressure")
-    'peak_pressure_error'
-    """
-    return f"{name}_error"
 
 
 def stated_error(results: xr.Dataset, name: str) -> NDArray[np.float64] | None:

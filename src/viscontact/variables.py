@@ -23,16 +23,20 @@ class Variable:
         What it is.
     kind : str
         NumPy's name of its type.
+    comment : str
+        What else has to be known of it.
     """
 
     units: str
     long_name: str
     kind: str = "f8"
+    comment: str = ""
 
     @property
     def attributes(self) -> dict[str, Any]:
         """Attributes the variable carries."""
-        return {"units": self.units, "long_name": self.long_name}
+        attributes = {"units": self.units, "long_name": self.long_name}
+        return attributes | ({"comment": self.comment} if self.comment else {})
 
 
 COORDINATES = {
@@ -41,10 +45,15 @@ COORDINATES = {
     "y": Variable("m", "position across the indenter"),
 }
 
+#: Said of what is not computed beyond the grid of its instant.
+_BEYOND = "NaN beyond the grid of an instant before the grid was enlarged (see grid_enlarged)"
+
 FIELDS = {
     "pressure": Variable("Pa", "contact pressure, positive in compression"),
-    "gap": Variable("m", "gap, positive when open"),
-    "displacement": Variable("m", "surface displacement, positive into the half-space"),
+    "gap": Variable("m", "gap, positive when open", comment=_BEYOND),
+    "displacement": Variable(
+        "m", "surface displacement, positive into the half-space", comment=_BEYOND
+    ),
 }
 
 SCALARS = {
@@ -74,9 +83,30 @@ OUTCOME_FLAGS = {
     "flag_meanings": " ".join(outcome.name.lower() for outcome in Outcome),
 }
 
+_BAR = "half width of the error bar: inf where the value depends on the mesh, NaN where unknown"
+
+
+def error_name(name: str) -> str:
+    """Return what the error of a variable is called in a result.
+
+    Parameters
+    ----------
+    name : str
+        The variable.
+
+    Examples
+    --------
+    >>> error_name("peak_pressure")
+    'peak_pressure_error'
+    """
+    return f"{name}_error"
+
+
 #: The errors of scalars, by their own names.
 ERRORS = {
-    f"{name}_error": Variable(SCALARS[name].units, f"estimated error of: {SCALARS[name].long_name}")
+    error_name(name): Variable(
+        SCALARS[name].units, f"estimated error of: {SCALARS[name].long_name}", comment=_BAR
+    )
     for name in TRUSTS
 }
 
@@ -98,5 +128,5 @@ def scalar_attributes(name: str, *, errors: bool) -> dict[str, Any]:
     """
     attributes = SCALARS[name].attributes
     if errors and name in TRUSTS:
-        attributes["ancillary_variables"] = f"{name}_error"
+        attributes["ancillary_variables"] = error_name(name)
     return attributes

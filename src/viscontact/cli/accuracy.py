@@ -12,9 +12,9 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact.stated_errors import (
     MESH_DEPENDENT,
     WHY_MESH_DEPENDENT,
-    error_name,
     stated_error,
 )
+from viscontact.variables import error_name
 
 #: How the memory of a series law begins to describe itself; there is nothing to doubt about it.
 _EXACT = "recursion, exact"

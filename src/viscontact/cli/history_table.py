@@ -28,9 +28,8 @@ from viscontact.cli.accuracy import (
 )
 from viscontact.cli.messages import refuse
 from viscontact.cli.stored import early_end
-from viscontact.dataset import SCALARS
 from viscontact.state import Outcome
-from viscontact.stated_errors import error_name, stated_error
+from viscontact.stated_errors import stated_error
 from viscontact.units import (
     in_digits,
     in_error_digits,
@@ -40,6 +39,7 @@ from viscontact.units import (
     is_rounding_tilt,
     readable_unit,
 )
+from viscontact.variables import SCALARS, error_name
 
 _COLUMNS = (
     *("force", "approach", "tilt_x", "tilt_y", "contact_area", "contact_length"),

@@ -14,7 +14,6 @@ from rich.markup import escape
 from rich.table import Table
 
 from viscontact.cli.accuracy import accuracy_lines, largest_error, mesh_lines, unknown_lines
-from viscontact.dataset import SCALARS
 from viscontact.recording.recorded import PROGRESS_NAME
 from viscontact.results import RESULT_NAME, open_results
 from viscontact.stated_errors import MESH_DEPENDENT, stated_error
@@ -26,6 +25,7 @@ from viscontact.units import (
     is_rounding_tilt,
     readable_unit,
 )
+from viscontact.variables import SCALARS
 
 _ROWS = (
     *("force", "eccentricity_x", "eccentricity_y", "approach", "tilt_x", "tilt_y"),

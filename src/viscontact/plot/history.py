@@ -24,8 +24,9 @@ from viscontact.plot.error_band import (
 )
 from viscontact.plot.readable import DisplayUnit, display_unit
 from viscontact.plot.span import within_span
-from viscontact.stated_errors import error_name, stated_error
+from viscontact.stated_errors import stated_error
 from viscontact.units import is_rounding_tilt
+from viscontact.variables import error_name
 
 _NAME = "history"
 

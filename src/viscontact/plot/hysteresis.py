@@ -16,8 +16,9 @@ from viscontact.plot import style
 from viscontact.plot.error_band import band_key, draw_band, has_bands
 from viscontact.plot.readable import display_unit
 from viscontact.plot.span import within_span
-from viscontact.stated_errors import error_name, stated_error
+from viscontact.stated_errors import stated_error
 from viscontact.units import in_words
+from viscontact.variables import error_name
 
 _NAME = "hysteresis"
 

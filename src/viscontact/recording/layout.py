@@ -23,6 +23,7 @@ from viscontact.variables import (
     OUTCOME_FLAGS,
     SCALARS,
     Variable,
+    error_name,
     scalar_attributes,
 )
 
@@ -229,7 +230,7 @@ def write_errors(file: netCDF4.Dataset, values: Mapping[str, NDArray[np.float64]
         The errors by the scalar's name.
     """
     for name, errors in values.items():
-        file.variables[f"{name}_error"][: len(errors)] = errors
+        file.variables[error_name(name)][: len(errors)] = errors
 
 
 def write_fields(file: netCDF4.Dataset, layout: Layout, row: int, state: ContactState) -> None:
