@@ -459,7 +459,7 @@ def test_forecast_counts_the_steps_within_swings_and_at_kinks() -> None:
     grid = vc.Grid((32, 32), (3e-3, 3e-3))
 
     def steps(load: vc.LoadHistory, times: Any = times) -> float:
-        return forecast._step_count(prepare_run(vc.Sphere(0.01), material, load, grid, times))
+        return forecast.step_count(prepare_run(vc.Sphere(0.01), material, load, grid, times))
 
     assert steps(vc.step(0.1)) == 2
     assert steps(vc.triangle(0.1, 1.0)) == 4

@@ -20,7 +20,7 @@ import xarray as xr
 
 import viscontact as vc
 from viscontact import past
-from viscontact.cli import execution, main
+from viscontact.cli import attempt, execution, main
 from viscontact.cli.interruption import watched_interruption
 from viscontact.recording import run_record
 from viscontact.recording.lock import locked
@@ -406,7 +406,7 @@ def test_request_before_the_first_step_changes_nothing(
     def preparing(*arguments: Any) -> None:
         signal.raise_signal(signal.SIGTERM)
 
-    monkeypatch.setattr(execution, "prepare", preparing)
+    monkeypatch.setattr(attempt, "prepare", preparing)
     assert main(["run", "case.yaml"]) == 130
     assert (
         capsys.readouterr().err == "interrupted before the first step; nothing has been changed\n"

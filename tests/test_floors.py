@@ -74,6 +74,7 @@ FLOORS = (
         "outgrown",
         "variables",
         "dataset",
+        "many_runs",
         "results",
         "stated_errors",
         "stresses",
@@ -168,6 +169,7 @@ NEIGHBOURS = {
     ("stated_errors", "variables"),  # what an error is called
     ("dataset", "description"),  # the case travels with the result
     ("recording", "variables"),
+    ("many_runs", "dataset"),  # each of them is simulated
     ("recording", "dataset"),  # the file is laid out as the dataset is
     ("recording", "description"),  # whose a record is
     ("recording", "results"),  # what the result is called

@@ -85,6 +85,7 @@ __getattr__, __dir__, __all__ = _lazy.attach(
         "state": ["ContactState", "Outcome"],
         "marching": ["march"],
         "dataset": ["simulate"],
+        "many_runs": ["simulate_many"],
         "results": ["open_results", "save"],
         "stresses": ["section_stresses"],
     },

@@ -115,7 +115,7 @@ def forecast(run: Run, *, errors: bool = False) -> Forecast:
         extent / cell for extent, cell in zip(extents, run.grid.cell_size, strict=True)
     )
     return Forecast(
-        memory=needed_memory(run.grid, run.memory.fields_kept) + BYTES_PER_STEP * _step_count(run),
+        memory=run_memory(run),
         available=available_memory(),
         seconds=_seconds(run, errors=errors),
         estimate=estimate,
@@ -126,6 +126,31 @@ def forecast(run: Run, *, errors: bool = False) -> Forecast:
         or all(r < size / 2 for r, size in zip(reach, run.grid.size, strict=True)),
         doubts=foreseen_doubts(run, estimate),
     )
+
+
+def run_memory(run: Run) -> float:
+    """Return how many bytes a run holds, what it keeps of its steps among them.
+
+    Parameters
+    ----------
+    run : Run
+        A run that has been checked.
+    """
+    kept = BYTES_PER_STEP * step_count(run)
+    return needed_memory(run.grid, run.memory.fields_kept) + kept
+
+
+def step_count(run: Run) -> float:
+    """Return the steps of a run, those at the load's kinks and within its swings among them.
+
+    Parameters
+    ----------
+    run : Run
+        A run that has been checked; where it chooses its steps, those that are likely.
+    """
+    if run.adaptive is None:
+        return float(len(FixedSteps(run.times, run.load).steps))
+    return likely_steps(run.adaptive, run.load, run.compliance)
 
 
 def needed_memory(grid: Grid, fields_kept: int) -> float:
@@ -225,20 +250,13 @@ def _telling_compliance(run: Run, time: float) -> tuple[float, str]:
 
 
 def _seconds(run: Run, *, errors: bool) -> float:
-    steps, each = _step_count(run), _convolution_time(run.grid)
+    steps, each = step_count(run), _convolution_time(run.grid)
     marches = [(steps, each)]
     if errors:
         marches += [
             (steps / pace, each / spacing**2) for spacing, pace in usual_companions(round(steps))
         ]
     return sum(one * (FIRST_STEP + LATER_STEP * count) + BESIDES * count for count, one in marches)
-
-
-def _step_count(run: Run) -> float:
-    """Steps of a run, those at the load's kinks and within its swings among them."""
-    if run.adaptive is None:
-        return float(len(FixedSteps(run.times, run.load).steps))
-    return likely_steps(run.adaptive, run.load, run.compliance)
 
 
 def _convolution_time(grid: Grid) -> float:

@@ -2,27 +2,24 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, closing, contextmanager, suppress
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
+from viscontact.cli.attempt import Attempt, attempted
 from viscontact.cli.interruption import Interruption, watched_interruption
 from viscontact.cli.messages import INTERRUPTED, refuse, say, stop
-from viscontact.cli.preparation import Prepared, prepare
 from viscontact.cli.progress import shown_progress
-from viscontact.cli.run_directory import chosen_directory, taken, write_case
+from viscontact.cli.run_directory import taken, write_case
 from viscontact.cli.run_request import RunRequest
-from viscontact.cli.stored import CASE_NAME, progress_made
 from viscontact.cli.streams import printing, unwritten
 from viscontact.cli.summary import print_summary
-from viscontact.cli.taking_up import Standing, refuse_changed, standing
+from viscontact.cli.taking_up import Standing, refuse_changed
 from viscontact.errors import ConvergenceError, DomainError
 from viscontact.recording.checkpoint import STATE_NAME
 from viscontact.recording.lock import DirectoryInUse, locked
-from viscontact.recording.recorded import ChangedCaseError, Recorded, remove_traces
+from viscontact.recording.recorded import ChangedCaseError, remove_traces
 from viscontact.recording.run_record import RunRecord, Undisturbed
 from viscontact.recording.step_log import LOG_NAME
 from viscontact.results import RESULT_NAME
@@ -73,8 +70,8 @@ def execute(
         refuse("--resume goes on with a run and --overwrite begins it anew: give one of them")
     request = RunRequest(path, output, overwrite, resume, tuple(settings or ()), threads, quiet)
     with watched_interruption() as interruption:
-        with _before_the_first_step():
-            attempt = _attempt(request, interruption)
+        with before_the_first_step():
+            attempt = attempted(request, interruption)
             # Looked at before anything is created, and again once no other run can change it.
             stands = attempt.standing()
         directory = attempt.recorded.directory
@@ -88,60 +85,9 @@ def execute(
     return directory
 
 
-@dataclass(frozen=True)
-class _Attempt:
-    """What a run was asked for, what it is, what is recorded of it, and who may stop it."""
-
-    request: RunRequest
-    prepared: Prepared
-    recorded: Recorded
-    interruption: Interruption
-
-    def standing(self) -> Standing:
-        return standing(self.request, self.recorded, self.prepared.case)
-
-    def say(self, line: str) -> None:
-        if not self.request.quiet:
-            say(line)
-
-    def made(self, instants: int, reached: float | None) -> str:
-        run = self.recorded.run
-        return progress_made(instants, reached, run.times.tolist(), run.adaptive)
-
-
-def _attempt(request: RunRequest, interruption: Interruption) -> _Attempt:
-    directory = _directory(request)
-    prepared = prepare(request.case, request.settings, request.threads)
-    case = prepared.case
-    recorded = Recorded(directory, prepared.run, case.fields, case.title, case.errors)
-    return _Attempt(request, prepared, recorded, interruption)
-
-
-def _directory(request: RunRequest) -> Path:
-    """Where the run goes, as a path that netCDF takes as it is."""
-    case, beside = request.case, request.case.parent
-    is_runs_own = any((beside / name).is_file() for name in (RESULT_NAME, STATE_NAME))
-    if request.output is None and case.name == CASE_NAME and is_runs_own:
-        directory = beside  # the case as it was run
-    else:
-        directory = chosen_directory(case, request.output)
-    whole = str(directory.absolute())
-    if os.name != "nt" and "\\" in whole:
-        refuse(f"{directory}: netCDF files cannot lie below a name with a backslash: choose -o DIR")
-    try:
-        whole.encode()
-    except UnicodeEncodeError:
-        refuse(
-            f"{directory}: netCDF files cannot lie below a name that is not UTF-8: choose -o DIR"
-        )
-    # To netCDF, "~", a blank in front and "file:" mean something of their own.
-    is_plain = not directory.parts or not (directory.parts[0][0] in "~ \t" or ":" in str(directory))
-    return directory if is_plain else directory.absolute()
-
-
-def _run(attempt: _Attempt, stands: Standing) -> None:
+def _run(attempt: Attempt, stands: Standing) -> None:
     """Begin or go on, to the end; the directory is this run's alone."""
-    with _before_the_first_step():
+    with before_the_first_step():
         record = _begun(attempt) if stands is Standing.NEW else _taken_up(attempt)
     with closing(record):
         _march(attempt, record)
@@ -149,7 +95,7 @@ def _run(attempt: _Attempt, stands: Standing) -> None:
         _tell(attempt)
 
 
-def _tell(attempt: _Attempt) -> None:
+def _tell(attempt: Attempt) -> None:
     """Print the summary; the run is finished, whether or not anybody reads it."""
     directory = attempt.recorded.directory
     try:
@@ -162,7 +108,7 @@ def _tell(attempt: _Attempt) -> None:
         say(f"{directory}: the run is finished; its table cannot be printed: {why}")
 
 
-def _begun(attempt: _Attempt) -> RunRecord:
+def _begun(attempt: Attempt) -> RunRecord:
     recorded, postponed = attempt.recorded, attempt.interruption.postponed
     if attempt.request.resume:
         attempt.say(f"{recorded.directory}: nothing is saved there yet; starting at the beginning")
@@ -173,7 +119,7 @@ def _begun(attempt: _Attempt) -> RunRecord:
         refuse(f"{recorded.directory}: cannot be written: {error}")
 
 
-def _taken_up(attempt: _Attempt) -> RunRecord:
+def _taken_up(attempt: Attempt) -> RunRecord:
     recorded, postponed = attempt.recorded, attempt.interruption.postponed
     write = partial(_write_case, attempt)
     try:
@@ -203,11 +149,11 @@ def _whole(postponed: Undisturbed, make: Callable[[], RunRecord]) -> RunRecord:
     return record
 
 
-def _write_case(attempt: _Attempt) -> None:
+def _write_case(attempt: Attempt) -> None:
     write_case(attempt.recorded.directory, attempt.prepared.case)
 
 
-def _march(attempt: _Attempt, record: RunRecord) -> None:
+def _march(attempt: Attempt, record: RunRecord) -> None:
     """March and record; whatever ends it early, the completed steps stay."""
     try:
         with attempt.interruption.marching():
@@ -229,7 +175,7 @@ def _march(attempt: _Attempt, record: RunRecord) -> None:
         stop(*lines, code=INTERRUPTED)
 
 
-def _is_marched_to_the_end(attempt: _Attempt, record: RunRecord) -> bool:
+def _is_marched_to_the_end(attempt: Attempt, record: RunRecord) -> bool:
     """March until the end, or until somebody wants it to stop, and leave everything saved."""
     recorded = attempt.recorded
     run = recorded.run
@@ -260,7 +206,7 @@ def _publish(record: RunRecord) -> None:
         record.publish()
 
 
-def _kept(attempt: _Attempt, record: RunRecord) -> str:
+def _kept(attempt: Attempt, record: RunRecord) -> str:
     directory = attempt.recorded.directory
     if _is_gone(attempt, record):
         return f"{directory} is not there any more, and what it kept has gone with it"
@@ -271,30 +217,42 @@ def _kept(attempt: _Attempt, record: RunRecord) -> str:
     return f"{directory} keeps {made}{late}"
 
 
-def _remedy(attempt: _Attempt, record: RunRecord) -> str:
+def _remedy(attempt: Attempt, record: RunRecord) -> str:
     """The command to type next; without a step there is nothing to go on from."""
     keeps = record.kept and not _is_gone(attempt, record)
     return attempt.request.resuming if keeps else attempt.request.repeating
 
 
-def _is_gone(attempt: _Attempt, record: RunRecord) -> bool:
+def _is_gone(attempt: Attempt, record: RunRecord) -> bool:
     """Whether somebody has removed or moved what is kept."""
     files = (attempt.recorded.directory / name for name in (RESULT_NAME, STATE_NAME, LOG_NAME))
     return record.kept > 0 and not any(file.exists() for file in files)
 
 
-def _say_finished(attempt: _Attempt) -> None:
+def _say_finished(attempt: Attempt) -> None:
     directory, run = attempt.recorded.directory, attempt.recorded.run
-    with suppress(OSError, DirectoryInUse), locked(directory):
-        remove_traces(directory)  # it may have been killed in its last moment
+    tidy(directory)
     attempt.say(
         f"{directory}: is finished already, up to t = {in_words(float(run.times[-1]), 's')}; "
         "--overwrite computes it anew"
     )
 
 
+def tidy(directory: Path) -> None:
+    """Remove what a finished run has left that was killed in its last moment.
+
+    Parameters
+    ----------
+    directory : Path
+        The run's.
+    """
+    with suppress(OSError, DirectoryInUse), locked(directory):
+        remove_traces(directory)
+
+
 @contextmanager
-def _before_the_first_step() -> Iterator[None]:
+def before_the_first_step() -> Iterator[None]:
+    """Within it, a request to stop finds nothing to save."""
     try:
         yield
     except KeyboardInterrupt:

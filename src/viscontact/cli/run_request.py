@@ -6,7 +6,7 @@ import os
 import shlex
 import subprocess
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 
@@ -49,31 +49,46 @@ class RunRequest:
         >>> RunRequest(Path("my case.yaml"), settings=("load.force=20 kN",)).resuming
         "viscontact run 'my case.yaml' --set 'load.force=20 kN' --resume"
         """
-        return _command(*self._words(), "--resume")
+        return command(*replace(self, resume=False, overwrite=False).words(), "--resume")
 
     @property
     def repeating(self) -> str:
         """The same command once more."""
-        given = [name for name in ("resume", "overwrite") if getattr(self, name)]
-        return _command(*self._words(), *(f"--{name}" for name in given))
+        return command(*self.words())
 
-    def _words(self) -> Iterator[str]:
-        yield _no_option(self.case)
+    def words(self) -> Iterator[str]:
+        """What is typed behind ``viscontact run``, the case first."""
+        yield no_option(self.case)
         if self.output is not None:
-            yield from ("-o", _no_option(self.output))
+            yield from ("-o", no_option(self.output))
         for setting in self.settings:
             yield from ("--set", setting)
         if self.threads != 1:
             yield from ("--threads", str(self.threads))
         if self.quiet:
             yield "--quiet"
+        yield from (f"--{name}" for name in ("resume", "overwrite") if getattr(self, name))
 
 
-def _no_option(path: Path) -> str:
+def no_option(path: Path) -> str:
+    """Return a path so that nobody takes it for an option.
+
+    Parameters
+    ----------
+    path : Path
+        As it was given.
+    """
     return f"./{path}" if str(path).startswith("-") else str(path)
 
 
-def _command(*words: str) -> str:
+def command(*words: str) -> str:
+    """Return a command that runs, quoted for the shell.
+
+    Parameters
+    ----------
+    *words : str
+        What is typed behind ``viscontact run``.
+    """
     whole = ["viscontact", "run", *words]
     # Windows quotes in its own way.
     return subprocess.list2cmdline(whole) if os.name == "nt" else shlex.join(whole)

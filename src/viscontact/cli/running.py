@@ -7,8 +7,13 @@ from typing import Annotated
 
 import typer
 
+from viscontact.cli.interruption import Interruption, watched_interruption
 from viscontact.cli.messages import INTERRUPTED, stop
+from viscontact.cli.run_request import RunRequest
 
+CaseFiles = Annotated[
+    list[Path], typer.Argument(metavar="CASE.yaml...", help="The case file, or several.")
+]
 CaseFile = Annotated[Path, typer.Argument(metavar="CASE.yaml", help="The case file.")]
 Settings = Annotated[
     list[str] | None,
@@ -18,10 +23,15 @@ Threads = Annotated[int, typer.Option(min=1, help="Threads of one Fourier transf
 
 
 def run(
-    case: CaseFile,
+    cases: CaseFiles,
     output: Annotated[
         Path | None,
-        typer.Option("-o", "--output", metavar="DIR", help="Where to; CASE/ beside the file."),
+        typer.Option(
+            "-o",
+            "--output",
+            metavar="DIR",
+            help="Where to; CASE/ beside the file. Of several runs each gets a directory in DIR.",
+        ),
     ] = None,
     overwrite: Annotated[
         bool, typer.Option("--overwrite", help="Replace the result that DIR holds.")
@@ -30,28 +40,55 @@ def run(
         bool, typer.Option("--resume", help="Go on with the run that DIR holds.")
     ] = False,
     settings: Settings = None,
+    varied: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--vary",
+            metavar="KEY=VALUE,VALUE,...",
+            help="A run for each value, e.g. load.force=5kN,10kN; given again, for each pair.",
+        ),
+    ] = None,
+    jobs: Annotated[
+        int, typer.Option("-j", "--jobs", min=1, metavar="N", help="So many runs at once.")
+    ] = 1,
     threads: Threads = 1,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Only errors.")] = False,
 ) -> None:
-    """Run a case and write its result to a directory."""
-    from viscontact.cli.interruption import watched_interruption
-
+    """Run a case and write its result to a directory; or several, some at a time."""
+    given = tuple(settings or ())
+    request = RunRequest(cases[0], output, overwrite, resume, given, threads, quiet)
     try:
         with watched_interruption() as interruption:
-            # An import that is interrupted may end in any error: the request waits for its end.
-            with interruption.postponed():
-                from viscontact.cli.execution import execute
-            execute(
-                case,
-                output,
-                overwrite=overwrite,
-                resume=resume,
-                settings=settings,
-                threads=threads,
-                quiet=quiet,
-            )
+            if len(cases) == 1 and not varied:
+                _run_one(request, interruption)
+            else:
+                _run_many(cases, request, varied or [], jobs, interruption)
     except KeyboardInterrupt:
         stop("interrupted", code=INTERRUPTED)
+
+
+def _run_one(request: RunRequest, interruption: Interruption) -> None:
+    # An import that is interrupted may end in any error: the request waits for its end.
+    with interruption.postponed():
+        from viscontact.cli.execution import execute
+    execute(
+        request.case,
+        request.output,
+        overwrite=request.overwrite,
+        resume=request.resume,
+        settings=request.settings,
+        threads=request.threads,
+        quiet=request.quiet,
+    )
+
+
+def _run_many(
+    cases: list[Path], common: RunRequest, varied: list[str], jobs: int, interruption: Interruption
+) -> None:
+    with interruption.postponed():
+        from viscontact.cli.many_request import ManyRequest
+        from viscontact.cli.many_runs import execute_many
+    execute_many(ManyRequest(tuple(cases), common, tuple(varied), jobs))
 
 
 def check(

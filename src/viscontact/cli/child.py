@@ -1,0 +1,114 @@
+"""A run as a process of its own: `viscontact run` as anybody could type it."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+from dataclasses import dataclass, replace
+from typing import Any
+
+from viscontact.cli.course import Course
+from viscontact.cli.jobs import Job
+from viscontact.cli.messages import DONE, INTERRUPTED, REFUSED, STOPPED
+
+
+@dataclass(frozen=True)
+class Ended:
+    """How one of several runs ended.
+
+    Attributes
+    ----------
+    job : Job
+        The run.
+    outcome : str
+        In a word.
+    code : int
+        0 done, 1 stopped, 130 interrupted, be it before it began.
+    said : tuple of str
+        What it had to say for itself.
+    """
+
+    job: Job
+    outcome: str
+    code: int
+    said: tuple[str, ...] = ()
+
+
+class Child:
+    """A run at work.
+
+    A process of its own, so that all that holds for a run holds for each of many: the lock of its
+    directory, what it saves and when, how it meets signals. What it says is kept for the end.
+
+    Parameters
+    ----------
+    job : Job
+        The run.
+
+    Attributes
+    ----------
+    job : Job
+        The run.
+    course : Course
+        How far it has come.
+
+    Raises
+    ------
+    OSError
+        If the system starts no further process.
+    """
+
+    def __init__(self, job: Job) -> None:
+        self.job = job
+        self.course = Course(job)
+        self._asked = False
+        self._said = tempfile.TemporaryFile()  # noqa: SIM115 - closed when it has ended
+        self._process = _started(job, self._said)
+
+    def ask_to_stop(self) -> None:
+        """Ask it to finish its step, save and end; once is enough."""
+        if self._asked:
+            return
+        self._asked = True
+        # If Ctrl-C has reached it as well, the two are one request; Ctrl-C does not count twice.
+        # On Windows everybody at the console has been asked already, and there is no other way.
+        if os.name != "nt":
+            self._process.send_signal(signal.SIGTERM)
+
+    def ended(self) -> Ended | None:
+        """How it has ended; None while it is at work."""
+        code = self._process.poll()
+        return None if code is None else self._ended(code)
+
+    def wait(self) -> Ended:
+        """Wait for its end."""
+        return self._ended(self._process.wait())
+
+    def _ended(self, code: int) -> Ended:
+        self._said.seek(0)
+        lines = tuple(self._said.read().decode("utf-8", errors="replace").splitlines())
+        self._said.close()
+        if code == DONE:
+            return Ended(self.job, "done", DONE)
+        # Before it has met signals, they end it at once.
+        by_request = {INTERRUPTED, -signal.SIGINT, -signal.SIGTERM}
+        if code == INTERRUPTED or (self._asked and code in by_request):
+            return Ended(self.job, "interrupted", INTERRUPTED)
+        if code < 0:
+            why = f"{self.job.directory}: the run was killed by signal {-code}"
+            way_on = f"go on with: {replace(self.job.request, quiet=False).resuming}"
+            return Ended(self.job, "killed", STOPPED, (*lines, why, way_on))
+        # Others have begun: that nothing was changed is true of this one alone.
+        return Ended(self.job, "refused" if code == REFUSED else "stopped", STOPPED, lines)
+
+
+def _started(job: Job, said: Any) -> subprocess.Popen[bytes]:
+    request = replace(job.request, output=job.directory, quiet=True)
+    # -P: what lies in the working directory is not imported in place of a library.
+    command = [sys.executable, "-P", "-m", "viscontact", "run", *request.words()]
+    environment = {**os.environ, "PYTHONIOENCODING": "utf-8"}
+    nowhere = subprocess.DEVNULL
+    return subprocess.Popen(command, stdin=nowhere, stdout=nowhere, stderr=said, env=environment)

@@ -1,0 +1,68 @@
+"""How far a run of another process has come, as its directory tells."""
+
+from __future__ import annotations
+
+import json
+from contextlib import suppress
+from os import stat_result
+
+from viscontact.cli.jobs import Job
+from viscontact.cli.taking_up import Standing
+from viscontact.recording.recorded import PROGRESS_NAME
+
+
+class Course:
+    """How far a run has come.
+
+    Parameters
+    ----------
+    job : Job
+        The run, before its process is started.
+
+    Attributes
+    ----------
+    instants : int
+        How many are complete.
+    time : float
+        The last of them [s].
+    """
+
+    def __init__(self, job: Job) -> None:
+        self.instants, self.time = 0, 0.0
+        self._job, self._path = job, job.directory / PROGRESS_NAME
+        self._file, self._read = 0, 0
+        # Lines of an earlier run, which this one replaces, tell nothing.
+        self._earlier = None if job.standing is Standing.STOPPED else self._marks()
+        self.look()
+
+    @property
+    def part(self) -> float:
+        """How much of the run is done: 1 for all of it."""
+        job = self._job
+        if job.instants is None:
+            return min(self.time / job.end, 1.0) if job.end > 0 else 0.0
+        return min(self.instants / job.instants, 1.0)
+
+    def look(self) -> None:
+        """Read what has been written meanwhile; what cannot be read is left for the next time."""
+        marks = self._marks()
+        if marks is None or marks == self._earlier:
+            return
+        file, size, _ = marks
+        if file != self._file or size < self._read:
+            self._file, self._read, self.instants = file, 0, 0
+        with suppress(OSError, ValueError, LookupError, TypeError):
+            with self._path.open("rb") as lines:
+                lines.seek(self._read)
+                whole, newline, _ = lines.read().rpartition(b"\n")
+            if newline:
+                self._read += len(whole) + 1
+                self.instants += whole.count(b"\n") + 1
+                self.time = float(json.loads(whole.rpartition(b"\n")[2])["time"])
+
+    def _marks(self) -> tuple[int, int, int] | None:
+        """What tells one state of the file from another; None without a file."""
+        with suppress(OSError):
+            found: stat_result = self._path.stat()
+            return found.st_ino, found.st_size, found.st_mtime_ns
+        return None

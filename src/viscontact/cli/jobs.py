@@ -1,0 +1,219 @@
+"""Several runs, all checked before the first of them begins."""
+
+from __future__ import annotations
+
+import io
+from collections import Counter
+from collections.abc import Sequence
+from contextlib import redirect_stderr, suppress
+from dataclasses import dataclass
+from itertools import accumulate
+from os import cpu_count
+from pathlib import Path
+
+import typer
+
+from viscontact.cli.attempt import attempted
+from viscontact.cli.interruption import Interruption
+from viscontact.cli.messages import refuse
+from viscontact.cli.run_request import RunRequest
+from viscontact.cli.taking_up import Standing
+from viscontact.forecast import available_memory, run_memory, step_count
+from viscontact.recording.lock import LOCK_NAME, DirectoryInUse, locked
+from viscontact.units import in_digits
+
+
+@dataclass(frozen=True)
+class Job:
+    """One of several runs, checked.
+
+    Attributes
+    ----------
+    request : RunRequest
+        What is asked for, its directory included.
+    directory : Path
+        That directory.
+    name : str
+        What it is called among the others.
+    standing : Standing
+        Whether it begins, goes on, or is over already.
+    instants : int or None
+        How many it will have; None where it chooses its steps.
+    end : float
+        Its last instant [s].
+    work : float
+        Cells times steps: how much there is to do, compared with the others.
+    memory : float
+        What it will hold [bytes].
+    """
+
+    request: RunRequest
+    directory: Path
+    name: str
+    standing: Standing
+    instants: int | None
+    end: float
+    work: float
+    memory: float
+
+
+def checked_jobs(requests: Sequence[RunRequest], interruption: Interruption) -> list[Job]:
+    """Check runs, all of them before any is refused.
+
+    Parameters
+    ----------
+    requests : sequence of RunRequest
+        What is asked for.
+    interruption : Interruption
+        Who may stop it.
+
+    Returns
+    -------
+    list of Job
+        One for each.
+
+    Raises
+    ------
+    typer.Exit
+        With code 2, after all problems of all runs have been printed; nothing has been created.
+    """
+    jobs: list[Job] = []
+    problems: dict[str, list[RunRequest]] = {}
+    for request in requests:
+        said = io.StringIO()
+        try:
+            with redirect_stderr(said):
+                jobs.append(_checked(request, interruption))
+        except typer.Exit:
+            for line in said.getvalue().splitlines():
+                problems.setdefault(line, []).append(request)
+    if problems:
+        refuse(*(_told(line, concerned, requests) for line, concerned in problems.items()))
+    _refuse_shared_directories(jobs)
+    return _named(jobs)
+
+
+def fitting(jobs: Sequence[Job]) -> int:
+    """Return how many runs at once, whichever they are, fit into the memory that is free.
+
+    Parameters
+    ----------
+    jobs : sequence of Job
+        The runs.
+
+    Returns
+    -------
+    int
+        At least 1: none has been admitted that does not fit alone.
+    """
+    largest_first = sorted((job.memory for job in jobs), reverse=True)
+    available = available_memory()
+    return max(1, sum(together <= available for together in accumulate(largest_first)))
+
+
+def doubts(jobs: Sequence[Job], wanted: int, at_once: int, threads: int) -> list[str]:
+    """Say where more is asked for than the machine has.
+
+    Parameters
+    ----------
+    jobs : sequence of Job
+        The runs.
+    wanted : int
+        How many were to go on at once.
+    at_once : int
+        How many will.
+    threads : int
+        Threads of each.
+
+    Returns
+    -------
+    list of str
+        A line each.
+    """
+    lines = []
+    if at_once < min(wanted, len(jobs)):
+        needed = sum(sorted(job.memory for job in jobs)[-wanted:])
+        lines.append(
+            f"-j {wanted}: these runs at once would need about {in_digits(needed / 1e9, 3)} GB of "
+            f"memory, {in_digits(available_memory() / 1e9, 3)} GB are free; {at_once} at a time"
+        )
+    cores = usable_cores()
+    if at_once * threads > max(cores, threads):
+        each = f" of {threads} threads each" if threads > 1 else ""
+        lines.append(
+            f"-j {wanted}: {at_once} runs{each} at once share {cores} cores, and wait for one "
+            "another"
+        )
+    return lines
+
+
+def usable_cores() -> int:
+    """Return how many cores this process may use."""
+    with suppress(AttributeError):  # not on every system
+        from os import sched_getaffinity
+
+        return len(sched_getaffinity(0))
+    return cpu_count() or 1
+
+
+def _checked(request: RunRequest, interruption: Interruption) -> Job:
+    attempt = attempted(request, interruption)
+    stands = attempt.standing()
+    directory, run = attempt.recorded.directory, attempt.recorded.run
+    _refuse_in_use(directory)
+    cells = run.grid.shape[0] * run.grid.shape[1]
+    return Job(
+        request,
+        directory,
+        directory.name,
+        stands,
+        len(run.times) if run.adaptive is None else None,
+        float(run.times[-1]),
+        cells * (1.0 + step_count(run)),
+        run_memory(run),
+    )
+
+
+def _refuse_in_use(directory: Path) -> None:
+    if not (directory / LOCK_NAME).exists():
+        return
+    try:
+        with suppress(OSError), locked(directory):
+            pass
+    except DirectoryInUse as error:
+        refuse(str(error))
+
+
+def _told(line: str, concerned: list[RunRequest], requests: Sequence[RunRequest]) -> str:
+    """A problem, with the values that have it, where others of the same case do not."""
+    cases = {each.case for each in concerned}
+    others = [each for each in requests if each.case in cases and each not in concerned]
+    if not others:
+        return line
+    common = set.intersection(*(set(each.settings) for each in requests))
+    varied = [[text for text in each.settings if text not in common] for each in concerned]
+    told = {", ".join(texts): None for texts in varied}
+    if len(told) == 1 and all(text.partition("=")[2].strip() in line for text in varied[0]):
+        return line
+    return f"{line} [with {'; '.join(told)}]"
+
+
+def _refuse_shared_directories(jobs: Sequence[Job]) -> None:
+    # Where the case of letters does not count, MPa and mPa are one name.
+    places = [str(job.directory.resolve()).casefold() for job in jobs]
+    for place, count in Counter(places).items():
+        if count > 1:
+            job = jobs[places.index(place)]
+            refuse(
+                f"{job.directory}: {count} of the runs would go there; give each case file a name "
+                "of its own, and each value once"
+            )
+
+
+def _named(jobs: list[Job]) -> list[Job]:
+    """Call runs by their directories' names, and by the way there where that is not enough."""
+    count = Counter(job.name for job in jobs)
+    return [
+        job if count[job.name] == 1 else Job(**{**vars(job), "name": str(job.directory)})
+        for job in jobs
+    ]
