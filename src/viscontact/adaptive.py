@@ -6,8 +6,8 @@ import math
 from dataclasses import asdict
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 
 from viscontact.carried import Carried
 from viscontact.compliance import ContactCompliance
@@ -212,4 +212,5 @@ class AdaptiveSteps:
             return float(way)
         if excess(math.log(shortest)) >= 0:
             return shortest
-        return math.exp(float(brentq(excess, math.log(shortest), math.log(way), rtol=1e-3)))
+        logarithms = math.log(shortest), math.log(way)
+        return math.exp(float(scipy.optimize.brentq(excess, *logarithms, rtol=1e-3)))

@@ -5,8 +5,8 @@ from __future__ import annotations
 from functools import cached_property
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.spatial import ConvexHull, QhullError
 
 from viscontact.grid import Grid
 
@@ -79,8 +79,10 @@ class Reach:
         along_x = np.tile(self._grid.x[rows], 2)
         along_y = self._grid.y[np.concatenate([first, last])]
         try:
-            hull = ConvexHull(np.column_stack([along_x, along_y]) / np.array(self._grid.size))
-        except QhullError:
+            hull = scipy.spatial.ConvexHull(
+                np.column_stack([along_x, along_y]) / np.array(self._grid.size)
+            )
+        except scipy.spatial.QhullError:
             return None  # the check along each axis has been made
         return np.asarray(hull.equations)
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy import ndimage
 
 from viscontact.grid import Grid
 from viscontact.indenters import CombinedIndenter, HeightMap, Indenter, PlacedIndenter
@@ -74,7 +74,7 @@ class Sampling:
                 )
             ]
             # Outside the grid, and beside the body's end, nothing can be said.
-            seen = ndimage.map_coordinates(
+            seen = scipy.ndimage.map_coordinates(
                 np.nan_to_num(self.open_gap, posinf=np.nan), places, order=1, cval=np.nan
             )
             known = np.isfinite(seen)

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy.interpolate import PchipInterpolator
 
 #: How a line runs from point to point.
 INTERPOLATIONS = ("smooth", "linear")
@@ -90,8 +90,8 @@ class TableLine:
         return len(self.position)
 
     @cached_property
-    def _pieces(self) -> tuple[PchipInterpolator, ...]:
-        return tuple(PchipInterpolator(*piece) for piece in self._smooth_pieces())
+    def _pieces(self) -> tuple[scipy.interpolate.PchipInterpolator, ...]:
+        return tuple(scipy.interpolate.PchipInterpolator(*piece) for piece in self._smooth_pieces())
 
     def _smooth_pieces(self) -> Iterator[tuple[NDArray[np.float64], NDArray[np.float64]]]:
         position, drop = np.array(self.position), np.array(self.drop)

@@ -11,8 +11,8 @@ from collections.abc import Callable
 from typing import Any, Literal
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
 
 Floats = NDArray[np.float64]
 
@@ -87,14 +87,14 @@ class LogCurve:
     def _smooth(self, first: float | None, last: float | None) -> Floats:
         """Return the cubics, with given slopes at the ends so that the curve goes on smoothly."""
         u = np.log(self.times)
-        monotone = PchipInterpolator(u, self.values)
+        monotone = scipy.interpolate.PchipInterpolator(u, self.values)
         slopes = monotone.derivative()(u)
         # Up to three times the slope of the points a cubic stays monotone (Fritsch & Carlson).
         secants = np.diff(self.values)[[0, -1]] / self._widths[[0, -1]]
         for at, slope, secant in ((0, first, secants[0]), (-1, last, secants[-1])):
             if slope is not None:
                 slopes[at] = np.sign(secant) * min(abs(slope), 3 * abs(secant))
-        return np.asarray(CubicHermiteSpline(u, self.values, slopes).c)
+        return np.asarray(scipy.interpolate.CubicHermiteSpline(u, self.values, slopes).c)
 
     def __call__(self, t: ArrayLike) -> Floats:
         """Return the values at times >= 0 [s], of the shape of `t`."""

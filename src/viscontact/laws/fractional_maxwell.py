@@ -10,8 +10,8 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.special import rgamma
 
 from viscontact.laws import arguments
 from viscontact.laws.curve import mean_power
@@ -159,12 +159,13 @@ class FractionalMaxwell(Law):
 
     def _creep(self, t: Floats) -> Floats:
         ratio = t / self.time
-        crept = sum(ratio**n * float(rgamma(1 + n)) for n in self._exponents)
+        crept = sum(ratio**n * float(scipy.special.rgamma(1 + n)) for n in self._exponents)
         return np.asarray(crept / (2 * self.shear_modulus))
 
     def _mean_creep(self, start: Floats, end: Floats) -> Floats:
         a, b = start / self.time, end / self.time
-        crept = sum(mean_power(n, a, b) * float(rgamma(1 + n)) for n in self._exponents)
+        gammas = [float(scipy.special.rgamma(1 + n)) for n in self._exponents]
+        crept = sum(mean_power(n, a, b) * g for n, g in zip(self._exponents, gammas, strict=True))
         return np.asarray(crept / (2 * self.shear_modulus))
 
     def _relaxation(self, t: Floats) -> Floats:

@@ -7,8 +7,8 @@ from functools import cache
 from typing import overload
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy.special import rgamma
 
 Floats = NDArray[np.float64]
 
@@ -90,7 +90,8 @@ def _on_contour(x: Floats, alpha: float, beta: float) -> Floats:
     scale = np.where(known, -x, 1.0)
     for start, power in zip(weights * s ** (alpha - beta), s**alpha, strict=True):
         total += (start * np.where(known, power, 1.0) / (power + x)).imag
-    return np.asarray((total - np.where(known, float(rgamma(beta - alpha)), 0.0)) / scale)
+    first = float(scipy.special.rgamma(beta - alpha))
+    return np.asarray((total - np.where(known, first, 0.0)) / scale)
 
 
 @cache
@@ -106,5 +107,5 @@ def _contour() -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
 def _asymptotic(x: Floats, alpha: float, beta: float) -> Floats:
     total = np.zeros(x.shape)
     for k in range(min(_TERMS, int(_ASYMPTOTIC_TIME / alpha)), 0, -1):  # Horner, from the least
-        total = (float(rgamma(beta - alpha * k)) - total) / x
+        total = (float(scipy.special.rgamma(beta - alpha * k)) - total) / x
     return total

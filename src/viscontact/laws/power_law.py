@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.special import rgamma
 
 from viscontact.laws import arguments
 from viscontact.laws.curve import mean_power
@@ -167,7 +167,8 @@ class PowerLaw(Law):
             )
         with np.errstate(divide="ignore"):  # infinite at once
             powers = ratio**-n
-        return np.asarray(powers * (rgamma(1 + n) * rgamma(1 - n) / (2 * self.compliance)))
+        gammas = scipy.special.rgamma(1 + n) * scipy.special.rgamma(1 - n)
+        return np.asarray(powers * (gammas / (2 * self.compliance)))
 
     def _complex_modulus(self, omega: Floats) -> NDArray[np.complex128]:
         n = self.exponent

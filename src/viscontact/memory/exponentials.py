@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.optimize import nnls
 
 from viscontact.compliance import ContactCompliance, SeriesCompliance
 
@@ -85,7 +85,9 @@ def _fitted(
     delayed = np.maximum(creep - compliance.instant, 0.0)
     # Scaled to amplitudes of order one, which is what the solver's tolerance takes them for.
     size = float(creep[-1])
-    found, _ = nnls(terms * (size * weight)[:, None], delayed * weight, maxiter=50 * len(times))
+    found, _ = scipy.optimize.nnls(
+        terms * (size * weight)[:, None], delayed * weight, maxiter=50 * len(times)
+    )
     return SeriesCompliance(
         compliance.instant, found[:-1] * size, times, float(found[-1]) * size / last
     )

@@ -7,8 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 
 from viscontact.carried import Carried
 from viscontact.compliance import ContactCompliance
@@ -189,4 +189,4 @@ def longest_smooth_rise(
 
     if excess(1.0) <= 0:
         return duration
-    return duration * float(brentq(excess, 0.0, 1.0, xtol=1e-15))
+    return duration * float(scipy.optimize.brentq(excess, 0.0, 1.0, xtol=1e-15))

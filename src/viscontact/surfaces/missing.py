@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import Literal
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy import sparse
-from scipy.sparse import linalg
 
 from viscontact.surfaces.surface import Surface
 
@@ -82,7 +81,6 @@ def _film(surface: Surface) -> NDArray[np.float64]:
             both = ~is_known
             links.append((row[both], column[both], np.full(int(both.sum()), -weight)))
     rows, columns, values = (np.concatenate(part) for part in zip(*links, strict=True))
-    matrix = sparse.coo_matrix((values, (rows, columns)), shape=(count, count)).tocsc()
-    return (
-        np.asarray(linalg.spsolve(matrix + sparse.diags(diagonal, format="csc"), right)) + reference
-    )
+    matrix = scipy.sparse.coo_matrix((values, (rows, columns)), shape=(count, count)).tocsc()
+    matrix += scipy.sparse.diags(diagonal, format="csc")
+    return np.asarray(scipy.sparse.linalg.spsolve(matrix, right)) + reference

@@ -7,8 +7,8 @@ from collections.abc import Callable
 from typing import Literal
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy import ndimage, sparse
 
 from viscontact.real import as_real
 from viscontact.surfaces.surface import Surface
@@ -153,7 +153,7 @@ def _bell(wave: float) -> Callable[[Array], Array]:
 
 def _matrix(
     surface: Surface, axis: int, cell: float, weight: Callable[[Array], Array], reach: float
-) -> sparse.csr_matrix:
+) -> scipy.sparse.csr_matrix:
     """Weights of the old points along an axis, a row for each new one."""
     old, spacing = surface.shape[axis], surface.spacing[axis]
     new = _count(surface, axis, cell)
@@ -166,7 +166,7 @@ def _matrix(
     within &= True if surface.periodic else (points >= 0) & (points < old)
     rows = np.broadcast_to(np.arange(new)[:, np.newaxis], points.shape)
     entries = (values[within], (rows[within], points[within] % old))
-    return sparse.coo_matrix(entries, shape=(new, old)).tocsr()
+    return scipy.sparse.coo_matrix(entries, shape=(new, old)).tocsr()
 
 
 def _count(surface: Surface, axis: int, cell: float) -> int:
@@ -187,7 +187,7 @@ def _count(surface: Surface, axis: int, cell: float) -> int:
     return count
 
 
-def _both_ways(along: list[sparse.csr_matrix], field: Array) -> Array:
+def _both_ways(along: list[scipy.sparse.csr_matrix], field: Array) -> Array:
     return np.asarray((along[1] @ (along[0] @ field).T).T)
 
 
@@ -221,5 +221,5 @@ def _through(surface: Surface, cells: tuple[float, float]) -> Surface:
         )
     mode = "grid-wrap" if surface.periodic else "mirror"
     mesh = np.meshgrid(*places, indexing="ij")
-    heights = ndimage.map_coordinates(surface.heights, mesh, order=3, mode=mode)
+    heights = scipy.ndimage.map_coordinates(surface.heights, mesh, order=3, mode=mode)
     return Surface(heights, cells, name=surface.name, periodic=surface.periodic)

@@ -1,0 +1,77 @@
+"""How long it takes until something happens: the fastest of several fresh processes each.
+
+Processor time besides the time on the clock: on a machine that has other work, only the first
+says what the program needs.
+
+    python benchmarks/start_up.py [--repeat 10]
+"""
+
+from __future__ import annotations
+
+import argparse
+import subprocess
+import sys
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+import viscontact
+
+try:
+    import resource
+except ImportError:  # not on Windows
+    resource = None
+
+CASE = Path(viscontact.__file__).parent / "examples" / "roller-dogbone-e05.yaml"
+READ = f"from viscontact.case import read_case; read_case({str(CASE)!r})"
+
+
+@dataclass(frozen=True)
+class Start:
+    """What is started, and how long it may take [s]."""
+
+    name: str
+    words: tuple[str, ...]
+    limit: float | None = None
+
+
+STARTS = (
+    Start("python itself", ("-c", "pass")),
+    Start("import numpy", ("-c", "import numpy")),
+    Start("import viscontact", ("-c", "import viscontact"), 0.3),
+    Start("viscontact --help", ("-m", "viscontact", "--help"), 0.6),
+    Start("viscontact run --help", ("-m", "viscontact", "run", "--help"), 0.6),
+    Start("first case parsed", ("-c", READ), 1.0),
+    Start("viscontact check CASE", ("-m", "viscontact", "check", str(CASE))),
+    Start("vc.simulate, imported", ("-c", "import viscontact as vc; vc.simulate")),
+)
+
+
+def processor_time() -> float:
+    if resource is None:
+        return float("nan")
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return float(used.ru_utime + used.ru_stime)
+
+
+def seconds(words: tuple[str, ...]) -> tuple[float, float]:
+    """Time on the clock and of the processor of one fresh process [s]."""
+    before, started = processor_time(), time.perf_counter()
+    subprocess.run([sys.executable, *words], check=True, capture_output=True)
+    return time.perf_counter() - started, processor_time() - before
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--repeat", type=int, default=10)
+    repeat = parser.parse_args().repeat
+    print(f"{'':24}{'clock s':>9}{'CPU s':>9}{'limit s':>9}")
+    for start in STARTS:
+        each = [seconds(start.words) for _ in range(repeat)]
+        clock, processor = (min(times) for times in zip(*each, strict=True))
+        limit = "" if start.limit is None else f"{start.limit:.1f}"
+        print(f"{start.name:24}{clock:9.2f}{processor:9.2f}{limit:>9}")
+
+
+if __name__ == "__main__":
+    main()
