@@ -93,6 +93,7 @@ BENCHMARKS = {
     "build-peers": "peers/build.py",
     "peers": "peers/compare.py",
     "long-runs": "long_runs.py",
+    "start-up": "start_up.py",
 }
 
 TASKS = {"demo": demo, "test": test, "lint": lint, "bench": bench, "build": build, "lock": lock}

@@ -3,7 +3,7 @@
 Processor time besides the time on the clock: on a machine that has other work, only the first
 says what the program needs.
 
-    python benchmarks/start_up.py [--repeat 10]
+    ./go bench start-up [--repeat 10]
 """
 
 from __future__ import annotations

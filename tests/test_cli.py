@@ -868,7 +868,7 @@ def test_directories_that_netcdf_cannot_name_are_refused(
 
 
 def test_too_little_memory_for_the_libraries_is_said(folder: Path) -> None:
-    done = _shell("ulimit -v 300000 || exit 99; $V run case.yaml")
+    done = _shell("ulimit -v 270000 || exit 99; $V run case.yaml")
     if done.returncode == 99:
         pytest.skip("no limit of memory here")
     assert done.returncode == 1

@@ -54,7 +54,10 @@ def run(
     threads: Threads = 1,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Only errors.")] = False,
 ) -> None:
-    """Run a case and write its result to a directory; or several, some at a time."""
+    """Run a case and write its result to a directory; or several, each to its own.
+
+    Several:  viscontact run my.yaml --vary load.force=5kN,10kN,20kN -j 2 -o forces
+    """
     given = tuple(settings or ())
     request = RunRequest(cases[0], output, overwrite, resume, given, threads, quiet)
     try:

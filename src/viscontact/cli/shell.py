@@ -30,11 +30,7 @@ _COMMANDS = (
     (demo, "viscontact demo"),
     (example, "viscontact example roller-dogbone -o my.yaml"),
     (check, "viscontact check my.yaml"),
-    (
-        run,
-        "viscontact run my.yaml --set load.force=20kN --set output.fields=all -o heavier\n\n"
-        "Several:  viscontact run my.yaml --vary load.force=5kN,10kN,20kN -j 2 -o forces",
-    ),
+    (run, "viscontact run my.yaml --set load.force=20kN --set output.fields=all -o heavier"),
     (show, "viscontact show heavier"),
     (plot, 'viscontact plot heavier pressure-map --time "0 s" --time "1000 s" -o map.pdf'),
     (compare, "viscontact compare centred halfway end --figure history -o runs.png"),
