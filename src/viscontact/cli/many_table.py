@@ -13,9 +13,9 @@ from rich.markup import escape
 from rich.table import Table
 
 from viscontact.cli.child import Ended
-from viscontact.variables import SCALARS
 from viscontact.results import open_results
 from viscontact.units import in_digits, in_words, readable_unit
+from viscontact.variables import SCALARS
 
 #: Of each the largest over time: what a design is judged by.
 _COLUMNS = ("force", "approach", "contact_area", "peak_pressure")
