@@ -867,8 +867,9 @@ def test_directories_that_netcdf_cannot_name_are_refused(
     assert [path.name for path in folder.iterdir()] == ["case.yaml"]
 
 
-def test_too_little_memory_for_the_libraries_is_said(folder: Path) -> None:
-    done = _shell("ulimit -v 270000 || exit 99; $V run case.yaml")
+@pytest.mark.parametrize("kilobytes", [220_000, 250_000, 290_000])
+def test_too_little_memory_for_the_libraries_is_said(kilobytes: int, folder: Path) -> None:
+    done = _shell(f"ulimit -v {kilobytes} || exit 99; $V run case.yaml")
     if done.returncode == 99:
         pytest.skip("no limit of memory here")
     assert done.returncode == 1

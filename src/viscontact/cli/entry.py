@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Sequence
 from contextlib import suppress
@@ -9,6 +10,10 @@ from contextlib import suppress
 from viscontact.cli.interruption import Interruption, watched_interruption
 from viscontact.cli.messages import INTERRUPTED, REFUSED, STOPPED, say
 from viscontact.cli.streams import occupy_streams, remember_output, unwritten
+
+#: The libraries take so much before a case has been looked at [bytes]. With a little less some of
+#: them hang, or end the process, instead of saying so.
+LEAST_MEMORY = 3e8
 
 #: What a loader says of a library for which there is no room.
 _NO_ROOM = ("failed to map segment", "cannot allocate memory", "Cannot allocate memory")
@@ -56,6 +61,8 @@ def _watched(arguments: Sequence[str] | None) -> int:
 
 
 def _answered(typed: list[str] | None, interruption: Interruption) -> int:
+    if _address_space() < LEAST_MEMORY:
+        return _lacks_memory()
     try:
         # An import that is interrupted may end in any error.
         with interruption.postponed():
@@ -102,11 +109,25 @@ def _error_code(error: Exception, interruption: Interruption) -> int:
     if os.environ.get("VISCONTACT_TRACEBACK"):
         raise error
     if _is_lack_of_memory(error):
-        say("viscontact: there is too little memory; give it more (`ulimit -v` shows a limit)")
-        return STOPPED
+        return _lacks_memory()
     say(f"viscontact: unexpected {type(error).__name__}: {error}")
     say("This is a fault of viscontact; set VISCONTACT_TRACEBACK=1 to see where, and report it.")
     return STOPPED
+
+
+def _lacks_memory() -> int:
+    say("viscontact: there is too little memory; give it more (`ulimit -v` shows a limit)")
+    return STOPPED
+
+
+def _address_space() -> float:
+    """How many bytes the process may take, where the system sets a limit (not on Windows)."""
+    try:
+        import resource
+    except ImportError:
+        return math.inf
+    limit, _ = resource.getrlimit(resource.RLIMIT_AS)
+    return math.inf if limit == resource.RLIM_INFINITY else float(limit)
 
 
 def _is_lack_of_memory(error: BaseException | None) -> bool:
