@@ -20,22 +20,24 @@ import numpy as np
 import xarray as xr
 
 import viscontact as vc
+from viscontact.recording.contents import Contents
 from viscontact.recording.result_writer import ResultWriter
 from written_states import GRID, faults_of, state
 
 ROWS = 3000
 TIMES = np.arange(ROWS) / 7.0
 SOME = [float(time) for time in TIMES[::5]]
+CONTENTS = Contents(GRID, TIMES, SOME)
 
 
 def write(path: Path, place: Path) -> None:
     """Write from the last position on, one publication a row; note the position after each."""
     position = json.loads(place.read_text()) if place.exists() else None
     if position is None:
-        writer = ResultWriter(path, GRID, TIMES, fields=SOME)
+        writer = ResultWriter(path, CONTENTS)
         writer.publish()
     else:
-        writer = ResultWriter.resume(path, GRID, TIMES, position, fields=SOME)
+        writer = ResultWriter.resume(path, CONTENTS, position)
     with writer:
         for row in range(position["rows"] if position else 0, ROWS):
             writer.append(state(row, times=TIMES))

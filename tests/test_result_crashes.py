@@ -18,6 +18,7 @@ import pytest
 
 from viscontact.recording import result_writer
 from viscontact.recording.account import Account
+from viscontact.recording.contents import Contents
 from viscontact.recording.result_writer import ResultWriter
 from written_states import GRID, SOME, TIMES, begun, faults_of, names, resumed, state, write
 
@@ -209,12 +210,13 @@ LIMITED = """
 import json, resource, sys
 from pathlib import Path
 import numpy as np
+from viscontact.recording.contents import Contents
 from viscontact.recording.result_writer import ResultWriter
 from written_states import GRID, state
 path, room, times, position = Path(sys.argv[1]), int(sys.argv[2]), np.arange(300.0), None
 resource.setrlimit(resource.RLIMIT_FSIZE, (room, room))
 try:
-    with ResultWriter(path, GRID, times, fields="all") as writer:
+    with ResultWriter(path, Contents(GRID, times)) as writer:
         for row in range(300):
             writer.append(state(row, times=times))
             if row % 10 == 9:
@@ -252,7 +254,7 @@ def test_file_that_may_not_grow_any_more_ends_the_writing_in_order(room: int, pa
         return
     times = np.arange(300.0)
     assert faults_of(path, position["rows"], None, times=times) == []
-    with ResultWriter.resume(path, GRID, times, position) as writer:
+    with ResultWriter.resume(path, Contents(GRID, times), position) as writer:
         for row in range(position["rows"], 300):
             writer.append(state(row, times=times))
         writer.finish()

@@ -14,6 +14,7 @@ import pytest
 import xarray as xr
 
 from viscontact.recording import result_writer, two_copies
+from viscontact.recording.contents import Contents
 from viscontact.recording.result_writer import ResultWriter
 from written_states import GRID, SOME, TIMES, begun, faults_of, names, resumed, state, write
 
@@ -49,7 +50,7 @@ def test_reader_goes_on_with_what_it_has_opened(
     # Lazily opened, the file is read long after others have taken its place.
     monkeypatch.setenv("HDF5_USE_FILE_LOCKING", locking)
     times, seen = np.arange(300.0), path.with_name("seen.nc")
-    with ResultWriter(path, GRID, times, fields="all") as writer:
+    with ResultWriter(path, Contents(GRID, times)) as writer:
         for row in range(40):
             writer.append(state(row, times=times))
         writer.publish()

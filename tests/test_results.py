@@ -15,6 +15,7 @@ import xarray as xr
 
 import viscontact as vc
 from viscontact.recording import result_writer
+from viscontact.recording.contents import Contents
 from viscontact.recording.result_writer import ResultWriter
 from viscontact.variables import FIELDS, SCALARS
 from written_states import GRID, SOME, TIMES, begun, faults_of, names, resumed, state, write
@@ -149,7 +150,7 @@ def test_what_takes_the_place_of_the_result_is_on_the_disk_by_then(
 
 def test_publishing_again_and_again_does_not_swell_the_file(path: Path) -> None:
     times = np.arange(400.0)
-    with ResultWriter(path, GRID, times, fields="none") as writer:
+    with ResultWriter(path, Contents(GRID, times, "none")) as writer:
         for row in range(400):
             writer.append(state(row, times=times))
             writer.publish()
@@ -230,7 +231,7 @@ def test_rows_beyond_the_end_are_dropped(path: Path) -> None:
 
 
 def _other(path: Path, grid: vc.Grid = GRID, fields: Any = SOME, rows: int = 5) -> None:
-    with ResultWriter(path, grid, TIMES, fields=fields) as writer:
+    with ResultWriter(path, Contents(grid, TIMES, fields)) as writer:
         writer.publish()
         if grid is GRID:
             write(writer, rows)

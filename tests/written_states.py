@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact import Grid
+from viscontact.recording.contents import Contents
 from viscontact.recording.result_writer import ResultWriter
 from viscontact.state import ContactState, Outcome
 from viscontact.variables import FIELDS, SCALARS
@@ -69,12 +70,12 @@ def faults_of(
 
 def begun(path: Path, fields: Any = SOME) -> ResultWriter:
     """A writer of a new result."""
-    return ResultWriter(path, GRID, TIMES, fields=fields, attributes=GIVEN)
+    return ResultWriter(path, Contents(GRID, TIMES, fields, GIVEN))
 
 
 def resumed(path: Path, position: dict[str, Any], fields: Any = SOME) -> ResultWriter:
     """A writer that goes on."""
-    return ResultWriter.resume(path, GRID, TIMES, position, fields=fields, attributes=GIVEN)
+    return ResultWriter.resume(path, Contents(GRID, TIMES, fields, GIVEN), position)
 
 
 def write(writer: ResultWriter, end: int = len(TIMES)) -> None:

@@ -5,15 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal, NamedTuple, Self
+from typing import Any, Literal, NamedTuple
 
 import netCDF4
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.dataset import field_axis
 from viscontact.grid import Grid
-from viscontact.instants import field_instants
 from viscontact.outgrown import on_wider
 from viscontact.state import ContactState
 from viscontact.variables import (
@@ -63,36 +61,6 @@ class Layout:
     grid: Grid
     axis: str | None
     errors: bool = False
-
-    @classmethod
-    def of(
-        cls,
-        grid: Grid,
-        times: NDArray[np.float64],
-        fields: str | Sequence[float],
-        *,
-        errors: bool = False,
-    ) -> Self:
-        """Return the layout of a run's result.
-
-        Parameters
-        ----------
-        grid : Grid
-            Grid of the fields.
-        times : ndarray
-            Instants of the run [s].
-        fields : "all", "none" or sequence of float
-            Instants [s] whose fields are kept.
-        errors : bool
-            Whether there is room for errors.
-
-        Examples
-        --------
-        >>> grid = Grid((4, 4), (1.0, 1.0))
-        >>> Layout.of(grid, np.array([0.0, 1.0]), [1.0]).axis
-        'field_time'
-        """
-        return cls(grid, field_axis(fields) if field_instants(fields, times).size else None, errors)
 
     @property
     def columns(self) -> dict[str, tuple[Variable, tuple[str, ...]]]:

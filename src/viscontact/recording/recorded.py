@@ -13,6 +13,7 @@ from viscontact.carried import Carried
 from viscontact.dataset import run_attributes
 from viscontact.description import describe, describe_run
 from viscontact.recording.checkpoint import STATE_NAME, Checkpoint, is_checkpoint, load_checkpoint
+from viscontact.recording.contents import Contents
 from viscontact.recording.differences import Difference, differences
 from viscontact.recording.progress import ProgressLog
 from viscontact.recording.result_writer import ResultWriter
@@ -78,10 +79,11 @@ class Recorded:
         return plain
 
     @property
-    def attributes(self) -> dict[str, Any]:
-        """Attributes of the result."""
+    def contents(self) -> Contents:
+        """What the result is to hold."""
         about = {name: json.dumps(self.case[name]) for name in ("fields", "errors")}
-        return {"title": self.title, **run_attributes(self.run), **about}
+        attributes = {"title": self.title, **run_attributes(self.run), **about}
+        return Contents(self.run.grid, self.run.times, self.fields, attributes, self.errors)
 
 
 def saved_state(recorded: Recorded) -> Checkpoint:
@@ -137,14 +139,7 @@ def new_writer(recorded: Recorded) -> ResultWriter:
     recorded : Recorded
         The run.
     """
-    return ResultWriter(
-        recorded.directory / RESULT_NAME,
-        recorded.run.grid,
-        recorded.run.times,
-        fields=recorded.fields,
-        attributes=recorded.attributes,
-        errors=recorded.errors,
-    )
+    return ResultWriter(recorded.directory / RESULT_NAME, recorded.contents)
 
 
 def same_writer(recorded: Recorded, position: Carried) -> ResultWriter:
@@ -169,15 +164,7 @@ def same_writer(recorded: Recorded, position: Carried) -> ResultWriter:
         raise ValueError(f"{error}; {REMEDY}") from error
     if is_other:
         raise ValueError(f"{path} is of another run than {STATE_NAME} beside it; {REMEDY}")
-    return ResultWriter.resume(
-        path,
-        recorded.run.grid,
-        recorded.run.times,
-        position,
-        fields=recorded.fields,
-        attributes=recorded.attributes,
-        errors=recorded.errors,
-    )
+    return ResultWriter.resume(path, recorded.contents, position)
 
 
 def new_lines(recorded: Recorded) -> ProgressLog:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time as clock
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
@@ -15,12 +15,11 @@ from numpy.typing import NDArray
 
 from viscontact.error_bars import ErrorBars
 from viscontact.grid import Grid
-from viscontact.instants import field_instants
 from viscontact.recording.account import NOTHING_YET, Account
 from viscontact.recording.closing import Closing
+from viscontact.recording.contents import Contents
 from viscontact.recording.layout import (
     Extent,
-    Layout,
     read_scalars,
     write_errors,
     write_fields,
@@ -50,16 +49,8 @@ class ResultWriter(Closing):
     ----------
     path : path
         The result. What is there stays as it is until the first `publish`.
-    grid : Grid
-        Grid of the fields; a state on a wider one has the result laid out anew.
-    times : ndarray
-        Instants of the run [s].
-    fields : "all", "none" or sequence of float
-        Instants [s] whose fields are written.
-    attributes : dict
-        Global attributes.
-    errors : bool
-        Whether `finish` will be given errors of the scalars.
+    contents : Contents
+        What it is to hold. A state on a wider grid has it laid out anew.
 
     Notes
     -----
@@ -74,7 +65,7 @@ class ResultWriter(Closing):
     >>> rubber = vc.Material(vc.Elastic(1e7), 0.5)
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     path = Path(folder) / "result.nc"
-    ...     with ResultWriter(path, grid, np.array(times), fields="none") as writer:
+    ...     with ResultWriter(path, Contents(grid, np.array(times), "none")) as writer:
     ...         for state in vc.march(vc.Sphere(0.01), rubber, vc.step(2.0), grid, times):
     ...             writer.append(state)
     ...         writer.finish()
@@ -83,52 +74,23 @@ class ResultWriter(Closing):
     ([2.0, 2.0], 1)
     """
 
-    def __init__(
-        self,
-        path: str | Path,
-        grid: Grid,
-        times: NDArray[np.float64],
-        *,
-        fields: str | Sequence[float] = "all",
-        attributes: Mapping[str, Any] | None = None,
-        errors: bool = False,
-    ) -> None:
-        self._set_up(
-            Path(path), grid, times, START, fields, attributes, is_there=False, errors=errors
-        )
+    def __init__(self, path: str | Path, contents: Contents) -> None:
+        self._set_up(Path(path), contents, START, contents.grid)
         with self._writing():
             self._copies.begin(self._all_attributes())
 
     @classmethod
-    def resume(
-        cls,
-        path: str | Path,
-        grid: Grid,
-        times: NDArray[np.float64],
-        position: Mapping[str, Any],
-        *,
-        fields: str | Sequence[float] = "all",
-        attributes: Mapping[str, Any] | None = None,
-        errors: bool = False,
-    ) -> Self:
+    def resume(cls, path: str | Path, contents: Contents, position: Mapping[str, Any]) -> Self:
         """Go on with a result from a position.
 
         Parameters
         ----------
         path : path
             The result. Rows it has beyond the position are written again as they come.
-        grid : Grid
-            Grid of the fields when the run began.
-        times : ndarray
-            Instants of the run [s].
+        contents : Contents
+            What it is to hold, as before.
         position : dict
             The `position` of an earlier process when it published.
-        fields : "all", "none" or sequence of float
-            Instants [s] whose fields are written.
-        attributes : dict
-            Global attributes.
-        errors : bool
-            As for a new result.
 
         Returns
         -------
@@ -141,34 +103,23 @@ class ResultWriter(Closing):
             If the result cannot be read, is another run's, or has fewer rows than that.
         """
         writer = cls.__new__(cls)
-        writer._set_up(
-            Path(path), grid, times, position, fields, attributes, is_there=True, errors=errors
-        )
+        # It may be ahead of the position, on a wider grid.
+        so_far = Account(contents.grid, position).grid
+        writer._set_up(Path(path), contents, position, stored_grid(Path(path), so_far))
         there = sound_times(writer._path, writer._layout, writer._done)
         writer._ahead = there[writer._done.rows :].tolist()
         writer._copies.take_over(writer._done)
         return writer
 
     def _set_up(
-        self,
-        path: Path,
-        grid: Grid,
-        times: NDArray[np.float64],
-        position: Mapping[str, Any],
-        fields: str | Sequence[float],
-        attributes: Mapping[str, Any] | None,
-        *,
-        is_there: bool,
-        errors: bool,
+        self, path: Path, contents: Contents, position: Mapping[str, Any], laid_out: Grid
     ) -> None:
         self._done = Extent(position["rows"], position["field_rows"])
-        self._kept = set(field_instants(fields, times).tolist())
-        self._account = Account(grid, position)
-        # A file that is gone on with may be ahead of the position, on a wider grid.
-        laid_out = stored_grid(path, self._account.grid) if is_there else grid
-        self._path, self._layout = path, Layout.of(laid_out, times, fields, errors=errors)
+        self._kept = contents.kept
+        self._account = Account(contents.grid, position)
+        self._path, self._layout = path, contents.layout(laid_out)
         self._copies = TwoCopies(path, self._layout)
-        self._attributes = {**(attributes or {}), "complete": np.int32(0)}
+        self._attributes = {**contents.attributes, "complete": np.int32(0)}
         # States without fields, of rows from `_written` on.
         self._waiting: list[ContactState] = []
         self._written = self._done.rows
