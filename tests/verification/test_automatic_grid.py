@@ -46,10 +46,11 @@ def random_ellipse(seed):
 @pytest.mark.parametrize(
     ("tolerance", "seeds"),
     [
-        (0.01, range(8)),
+        (0.01, range(6)),
+        (0.003, range(300, 304)),  # no first mesh is fine enough for these
         pytest.param(0.03, range(100, 120), marks=pytest.mark.slow),
         pytest.param(0.01, range(200, 260), marks=pytest.mark.slow),
-        pytest.param(0.003, range(300, 315), marks=pytest.mark.slow),
+        pytest.param(0.003, range(304, 315), marks=pytest.mark.slow),
         pytest.param(0.001, range(400, 405), marks=pytest.mark.slow),
     ],
 )
