@@ -14,7 +14,7 @@ import pytest
 
 import viscontact as vc
 from verification.exact_contacts import ExactRun, drawn
-from viscontact.companions import history_of
+from viscontact.companions import companions_of, history_of, marched
 from viscontact.error_bars import SINGULAR, bars_from, error_bars
 from viscontact.marching import march_run
 from viscontact.run import prepare_run
@@ -184,6 +184,27 @@ def test_a_singular_peak_is_told(indenter: vc.Indenter, size: float) -> None:
     assert SINGULAR in ds.warnings
     assert np.isfinite(ds.approach_error).all()
     assert np.isfinite(ds.mean_pressure_error).all()
+
+
+@pytest.mark.parametrize(
+    ("law", "is_endless"),
+    [
+        (lambda spacing: 1 - 0.3 * math.log(spacing), True),  # wedges and cones, Johnson 5.2, 5.3
+        (lambda spacing: 1 / spacing**0.5, True),  # an edge
+        (lambda spacing: 1 - 0.1 * (spacing**2 - 1), False),  # as much over the grids, but smooth
+        (lambda spacing: 1 - 0.02 * math.log(spacing), False),  # of a bend that is no matter
+    ],
+    ids=["logarithm", "root", "square", "mild"],
+)
+def test_a_peak_that_grows_on_from_grid_to_grid_has_no_limit(law, is_endless: bool) -> None:
+    """Where neither the shape nor an end of the body tells it: roughness below the cells, say."""
+    run, history = pressed(40)
+    courses = [marched(each) for each in companions_of(run, history)]
+    for course in courses:
+        here = np.isin(history["time"], course.scalars["time"])
+        course.scalars["peak_pressure"][:] = history["peak_pressure"][here] * law(course.spacing)
+    endless = np.isinf(bars_from(run, history, courses).values["peak_pressure"])
+    assert endless.all() if is_endless else not endless.any()
 
 
 @pytest.mark.parametrize("indenter", [BALL, vc.Sphere(0.01), vc.Paraboloid(0.02, 0.008)])
