@@ -28,18 +28,15 @@ from cases import Case, roller
 from run import reference_convolution, seconds_of
 
 import viscontact as vc
-from viscontact import bedding, contact, convolution, half_space, past, search
+from viscontact import bedding, contact, convolution, half_space, past, search, waves
 from viscontact.memory.recursion import RecursiveMemory
 from viscontact.observation import Observer
 
 #: Part of a step, and the functions that make it up: where they are looked up, and their names.
 PARTS: tuple[tuple[str, tuple[tuple[Any, str], ...]], ...] = (
     ("operators: made", ((half_space.HalfSpace, "__init__"), (half_space.HalfSpace, "_patch"))),
-    (
-        "convolution",
-        ((convolution.Convolution, "apply"), (convolution.MirroredConvolution, "apply")),
-    ),
-    ("preconditioner", ((convolution.Preconditioner, "apply"),)),
+    ("convolution", ((convolution.Convolution, "apply"),)),
+    ("preconditioner", ((waves.Preconditioner, "apply"),)),
     ("measure: gap and error", ((search, "measure"), (contact, "measure"))),
     ("directions: project, inner products", ((search.Search, "_advance"),)),
     ("step: move, cut, balance", ((search.Search, "_step"), (search.Search, "__init__"))),
@@ -96,7 +93,7 @@ def clocked(act: Callable[..., Any], part: str, clocks: Clocks) -> Callable[...,
 
 
 def _precision(operator: Any) -> str:
-    single = operator._number is np.float32
+    single = operator._symbol.dtype == np.float32
     return "single, on the patch" if single else "double, on the whole grid"
 
 

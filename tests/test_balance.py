@@ -81,9 +81,11 @@ def test_cells_that_cannot_carry_the_moment_are_refused() -> None:
 
 
 def test_half_a_body_carries_half_and_does_not_tilt_across() -> None:
-    half = Support.of(step(6.0, eccentricity_x=0.5).at(0.0)).halved()
-    assert half.resultants == (3.0, 1.5, None)
-    assert half.motions[2] == 0.0
+    whole = Support.of(step(6.0, eccentricity_x=0.5).at(0.0))
+    assert whole.halved(1) == Support((3.0, 1.5, None))
+    across = Support.of(step(6.0, eccentricity_y=0.5).at(0.0))
+    assert across.halved(0) == Support((3.0, None, 1.5))
+    assert whole.halved(1).halved(0) == Support((1.5, None, None))
 
 
 @pytest.mark.parametrize("force", [1e-9, 1e-3, 1.0])

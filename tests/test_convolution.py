@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 
-from viscontact.convolution import Convolution, MirroredConvolution, Preconditioner
+from viscontact.convolution import Convolution
 from viscontact.influence import influence_coefficient, influence_table
+from viscontact.transforms import fastest_transforms, transforms_by
+from viscontact.waves import PeriodicConvolution, Preconditioner
 
 SHAPES = [(1, 1), (2, 3), (7, 11), (8, 8), (13, 16), (31, 6), (5, 37)]
 CELL = (0.7, 1.9)
@@ -35,12 +37,15 @@ def test_it_is_the_direct_sum(shape):
     assert np.abs(found - expected).max() < ROUNDING * np.abs(expected).max()
 
 
-@pytest.mark.parametrize("shape", [(7, 6), (8, 8), (13, 2), (5, 22)])
-def test_on_one_half_it_is_the_direct_sum_of_an_even_field(shape):
-    (half,) = fields((shape[0], shape[1] // 2))
-    whole = np.concatenate([half[:, ::-1], half], axis=1)
-    expected = direct_sum(whole, CELL)[:, shape[1] // 2 :]
-    found = MirroredConvolution(influence_table(shape, CELL)).apply(half)
+@pytest.mark.parametrize("mirrored", [(True, False), (False, True), (True, True)])
+@pytest.mark.parametrize("shape", [(8, 6), (12, 2), (2, 10), (6, 22)])
+def test_on_a_part_it_is_the_direct_sum_of_an_even_field(shape, mirrored):
+    nx, ny = (cells // 2 if even else 0 for cells, even in zip(shape, mirrored, strict=True))
+    (whole,) = fields(shape)
+    for axis in (0, 1):
+        whole = whole + np.flip(whole, axis) if mirrored[axis] else whole
+    expected = direct_sum(whole, CELL)[nx:, ny:]
+    found = Convolution(influence_table(shape, CELL), mirrored=mirrored).apply(whole[nx:, ny:])
     assert np.abs(found - expected).max() < ROUNDING * np.abs(expected).max()
 
 
@@ -68,8 +73,38 @@ def test_applying_does_not_touch_its_argument_nor_what_it_returned_before():
 
 def test_threads_change_nothing():
     (pressure,), table = fields((40, 33)), influence_table((40, 33), CELL)
-    one, two = (Convolution(table, threads=n).apply(pressure) for n in (1, 2))
+    operators = (
+        Convolution(table, transforms=transforms_by(fastest_transforms(), n)) for n in (1, 2)
+    )
+    one, two = (operator.apply(pressure) for operator in operators)
     assert (one == two).all()
+
+
+@pytest.mark.parametrize("single", [False, True])
+@pytest.mark.parametrize("mirrored", [(False, False), (True, False), (False, True), (True, True)])
+def test_ducc0_finds_what_scipy_finds(mirrored, single):
+    pytest.importorskip("ducc0")
+    (field,), table = fields((24, 18)), influence_table((48, 36), CELL)
+    table = table[: 24 * (1 + mirrored[0]), : 18 * (1 + mirrored[1])]
+    for operator in (
+        lambda by: Convolution(table, mirrored=mirrored, single=single, transforms=by),
+        lambda by: PeriodicConvolution((24, 18), CELL, single=single, transforms=by),
+        lambda by: Preconditioner((24, 18), CELL, mirrored=mirrored, transforms=by),
+    ):
+        one, other = (operator(by).apply(field) for by in map(transforms_by, ("scipy", "ducc0")))
+        rounding = 1e-6  # of single precision
+        assert np.abs(one - other).max() < rounding * np.abs(one).max()
+
+
+@pytest.mark.parametrize("mirrored", [(True, False), (False, True), (True, True)])
+def test_the_preconditioner_of_a_part_is_that_of_the_whole(mirrored):
+    (whole,) = fields((16, 12))
+    for axis in (0, 1):
+        whole = np.concatenate([np.flip(whole, axis), whole], axis) if mirrored[axis] else whole
+    part = tuple(slice(whole.shape[k] - (16, 12)[k], None) for k in (0, 1))
+    found = Preconditioner((16, 12), CELL, mirrored=mirrored).apply(whole[part])
+    expected = Preconditioner(whole.shape, CELL).apply(whole)[part]
+    assert np.abs(found - expected).max() < 1e-6 * np.abs(expected).max()
 
 
 def test_the_preconditioner_turns_a_wave_back_into_the_pressure_that_made_it():

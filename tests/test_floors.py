@@ -35,7 +35,16 @@ FLOORS = (
         "hull",
         "richardson",
     ),
-    ("convolution", "subsurface", "balance", "bedding", "half_space"),  # 2 operators on fields
+    # 2 operators on fields
+    (
+        "transforms",
+        "convolution",
+        "waves",
+        "subsurface",
+        "balance",
+        "bedding",
+        "half_space",
+    ),
     ("contact_problem", "search", "contact"),  # 3 equilibrium at one instant
     # 4 time
     (
@@ -107,6 +116,10 @@ NEIGHBOURS = {
     ("bedding", "balance"),  # which resultants the first guess carries
     ("half_space", "balance"),  # the rigid planes and the operators over one grid
     ("half_space", "convolution"),
+    ("half_space", "waves"),
+    ("half_space", "transforms"),  # whoever of them is there
+    ("convolution", "transforms"),
+    ("waves", "transforms"),
     ("search", "contact_problem"),
     ("contact", "contact_problem"),
     ("contact", "search"),  # which finds the pressure
@@ -196,6 +209,7 @@ REFERENCE_RESTS_ON, REFERENCE_SEEN_FROM = 1, 6
 # Other people's packages, and the lowest floor that may import them.
 OTHERS = {
     "numpy": 0, "scipy": 0,
+    "ducc0": 2,
     "xarray": 5, "netCDF4": 5, "filelock": 5,
     "pint": 6, "pydantic": 6, "pydantic_core": 6, "ruamel": 6,
     "SurfaceTopography": 6,

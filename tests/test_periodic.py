@@ -93,7 +93,7 @@ def test_approach_that_presses_everything_flat_is_refused():
 
 def test_periodic_half_space_is_not_mirrored():
     with pytest.raises(ValueError, match="not mirrored"):
-        HalfSpace(PERIOD, mirrored=True)
+        HalfSpace(PERIOD, mirrored=(False, True))
 
 
 def test_support_of_a_period_does_not_tilt():

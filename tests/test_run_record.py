@@ -17,10 +17,10 @@ import pytest
 import xarray as xr
 
 import viscontact as vc
-from viscontact import past
+from viscontact import past, transforms
 from viscontact.contact import ContactSolution
 from viscontact.contact_problem import Guess
-from viscontact.recording.checkpoint import STATE_NAME, Checkpoint, load_checkpoint
+from viscontact.recording.checkpoint import STATE_NAME, Checkpoint, load_checkpoint, save_checkpoint
 from viscontact.recording.plain_file import read_plain, write_plain
 from viscontact.recording.recorded import PROGRESS_NAME, ChangedCaseError, Recorded
 from viscontact.recording.run_record import RunRecord
@@ -402,3 +402,31 @@ def test_hard_link_to_a_result_keeps_it_as_it_was(
             before = linked.read_bytes()
     record.finish()
     assert linked.read_bytes() == before
+
+
+def test_a_run_stays_with_the_transforms_it_was_begun_with(
+    recorded: Recorded, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run = dataclasses.replace(recorded.run, transforms="scipy")
+    begun = RunRecord(dataclasses.replace(recorded, run=run))
+    next(iter(begun.steps()))
+    begun.close()
+    monkeypatch.setattr(transforms, "ducc0", object())  # as if it had been installed since
+    faster = dataclasses.replace(recorded, run=sphere_run())
+    assert faster.run.transforms == "ducc0"
+    finish(RunRecord.resume(faster))
+    assert vc.open_results(recorded.directory).attrs["transforms"] == "scipy"
+
+
+def test_a_run_whose_transforms_are_gone_is_not_gone_on_with(
+    recorded: Recorded, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    begun = RunRecord(recorded)
+    next(iter(begun.steps()))
+    begun.close()
+    path = recorded.directory / STATE_NAME
+    saved = dataclasses.replace(load_checkpoint(path), transforms="ducc0")
+    save_checkpoint(path, saved)
+    monkeypatch.setattr(transforms, "ducc0", None)
+    with pytest.raises(ValueError, match=r"begun with the Fourier transforms of ducc0.*fast"):
+        RunRecord.resume(recorded)

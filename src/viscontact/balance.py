@@ -54,17 +54,18 @@ class Support:
             (point.approach or 0.0, point.tilt_x or 0.0, point.tilt_y or 0.0),
         )
 
-    def halved(self) -> Support:
-        """Support of one half of a body that is even across y = 0: it does not tilt along y."""
-        force, moment_x, _ = self.resultants
-        return Support(
-            (
-                None if force is None else force / 2,
-                None if moment_x is None else moment_x / 2,
-                None,
-            ),
-            (self.motions[0], self.motions[1], 0.0),
-        )
+    def halved(self, axis: int) -> Support:
+        """Support of one half of a body that is even along an axis, so does not tilt along it.
+
+        Parameters
+        ----------
+        axis : {0, 1}
+            Across x = 0, or across y = 0.
+        """
+        halves = [None if each is None else each / 2 for each in self.resultants]
+        motions = list(self.motions)
+        halves[1 + axis], motions[1 + axis] = None, 0.0
+        return Support((halves[0], halves[1], halves[2]), (motions[0], motions[1], motions[2]))
 
     def level(self) -> Support:
         """Support of one period of a body: it does not tilt, or periods would not fit together."""

@@ -242,7 +242,7 @@ def _companion(
     grid = coarser_grid(run.grid, spacing, alike)
     load = run.load if pace <= 1 else LooserLoad(run.load, pace)
     coarse = replace(run.on(grid), times=times, load=load, adaptive=None, automatic=None)
-    numbers = 2 * coarse.open_gap.size // (2 if coarse.is_mirrored else 1)
+    numbers = 2 * coarse.open_gap.size // 2 ** sum(coarse.mirrored)
     memory = plan_memory(run.compliance, FixedSteps(times, load).instants, numbers)
     return Companion(spacing, pace, replace(coarse, memory=memory))
 
@@ -299,10 +299,9 @@ class LooserLoad(LoadHistory):
         """The load's cycles."""
         return self.load.load_cycles
 
-    @property
-    def is_even(self) -> bool:
-        """Whether the load is even across y = 0."""
-        return self.load.is_even
+    def is_even(self, axis: int) -> bool:
+        """Whether the load is even along an axis."""
+        return self.load.is_even(axis)
 
 
 def _peaks_at_point(run: Run, state: ContactState) -> bool:

@@ -238,7 +238,7 @@ def run_attributes(run: Run) -> dict[str, Any]:
     Returns
     -------
     dict
-        Conventions, version, the case as JSON, the tolerance.
+        Conventions, version, the case as JSON, tolerance, whose Fourier transforms, memory.
     """
     return {
         "Conventions": "CF-1.11",
@@ -246,6 +246,7 @@ def run_attributes(run: Run) -> dict[str, Any]:
         "version": __version__,
         "case": json.dumps(describe_run(run)),
         "tolerance": run.tolerance,
+        "transforms": run.transforms,
         "memory": run.memory.method,
         "memory_error": run.memory.error,
         "inversion_error": run.compliance.inversion_error,

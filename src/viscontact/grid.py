@@ -220,3 +220,21 @@ def _centres(cells: int, extent: float) -> NDArray[np.float64]:
     # Built from whole numbers so that mirrored centres are exact opposites.
     offsets = (2 * np.arange(cells) - (cells - 1)).astype(np.float64)
     return offsets * (extent / (2 * cells))
+
+
+def is_even(field: NDArray[np.float64], axis: int) -> bool:
+    """Whether a field's second half mirrors its first along an axis, to the bit.
+
+    Parameters
+    ----------
+    field : ndarray
+        On an even number of cells, or it has no halves.
+    axis : int
+        The axis.
+
+    Examples
+    --------
+    >>> is_even(np.array([[1.0, 2.0], [1.0, 2.0]]), 0), is_even(np.array([[1.0, 2.0]]), 1)
+    (True, False)
+    """
+    return field.shape[axis] % 2 == 0 and np.array_equal(field, np.flip(field, axis))

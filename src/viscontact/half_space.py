@@ -9,17 +9,14 @@ from numpy.typing import NDArray
 from scipy import fft
 
 from viscontact.balance import RigidPlane, Support
-from viscontact.convolution import (
-    Convolution,
-    MirroredConvolution,
-    PeriodicConvolution,
-    Preconditioner,
-)
+from viscontact.convolution import Convolution
 from viscontact.grid import Grid
 from viscontact.influence import influence_table
+from viscontact.transforms import Transforms, fastest_transforms, transforms_by
+from viscontact.waves import PeriodicConvolution, Preconditioner
 
 #: From pressure to displacement, on cells.
-Operator = Convolution | MirroredConvolution | PeriodicConvolution
+Operator = Convolution | PeriodicConvolution
 
 #: Free cells kept around a contact in its patch, as a part of the contact's extent.
 PATCH_MARGIN = 0.06
@@ -43,7 +40,7 @@ class Patch:
         Area of a cell [m²].
     arm : float
         Its longer edge, the measure of moments against forces [m].
-    convolution : Convolution, MirroredConvolution or PeriodicConvolution
+    convolution : Convolution or PeriodicConvolution
         Deflection of the patch under a change of pressure on the patch, in single precision.
     preconditioner : Preconditioner
         Rough inverse of it.
@@ -80,8 +77,8 @@ class HalfSpace:
     Searching for the pressure on the contact's own patch, by changes convolved in single
     precision, costs a fraction of what the whole grid does; what is found is convolved on the
     whole grid in double precision and checked there. The last patch is kept, for a contact that
-    creeps stays in it for many steps. A problem that is even across y = 0 needs only the cells at
-    y > 0: fields are then `fold`-ed, and supports halved, before they are used here. On a
+    creeps stays in it for many steps. A problem that is even across x = 0 or y = 0 needs only the
+    cells beyond: fields are then `fold`-ed, and supports halved, before they are used here. On a
     periodic grid all cells are worked with: nothing is padded there, and the preconditioner is an
     exact inverse.
 
@@ -89,38 +86,47 @@ class HalfSpace:
     ----------
     grid : Grid
         The cells that carry pressure and displacement.
-    mirrored : bool
-        Whether the problem is even across y = 0; the grid must have an even number of columns,
-        and not be periodic.
-    threads : int
-        Threads of one transform.
+    mirrored : tuple of bool
+        Whether the problem is even across x = 0, and across y = 0; the grid must have an even
+        number of cells along those axes, and not be periodic.
+    transforms : Transforms, optional
+        Who transforms; the fastest that are installed when left out.
 
     Attributes
     ----------
     whole : Patch
         The patch of all cells that are worked with.
-    convolution : Convolution, MirroredConvolution or PeriodicConvolution
+    convolution : Convolution or PeriodicConvolution
         Deflection of all of them under a pressure, in double precision.
 
     Examples
     --------
-    >>> half_space = HalfSpace(Grid((4, 8), (1.0, 1.0)), mirrored=True)
+    >>> half_space = HalfSpace(Grid((4, 8), (1.0, 1.0)), mirrored=(False, True))
     >>> half_space.fold(np.ones((4, 8))).shape
     (4, 4)
     """
 
     convolution: Operator
 
-    def __init__(self, grid: Grid, *, mirrored: bool = False, threads: int = 1) -> None:
-        if mirrored and grid.shape[1] % 2:
-            raise ValueError(f"a mirrored grid needs an even number of columns, got {grid.shape}")
-        if mirrored and grid.periodic:
+    def __init__(
+        self,
+        grid: Grid,
+        *,
+        mirrored: tuple[bool, bool] = (False, False),
+        transforms: Transforms | None = None,
+    ) -> None:
+        odd = [count % 2 for count in grid.shape]
+        if np.any(np.logical_and(mirrored, odd)):
+            raise ValueError(f"a mirrored grid needs an even number of cells, got {grid.shape}")
+        if any(mirrored) and grid.periodic:
             raise ValueError("a periodic grid is worked with as a whole, not mirrored")
         self.grid = grid
         self.mirrored = mirrored
-        self._threads = threads
-        self._first_column = grid.shape[1] // 2 if mirrored else 0
-        self.shape = (grid.shape[0], grid.shape[1] - self._first_column)
+        self._transforms = transforms or transforms_by(fastest_transforms())
+        self._first_row, self._first_column = (
+            count // 2 if even else 0 for count, even in zip(grid.shape, mirrored, strict=True)
+        )
+        self.shape = (grid.shape[0] - self._first_row, grid.shape[1] - self._first_column)
         if not grid.periodic:
             self._coefficients = influence_table(grid.shape, grid.cell_size)
         self.convolution = self._operator(self.shape, single=False)
@@ -133,26 +139,32 @@ class HalfSpace:
             return None
         nx, ny = self.grid.shape
         halved = replace(self.grid, shape=(nx // 2, ny // 2))
-        return HalfSpace(halved, mirrored=self.mirrored, threads=self._threads)
+        return HalfSpace(halved, mirrored=self.mirrored, transforms=self._transforms)
 
     def fold(self, field: NDArray[np.float64]) -> NDArray[np.float64]:
         """The part of a field on the grid that is worked with."""
-        return np.ascontiguousarray(field[:, self._first_column :])
+        return np.ascontiguousarray(field[self._first_row :, self._first_column :])
 
     def unfold(self, field: NDArray[np.float64]) -> NDArray[np.float64]:
         """The field on the grid whose part is worked with."""
-        return np.concatenate([field[:, ::-1], field], axis=1) if self.mirrored else field
+        for axis in (0, 1):
+            if self.mirrored[axis]:
+                field = np.concatenate([np.flip(field, axis), field], axis)
+        return field
 
     @property
     def fold_count(self) -> int:
         """How many times what is worked with makes the whole."""
-        return 2 if self.mirrored else 1
+        return (1 + self.mirrored[0]) * (1 + self.mirrored[1])
 
     def share(self, support: Support) -> Support:
         """What the part that is worked with has to carry of the whole body's load."""
         if self.grid.periodic:
             return support.level()
-        return support.halved() if self.mirrored else support
+        for axis in (0, 1):
+            if self.mirrored[axis]:
+                support = support.halved(axis)
+        return support
 
     def patch_around(self, cells: NDArray[np.bool_]) -> Patch:
         """A patch that holds the given cells with some room to grow.
@@ -170,11 +182,13 @@ class HalfSpace:
         if self.grid.periodic or not cells.any():
             return self.whole
         rows, columns = _span(np.any(cells, axis=1)), _span(np.any(cells, axis=0))
-        if self.mirrored:
+        if self.mirrored[0]:
+            rows = slice(0, rows.stop)
+        if self.mirrored[1]:
             columns = slice(0, columns.stop)
         roomy = (
-            _widened(rows, self.shape[0], one_sided=False),
-            _widened(columns, self.shape[1], one_sided=self.mirrored),
+            _widened(rows, self.shape[0], one_sided=self.mirrored[0]),
+            _widened(columns, self.shape[1], one_sided=self.mirrored[1]),
         )
         if _size(*roomy) > WORTHWHILE * cells.size:
             return self.whole
@@ -212,20 +226,29 @@ class HalfSpace:
             grid.cell_area,
             float(max(np.multiply(shape, grid.cell_size))),
             self._operator(shape, single=True),
-            Preconditioner(shape, grid.cell_size, mirrored=self.mirrored, threads=self._threads),
-            RigidPlane(grid.x[rows], grid.y[self._first_column :][columns], grid.cell_size),
+            Preconditioner(
+                shape, grid.cell_size, mirrored=self.mirrored, transforms=self._transforms
+            ),
+            RigidPlane(
+                grid.x[self._first_row :][rows],
+                grid.y[self._first_column :][columns],
+                grid.cell_size,
+            ),
         )
 
     def _operator(self, shape: tuple[int, int], *, single: bool) -> Operator:
         """The operator over a block of cells, or over the whole of a period."""
-        threads = self._threads
+        transforms = self._transforms
         if self.grid.periodic:
             cell_size = self.grid.cell_size
-            return PeriodicConvolution(shape, cell_size, single=single, threads=threads)
-        kind = MirroredConvolution if self.mirrored else Convolution
-        both_halves = 2 * shape[1] if self.mirrored else shape[1]
-        coefficients = self._coefficients[: shape[0], :both_halves]
-        return kind(coefficients, single=single, threads=threads)
+            return PeriodicConvolution(shape, cell_size, single=single, transforms=transforms)
+        nx, ny = (cells * (1 + even) for cells, even in zip(shape, self.mirrored, strict=True))
+        return Convolution(
+            self._coefficients[:nx, :ny],
+            mirrored=self.mirrored,
+            single=single,
+            transforms=transforms,
+        )
 
 
 def _span(occupied: NDArray[np.bool_] | np.bool_) -> slice:

@@ -14,7 +14,7 @@ from scipy import fft
 from viscontact.balance import Support
 from viscontact.contact import solve_contact
 from viscontact.contact_problem import ContactProblem, Guess
-from viscontact.grid import GRID_QUANTITIES, Grid
+from viscontact.grid import GRID_QUANTITIES, Grid, is_even
 from viscontact.half_space import HalfSpace
 from viscontact.indenters import Indenter
 from viscontact.load import LoadPoint
@@ -258,7 +258,7 @@ def _found(
 ) -> _Found:
     grid, indenter, point = Grid(shape, pressing.size), pressing.indenter, pressing.point
     open_gap = indenter.gap(grid.x[:, None], grid.y[None, :])
-    half_space = HalfSpace(grid, mirrored=_is_mirrored(open_gap, point))
+    half_space = HalfSpace(grid, mirrored=_mirrored(open_gap, point))
     problem = ContactProblem(
         half_space.fold(open_gap),
         pressing.compliance,
@@ -289,9 +289,10 @@ def _cells_in_a_row(contact: NDArray[np.bool_]) -> NDArray[np.float64]:
     return np.asarray(int(contact.sum()) / np.maximum(begun, 1))
 
 
-def _is_mirrored(open_gap: NDArray[np.float64], point: LoadPoint) -> bool:
-    even_load = point.eccentricity_y == 0 and not point.tilt_y
-    return bool(even_load and np.array_equal(open_gap, open_gap[:, ::-1]))
+def _mirrored(open_gap: NDArray[np.float64], point: LoadPoint) -> tuple[bool, bool]:
+    uneven = (point.eccentricity_x or point.tilt_x, point.eccentricity_y or point.tilt_y)
+    along_x, along_y = (not uneven[axis] and is_even(open_gap, axis) for axis in (0, 1))
+    return along_x, along_y
 
 
 def _good_shape(fewest: ArrayLike, finest: ArrayLike) -> tuple[int, int]:

@@ -19,7 +19,7 @@ from viscontact.admission import (
     check_touch,
 )
 from viscontact.compliance import ContactCompliance
-from viscontact.grid import AutomaticGrid, Grid
+from viscontact.grid import AutomaticGrid, Grid, is_even
 from viscontact.indenters import Indenter
 from viscontact.instants import field_instants, run_instants
 from viscontact.load import LoadHistory
@@ -29,6 +29,7 @@ from viscontact.mesh import Mesh, choose_mesh
 from viscontact.period import check_period
 from viscontact.schedule import FixedSteps
 from viscontact.stepping import AdaptiveTimes
+from viscontact.transforms import fastest_transforms
 
 #: Adaptive steps that the memory is planned for: at least so many, and so many times those that are
 #: likely; more are remembered as well.
@@ -72,6 +73,8 @@ class Run:
         Relative error of gap and balances.
     threads : int
         Threads of one Fourier transform.
+    transforms : str
+        Whose they are. Libraries differ in rounding, so a run stays with the one it began with.
     """
 
     indenter: Indenter
@@ -88,6 +91,7 @@ class Run:
     memory: MemoryPlan
     tolerance: float
     threads: int
+    transforms: str
 
     @property
     def grows(self) -> bool:
@@ -95,9 +99,9 @@ class Run:
         return self.automatic is not None
 
     @property
-    def is_mirrored(self) -> bool:
-        """Whether shape and load are even across y = 0, so that one half tells all."""
-        return _is_mirrored(self.open_gap, self.load, self.grid)
+    def mirrored(self) -> tuple[bool, bool]:
+        """Whether shape and load are even across x = 0, and y = 0: then one half tells all."""
+        return _mirrored(self.open_gap, self.load, self.grid)
 
     @property
     def bodies(self) -> tuple[Material, ...]:
@@ -187,6 +191,7 @@ def prepare_run(
         _planned_memory(compliance, load, instants, adaptive, open_gap, grid),
         float(tolerance),
         int(threads),
+        fastest_transforms(),
     )
 
 
@@ -194,9 +199,11 @@ def _gap_on(indenter: Indenter, grid: Grid) -> NDArray[np.float64]:
     return indenter.gap(grid.x[:, None], grid.y[None, :])
 
 
-def _is_mirrored(open_gap: NDArray[np.float64], load: LoadHistory, grid: Grid) -> bool:
-    even_grid = open_gap.shape[1] % 2 == 0 and not grid.periodic
-    return bool(even_grid and load.is_even and np.array_equal(open_gap, open_gap[:, ::-1]))
+def _mirrored(open_gap: NDArray[np.float64], load: LoadHistory, grid: Grid) -> tuple[bool, bool]:
+    if grid.periodic:
+        return False, False
+    along_x, along_y = (load.is_even(axis) and is_even(open_gap, axis) for axis in (0, 1))
+    return along_x, along_y
 
 
 def _planned_memory(
@@ -208,7 +215,7 @@ def _planned_memory(
     grid: Grid,
 ) -> MemoryPlan:
     # Pressure and deflection are remembered, of all cells that are worked with.
-    numbers = 2 * open_gap.size // (2 if _is_mirrored(open_gap, load, grid) else 1)
+    numbers = 2 * open_gap.size // 2 ** sum(_mirrored(open_gap, load, grid))
     if adaptive is None:
         return plan_memory(compliance, FixedSteps(instants, load).instants, numbers)
     # The steps are not known yet: as if there were many, over all decades that may count.

@@ -16,6 +16,7 @@ from viscontact.run import Run
 from viscontact.schedule import Step
 from viscontact.solved_step import SolvedStep
 from viscontact.state import ContactState, Instant, Outcome
+from viscontact.transforms import transforms_by
 
 
 @dataclass(frozen=True, eq=False)
@@ -186,7 +187,8 @@ class March:
 
 
 def _half_space(run: Run) -> HalfSpace:
-    return HalfSpace(run.grid, mirrored=run.is_mirrored, threads=run.threads)
+    transforms = transforms_by(run.transforms, run.threads)
+    return HalfSpace(run.grid, mirrored=run.mirrored, transforms=transforms)
 
 
 def _refuse_rim(run: Run, step: Step, instant: Instant) -> None:

@@ -118,7 +118,8 @@ class HarmonicHistory(LoadHistory):
         ends = [(k * self.period, "right") for k in range(self.cycles + 1)]
         return tuple(itertools.pairwise(ends))
 
-    @property
-    def is_even(self) -> bool:
-        """Whether the load is even across y = 0."""
+    def is_even(self, axis: int) -> bool:
+        """Whether the load is even along an axis; see `LoadHistory.is_even`."""
+        if axis == 0:
+            return not (self.eccentricity_x or self.tilt_x)
         return not (self.eccentricity_y or self.tilt_y)

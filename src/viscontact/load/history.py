@@ -99,7 +99,6 @@ class LoadHistory(ABC):
         ends = [time for cycle in self.load_cycles for time, _ in cycle]
         return np.unique(np.concatenate([self.kinks, ends]))
 
-    @property
     @abstractmethod
-    def is_even(self) -> bool:
-        """Whether the load is even across y = 0."""
+    def is_even(self, axis: int) -> bool:
+        """Whether the load is even along an axis, 0 for across x = 0, 1 for across y = 0."""

@@ -104,10 +104,10 @@ class PiecewiseHistory(LoadHistory):
                     plateaus.append((level, moment, moment))
         return plateaus
 
-    @property
-    def is_even(self) -> bool:
-        """Whether the load is even across y = 0."""
-        return not any(np.any(getattr(self, name)) for name in ("eccentricity_y", "tilt_y"))
+    def is_even(self, axis: int) -> bool:
+        """Whether the load is even along an axis; see `LoadHistory.is_even`."""
+        along = "xy"[axis]
+        return not any(np.any(getattr(self, name + along)) for name in ("eccentricity_", "tilt_"))
 
     def _interpolate(
         self, values: float | NDArray[np.float64], times: NDArray[np.float64], side: str

@@ -36,6 +36,8 @@ class Checkpoint:
         Where the writer of the result stood.
     march : dict
         What the march carried; empty before the first step.
+    transforms : str
+        Whose Fourier transforms the run is made with.
     version : str
         The program that saved it.
     """
@@ -47,6 +49,7 @@ class Checkpoint:
     reached: float | None
     result: Carried
     march: Carried
+    transforms: str
     version: str = __version__
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -24,6 +24,7 @@ from viscontact.recording.two_copies import hidden_copies
 from viscontact.results import RESULT_NAME
 from viscontact.run import Run
 from viscontact.step_by_step import March
+from viscontact.transforms import transforms_by
 
 #: The progress log's name in a run directory.
 PROGRESS_NAME = "progress.jsonl"
@@ -84,6 +85,28 @@ class Recorded:
         about = {name: json.dumps(self.case[name]) for name in ("fields", "errors")}
         attributes = {"title": self.title, **run_attributes(self.run), **about}
         return Contents(self.run.grid, self.run.times, self.fields, attributes, self.errors)
+
+    def by(self, transforms: str) -> Recorded:
+        """The same by the Fourier transforms that it was begun with.
+
+        Parameters
+        ----------
+        transforms : str
+            Their library.
+
+        Raises
+        ------
+        ValueError
+            If they are not installed.
+        """
+        try:
+            transforms_by(transforms)
+        except ValueError as error:
+            raise ValueError(
+                f"{self.directory}: the run was begun with the Fourier transforms of {transforms}, "
+                f"and to the last bit no others do: {error}; or start the run anew with --overwrite"
+            ) from error
+        return replace(self, run=replace(self.run, transforms=transforms))
 
 
 def saved_state(recorded: Recorded) -> Checkpoint:

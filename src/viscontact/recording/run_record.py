@@ -72,7 +72,9 @@ class RunRecord:
         undisturbed: Undisturbed = nullcontext,
     ) -> None:
         token = uuid.uuid4().hex
-        start = Checkpoint(recorded.case, token, 0, 0, None, dict(START), {})
+        start = Checkpoint(
+            recorded.case, token, 0, 0, None, dict(START), {}, recorded.run.transforms
+        )
         self._set_up(recorded, start, March(recorded.run), on_begin, undisturbed)
         self._writer = new_writer(recorded)
 
@@ -104,6 +106,7 @@ class RunRecord:
             If something cannot be written; what was saved is still there.
         """
         saved = saved_state(recorded)
+        recorded = recorded.by(saved.transforms)
         march = restored_march(recorded, saved)
         record = cls.__new__(cls)
         record._set_up(recorded, saved, march, on_begin, undisturbed)
@@ -319,6 +322,7 @@ class RunRecord:
             self.reached,
             self._writer.position,
             march,
+            self._recorded.run.transforms,
         )
         save_checkpoint(self._recorded.directory / STATE_NAME, checkpoint)
         self._start_log()
