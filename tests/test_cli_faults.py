@@ -27,7 +27,7 @@ from test_cli_resume import (  # noqa: F401 - fixtures
 )
 from viscontact import past
 from viscontact.cli import main
-from viscontact.recording import checkpoint, run_record
+from viscontact.recording import checkpoint, restart_files, run_record
 from viscontact.recording.progress import ProgressLog
 from viscontact.recording.result_writer import ResultWriter
 from viscontact.recording.step_log import StepLog
@@ -69,7 +69,7 @@ def _full(*arguments: Any, **options: Any) -> None:
         (ResultWriter, "publish"),
         (ResultWriter, "finish"),
         (checkpoint, "write_plain"),
-        (run_record, "StepLog"),
+        (restart_files, "StepLog"),
     ],
 )
 @pytest.mark.parametrize("calls", [0, 4])

@@ -22,7 +22,7 @@ import viscontact as vc
 from viscontact import past
 from viscontact.cli import attempt, execution, main
 from viscontact.cli.interruption import watched_interruption
-from viscontact.recording import run_record
+from viscontact.recording import restart_files, run_record
 from viscontact.recording.lock import locked
 from viscontact.recording.run_record import RunRecord
 
@@ -381,7 +381,7 @@ def test_second_request_within_a_step_stops_at_once(
 def test_second_request_within_a_checkpoint_waits_for_its_end(
     folder: Path, whole: xr.Dataset, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    save, whole_ones = run_record.save_checkpoint, []
+    save, whole_ones = restart_files.save_checkpoint, []
 
     def saving(path: Path, checkpoint: Any) -> None:
         if len(whole_ones) == 4:
@@ -393,7 +393,7 @@ def test_second_request_within_a_checkpoint_waits_for_its_end(
     with monkeypatch.context() as patched:
         patched.setattr(run_record, "PAUSE", 0.0)
         patched.setattr(run_record, "SHARE", 0.0)
-        patched.setattr(run_record, "save_checkpoint", saving)
+        patched.setattr(restart_files, "save_checkpoint", saving)
         assert main(["run", "case.yaml", "-q"]) == 130
     assert len(whole_ones) == 5
     assert main(["run", "case.yaml", "-q", "--resume"]) == 0
@@ -432,7 +432,7 @@ def test_request_while_the_run_is_opened_leaves_nothing(
 def test_fault_that_comes_while_a_request_waits_is_told(
     folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    save, saved = run_record.save_checkpoint, []
+    save, saved = restart_files.save_checkpoint, []
 
     def failing(path: Path, checkpoint: Any) -> None:
         if len(saved) == 4:
@@ -444,7 +444,7 @@ def test_fault_that_comes_while_a_request_waits_is_told(
 
     monkeypatch.setattr(run_record, "PAUSE", 0.0)
     monkeypatch.setattr(run_record, "SHARE", 0.0)
-    monkeypatch.setattr(run_record, "save_checkpoint", failing)
+    monkeypatch.setattr(restart_files, "save_checkpoint", failing)
     assert main(["run", "case.yaml", "-q"]) == 1
     assert "case: the run stopped: no room" in capsys.readouterr().err
 

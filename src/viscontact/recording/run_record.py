@@ -8,10 +8,9 @@ from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, nullcontext, suppress
 from typing import Self
 
-from viscontact.carried import Carried
 from viscontact.error_bars import ErrorBars, error_bars
 from viscontact.marching import Progress
-from viscontact.recording.checkpoint import STATE_NAME, Checkpoint, save_checkpoint
+from viscontact.recording.checkpoint import Checkpoint
 from viscontact.recording.progress import ProgressLog
 from viscontact.recording.recorded import (
     Recorded,
@@ -24,8 +23,8 @@ from viscontact.recording.recorded import (
     same_writer,
     saved_state,
 )
+from viscontact.recording.restart_files import RestartFiles
 from viscontact.recording.result_writer import START
-from viscontact.recording.step_log import LOG_NAME, StepLog, logged_steps
 from viscontact.state import ContactState, Outcome
 from viscontact.step_by_step import March, Taken
 
@@ -132,11 +131,9 @@ class RunRecord:
         undisturbed: Undisturbed,
     ) -> None:
         self._recorded, self._march = recorded, march
-        self._case, self._token = saved.case, saved.token
         self._on_begin, self._undisturbed = on_begin, undisturbed
-        self._steps = saved.steps
+        self._restart = RestartFiles(recorded.directory, saved)
         self._lines: ProgressLog | None = None
-        self._log: StepLog | None = None
         self._due = 0.0
         self._instants = self.kept = self.published = self.resumed = int(saved.result["rows"])
         self.reached = saved.reached
@@ -145,15 +142,14 @@ class RunRecord:
         """Take the steps again that had been solved since the checkpoint."""
         if self._on_begin is not None:
             self._on_begin()
-        log = self._recorded.directory / LOG_NAME
-        for solved in logged_steps(log, self._token, self._steps):
+        for solved in self._restart.solved():
             self._write(taken := self._march.repeat(solved))
             self.reached = self.reached if taken.state is None else taken.state.time
         self.kept = self.resumed = self._instants
-        if self._steps:
+        if self._restart.steps:
             self.checkpoint()
         else:
-            self._start_log()
+            self._restart.start_log()
 
     def steps(self, progress: Progress | None = None) -> Iterator[ContactState | None]:
         """March on, and record each step before it is shown.
@@ -200,7 +196,9 @@ class RunRecord:
             if self._publish():
                 # The log must not be behind the state, not even after a power cut.
                 self._lines.flush_to_disk()
-                self._save(self._march.carried())
+                self._restart.save(
+                    self._march.carried(), self.reached, self._lines.count, self._writer.position
+                )
                 self.kept = self._instants
         now = clock.monotonic()
         self._due = now + max(PAUSE, SHARE * (now - began))
@@ -268,21 +266,20 @@ class RunRecord:
     def close(self) -> None:
         """Close all files; never fails, and further calls do nothing."""
         self._writer.close()
-        for file in (self._lines, self._log):
-            if file is not None:
-                with suppress(OSError):
-                    file.close()
+        self._restart.close()
+        if self._lines is not None:
+            with suppress(OSError):
+                self._lines.close()
 
     def _record(self, taken: Taken) -> None:
         """Log the step before anything else, so that it is never solved again."""
         failed = taken.solved.outcome is Outcome.NOT_CONVERGED
-        if failed and not self._steps:
+        if failed and not self._restart.steps:
             return  # there is nothing to keep, and what was there stays
         if self._lines is None:
             self._begin()
         if not failed:
-            assert self._log is not None  # begun
-            self._log.append(taken.solved)
+            self._restart.append(taken.solved)
             if taken.state is not None:
                 self.kept, self.reached = self.kept + 1, taken.state.time
         self._write(taken)
@@ -291,7 +288,7 @@ class RunRecord:
             self.checkpoint()
 
     def _write(self, taken: Taken) -> None:
-        self._steps += 1
+        self._restart.steps += 1
         if taken.state is None:
             return
         assert self._lines is not None  # begun
@@ -302,7 +299,7 @@ class RunRecord:
     def _begin(self) -> None:
         """Make the directory this run's, as late as possible: what was there stays until then."""
         # From here on this run can be resumed, and no other: a log left over is another run's.
-        self._save({})
+        self._restart.save({}, self.reached, 0, self._writer.position)
         if self._on_begin is not None:
             self._on_begin()
         self._lines = new_lines(self._recorded)
@@ -312,23 +309,3 @@ class RunRecord:
         if done:
             self.published = self._instants
         return done
-
-    def _save(self, march: Carried) -> None:
-        checkpoint = Checkpoint(
-            self._case,
-            self._token,
-            self._steps,
-            0 if self._lines is None else self._lines.count,
-            self.reached,
-            self._writer.position,
-            march,
-            self._recorded.run.transforms,
-        )
-        save_checkpoint(self._recorded.directory / STATE_NAME, checkpoint)
-        self._start_log()
-
-    def _start_log(self) -> None:
-        if self._log is not None:
-            self._log.close()
-        path = self._recorded.directory / LOG_NAME
-        self._log = StepLog(path, self._token, self._steps)
