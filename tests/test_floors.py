@@ -60,6 +60,7 @@ FLOORS = (
         "estimate",
         "extent",
         "period_estimate",
+        "mesh_trial",
         "resolution",
         "instants",
         "admission",
@@ -67,6 +68,7 @@ FLOORS = (
         "automatic_grid",
         "period",
         "run",
+        "loading_doubts",
         "growth",
         "cycles",
         "observation",
@@ -141,6 +143,8 @@ NEIGHBOURS = {
     ("automatic_grid", "mesh"),  # as a run has it
     ("mesh", "extent"),  # holds the contact
     ("mesh", "estimate"),
+    ("resolution", "mesh_trial"),  # after trial
+    ("mesh", "mesh_trial"),  # of an elastic contact
     ("mesh", "resolution"),  # and resolves it,
     ("mesh", "sampling_doubts"),  # its waves and a map's points among it
     ("observation", "run"),  # which instants are kept
@@ -151,6 +155,10 @@ NEIGHBOURS = {
     ("extent", "estimate"),  # of the contact that has to fit
     ("period_estimate", "estimate"),  # whose answer it gives as well
     ("forecast", "foresight"),  # of doubts
+    ("loading_doubts", "plausibility"),  # by how much of it a step may change
+    ("loading_doubts", "run"),
+    ("loading_doubts", "schedule"),
+    ("observation", "loading_doubts"),
     ("observation", "plausibility"),  # which warnings it deserves
     ("past", "run"),
     ("past", "schedule"),  # a step to be taken

@@ -20,7 +20,8 @@ from viscontact.extent import (
 from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.load import LoadHistory
-from viscontact.resolution import RIM_SCATTER, USUAL_ORDER, Pressing, Resolution, resolve
+from viscontact.mesh_trial import RIM_SCATTER, Pressing
+from viscontact.resolution import USUAL_ORDER, Resolution, resolve
 from viscontact.sampling_doubts import CELLS_OF_A_WAVE, map_spacing
 
 #: No more cells are spent on a contact that is small at first and large for most of the run.

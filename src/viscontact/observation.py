@@ -16,6 +16,7 @@ from viscontact.geometry_doubts import Geometry, geometry_doubts
 from viscontact.grid import Grid
 from viscontact.growth import Enlargement
 from viscontact.load.history import LoadPoint
+from viscontact.loading_doubts import loading_doubts
 from viscontact.material_doubts import data_doubts, early_doubts, law_doubts, passivity_doubts
 from viscontact.outline import trace_outline
 from viscontact.plausibility import (
@@ -23,15 +24,11 @@ from viscontact.plausibility import (
     Doubts,
     cells_across_spots,
     mesh_doubts,
-    relative_change,
-    release_doubts,
-    step_doubts,
-    touch_doubts,
     untold_doubts,
 )
 from viscontact.rim import Rim, trace_rim
 from viscontact.run import Run
-from viscontact.schedule import SAME, Step
+from viscontact.schedule import Step
 from viscontact.state import ContactState, Instant, Outcome
 
 
@@ -193,53 +190,14 @@ class Observer:
         self._peak, self._peak_time, self._peak_told = carried["peak"]
 
     def _collect_doubts(self, step: Step, instant: Instant, rim: Rim) -> None:
-        self._open = data_doubts(step.time, self._run.measured_until) | self._open
-        if instant.outcome is Outcome.NO_CONTACT:
-            self._open = self._release_doubts(step) | self._open
-            return
-        early = early_doubts(self._measured_from, self._run.load, step.time, step.side)
-        found = geometry_doubts(self._geometry, rim, instant.motion, instant.displacement)
-        self._open = early | found | self._open
-        if self._before is not None and not step.is_jump:
-            self._open = self._doubts_of_step(step, self._before, instant) | self._open
-
-    def _doubts_of_step(self, step: Step, before: Instant, after: Instant) -> dict[str, str]:
-        forces = [float(end.pressure.sum()) * self._run.grid.cell_area for end in (before, after)]
-        compliance = self._run.compliance
-        if before.outcome is Outcome.NO_CONTACT:
-            if compliance(step.duration) == compliance.instant:
-                return {}  # an elastic body takes the force however it comes
-            return touch_doubts(step.duration, self._rise(step))
-        if after.resolved:
-            return {}
-        peaks = [float(end.pressure.max()) for end in (before, after)]
-        change = max(relative_change(*peaks), relative_change(*forces))
-        return step_doubts(step.duration, change)
-
-    def _release_doubts(self, step: Step) -> dict[str, str]:
-        """Whether much of the load was taken off a creeping body in a single step."""
-        before, compliance = self._before, self._run.compliance
-        if before is None or before.outcome is Outcome.NO_CONTACT or step.is_jump:
-            return {}
-        if compliance(step.duration) == compliance.instant:
-            return {}
-        load = self._run.load
-        begin = step.time - step.duration * (1 - SAME)
-        fall = float(load.level_at(begin)) - max(float(load.level_at(step.time, side=step.side)), 0)
-        return release_doubts(step.duration, fall / max(load.largest_level, np.finfo(float).tiny))
-
-    def _rise(self, step: Step) -> float:
-        """How far the load rises over a step that begins without contact, of its largest [-].
-
-        A force begins from nothing then; but a dent is met again at an approach that may be far
-        from 0, and only the way beyond the step's begin is made at once.
-        """
-        load = self._run.load
-        begin = step.time - step.duration * (1 - SAME)
-        levels = (load.level_at(step.time, side=step.side), load.level_at(begin))
-        # A clamped tilt can press with no approach at all.
-        largest = max(load.largest_level, np.finfo(float).tiny)
-        return (float(levels[0]) - max(float(levels[1]), 0.0)) / largest
+        found = data_doubts(step.time, self._run.measured_until)
+        if instant.outcome is not Outcome.NO_CONTACT:
+            found = (
+                geometry_doubts(self._geometry, rim, instant.motion, instant.displacement) | found
+            )
+            found = early_doubts(self._measured_from, self._run.load, step.time, step.side) | found
+        found = loading_doubts(self._run, step, self._before, instant) | found
+        self._open = found | self._open
 
     def _work_of(self, step: Step, instant: Instant, resultants: NDArray[np.float64]) -> float:
         """Work over a step: exact while the load is held, and for all that is elastic.
