@@ -89,9 +89,17 @@ def simulate(
     -------
     xarray.Dataset
         Scalars over ``time``, fields over (time or field_time, x, y), all in SI units, each
-        with ``units`` and ``long_name``; the case, warnings and tolerance as attributes. Of 100
-        true errors 95 lie within the estimated ones; inf marks a peak pressure without a limit,
-        at a sharp edge or point, and NaN an error that is not known.
+        with ``units`` and ``long_name``; the case, warnings and tolerance as attributes.
+
+        Where errors are estimated, a scalar has ``<name>_error`` beside it, over ``time`` and in
+        its own unit: the half width of an error bar, which 95 of 100 true errors do not exceed.
+        It is inf for a peak pressure without a limit (at a sharp edge or point), NaN where
+        nothing is known, 0 for what is zero because nothing touches, and some three times
+        `tolerance` of what is prescribed.
+
+        If the run has enlarged its grid, fields are on the last one: beyond the grid of an
+        earlier instant pressure is 0, and gap and displacement are NaN. The attribute
+        ``grid_enlarged`` says when.
 
     Raises
     ------
