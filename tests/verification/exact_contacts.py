@@ -107,24 +107,28 @@ def elastic_ellipse(rng: np.random.Generator, most: int) -> ExactRun:
     def exact(t: Array) -> dict[str, Array]:
         level = np.interp(t, corners, levels)
         forces = force * (level if by_force else level**1.5)
-        part = forces / force
-        a, b = (axis * part ** (1 / 3) for axis in axes)
-        approach = largest.approach * part ** (2 / 3)
-        return {
-            "force": forces,
-            "approach": approach,
-            "tilt_x": np.zeros(len(t)),
-            "eccentricity_x": np.full(len(t), aside[0]),
-            "contact_area": math.pi * a * b,
-            "contact_length": 2 * a,
-            "contact_width": 2 * b,
-            "peak_pressure": largest.peak_pressure * part ** (1 / 3),
-            "mean_pressure": forces / (math.pi * a * b),
-            "work": 0.4 * forces * approach,
-        }
+        still = {"tilt_x": np.zeros(len(t)), "eccentricity_x": np.full(len(t), aside[0])}
+        return still | _hertzian(largest, force, forces)
 
     material = vc.Material(vc.Elastic(shear), ratio)
     return ExactRun("elastic ellipse", body, material, load, grid, times, exact)
+
+
+def _hertzian(largest: Any, force: float, forces: Array) -> dict[str, Array]:
+    """What a contact is under other forces than the one that it is known for."""
+    part = forces / force
+    a, b = (axis * part ** (1 / 3) for axis in (largest.semi_axis_x, largest.semi_axis_y))
+    approach = largest.approach * part ** (2 / 3)
+    return {
+        "force": forces,
+        "approach": approach,
+        "contact_area": math.pi * a * b,
+        "contact_length": 2 * a,
+        "contact_width": 2 * b,
+        "peak_pressure": largest.peak_pressure * part ** (1 / 3),
+        "mean_pressure": forces / (math.pi * a * b),
+        "work": 0.4 * forces * approach,
+    }
 
 
 def elastic_cone(rng: np.random.Generator, most: int) -> ExactRun:

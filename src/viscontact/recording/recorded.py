@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import uuid
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
@@ -16,7 +17,7 @@ from viscontact.recording.checkpoint import STATE_NAME, Checkpoint, is_checkpoin
 from viscontact.recording.contents import Contents
 from viscontact.recording.differences import Difference, differences
 from viscontact.recording.progress import ProgressLog
-from viscontact.recording.result_writer import ResultWriter
+from viscontact.recording.result_writer import START, ResultWriter
 from viscontact.recording.soundness import REMEDY
 from viscontact.recording.step_log import LOG_NAME, is_step_log
 from viscontact.recording.stored_run import stored_run
@@ -107,6 +108,18 @@ class Recorded:
                 f"and to the last bit no others do: {error}; or start the run anew with --overwrite"
             ) from error
         return replace(self, run=replace(self.run, transforms=transforms))
+
+
+def new_state(recorded: Recorded) -> Checkpoint:
+    """Return the state of a run before its first step, under a token of its own.
+
+    Parameters
+    ----------
+    recorded : Recorded
+        The run.
+    """
+    token, transforms = uuid.uuid4().hex, recorded.run.transforms
+    return Checkpoint(recorded.case, token, 0, 0, None, dict(START), {}, transforms)
 
 
 def saved_state(recorded: Recorded) -> Checkpoint:

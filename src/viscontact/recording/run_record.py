@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time as clock
-import uuid
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, nullcontext, suppress
 from typing import Self
@@ -16,6 +15,7 @@ from viscontact.recording.recorded import (
     Recorded,
     check_lines,
     new_lines,
+    new_state,
     new_writer,
     remove_traces,
     restored_march,
@@ -24,7 +24,6 @@ from viscontact.recording.recorded import (
     saved_state,
 )
 from viscontact.recording.restart_files import RestartFiles
-from viscontact.recording.result_writer import START
 from viscontact.state import ContactState, Outcome
 from viscontact.step_by_step import March, Taken
 
@@ -70,11 +69,7 @@ class RunRecord:
         on_begin: Callable[[], None] | None = None,
         undisturbed: Undisturbed = nullcontext,
     ) -> None:
-        token = uuid.uuid4().hex
-        start = Checkpoint(
-            recorded.case, token, 0, 0, None, dict(START), {}, recorded.run.transforms
-        )
-        self._set_up(recorded, start, March(recorded.run), on_begin, undisturbed)
+        self._set_up(recorded, new_state(recorded), March(recorded.run), on_begin, undisturbed)
         self._writer = new_writer(recorded)
 
     @classmethod
