@@ -19,7 +19,7 @@ from scipy.ndimage import binary_erosion
 from viscontact.plot import style
 from viscontact.plot.error_band import peak_note
 from viscontact.plot.readable import DisplayUnit, display_number, display_unit, time_labels
-from viscontact.plot.rim_polygons import rim_path, rim_polygons
+from viscontact.plot.rim_polygons import beyond_period, rim_path, rim_polygons
 from viscontact.plot.snapshots import Snapshot, take_snapshots
 from viscontact.plot.squared_pressure import squared_pressure
 from viscontact.plot.window import Window, window_around
@@ -114,9 +114,11 @@ def _draw_contours(
         return
     polygons = rim_polygons(snapshot)
     outline = rim_path(window.unit(polygon) for polygon in polygons)
-    x, y = window.unit(snapshot.x), window.unit(snapshot.y)
+    # Contours are drawn between the centres of cells, so half a cell short of the last ones.
+    wide = beyond_period(snapshot).with_border(1)
+    x, y = window.unit(wide.x), window.unit(wide.y)
     # Contours of the square are the same lines, and smooth up to the rim.
-    squared, heights = squared_pressure(snapshot).T, levels**2
+    squared, heights = squared_pressure(wide).T, levels**2
     colours = style.pressure_colours(len(levels) - 1)
     norm = BoundaryNorm(heights, colours.N)
     fill = axes.contourf(x, y, squared, levels=heights, cmap=colours, norm=norm, extend="both")

@@ -12,6 +12,10 @@ from numpy.typing import NDArray
 from viscontact.outline import Outline
 from viscontact.plot.snapshots import Snapshot
 
+# Cells beyond the border of a period: a corner of the rim lies up to one and a half cells from
+# where it is traced, is found from the gap a cell around and smoothed with the next corners.
+_BEYOND = 4
+
 
 def rim_polygons(snapshot: Snapshot) -> list[NDArray[np.float64]]:
     """Trace the rim of the contact at one instant, between the cells.
@@ -24,7 +28,8 @@ def rim_polygons(snapshot: Snapshot) -> list[NDArray[np.float64]]:
     Returns
     -------
     list of ndarray
-        One closed polygon for each spot, and each hole in a spot, shape (n, 2) [m].
+        One closed polygon for each spot, and each hole in a spot, shape (n, 2) [m]. Contact that
+        crosses the border of a period is followed some cells beyond it and closed there.
 
     Notes
     -----
@@ -45,6 +50,8 @@ def rim_polygons(snapshot: Snapshot) -> list[NDArray[np.float64]]:
     >>> float(np.abs(np.hypot(*polygon.T) - 9.3).max().round(2))
     0.04
     """
+    # Open cells all around close every polygon, at the border of a grid that is not periodic.
+    snapshot = beyond_period(snapshot).with_border(1)
     contact = snapshot.pressure > 0
     offsets = offsets_from_rim(contact, snapshot.gap)
     end = snapshot.body_end
@@ -58,6 +65,22 @@ def rim_polygons(snapshot: Snapshot) -> list[NDArray[np.float64]]:
         first + cell * _moved(np.asarray(corners), contact, offsets, end)
         for corners in tracer.lines(0.5)
     ]
+
+
+def beyond_period(snapshot: Snapshot) -> Snapshot:
+    """Continue periodic fields as far as the rim and contours at the border depend on.
+
+    Parameters
+    ----------
+    snapshot : Snapshot
+        Pressure and gap.
+
+    Returns
+    -------
+    Snapshot
+        With some cells of the next periods around; as given if it is not periodic.
+    """
+    return snapshot.with_border(_BEYOND) if snapshot.periodic else snapshot
 
 
 def offsets_from_rim(contact: NDArray[np.bool_], gap: NDArray[np.float64]) -> NDArray[np.float64]:

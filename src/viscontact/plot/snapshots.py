@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact.grid import Grid
 from viscontact.outline import Outline, trace_outline
 from viscontact.plot.recorded import recorded_noun
+from viscontact.stresses import recorded_grid
 
 
 @dataclass(frozen=True)
@@ -31,6 +32,8 @@ class Snapshot:
         Distance between the bodies, shape (nx, ny), positive when open [m].
     body_end : Outline, optional
         Where the indenter ends between the cells, if it does and is known.
+    periodic : bool, optional
+        Whether the fields are one period of a surface that repeats itself without end.
     """
 
     time: float
@@ -39,6 +42,7 @@ class Snapshot:
     pressure: NDArray[np.float64]
     gap: NDArray[np.float64]
     body_end: Outline | None = None
+    periodic: bool = False
 
     @property
     def touching(self) -> bool:
@@ -53,7 +57,15 @@ class Snapshot:
     def extent(self) -> tuple[float, float, float, float]:
         """Box (x_min, x_max, y_min, y_max) around the cells in contact [m]."""
         inside = self.pressure > 0
-        x, y = self.x[inside.any(axis=1)], self.y[inside.any(axis=0)]
+        return self._box(self.x[inside.any(axis=1)], self.y[inside.any(axis=0)])
+
+    def borders(self) -> tuple[float, float, float, float]:
+        """Box (x_min, x_max, y_min, y_max) around all cells [m]."""
+        return self._box(self.x, self.y)
+
+    def _box(
+        self, x: NDArray[np.float64], y: NDArray[np.float64]
+    ) -> tuple[float, float, float, float]:
         dx, dy = self.cell_size
         return (
             float(x[0] - dx / 2),
@@ -61,6 +73,42 @@ class Snapshot:
             float(y[0] - dy / 2),
             float(y[-1] + dy / 2),
         )
+
+    def with_border(self, cells: int) -> Snapshot:
+        """The same fields with more cells at each border.
+
+        Parameters
+        ----------
+        cells : int
+            How many.
+
+        Returns
+        -------
+        Snapshot
+            Those of the next periods if periodic, else cells where nothing touches. What is
+            returned is not periodic.
+
+        Examples
+        --------
+        >>> at = np.array([-1.5, -0.5, 0.5, 1.5])
+        >>> pressure = np.arange(16.0).reshape(4, 4)
+        >>> period = Snapshot(0.0, at, at, pressure, 0 * pressure, periodic=True)
+        >>> period.with_border(1).pressure[0].tolist()  # the last row again
+        [15.0, 12.0, 13.0, 14.0, 15.0, 12.0]
+        """
+        beyond = np.arange(1, cells + 1)[:, None] * self.cell_size
+        x, y = (
+            np.concatenate([at[0] - step[::-1], at, at[-1] + step])
+            for at, step in zip((self.x, self.y), beyond.T, strict=True)
+        )
+        if self.periodic:
+            pressure, gap = (np.pad(each, cells, mode="wrap") for each in (self.pressure, self.gap))
+        else:
+            pressure = np.pad(self.pressure, cells)
+            gap = np.pad(self.gap, cells, constant_values=np.inf)
+        end = self.body_end
+        body_end = None if end is None else _with_border(end, cells, self.periodic)
+        return Snapshot(self.time, x, y, pressure, gap, body_end)
 
     def section(
         self, along: Literal["x", "y"] = "x", at: float = 0.0
@@ -168,8 +216,10 @@ def take_snapshots(
         chosen = _spread(stored, _in_contact(results, stored), count)
     else:
         chosen = _nearest(stored, times, figure)
-    body_end = _body_end(results)
-    snapshots = [_snapshot(results, index, body_end) for index in chosen]
+    body_end, periodic = _body_end(results), recorded_grid(results).periodic
+    snapshots = [
+        replace(_snapshot(results, index), body_end=body_end, periodic=periodic) for index in chosen
+    ]
     if not any(snapshot.touching for snapshot in snapshots):
         raise ValueError(
             f"{figure}: the bodies do not touch at t = "
@@ -204,7 +254,7 @@ def _body_end(results: xr.Dataset) -> Outline | None:
     return trace_outline(indenter, Grid((x.size, y.size), size))
 
 
-def _snapshot(results: xr.Dataset, index: int, body_end: Outline | None) -> Snapshot:
+def _snapshot(results: xr.Dataset, index: int) -> Snapshot:
     dimension = _time_dimension(results)
     fields = results[["pressure", "gap"]].isel({dimension: index})
     pressure, gap = (
@@ -212,7 +262,20 @@ def _snapshot(results: xr.Dataset, index: int, body_end: Outline | None) -> Snap
         for name in ("pressure", "gap")
     )
     x, y = results["x"].values, results["y"].values
-    return Snapshot(float(fields[dimension]), x, y, pressure, gap, body_end)
+    return Snapshot(float(fields[dimension]), x, y, pressure, gap)
+
+
+def _with_border(body_end: Outline, cells: int, periodic: bool) -> Outline:
+    # Where the body ends between one period and the next is not known.
+    along_x = np.pad(body_end.along_x, ((0, 1), (0, 0)), constant_values=np.nan)
+    along_y = np.pad(body_end.along_y, ((0, 0), (0, 1)), constant_values=np.nan)
+    if periodic:
+        along_x, along_y = (np.pad(each, cells, mode="wrap") for each in (along_x, along_y))
+    else:
+        along_x, along_y = (
+            np.pad(each, cells, constant_values=np.nan) for each in (along_x, along_y)
+        )
+    return Outline(along_x[:-1], along_y[:, :-1])
 
 
 def _nearest(stored: NDArray[np.float64], times: ArrayLike, figure: str) -> Sequence[int]:

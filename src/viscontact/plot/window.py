@@ -72,12 +72,17 @@ def window_around(snapshots: Iterable[Snapshot]) -> Window:
     -------
     Window
         In true shape if the contact is at most three times longer than wide, else with its
-        shorter side stretched by a round factor.
+        shorter side stretched by a round factor. It ends at the border of a period.
     """
+    snapshots = list(snapshots)
     boxes = [snapshot.extent() for snapshot in snapshots if snapshot.touching]
     lows = min(box[0] for box in boxes), min(box[2] for box in boxes)
     highs = max(box[1] for box in boxes), max(box[3] for box in boxes)
     x, y = (_widened(low, high) for low, high in zip(lows, highs, strict=True))
+    if snapshots[0].periodic:
+        x_low, x_high, y_low, y_high = snapshots[0].borders()
+        x = max(x[0], x_low), min(x[1], x_high)
+        y = max(y[0], y_low), min(y[1], y_high)
     return Window(x, y, _stretch((x[1] - x[0]) / (y[1] - y[0])))
 
 

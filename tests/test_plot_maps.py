@@ -1,0 +1,141 @@
+"""Maps and outlines of any contact: across a period's border, with holes, whole, in many spots."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from synthetic_results import maxwell_sphere
+from viscontact.plot import FIGURES
+
+FloatArray = NDArray[np.float64]
+
+CELLS = 48
+#: Half the extent of the grid, in millimetres as in the drawings.
+HALF = 5.0
+AT = (2 * np.arange(CELLS) - (CELLS - 1)) * (HALF / CELLS)
+X, Y = np.meshgrid(AT, AT, indexing="ij")
+
+
+def _waves() -> FloatArray:
+    """Crossed waves whose crests are at the middle and at the corners of the period."""
+    return np.cos(np.pi * (X + Y) / HALF) + np.cos(np.pi * (X - Y) / HALF)
+
+
+def _rough(periodic: bool) -> FloatArray:
+    """Smooth random heights, seeded, without end or falling off to the border."""
+    random = np.random.default_rng(5)
+    heights = np.zeros_like(X)
+    for along_x in range(-3, 4):
+        for along_y in range(4):
+            phase = random.uniform(0, 2 * np.pi)
+            heights += np.cos(np.pi * (along_x * X + along_y * Y) / HALF + phase)
+    return heights if periodic else heights - 20 * (np.hypot(X, Y) / HALF) ** 6
+
+
+def _level(height: FloatArray, share: float) -> FloatArray:
+    return height - (np.quantile(height, 1 - share) if share < 1 else height.min() - 0.3)
+
+
+def _result(height: FloatArray, share: float, periodic: bool) -> xr.Dataset:
+    """What is highest is in contact; at its rim pressure and gap rise as at any smooth one."""
+    level = _level(height, share)
+    results = maxwell_sphere([0.0], cells=CELLS)
+    results = results.assign_coords(x=AT * 1e-3, y=AT * 1e-3)
+    results["pressure"][0] = 1e6 * np.sqrt(np.maximum(level, 0.0))
+    results["gap"][0] = 1e-6 * np.maximum(-level, 0.0) ** 1.5
+    case = json.loads(results.attrs["case"])
+    case["grid"] = {
+        "type": "Grid",
+        "shape": [CELLS, CELLS],
+        "size": [2e-3 * HALF] * 2,
+        "periodic": periodic,
+    }
+    return results.assign_attrs(case=json.dumps(case))
+
+
+CONTACTS = {
+    "waves, 54 %": (_waves(), 0.54, True),
+    "waves, 87 %": (_waves(), 0.87, True),
+    "waves, full": (_waves(), 1.0, True),
+    "waves upside down, 30 %": (-_waves(), 0.3, True),
+    "rough, without end": (_rough(periodic=True), 0.35, True),
+    "band across the border": (np.cos(np.pi * (X - HALF) / HALF), 0.4, True),
+    "sphere": (-np.hypot(X, Y), 0.3, False),
+    "ring": (-np.abs(np.hypot(X, Y) - 3.0), 0.4, False),
+    "rough": (_rough(periodic=False), 0.25, False),
+    "up to the border, where the body ends": (-np.abs(X), 0.5, False),
+}
+
+
+def _painted(figure: Figure, axes: Axes, points: FloatArray) -> NDArray[np.bool_]:
+    """Whether the pixels at these points [mm] are not white."""
+    figure.set_dpi(200)
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    pixels = np.asarray(canvas.buffer_rgba())[::-1]
+    column, row = axes.transData.transform(points).astype(int).T
+    return np.asarray((pixels[row, column, :3] < 250).any(axis=-1), dtype=np.bool_)
+
+
+def _far_from_rim(height: FloatArray, share: float) -> tuple[FloatArray, NDArray[np.bool_]]:
+    """Points in every cell a good part of a cell from the rim, and whether they are pressed.
+
+    The outer cells' lie almost on the border.
+    """
+    level = _level(height, share)
+    slope = np.hypot(*np.gradient(level, AT, AT)).max() * (2 * HALF / CELLS)
+    clear = np.abs(level) > slope
+    at = AT.copy()
+    at[[0, -1]] = -HALF + 0.06, HALF - 0.06
+    points = np.stack(np.meshgrid(at, at, indexing="ij"), axis=-1)[clear]
+    return points, (level > 0)[clear]
+
+
+def _shown(axes: Axes, points: FloatArray) -> NDArray[np.bool_]:
+    """Which points lie within the panel, beside its frame's lines."""
+    frame = 0.03
+    (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
+    x, y = points.T
+    inside = (left + frame < x) & (x < right - frame) & (low + frame < y) & (y < high - frame)
+    return np.asarray(inside, dtype=np.bool_)
+
+
+@pytest.mark.parametrize("contact", CONTACTS)
+def test_map_is_coloured_where_the_surface_is_pressed_and_nowhere_else(contact: str) -> None:
+    figure = FIGURES["pressure-map"](_result(*CONTACTS[contact]))
+    axes = figure.axes[0]
+    assert axes.get_xlabel() == "x [mm]"
+    points, pressed = _far_from_rim(*CONTACTS[contact][:2])
+    shown = _shown(axes, points)
+    assert not np.any(pressed & ~shown)
+    painted = _painted(figure, axes, points[shown])
+    np.testing.assert_array_equal(painted, pressed[shown])
+
+
+@pytest.mark.parametrize("contact", CONTACTS)
+def test_outline_runs_along_the_rim_and_nowhere_else(contact: str) -> None:
+    """Not along the border of a period, that is: contact runs on there."""
+    height, share, periodic = CONTACTS[contact]
+    figure = FIGURES["contact-outline"](_result(height, share, periodic))
+    axes = figure.axes[0]
+    level = _level(height, share)
+    i, j = np.nonzero((level[1:] > 0) != (level[:-1] > 0))
+    part = level[i, j] / (level[i, j] - level[i + 1, j])
+    cell = 2 * HALF / CELLS
+    crossings = np.stack([AT[i] + part * cell, AT[j]], axis=-1)
+    # Within half a cell: where spots meet, the level bends within a cell.
+    steps = np.linspace(-0.4, 0.4, 5)
+    aside = np.stack(np.meshgrid(steps, steps), axis=-1).reshape(-1, 2)
+    near = (crossings[:, None] + cell * aside).reshape(-1, 2)
+    assert np.all(_painted(figure, axes, near).reshape(-1, len(aside)).any(axis=1))
+    points, _ = _far_from_rim(height, share)
+    if periodic:
+        assert not np.any(_painted(figure, axes, points[_shown(axes, points)]))
