@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from itertools import combinations
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
+from scipy.interpolate import RegularGridInterpolator
 
 from synthetic_results import maxwell_sphere
 from viscontact.plot import FIGURES
@@ -85,14 +87,18 @@ def _painted(figure: Figure, axes: Axes, points: FloatArray) -> NDArray[np.bool_
     return np.asarray((pixels[row, column, :3] < 250).any(axis=-1), dtype=np.bool_)
 
 
+def _steepest(height: FloatArray) -> float:
+    """The largest slope, as difference in a cell's width."""
+    return float(np.hypot(*np.gradient(height)).max())
+
+
 def _far_from_rim(height: FloatArray, share: float) -> tuple[FloatArray, NDArray[np.bool_]]:
     """Points in every cell a good part of a cell from the rim, and whether they are pressed.
 
     The outer cells' lie almost on the border.
     """
     level = _level(height, share)
-    slope = np.hypot(*np.gradient(level, AT, AT)).max() * (2 * HALF / CELLS)
-    clear = np.abs(level) > slope
+    clear = np.abs(level) > _steepest(height)
     at = AT.copy()
     at[[0, -1]] = -HALF + 0.06, HALF - 0.06
     points = np.stack(np.meshgrid(at, at, indexing="ij"), axis=-1)[clear]
@@ -139,3 +145,50 @@ def test_outline_runs_along_the_rim_and_nowhere_else(contact: str) -> None:
     points, _ = _far_from_rim(height, share)
     if periodic:
         assert not np.any(_painted(figure, axes, points[_shown(axes, points)]))
+
+
+@pytest.mark.parametrize("contact", ["waves, 54 %", "rough, without end", "rough", "sphere"])
+def test_labels_lie_in_the_contact_and_apart(contact: str) -> None:
+    figure = FIGURES["pressure-map"](_result(*CONTACTS[contact]))
+    figure.draw_without_rendering()
+    axes = figure.axes[0]
+    boxes = [text.get_window_extent() for text in axes.texts]
+    assert boxes
+    assert not any(one.overlaps(other) for one, other in combinations(boxes, 2))
+    height, share, _ = CONTACTS[contact]
+    level = RegularGridInterpolator((AT, AT), _level(height, share))
+    for box in boxes:
+        corners = axes.transData.inverted().transform(box.corners())
+        # In the pressed cells, that is: a point of one is up to half its diagonal from the centre.
+        assert np.all(level(np.clip(corners, AT[0], AT[-1])) > -_steepest(height) / np.sqrt(2))
+        assert np.all(np.abs(corners) < HALF)
+
+
+def test_full_contact_has_no_outline_and_says_so() -> None:
+    axes = FIGURES["contact-outline"](_result(*CONTACTS["waves, full"])).axes[0]
+    legend = axes.get_legend()
+    assert legend is not None
+    assert [text.get_text() for text in legend.get_texts()] == ["0 s, full contact"]
+
+
+def test_profile_of_a_period_reaches_its_border() -> None:
+    results = _result(*CONTACTS["waves, full"])
+    axes = FIGURES["pressure-profile"](results).axes[0]
+    (line,) = axes.lines
+    at, pressure = np.asarray(line.get_xdata()), np.asarray(line.get_ydata())
+    assert axes.get_xlim() == pytest.approx((-HALF, HALF))
+    assert at[0] < -HALF
+    assert at[-1] > HALF
+    # The waves fall to both borders alike: cells beside one have the pressure of the other's.
+    np.testing.assert_allclose(pressure[:2], pressure[:-3:-1], rtol=1e-12)
+    assert np.all(pressure > 0)
+
+
+def test_stress_section_runs_through_the_middle_of_equal_crests() -> None:
+    """The corners' crest is the higher by less than runs are solved to."""
+    results = _result(*CONTACTS["waves, 54 %"])
+    results["pressure"][0, 0, 0] *= 1 + 1e-6
+    axes = FIGURES["stress-section"](results).axes[0]
+    cross = axes.lines[0]
+    assert abs(float(np.asarray(cross.get_xdata())[0])) < 2 * HALF / CELLS
+    assert axes.get_ylim()[0] == pytest.approx(HALF)  # half a period deep

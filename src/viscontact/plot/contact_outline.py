@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -36,7 +37,8 @@ def contact_outline(
     Returns
     -------
     matplotlib.figure.Figure
-        Outlines found between the cells, from the way the gap opens outside the contact.
+        Outlines found between the cells, from the way the gap opens outside the contact. Those
+        of a periodic contact end at the border of the period; full contact has none.
 
     Raises
     ------
@@ -58,7 +60,13 @@ def contact_outline(
     window.show(axes)
     style.add_heading(axes, window.note, aside=True)
     lines = [Line2D([], [], color=colour, linewidth=style.LINE_WIDTH) for colour in colours]
-    style.add_legend(axes, lines, time_labels(s.time for s in snapshots))
+    labels = time_labels(s.time for s in snapshots)
+    whole = [bool(np.all(snapshot.pressure > 0)) for snapshot in snapshots]
+    style.add_legend(
+        axes,
+        lines,
+        [f"{a}, full contact" if full else a for a, full in zip(labels, whole, strict=True)],
+    )
     return style.figure_of(axes)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 
 import numpy as np
 import xarray as xr
@@ -12,9 +13,10 @@ from matplotlib.colors import BoundaryNorm
 from matplotlib.contour import QuadContourSet
 from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
+from matplotlib.text import Text
 from matplotlib.ticker import MaxNLocator
+from matplotlib.transforms import Bbox
 from numpy.typing import ArrayLike, NDArray
-from scipy.ndimage import binary_erosion
 
 from viscontact.plot import style
 from viscontact.plot.error_band import peak_note
@@ -25,8 +27,9 @@ from viscontact.plot.squared_pressure import squared_pressure
 from viscontact.plot.window import Window, window_around
 
 _NAME = "pressure-map"
-# A rough contact of more spots and holes than this has no room for labels.
-_SPOTS_AT_MOST = 6
+_LABEL_SIZE = 6.5
+# Room to be left between labels [pixels].
+_APART = 4.0
 # Percentiles of pressure over the contact between which contours have room for labels.
 _LABELLED = (20.0, 97.0)
 # Where the largest pressure depends on the mesh, levels go up to what so much of the contact has;
@@ -62,13 +65,18 @@ def pressure_map(results: xr.Dataset, *, times: ArrayLike | None = None) -> Figu
     note = peak_note([results], [snapshot.time for snapshot in snapshots])
     levels, unit = _levels(snapshots, _ORDINARY if note else 1.0)
     figure, panels = _panels(len(snapshots), window)
-    for axes, snapshot, label in zip(
-        panels, snapshots, time_labels(s.time for s in snapshots), strict=True
-    ):
-        _draw_contours(axes, snapshot, levels, unit, window)
+    lines = [
+        _draw_contours(axes, snapshot, levels, window)
+        for axes, snapshot in zip(panels, snapshots, strict=True)
+    ]
+    for axes, label in zip(panels, time_labels(s.time for s in snapshots), strict=True):
         style.add_heading(axes, f"t = {label}")
     style.add_heading(panels[0], "; ".join(filter(None, (window.note, note))), aside=True)
     _add_colour_bar(figure, panels, levels, unit, "max" if note else "neither")
+    figure.draw_without_rendering()  # Only now the room for labels is known.
+    for axes, snapshot, contours in zip(panels, snapshots, lines, strict=True):
+        if contours is not None:
+            _label_contours(axes, contours, snapshot, unit, window)
     return figure
 
 
@@ -104,16 +112,11 @@ def _panels(count: int, window: Window) -> tuple[Figure, list[Axes]]:
 
 
 def _draw_contours(
-    axes: Axes,
-    snapshot: Snapshot,
-    levels: NDArray[np.float64],
-    unit: DisplayUnit,
-    window: Window,
-) -> None:
+    axes: Axes, snapshot: Snapshot, levels: NDArray[np.float64], window: Window
+) -> QuadContourSet | None:
     if not snapshot.touching:
-        return
-    polygons = rim_polygons(snapshot)
-    outline = rim_path(window.unit(polygon) for polygon in polygons)
+        return None
+    outline = rim_path(window.unit(polygon) for polygon in rim_polygons(snapshot))
     # Contours are drawn between the centres of cells, so half a cell short of the last ones.
     wide = beyond_period(snapshot).with_border(1)
     x, y = window.unit(wide.x), window.unit(wide.y)
@@ -125,15 +128,14 @@ def _draw_contours(
     lines = axes.contour(x, y, squared, levels=heights[1:-1], colors=style.INK, linewidths=0.5)
     for contours in (fill, lines):
         contours.set_clip_path(outline, axes.transData)
-    if len(polygons) <= _SPOTS_AT_MOST:
-        _label_contours(axes, lines, snapshot, unit, window)
     axes.add_patch(PathPatch(outline, facecolor="none", edgecolor=style.INK, linewidth=1.1))
+    return lines
 
 
 def _label_contours(
     axes: Axes, lines: QuadContourSet, snapshot: Snapshot, unit: DisplayUnit, window: Window
 ) -> None:
-    """Write the pressure on the contours, but for those crowded at a rim or a tip."""
+    """Write the pressure on the contours where there is room for it."""
     pressure = snapshot.pressure
     lowest, highest = np.percentile(pressure[pressure > 0], _LABELLED) ** 2
     texts = {
@@ -141,15 +143,43 @@ def _label_contours(
         for square in lines.levels
         if lowest < square < highest
     }
-    inside = binary_erosion(pressure > 0, np.ones((3, 3)))
-    for text in axes.clabel(lines, list(texts), fmt=texts, fontsize=6.5, inline_spacing=2):
-        place = np.array(text.get_position()) * window.unit.factor
-        i, j = (
-            int(np.abs(at - p).argmin())
-            for at, p in zip((snapshot.x, snapshot.y), place, strict=True)
+    tried = axes.clabel(lines, list(texts), fmt=texts, fontsize=_LABEL_SIZE, inline=False)
+    places = _places_with_room(axes, tried, snapshot, window)
+    for text in tried:
+        text.remove()
+    if places:
+        # Lines are interrupted only for the labels that stay.
+        axes.clabel(
+            lines, list(texts), fmt=texts, fontsize=_LABEL_SIZE, inline_spacing=2, manual=places
         )
-        if not inside[i, j]:
-            text.remove()
+
+
+def _places_with_room(
+    axes: Axes, texts: Iterable[Text], snapshot: Snapshot, window: Window
+) -> list[tuple[float, float]]:
+    """Where those texts are that lie wholly in contact and in the panel and on no other."""
+    kept: list[Bbox] = []
+    places = []
+    for text in texts:
+        box = text.get_window_extent()
+        low, high = axes.bbox.min, axes.bbox.max
+        corners = axes.transData.inverted().transform(box.corners())
+        if (
+            np.all((low <= box.min) & (box.max <= high))
+            and np.all(_pressed(snapshot, corners * window.unit.factor))
+            and box.padded(_APART).count_overlaps(kept) == 0
+        ):
+            kept.append(box)
+            places.append(text.get_position())
+    return places
+
+
+def _pressed(snapshot: Snapshot, points: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Whether the cells with these points are in contact; points shape (n, 2) [m]."""
+    first = np.array([snapshot.x[0], snapshot.y[0]])
+    i, j = np.rint((points - first) / snapshot.cell_size).astype(int).T
+    i, j = np.clip(i, 0, snapshot.x.size - 1), np.clip(j, 0, snapshot.y.size - 1)
+    return np.asarray(snapshot.pressure[i, j] > 0, dtype=np.bool_)
 
 
 def _add_colour_bar(

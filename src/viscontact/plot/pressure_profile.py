@@ -61,7 +61,7 @@ def pressure_profile(
     labels = time_labels(s.time for s in snapshots)
     lines = []
     for snapshot, colour in zip(snapshots, style.time_colours(len(snapshots)), strict=True):
-        positions, values = _in_contact(*snapshot.section(along, at))
+        positions, values = _in_contact(*_section(snapshot, along, at))
         lines += axes.plot(
             length(positions), pressure(values), color=colour, linewidth=style.LINE_WIDTH
         )
@@ -119,7 +119,7 @@ def compare_pressure_profiles(
         for (name, snapshot), look in zip(
             at_instant.items(), style.run_styles(len(runs)), strict=True
         ):
-            positions, values = _in_contact(*snapshot.section(along, at))
+            positions, values = _in_contact(*_section(snapshot, along, at))
             lines += axes.plot(length(positions), pressure(values), **look)
             labels.append(name)
         _frame(axes, everything, along, length, pressure)
@@ -130,6 +130,13 @@ def compare_pressure_profiles(
     for axes in panels[:-1]:
         axes.set_xlabel("")
     return figure
+
+
+def _section(
+    snapshot: Snapshot, along: Literal["x", "y"], at: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The pressure on the line, on a periodic grid up to the border and a little further."""
+    return (snapshot.with_border(1) if snapshot.periodic else snapshot).section(along, at)
 
 
 def _instants_drawn(snapshots: Mapping[str, Snapshot]) -> str:
@@ -143,11 +150,15 @@ def _units(snapshots: list[Snapshot], along: Literal["x", "y"]) -> tuple[Display
 
 
 def _limits(snapshots: list[Snapshot], along: Literal["x", "y"]) -> tuple[float, float]:
-    """Ends of the longest contact along the line, with a margin [m]."""
-    side = slice(0, 2) if along == "x" else slice(2, 4)
-    ends = np.array([s.extent()[side] for s in snapshots if s.touching])
+    """Ends of the longest contact along the line, with a margin up to a period's border [m]."""
+    side = 0 if along == "x" else 2
+    ends = np.array([s.extent()[side : side + 2] for s in snapshots if s.touching])
     low, high = float(ends[:, 0].min()), float(ends[:, 1].max())
-    return low - 0.06 * (high - low), high + 0.06 * (high - low)
+    margin = 0.06 * (high - low)
+    if not snapshots[0].periodic:
+        return low - margin, high + margin
+    borders = snapshots[0].borders()
+    return max(low - margin, borders[side]), min(high + margin, borders[side + 1])
 
 
 def _in_contact(

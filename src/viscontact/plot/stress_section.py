@@ -26,6 +26,8 @@ _SECTION, _HISTORY = "stress-section", "von-mises"
 #: The section is drawn to so many half widths of the contact, in depth and to each side.
 _DEEP, _ASIDE = 2.0, 2.0
 _DEPTHS = 61
+# Pressures within so much of each other are equal to what runs are solved to.
+_EQUAL = 1e-5
 
 
 @dataclass(frozen=True)
@@ -163,14 +165,19 @@ def _sections(snapshots: list[Snapshot], grid: Grid, poisson_ratio: float) -> li
 
 def _half_width(snapshot: Snapshot) -> float:
     left, right, front, back = snapshot.extent()
-    return min(right - left, back - front) / 2
+    half_width = min(right - left, back - front) / 2
+    if not snapshot.periodic:
+        return half_width
+    # Contact across the border has no width: the section is drawn as wide as the period then.
+    x_low, x_high, y_low, y_high = snapshot.borders()
+    return min(half_width, min(x_high - x_low, y_high - y_low) / (2 * _ASIDE))
 
 
 def _section(snapshot: Snapshot, grid: Grid, half_width: float, poisson_ratio: float) -> Section:
     """The section as deep as the largest contact of all that are shown asks for."""
     left, right, front, back = snapshot.extent()
     is_long = right - left >= back - front
-    i, j = np.unravel_index(int(snapshot.pressure.argmax()), snapshot.pressure.shape)
+    i, j = _place_of_peak(snapshot)
     depths = np.linspace(0.0, _DEEP * half_width, _DEPTHS)
     where: dict[str, Any] = {"x": float(snapshot.x[i])} if is_long else {"y": float(snapshot.y[j])}
     stress = stress_on_section(snapshot.pressure, grid, depths, poisson_ratio, **where)
@@ -185,6 +192,13 @@ def _section(snapshot: Snapshot, grid: Grid, half_width: float, poisson_ratio: f
         "y" if is_long else "x",
         half_width,
     )
+
+
+def _place_of_peak(snapshot: Snapshot) -> tuple[int, int]:
+    """The cell of the largest pressure; of equal crests, but for rounding, the middle one."""
+    i, j = np.nonzero(snapshot.pressure >= (1 - _EQUAL) * snapshot.pressure.max())
+    nearest = int(np.hypot(snapshot.x[i], snapshot.y[j]).argmin())
+    return int(i[nearest]), int(j[nearest])
 
 
 def _levels(sections: list[Section], unit: DisplayUnit) -> NDArray[np.float64]:
