@@ -181,7 +181,7 @@ LINE = "case.yaml:3: "
         ({**SWING, "period": "0 s"}, "load.period: must be more than zero"),
         ({**SWING, "phase": "1 s"}, "load.phase: cannot read '1 s' as an angle"),
         ({**SWING, "frequency": "1 Hz"}, "load.frequency: unknown key; did you mean 'period'?"),
-        ({"kind": "history"}, "load: give points (e.g. '[[0 s, 0 N], [1 s, 10 kN]]'), file or sen"),
+        ({"kind": "history"}, "load: give points (e.g. '[[0 s, 0 N], [1 s, 10 kN]]'), mean_pr"),
         (
             {"kind": "history", "points": [["0 s", "1 N"]], "sentences": "unload"},
             "load.points: give points",

@@ -200,8 +200,8 @@ class History(Load):
         given = [self.points, self.mean_pressure, self.file, self.sentences]
         if given.count(None) != len(given) - 1:
             raise ValueError(
-                "give points (e.g. '[[0 s, 0 N], [1 s, 10 kN]]'), file or sentences (e.g. 'ramp to "
-                "10 kN in 1 s'), and only one of them"
+                "give points (e.g. '[[0 s, 0 N], [1 s, 10 kN]]'), mean_pressure, file or sentences "
+                "(e.g. 'ramp to 10 kN in 1 s'), and only one of them"
             )
         if self.file is not None:
             return self._from_file(Path(self.file))
