@@ -56,11 +56,13 @@ FLOORS = (
         "plausibility",
         "material_doubts",
         "sampling_doubts",
+        "sharpness",
         "geometry_doubts",
         "estimate",
         "extent",
         "period_estimate",
         "mesh_trial",
+        "facets",
         "resolution",
         "instants",
         "admission",
@@ -76,8 +78,9 @@ FLOORS = (
         "past",
         "step_by_step",
         "marching",
-        "sharpness",
         "companions",
+        "nearby",
+        "grid_levels",
         "error_bars",
     ),
     (
@@ -142,6 +145,9 @@ NEIGHBOURS = {
     ("automatic_grid", "admission"),  # of nouns that are none
     ("automatic_grid", "mesh"),  # as a run has it
     ("mesh", "extent"),  # holds the contact
+    ("facets", "estimate"),
+    ("facets", "sampling_doubts"),  # how far apart a map's points are
+    ("mesh", "facets"),
     ("mesh", "estimate"),
     ("resolution", "mesh_trial"),  # after trial
     ("mesh", "mesh_trial"),  # of an elastic contact
@@ -151,6 +157,8 @@ NEIGHBOURS = {
     ("observation", "schedule"),  # the step that ended
     ("observation", "material_doubts"),
     ("observation", "geometry_doubts"),
+    ("geometry_doubts", "sharpness"),  # where a body ends, and its corners
+    ("observation", "sharpness"),
     ("geometry_doubts", "sampling_doubts"),  # what the grid does not see
     ("extent", "estimate"),  # of the contact that has to fit
     ("period_estimate", "estimate"),  # whose answer it gives as well
@@ -180,10 +188,14 @@ NEIGHBOURS = {
     ("marching", "step_by_step"),
     ("dataset", "outgrown"),  # fields on a grid that has been enlarged meanwhile
     ("recording", "outgrown"),
+    ("companions", "plausibility"),  # of how small the spots are
     ("companions", "run"),
     ("companions", "schedule"),  # coarser steps
     ("companions", "sharpness"),
     ("companions", "step_by_step"),  # are marched as any run
+    ("grid_levels", "companions"),  # beside their run
+    ("error_bars", "grid_levels"),
+    ("error_bars", "nearby"),
     ("error_bars", "companions"),
     ("error_bars", "run"),
     ("dataset", "variables"),

@@ -50,10 +50,42 @@ def test_a_wide_deep_and_steep_contact_is_doubted_for_each():
     assert any("slope" in text for text in texts)
 
 
-def test_a_steep_cone_is_doubted_for_its_slope_only():
+def test_a_steep_cone_is_doubted_for_its_slope_and_its_tip_only():
     texts = warnings_of(vc.Cone(np.radians(60)), vc.step(1.0), vc.Grid((40, 40), (0.0025, 0.0025)))
-    assert len(texts) == 1
-    assert "slope" in texts[0]
+    assert len(texts) == 2
+    assert any("the indenter's slope within the contact" in text for text in texts)
+    assert any("at a tip" in text for text in texts)
+
+
+def line_of(kinks, radius=0.0):
+    """A roller with a sharp or rounded corner of 50 mrad at seven eighths of its half length."""
+    chamfer = {"angle": 0.05, "length": 0.625e-3, "corner_radius": radius}
+    profile = {"profile": "chamfer", **chamfer} if kinks else {"crown_radius": 0.05}
+    return vc.Roller(5e-3, 5e-3 if kinks else 4e-3, cross_section="parabola", **profile)
+
+
+CORNERS = {
+    "cone, tip between cells": (vc.Cone(np.radians(88)), 40, True),
+    "cone, tip in a cell": (vc.Cone(np.radians(88)), 41, True),
+    "cone aside": (vc.Cone(np.radians(88)).shifted(1.3e-5, -0.7e-5), 40, True),
+    "pyramid": (vc.Pyramid(np.radians(88), 4), 40, True),
+    "ball": (vc.Sphere(5e-3), 12, False),
+    "sharp chamfer": (line_of(True), 72, True),
+    "rounded in a tenth of a cell": (line_of(True, 3e-4), 72, True),
+    "rounded over three cells": (line_of(True, 1e-2), 72, False),
+    "crown": (line_of(False), 72, False),
+}
+
+
+@pytest.mark.parametrize("name", CORNERS)
+def test_a_peak_at_a_tip_or_a_corner_is_doubted_as_the_meshs(name):
+    """The pressure there grows with the logarithm of the cell size: `test_roller_ends`."""
+    body, cells, singular = CORNERS[name]
+    roller = isinstance(body, vc.Roller)
+    size = (11.25e-3, 1.3e-3) if roller else (1.2e-3, 1.2e-3)
+    force = 0.4 if roller else 0.04
+    texts = warnings_of(body, vc.step(force), vc.Grid((cells, 40), size))
+    assert any("at a tip, an edge or a corner" in text for text in texts) == singular
 
 
 def test_a_punch_is_doubted_for_the_end_of_its_profile():

@@ -14,9 +14,10 @@ from viscontact.grid import Grid
 from viscontact.load import LoadHistory, LoadPoint
 from viscontact.load.history import Cycle
 from viscontact.memory import plan_memory
+from viscontact.plausibility import cells_across_spots
 from viscontact.run import Run
 from viscontact.schedule import FixedSteps
-from viscontact.sharpness import is_sharp, touches_end
+from viscontact.sharpness import is_sharp, strain_of, touches_end
 from viscontact.state import ContactState
 from viscontact.step_by_step import March
 
@@ -68,6 +69,8 @@ class Course:
         The scalars over its instants, ``time`` among them.
     at_end : ndarray of bool
         Where contact reaches the end of the body.
+    spots : ndarray
+        Cells of the run across the spots of which contact consists, in the mean.
     is_sharp : bool
         Whether the largest pressure lies on a point or a ridge of the body.
     """
@@ -76,6 +79,7 @@ class Course:
     pace: float
     scalars: History
     at_end: NDArray[np.bool_]
+    spots: NDArray[np.float64]
     is_sharp: bool
 
 
@@ -178,7 +182,7 @@ def marched(companion: Companion, on_step: Callable[[], None] | None = None) -> 
     Course or None
         None if it could not be marched to its end: it tells nothing then.
     """
-    run, states, ends = companion.run, [], []
+    run, states, ends, spots = companion.run, [], [], []
     peak = 0.0
     sharp = False
     try:
@@ -188,14 +192,21 @@ def marched(companion: Companion, on_step: Callable[[], None] | None = None) -> 
             if taken.state is None:
                 continue
             states.append(taken.state.without_fields())
-            ends.append(touches_end(run.open_gap, taken.state.pressure > 0))
+            contact = taken.state.pressure > 0
+            ends.append(touches_end(run.open_gap, contact))
+            spots.append(cells_across_spots(contact, periodic=run.grid.periodic))
             if taken.state.peak_pressure > 1.1 * peak:
                 peak = taken.state.peak_pressure
-                sharp = sharp or _peaks_at_point(run, taken.state)
+                sharp = sharp or _peaks_at_point(companion, taken.state)
     except (ConvergenceError, DomainError):
         return None
     return Course(
-        companion.spacing, companion.pace, history_of(states), np.array(ends, dtype=bool), sharp
+        companion.spacing,
+        companion.pace,
+        history_of(states),
+        np.array(ends, dtype=bool),
+        companion.spacing * np.array(spots, dtype=float),
+        sharp,
     )
 
 
@@ -304,10 +315,11 @@ class LooserLoad(LoadHistory):
         return self.load.is_even(axis)
 
 
-def _peaks_at_point(run: Run, state: ContactState) -> bool:
-    i, j = np.unravel_index(int(state.pressure.argmax()), state.pressure.shape)
+def _peaks_at_point(companion: Companion, state: ContactState) -> bool:
+    """Whether its largest pressure lies at what is sharp to the cells of the run beside it."""
+    run = companion.run
+    place = run.grid.largest_at(state.pressure)
     dx, dy = run.grid.cell_size
-    place = (float(run.grid.x[i]), float(run.grid.y[j]))
-    extent = min(state.contact_length, state.contact_width)
-    slope = 2 * state.approach / extent if extent > 0 else np.inf
-    return is_sharp(run.indenter, place, (1.5 * dx, 1.5 * dy), float(slope))
+    cell = (dx / companion.spacing, dy / companion.spacing)
+    strain = strain_of(state.peak_pressure, float(run.compliance(state.time)))
+    return is_sharp(run.indenter, place, (1.5 * dx, 1.5 * dy), cell, strain)

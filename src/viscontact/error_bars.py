@@ -8,15 +8,15 @@ value, is as good for the instants around it.
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.companions import FEWEST_ACROSS, Course, History, companions_of, marched
+from viscontact.grid_levels import Levels, end_flags, spots_across
+from viscontact.nearby import largest_around, least_around, mean_around
 from viscontact.richardson import richardson
 from viscontact.run import Run
 
@@ -39,8 +39,12 @@ class Trust:
     order: float
     factor: float
 
+    def of(self, levels: Levels) -> Array:
+        """Return what cells make, taken for errors."""
+        return self.factor * levels.by_cells(self.order)
 
-_BULK, _AREA, _EXTENT, _PEAK = Trust(2.0, 1.5), Trust(2.0, 2.0), Trust(1.0, 0.75), Trust(2.0, 3.0)
+
+_BULK, _AREA, _EXTENT, _PEAK = Trust(2.0, 1.5), Trust(2.0, 2.0), Trust(1.0, 0.75), Trust(2.0, 2.0)
 
 #: Scalars that have a bar. Pressure is smooth but for the rim, which lies somewhere between cells.
 TRUSTS = {
@@ -63,15 +67,26 @@ TRUSTS = {
 #: and cells make a staircase of the end.
 AT_END = Trust(0.7, 1.2)
 
-#: What a difference between steps and halved ones counts: four thirds at second order, twice at
-#: first.
-HALVED = 1.5
+#: Area and peak where contact consists of spots of few cells, in the mean so many across: some of
+#: them come and go between grids. Calibrated on self-affine surfaces, 2 to 9 cells across.
+FEW_IN_A_SPOT = 8.0
+OF_SPOTS, PEAK_OF_SPOTS = Trust(1.0, 1.5), Trust(2.0, 4.0)
 
-#: Instants on both sides whose differences count as well.
-AROUND = 3
+#: Extents are known to no better than this part of a cell, however well two grids agree, and where
+#: the spots at the rim count or where pressure is singular, to so many cells.
+RIM_CELLS, RAGGED_RIM_CELLS = 0.25, 1.5
+
+#: Differences below this part of a value: an extent that all grids agree on is that of the body.
+AGREED = 1e-6
 
 #: The solver's tolerance is met by the gap; what follows from it is off by some times that.
 SOLVER = 3.0
+
+#: Extents of the contact along x and y, and what moments decide.
+EXTENTS = ("contact_length", "contact_width")
+MOMENTS = ("eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y")
+
+TINY = float(np.finfo(np.float64).tiny)
 
 #: Scalars that are exactly zero without contact.
 ZERO_APART = (
@@ -163,14 +178,20 @@ def bars_from(run: Run, history: History, courses: Iterable[Course]) -> ErrorBar
     found = list(courses)
     if not found:
         return unknown_bars(len(history["time"]))
-    at_end = _around(_flags_at(history["time"], found)) > 0
-    values = {name: _bar(run, name, _Levels.of(name, history, found), at_end) for name in TRUSTS}
+    at_end = largest_around(end_flags(history["time"], found)) > 0
+    of_spots = least_around(spots_across(history["time"], found)) < FEW_IN_A_SPOT
+    places = _Places(at_end, of_spots)
+    values = {
+        name: _bar(run, name, Levels.of(name, history, found), places, history) for name in TRUSTS
+    }
     apart = _surely_apart(run, history)
     for name in ZERO_APART:
         values[name][apart] = 0.0
     endless = _endless(history, found, at_end)
     values["peak_pressure"][endless] = np.inf
-    return ErrorBars(values, (SINGULAR,) if endless.any() else ())
+    # The run itself tells of ends and corners.
+    is_told = at_end.any() or any(course.is_sharp for course in found)
+    return ErrorBars(values, (SINGULAR,) if endless.any() and not is_told else ())
 
 
 def unknown_bars(count: int) -> ErrorBars:
@@ -190,55 +211,51 @@ def unknown_bars(count: int) -> ErrorBars:
 
 
 @dataclass(frozen=True, eq=False)
-class _Levels:
-    """A scalar on each grid at the run's instants, NaN where a grid has none.
+class _Places:
+    """At which instants a contact reaches the body's end, and consists of spots of few cells."""
 
-    `values` has a row for each of `spacings`, the run's own first; `by_steps` is what steps change,
-    times what that counts.
-    """
-
-    spacings: tuple[float, ...]
-    values: Array
-    by_steps: Array
-
-    @classmethod
-    def of(cls, name: str, history: History, courses: list[Course]) -> _Levels:
-        times, own = history["time"], history[name]
-        twins = [course for course in courses if course.pace < 1]
-        grids = [course for course in courses if course.pace >= 1]
-        rows = np.stack([own, *(_aligned(name, times, course) for course in grids)])
-        by_steps = np.zeros(len(times))
-        for twin in twins:
-            like = [
-                row for row, c in zip(rows[1:], grids, strict=True) if c.spacing == twin.spacing
-            ]
-            for row in like:
-                by_steps = HALVED * np.abs(row - _aligned(name, times, twin))
-        return cls((1.0, *(course.spacing for course in grids)), rows, by_steps)
-
-    def by_cells(self, trust: Trust) -> Array:
-        """What cells make, from the two grids that say most."""
-        found = np.full(self.values.shape[1], np.nan)
-        for i, j in itertools.combinations(range(len(self.spacings)), 2):
-            apart = abs(self.spacings[j] ** trust.order - self.spacings[i] ** trust.order)
-            found = np.fmax(found, np.abs(self.values[j] - self.values[i]) / apart)
-        return trust.factor * found
+    at_end: NDArray[np.bool_]
+    of_spots: NDArray[np.bool_]
 
 
-def _bar(run: Run, name: str, levels: _Levels, at_end: NDArray[np.bool_]) -> Array:
+def _bar(run: Run, name: str, levels: Levels, places: _Places, history: History) -> Array:
     own = np.abs(levels.values[0])
-    scale = _around(own)
-    by_cells = levels.by_cells(TRUSTS[name])
+    scale = largest_around(own)
+    by_cells = TRUSTS[name].of(levels)
     if TRUSTS[name] is _BULK:
-        by_cells = np.where(at_end, levels.by_cells(AT_END), by_cells)
+        by_cells = np.where(places.at_end, AT_END.of(levels), by_cells)
+    if TRUSTS[name] is _AREA:
+        by_cells = np.where(places.of_spots, OF_SPOTS.of(levels), by_cells)
+    if TRUSTS[name] is _PEAK:
+        by_cells = np.where(places.of_spots, PEAK_OF_SPOTS.of(levels), by_cells)
     nothing = np.where(np.isnan(by_cells), np.nan, 0.0)
     parts = [
-        _around(np.divide(part, scale, out=nothing.copy(), where=scale > 0))
+        largest_around(np.divide(part, scale, out=nothing.copy(), where=scale > 0))
         for part in (by_cells, levels.by_steps)
     ]
     solver = SOLVER * run.tolerance + run.memory.error + run.compliance.inversion_error
     bar = (parts[0] + np.nan_to_num(parts[1]) + solver) * scale
+    bar = np.maximum(bar, _least_bar(run, name, by_cells / np.maximum(own, TINY), places, history))
     return np.where(np.isnan(own), np.nan, bar)
+
+
+def _least_bar(
+    run: Run, name: str, differences: Array, places: _Places, history: History
+) -> Array | float:
+    """What no agreement of grids undercuts: parts of a cell, and the balance of moments."""
+    if name in EXTENTS:
+        cell = run.grid.cell_size[EXTENTS.index(name)]
+        ragged = places.of_spots | places.at_end
+        parts = np.where(ragged, RAGGED_RIM_CELLS, RIM_CELLS)
+        return np.asarray(np.where(differences > AGREED, parts * cell, 0.0))
+    if name in MOMENTS:
+        # Balanced to a part of the force times the extent, which may turn a body that is even.
+        axis = "contact_length" if name.endswith("x") else "contact_width"
+        extent = np.nan_to_num(history[axis])
+        slope = np.abs(history["approach"]) / np.maximum(extent, TINY)
+        lever = extent if name.startswith("eccentricity") else slope
+        return np.asarray(np.where(extent > 0, SOLVER * run.tolerance * lever, 0.0))
+    return 0.0
 
 
 def _endless(
@@ -248,7 +265,7 @@ def _endless(
     contact = np.asarray(history["peak_pressure"] > 0)
     if any(course.is_sharp for course in courses):
         return contact
-    levels = _Levels.of("peak_pressure", history, courses)
+    levels = Levels.of("peak_pressure", history, courses)
     order = np.argsort(levels.spacings)
     if len(order) < 3:
         return np.asarray(contact & at_end)
@@ -262,7 +279,7 @@ def _endless(
     # A contact of few cells is no contact on the coarsest grid.
     fine = history["cells_across"] >= FEWEST_ACROSS * spacings[-1]
     endless = np.where(known, ~verdict.converges & grows & fine, np.nan)
-    return np.asarray(contact & (at_end | (_mean_around(endless) > 0.5)))
+    return np.asarray(contact & (at_end | (mean_around(endless) > 0.5)))
 
 
 def _surely_apart(run: Run, history: History) -> NDArray[np.bool_]:
@@ -270,37 +287,4 @@ def _surely_apart(run: Run, history: History) -> NDArray[np.bool_]:
     apart = np.asarray(history["peak_pressure"] == 0)
     if run.load.control == "force":
         return apart
-    return np.asarray(apart & ~(_around(~apart, 1) > 0))
-
-
-def _flags_at(times: Array, courses: list[Course]) -> Array:
-    """Where any companion has reached the end of the body."""
-    flags = np.zeros(len(times))
-    for course in courses:
-        flags[np.isin(times, course.scalars["time"][course.at_end])] = 1.0
-    return flags
-
-
-def _aligned(name: str, times: Array, course: Course) -> Array:
-    """A companion's scalar at the run's instants, NaN where it has none."""
-    values, theirs = np.full(len(times), np.nan), course.scalars["time"]
-    asked, known = np.isin(times, theirs), np.isin(theirs, times)
-    values[asked] = course.scalars[name][known]
-    return values
-
-
-def _windows(values: NDArray[Any], reach: int) -> Array:
-    padded = np.pad(np.asarray(values, dtype=float), reach, constant_values=np.nan)
-    return np.asarray(np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1))
-
-
-def _around(values: NDArray[Any], reach: int = AROUND) -> Array:
-    """Largest value of the instants around each; NaN where none of them has one."""
-    return np.asarray(np.fmax.reduce(_windows(values, reach), axis=1))
-
-
-def _mean_around(values: Array) -> Array:
-    """Mean of the instants around each that have a value; 0 where none has one."""
-    windows = _windows(values, AROUND)
-    known = np.isfinite(windows)
-    return np.asarray(np.where(known, windows, 0.0).sum(axis=1) / np.maximum(known.sum(axis=1), 1))
+    return np.asarray(apart & ~(largest_around(~apart, 1) > 0))

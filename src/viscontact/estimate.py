@@ -49,6 +49,8 @@ class ContactEstimate:
         Approach [m].
     peak_pressure : float
         Largest pressure [Pa].
+    peak_place : tuple of float
+        Where it is [m].
     centre_x, centre_y : float
         Middle of the contact [m].
     force : float
@@ -65,6 +67,7 @@ class ContactEstimate:
     width: float
     approach: float
     peak_pressure: float
+    peak_place: tuple[float, float]
     centre_x: float
     centre_y: float
     force: float
@@ -193,6 +196,7 @@ def _coarse_contact(
         max(rim.width, grid.cell_size[1]),
         float(solution.found.motion[0]),
         float(solution.found.pressure.max()),
+        grid.largest_at(solution.found.pressure),
         float(grid.x[rows[[0, -1]]].mean()),
         float(grid.y[columns[[0, -1]]].mean()),
         float(solution.found.pressure.sum()) * grid.cell_area,

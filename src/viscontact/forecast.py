@@ -124,7 +124,7 @@ def forecast(run: Run, *, errors: bool = False) -> Forecast:
         cells_across=across,
         fits=run.grid.periodic
         or all(r < size / 2 for r, size in zip(reach, run.grid.size, strict=True)),
-        doubts=foreseen_doubts(run, estimate),
+        doubts=foreseen_doubts(run, estimate, compliance),
     )
 
 

@@ -3,23 +3,27 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
 from viscontact.estimate import ContactEstimate
-from viscontact.geometry_doubts import Geometry, body_doubts, strain_doubts
+from viscontact.geometry_doubts import Geometry, body_doubts, corner_doubts, strain_doubts
 from viscontact.material import Material
 from viscontact.material_doubts import data_doubts, early_doubts, law_doubts, passivity_doubts
 from viscontact.plausibility import release_doubts, touch_doubts
 from viscontact.run import Run
 from viscontact.sampling_doubts import Sampling, map_doubts, texture_doubts
 from viscontact.schedule import FixedSteps
+from viscontact.sharpness import strain_of
 
 #: So many of a run's first instants are looked at for a load that comes before the data do.
 FIRST_INSTANTS = 200
 
 
-def foreseen_doubts(run: Run, estimate: ContactEstimate | None) -> dict[str, str]:
+def foreseen_doubts(
+    run: Run, estimate: ContactEstimate | None, compliance: float
+) -> dict[str, str]:
     """Doubts about the material, the steps and the estimated contact of a run.
 
     Parameters
@@ -28,6 +32,8 @@ def foreseen_doubts(run: Run, estimate: ContactEstimate | None) -> dict[str, str
         A run that has been checked.
     estimate : ContactEstimate or None
         Its largest contact, coarsely; None without a load.
+    compliance : float
+        The contact compliance of that estimate [1/Pa].
 
     Returns
     -------
@@ -38,14 +44,14 @@ def foreseen_doubts(run: Run, estimate: ContactEstimate | None) -> dict[str, str
     doubts = _material_doubts(run) | _step_doubts(run)
     if run.mesh is not None:
         doubts |= run.mesh.doubts
-    return doubts if estimate is None else doubts | _contact_doubts(run, estimate)
+    return doubts if estimate is None else doubts | _contact_doubts(run, estimate, compliance)
 
 
 def _bodies(run: Run) -> list[Material]:
     return [body for body in (run.material, run.indenter_material) if body is not None]
 
 
-def _contact_doubts(run: Run, found: ContactEstimate) -> dict[str, str]:
+def _contact_doubts(run: Run, found: ContactEstimate, compliance: float) -> dict[str, str]:
     geometry = Geometry(
         run.indenter,
         found.open_gap,
@@ -62,9 +68,22 @@ def _contact_doubts(run: Run, found: ContactEstimate) -> dict[str, str]:
     return (
         strain_doubts(geometry, found.rim, found.motion)
         | body_doubts(geometry, found.rim)
+        | _corner_doubts(run, geometry, found, compliance)
         | map_doubts(missed, max(run.grid.cell_size), strain)
         | texture_doubts(run.indenter.period, max(run.grid.cell_size))
     )
+
+
+def _corner_doubts(
+    run: Run, geometry: Geometry, found: ContactEstimate, compliance: float
+) -> dict[str, str]:
+    """Doubt about a peak at a corner; far coarser than the run's, a solve tells little of it."""
+    coarse = found.rim.grid.cell_size
+    finest = tuple(max(own, each / 4) for own, each in zip(run.grid.cell_size, coarse, strict=True))
+    grid = replace(run.grid, size=(finest[0] * run.grid.shape[0], finest[1] * run.grid.shape[1]))
+    strain = strain_of(found.peak_pressure, compliance)
+    searched = (max(finest[0], coarse[0]), max(finest[1], coarse[1]))
+    return corner_doubts(replace(geometry, grid=grid), found.peak_place, strain, searched)
 
 
 def _material_doubts(run: Run) -> dict[str, str]:

@@ -13,6 +13,7 @@ from viscontact.grid import Grid
 from viscontact.indenters import Indenter
 from viscontact.rim import Rim
 from viscontact.sampling_doubts import Sampling, sampling_doubts
+from viscontact.sharpness import is_sharp, touches_end
 
 #: Small-strain theory is doubtful beyond these: slope, contact half width / R, approach / R, and
 #: for a body without a radius approach / half width, which a cone of that slope has at 0.47.
@@ -24,6 +25,9 @@ FEW_CELLS = 4
 #: From one side of a period's border to the other the gap may change by so many times what it does
 #: from cell to cell elsewhere.
 SEAM = 2.0
+
+#: Kinds of doubt that leave the peak pressure without a limit.
+SINGULAR_KINDS = frozenset({"end", "seam", "corner"})
 
 #: A body counts as deep if the contact's half width is no larger part of its thickness. At that
 #: bound an incompressible layer bonded to a rigid base carries 28 % more under a sphere at the same
@@ -164,7 +168,7 @@ def body_doubts(geometry: Geometry, rim: Rim) -> dict[str, str]:
             "beside its next period it has a step, at which the peak pressure depends on the mesh; "
             "press a body that fits to itself, or not periodically"
         )
-    if _touches_end(rim.cut(geometry.open_gap), rim.contact):
+    if touches_end(rim.cut(geometry.open_gap), rim.contact):
         doubts["end"] = (
             f"the contact {reach} the end of the indenter's profile: pressure is singular there "
             "and the peak pressure depends on the mesh. The half-space goes on beyond it: a body "
@@ -183,6 +187,45 @@ def body_doubts(geometry: Geometry, rim: Rim) -> dict[str, str]:
             f"{THIN_BODY:g}, beyond it what the body rests on counts"
         )
     return doubts
+
+
+def corner_doubts(
+    geometry: Geometry,
+    place: tuple[float, float],
+    strain: float,
+    searched: tuple[float, float] | None = None,
+) -> dict[str, str]:
+    """Doubt about a peak of pressure at a tip, an edge or a corner of the body.
+
+    Parameters
+    ----------
+    geometry : Geometry
+        The undeformed shape on its grid.
+    place : tuple of float
+        Where pressure is largest [m].
+    strain : float
+        That makes it, from `sharpness.strain_of` [-].
+    searched : tuple of float, optional
+        Edges of the cells that the place is known to [m]; the grid's when left out.
+
+    Returns
+    -------
+    dict of str to str
+        Sentences by kind of doubt; empty if there is none.
+    """
+    cell = geometry.grid.cell_size
+    along, across = (1.5 * each for each in searched or cell)
+    if not is_sharp(geometry.indenter, place, (along, across), cell, strain):
+        return {}
+    be = "lies" if not geometry.foreseen else "will lie"
+    return {
+        "corner": (
+            f"the largest pressure {be} at a tip, an edge or a corner of the indenter, sharp or "
+            "rounded within a quarter of a cell (between two facets of a height map, say): "
+            "pressure is singular there and the peak pressure depends on the mesh. A rounding over "
+            "several cells would bound it"
+        )
+    }
 
 
 def _touches_seam(geometry: Geometry, rim: Rim) -> bool:
@@ -244,13 +287,3 @@ def _steepest_slope(
         slope = (shape[1:][pairs] - shape[:-1][pairs]) / cell_size[axis]
         steepest = max(steepest, float(np.abs(slope - motion[1 + axis]).max(initial=0.0)))
     return steepest
-
-
-def _touches_end(open_gap: NDArray[np.float64], contact: NDArray[np.bool_]) -> bool:
-    outside = np.isinf(open_gap)
-    return bool(
-        (contact[1:] & outside[:-1]).any()
-        or (contact[:-1] & outside[1:]).any()
-        or (contact[:, 1:] & outside[:, :-1]).any()
-        or (contact[:, :-1] & outside[:, 1:]).any()
-    )

@@ -95,6 +95,27 @@ class Grid:
         """Cell centres along y, shape (ny,) [m]."""
         return _centres(self.shape[1], self.size[1])
 
+    def largest_at(self, field: NDArray[np.float64]) -> tuple[float, float]:
+        """Where a field over this grid is largest.
+
+        Parameters
+        ----------
+        field : ndarray, shape (nx, ny)
+            The field.
+
+        Returns
+        -------
+        tuple of float
+            A cell's centre [m].
+
+        Examples
+        --------
+        >>> Grid((4, 4), (1.0, 1.0)).largest_at(np.arange(16.0).reshape(4, 4))
+        (0.375, 0.375)
+        """
+        i, j = divmod(int(field.argmax()), self.shape[1])
+        return float(self.x[i]), float(self.y[j])
+
     def widened(self, shape: tuple[int, int]) -> Grid:
         """The same cells, and more of them around.
 

@@ -17,11 +17,12 @@ from viscontact.extent import (
     hardest_contact,
     largest_compliance,
 )
+from viscontact.facets import facet_error
 from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.load import LoadHistory
 from viscontact.mesh_trial import RIM_SCATTER, Pressing
-from viscontact.resolution import USUAL_ORDER, Resolution, resolve
+from viscontact.resolution import PEAK, USUAL_ORDER, Resolution, resolve
 from viscontact.sampling_doubts import CELLS_OF_A_WAVE, map_spacing
 
 #: No more cells are spent on a contact that is small at first and large for most of the run.
@@ -115,7 +116,9 @@ def choose_mesh(
     early = hardest_contact(indenter, compliance, load, end, found)
     if min(np.divide(early.estimate.extents, late.estimate.extents)) < SMALLER:
         choice = _refined_early(indenter, wish, early, size, choice)
-    return _refined_in_the_end(indenter, wish, late, size, choice)
+    return _as_the_map_allows(
+        indenter, late, _refined_in_the_end(indenter, wish, late, size, choice)
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -225,6 +228,15 @@ def _refined_in_the_end(
     return Mesh(grid, chosen.errors, chosen.doubts)
 
 
+def _as_the_map_allows(indenter: Indenter, late: PointContact, mesh: Mesh) -> Mesh:
+    """The same mesh, from which no smaller error is expected than the map's facets make."""
+    facets = facet_error(indenter, late.estimate, late.compliance)
+    if facets <= mesh.errors.get(PEAK, math.inf):
+        return mesh
+    doubts = {"map spacing": _map_doubt(PEAK, facets)["map spacing"]} | mesh.doubts
+    return replace(mesh, errors=mesh.errors | {PEAK: facets}, doubts=doubts)
+
+
 def _resolved(
     indenter: Indenter,
     wish: AutomaticGrid,
@@ -252,7 +264,8 @@ def _resolved(
 def _map_doubt(name: str, error: float) -> dict[str, str]:
     return {
         "map spacing": (
-            f"cells as small as the steps of the height map leave a relative error of about "
-            f"{error:.1g} in the {name.replace('_', ' ')}; a map of smaller steps would tell more"
+            f"between its points the height map is taken as straight: that leaves a relative error "
+            f"of about {error:.1g} in the {name.replace('_', ' ')}, whatever the cells; a map of "
+            "smaller steps would tell more"
         )
     }

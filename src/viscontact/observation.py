@@ -12,7 +12,7 @@ from viscontact.balance import RigidPlane
 from viscontact.carried import Carried
 from viscontact.cycles import Cycles
 from viscontact.errors import DomainError
-from viscontact.geometry_doubts import Geometry, geometry_doubts
+from viscontact.geometry_doubts import Geometry, corner_doubts, geometry_doubts
 from viscontact.grid import Grid
 from viscontact.growth import Enlargement
 from viscontact.load.history import LoadPoint
@@ -29,7 +29,11 @@ from viscontact.plausibility import (
 from viscontact.rim import Rim, trace_rim
 from viscontact.run import Run
 from viscontact.schedule import Step
+from viscontact.sharpness import strain_of
 from viscontact.state import ContactState, Instant, Outcome
+
+#: By how much a pressure exceeds the one before that is looked at for corners.
+HIGHER = 1.1
 
 
 class Observer:
@@ -57,6 +61,7 @@ class Observer:
         self._cycles = Cycles(run.load.load_cycles)
         self._largest_area, self._cells_at_largest, self._spots_at_largest = 0.0, 0, 0.0
         self._peak, self._peak_time, self._peak_told = 0.0, 0.0, 0.0
+        self._looked_at = 0.0
 
     def _look_at(self, run: Run) -> None:
         self._run = run
@@ -171,6 +176,7 @@ class Observer:
             "cells_at_largest": self._cells_at_largest,
             "spots_at_largest": self._spots_at_largest,
             "peak": [self._peak, self._peak_time, self._peak_told],
+            "looked_at": self._looked_at,
         }
 
     def restore(self, carried: Carried) -> None:
@@ -188,16 +194,28 @@ class Observer:
         self._cells_at_largest = carried["cells_at_largest"]
         self._spots_at_largest = carried["spots_at_largest"]
         self._peak, self._peak_time, self._peak_told = carried["peak"]
+        self._looked_at = carried["looked_at"]
 
     def _collect_doubts(self, step: Step, instant: Instant, rim: Rim) -> None:
         found = data_doubts(step.time, self._run.measured_until)
         if instant.outcome is not Outcome.NO_CONTACT:
+            found = self._corner_doubts(step.time, instant) | found
             found = (
                 geometry_doubts(self._geometry, rim, instant.motion, instant.displacement) | found
             )
             found = early_doubts(self._measured_from, self._run.load, step.time, step.side) | found
         found = loading_doubts(self._run, step, self._before, instant) | found
         self._open = found | self._open
+
+    def _corner_doubts(self, time: float, instant: Instant) -> dict[str, str]:
+        """Whether the largest pressure so far lies at a corner; where it hardly grew, it stayed."""
+        peak = float(instant.pressure.max())
+        if peak <= HIGHER * self._looked_at:
+            return {}
+        self._looked_at = peak
+        place = self._run.grid.largest_at(instant.pressure)
+        strain = strain_of(peak, float(self._run.compliance(time)))
+        return corner_doubts(self._geometry, place, strain)
 
     def _work_of(self, step: Step, instant: Instant, resultants: NDArray[np.float64]) -> float:
         """Work over a step: exact while the load is held, and for all that is elastic.

@@ -71,6 +71,7 @@ def estimate_period(
         width=max(rim.width, coarse.cell_size[1]),
         approach=float(solution.found.motion[0]),
         peak_pressure=float(pressure.max()),
+        peak_place=coarse.largest_at(pressure),
         centre_x=float(np.median(x)) if rim.length < grid.size[0] else 0.0,
         centre_y=float(np.median(y)) if rim.width < grid.size[1] else 0.0,
         force=float(pressure.sum()) * coarse.cell_area,

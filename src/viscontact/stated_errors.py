@@ -10,10 +10,7 @@ from viscontact.variables import error_name
 
 #: Said of a value whose stated error is infinite, and why it is.
 MESH_DEPENDENT = "depends on the mesh"
-WHY_MESH_DEPENDENT = (
-    "at a sharp edge or tip the pressure is infinite in theory, and roughness finer than the cells "
-    "is as good as sharp; the number is the largest mean over a cell, and smaller cells give more"
-)
+WHY_MESH_DEPENDENT = "the number is the largest mean over a cell, and smaller cells give more"
 
 
 def stated_error(results: xr.Dataset, name: str) -> NDArray[np.float64] | None:

@@ -15,15 +15,8 @@ from viscontact.cli.messages import refuse
 from viscontact.cli.preparation import Prepared
 from viscontact.estimate import ContactEstimate
 from viscontact.forecast import Forecast, forecast
+from viscontact.geometry_doubts import SINGULAR_KINDS
 from viscontact.grid import Grid
-from viscontact.indenters import (
-    CombinedIndenter,
-    Cone,
-    Indenter,
-    PlacedIndenter,
-    Pyramid,
-    Wedge,
-)
 from viscontact.plausibility import DOUBTFUL_CELLS
 from viscontact.run import Run
 from viscontact.stated_errors import MESH_DEPENDENT
@@ -170,24 +163,15 @@ def _expectations(
     return [
         ("contact", f"{in_words(found.length, 'm', 3)} long, {in_words(found.width, 'm', 3)} wide"),
         ("cells in it", f"{expected.cells_along:.0f} along, {expected.cells_across:.0f} across"),
-        ("peak pressure", _peak_told(prepared, expected, found)),
+        ("peak pressure", _peak_told(expected, found)),
         follows,
     ]
 
 
-def _peak_told(prepared: Prepared, expected: Forecast, found: ContactEstimate) -> str:
+def _peak_told(expected: Forecast, found: ContactEstimate) -> str:
     told = in_words(found.peak_pressure, "Pa", 3)
-    is_sharp = "end" in expected.doubts or _has_tip(prepared.run.indenter)
+    is_sharp = not SINGULAR_KINDS.isdisjoint(expected.doubts)
     return f"{MESH_DEPENDENT} ({told} on a coarse one)" if is_sharp else told
-
-
-def _has_tip(indenter: Indenter) -> bool:
-    """Whether it touches with a tip or an edge; ends and corners are found by the coarse solve."""
-    if isinstance(indenter, CombinedIndenter):
-        return any(_has_tip(part) for part in indenter.parts)
-    if isinstance(indenter, PlacedIndenter):
-        return _has_tip(indenter.body)
-    return isinstance(indenter, (Cone, Pyramid, Wedge))
 
 
 def _doubts(expected: Forecast, grid: Grid) -> list[str]:

@@ -64,18 +64,21 @@ def _print(ds: xr.Dataset, directory: Path) -> None:
         console.print(line, highlight=False)
     for line in str(ds.attrs.get("grid_enlarged", "")).splitlines():
         console.print(f"grid enlarged at {line}", highlight=False)
-    for line in _warnings(directory / PROGRESS_NAME):
+    for line in _warnings(directory / PROGRESS_NAME, str(ds.attrs.get("warnings", ""))):
         console.print(f"[yellow]warning:[/] {escape(line)}")
     console.print(f"{directory / RESULT_NAME}", soft_wrap=True, highlight=False)
 
 
-def _warnings(lines: Path) -> Iterator[str]:
-    """What was doubted, and when: the result tells only what."""
+def _warnings(lines: Path, of_result: str) -> Iterator[str]:
+    """What was doubted, and when: the result tells only what; and what was doubted in the end."""
+    told: set[str] = set()
     with lines.open(encoding="utf-8") as file:
         for line in file:
             state = json.loads(line)
+            told |= set(state["warnings"])
             for text in state["warnings"]:
                 yield f"t = {in_words(state['time'], 's')}: {text}"
+    yield from (text for text in of_result.splitlines() if text not in told)
 
 
 def _table(ds: xr.Dataset) -> Table:
