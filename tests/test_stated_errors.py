@@ -414,6 +414,7 @@ def test_steady_value_is_not_drawn_as_rounding(bare: xr.Dataset) -> None:
         ("shape: cone, half_angle: 80 deg", True),
         ("shape: pyramid, half_angle: 80 deg, faces: 4, rotation: 45 deg", True),
         ("shape: roller, radius: 10 mm, half_length: 2 mm", True),
+        ("shape: wedge, half_angle: 80 deg, half_length: 2 mm", True),
     ],
 )
 def test_check_says_of_which_bodies_the_peak_depends_on_the_mesh(

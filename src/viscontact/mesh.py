@@ -233,7 +233,7 @@ def _as_the_map_allows(indenter: Indenter, late: PointContact, mesh: Mesh) -> Me
     facets = facet_error(indenter, late.estimate, late.compliance)
     if facets <= mesh.errors.get(PEAK, math.inf):
         return mesh
-    doubts = {"map spacing": _map_doubt(PEAK, facets)["map spacing"]} | mesh.doubts
+    doubts = mesh.doubts | _facet_doubt(facets)
     return replace(mesh, errors=mesh.errors | {PEAK: facets}, doubts=doubts)
 
 
@@ -264,8 +264,17 @@ def _resolved(
 def _map_doubt(name: str, error: float) -> dict[str, str]:
     return {
         "map spacing": (
-            f"between its points the height map is taken as straight: that leaves a relative error "
-            f"of about {error:.1g} in the {name.replace('_', ' ')}, whatever the cells; a map of "
+            f"cells as small as the steps of the height map leave a relative error of about "
+            f"{error:.1g} in the {name.replace('_', ' ')}; a map of smaller steps would tell more"
+        )
+    }
+
+
+def _facet_doubt(error: float) -> dict[str, str]:
+    return {
+        "facets": (
+            "between its points the height map is taken as straight, which leaves a relative error "
+            f"of about {error:.1g} in the peak pressure however small the cells are; a map of "
             "smaller steps would tell more"
         )
     }

@@ -214,3 +214,58 @@ def test_a_finite_peak_is_not_taken_for_singular(indenter: vc.Indenter) -> None:
     ds = vc.simulate(indenter, RUBBER, LOAD, vc.Grid((40, 40), (SIZE, SIZE)), [0.0])
     assert np.isfinite(ds.peak_pressure_error).all()
     assert float(ds.peak_pressure_error[0]) < 0.02 * float(ds.peak_pressure[0])
+
+
+# --- beyond exact solutions: against a quarter of the cells ------------------------------------
+
+
+def wavy_map(seed: int, finest: int, points: int = 256, length: float = 1e-3) -> vc.HeightMap:
+    """A periodic self-affine surface of Hurst exponent 0.8 and waves down to a part of its length.
+
+    Its rms slope is 0.05.
+    """
+    rng = np.random.default_rng(seed)
+    wave = np.fft.fftfreq(points, 1 / points)
+    q = np.hypot(wave[:, None], wave[None, :])
+    spectrum = np.where((q >= 2) & (q <= finest), np.maximum(q, 1) ** -1.8, 0.0)
+    noise = np.fft.fft2(rng.standard_normal((points, points)))
+    height = np.fft.ifft2(spectrum * noise).real
+    slopes = np.gradient(height, length / points)
+    height *= 0.05 / math.sqrt(float(np.mean(slopes[0] ** 2 + slopes[1] ** 2)))
+    axis = (np.arange(points) - (points - 1) / 2) * length / points
+    return vc.HeightMap(axis, axis, height)
+
+
+@pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
+@pytest.mark.parametrize("finest", [16, 32])
+def test_area_of_many_spots_changes_by_less_than_its_bar(finest: int) -> None:
+    """Spots of 2 to 4 cells, some of which come and go. The truth is that of a quarter of the cells."""
+    within = []
+    for seed in range(6):
+        rough, size = wavy_map(seed, finest), (1e-3, 1e-3)
+        load = vc.step((0.05 if seed % 2 else 0.1) * 0.05 * 1e-6 / 2 * 4e6)
+        found = []
+        for cells in (64, 256):
+            grid = vc.Grid((cells, cells), size, periodic=True)
+            run = prepare_run(rough, RUBBER, load, grid, [0.0], tolerance=1e-5)
+            found.append((run, history_of(list(march_run(run)))))
+        bar = error_bars(*found[0]).values["contact_area"][0]
+        coarse, fine = (history["contact_area"][0] for _, history in found)
+        within.append(abs(coarse - fine) < bar)
+        assert bar < coarse
+    assert sum(within) >= 5
+
+
+@pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
+def test_width_at_a_rollers_sharp_ends_changes_by_less_than_its_bar() -> None:
+    """The contact is wider at the ends, the more so the smaller the cells."""
+    roller, load, size = vc.Roller(5e-3, 5e-3), vc.step(0.25), (1.11e-2, 1.15e-3)
+    for shape in ((44, 26), (57, 33), (62, 28)):
+        found = []
+        for part in (1, 4):
+            grid = vc.Grid((shape[0] * part, shape[1] * part), size)
+            run = prepare_run(roller, RUBBER, load, grid, [0.0])
+            found.append((run, history_of(list(march_run(run)))))
+        bar = error_bars(*found[0]).values["contact_width"][0]
+        coarse, fine = (history["contact_width"][0] for _, history in found)
+        assert abs(coarse - fine) < bar
