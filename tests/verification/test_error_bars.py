@@ -5,6 +5,7 @@ nothing: it is exact by the run's own balance. The factors in `error_bars` were 
 11 and 12, which are not used here.
 """
 
+import itertools
 import math
 import warnings
 from collections import defaultdict
@@ -237,23 +238,23 @@ def wavy_map(seed: int, finest: int, points: int = 256, length: float = 1e-3) ->
 
 
 @pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
-@pytest.mark.parametrize("finest", [16, 32])
-def test_area_of_many_spots_changes_by_less_than_its_bar(finest: int) -> None:
-    """Spots of 2 to 4 cells, some of which come and go. The truth is that of a quarter of the cells."""
+def test_area_of_many_spots_changes_by_less_than_its_bar() -> None:
+    """Spots of 2 to 4 cells, some of which come and go; in 90 of 100. Measured: in 11 of 12."""
     within = []
-    for seed in range(6):
+    for (finest, cells), seed in itertools.product(((16, 64), (32, 96)), range(6)):
         rough, size = wavy_map(seed, finest), (1e-3, 1e-3)
+        # Nominal pressure over modulus times slope: a real area of some 5 or 10 of 100.
         load = vc.step((0.05 if seed % 2 else 0.1) * 0.05 * 1e-6 / 2 * 4e6)
         found = []
-        for cells in (64, 256):
-            grid = vc.Grid((cells, cells), size, periodic=True)
+        for count in (cells, 256):
+            grid = vc.Grid((count, count), size, periodic=True)
             run = prepare_run(rough, RUBBER, load, grid, [0.0], tolerance=1e-5)
             found.append((run, history_of(list(march_run(run)))))
         bar = error_bars(*found[0]).values["contact_area"][0]
         coarse, fine = (history["contact_area"][0] for _, history in found)
         within.append(abs(coarse - fine) < bar)
-        assert bar < coarse
-    assert sum(within) >= 5
+        assert bar < 0.6 * coarse
+    assert sum(within) >= 0.9 * len(within)
 
 
 @pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
