@@ -153,7 +153,7 @@ def coarser_grid(grid: Grid, spacing: float, alike: bool) -> Grid:
     Examples
     --------
     >>> coarser_grid(Grid((30, 31), (30.0, 31.0)), 2.0, alike=True)
-    Grid(shape=(16, 17), size=(32.0, 34.0))
+    Grid(shape=(16, 17), size=(32.0, 34.0), periodic=False)
     """
     if grid.periodic:
         counts = [max(4, round(count / spacing)) for count in grid.shape]
