@@ -114,26 +114,44 @@ class RigidPlane:
         Cell centres [m].
     cell_size : tuple of float
         Edge lengths (dx, dy) of a cell [m].
+    mirrored : tuple of bool
+        Whether the cells stand for their mirror images across x = 0, and across y = 0, as well:
+        what is odd along that axis then sums up to 0.
+
+    Examples
+    --------
+    >>> row = np.array([0.5, 1.5])
+    >>> RigidPlane(row, row, (1.0, 1.0), (False, True)).sums(np.ones((2, 2))).tolist()
+    [4.0, 4.0, 0.0]
     """
 
     def __init__(
-        self, x: NDArray[np.float64], y: NDArray[np.float64], cell_size: tuple[float, float]
+        self,
+        x: NDArray[np.float64],
+        y: NDArray[np.float64],
+        cell_size: tuple[float, float],
+        mirrored: tuple[bool, bool] = (False, False),
     ) -> None:
         self._x, self._y = x, y
+        self._mirrored = mirrored
         # In units of cells, so that "no extent along x" means the same on every grid.
         self._unit = np.array([1.0, 1 / cell_size[0], 1 / cell_size[1]])
         self._column, self._row = x * self._unit[1], y * self._unit[2]
 
     def field(self, coefficients: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The plane c0 + c1 x + c2 y on every cell."""
+        """The plane c0 + c1 x + c2 y on every cell, not to be written to."""
         along_x = coefficients[0] + coefficients[1] * self._x
+        if coefficients[2] == 0:
+            return np.broadcast_to(along_x[:, None], (len(self._x), len(self._y)))
         return np.asarray(np.add.outer(along_x, coefficients[2] * self._y))
 
     def sums(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
         """Sums of a field against 1, x and y."""
         # Not as matrix products: BLAS would put threads to work, which cost more than they bring.
-        along_x, along_y = values.sum(axis=1), values.sum(axis=0)
-        return np.array([along_x.sum(), along_x @ self._x, along_y @ self._y])
+        along_x = values.sum(axis=1)
+        moment_x = 0.0 if self._mirrored[0] else along_x @ self._x
+        moment_y = 0.0 if self._mirrored[1] else values.sum(axis=0) @ self._y
+        return np.array([along_x.sum(), moment_x, moment_y])
 
     def inverse_gram(
         self, weight: NDArray[np.float64], free: NDArray[np.bool_]
@@ -157,12 +175,19 @@ class RigidPlane:
         return _inverse(self._moments(weight), free) * np.outer(self._unit, self._unit)
 
     def _moments(self, weight: NDArray[np.float64]) -> tuple[float, ...]:
-        """Sums of weight times 1, x, y, x², xy, y², in units of cells."""
+        """Sums of weight times 1, x, y, x², xy, y², in units of cells; no squares if mirrored."""
         column, row = self._column, self._row
-        along_x, along_y = weight.sum(axis=1), weight.sum(axis=0)
-        mixed = column @ np.einsum("ij,j->i", weight, row)
-        sums = (along_x.sum(), along_x @ column, along_y @ row)
-        return tuple(map(float, (*sums, along_x @ column**2, mixed, along_y @ row**2)))
+        x = y = xx = xy = yy = 0.0
+        along_x = weight.sum(axis=1)
+        n = along_x.sum()
+        if not self._mirrored[0]:
+            x, xx = along_x @ column, along_x @ column**2
+        if not self._mirrored[1]:
+            along_y = weight.sum(axis=0)
+            y, yy = along_y @ row, along_y @ row**2
+        if not any(self._mirrored):
+            xy = column @ np.einsum("ij,j->i", weight, row)
+        return tuple(map(float, (n, x, y, xx, xy, yy)))
 
 
 def _inverse(moments: tuple[float, ...], free: NDArray[np.bool_]) -> NDArray[np.float64]:

@@ -67,6 +67,17 @@ class Geometry:
         return ("will be about", "will reach") if self.foreseen else ("is", "reaches")
 
     @cached_property
+    def steepness(self) -> NDArray[np.float64]:
+        """The larger slope from each cell to the next along either axis, without a sign [-]."""
+        steepness = np.zeros(self.grid.shape)
+        for axis in (0, 1):
+            here = np.moveaxis(steepness, axis, 0)[:-1]
+            with np.errstate(invalid="ignore"):  # outside the body
+                slope = np.diff(np.moveaxis(self.open_gap, axis, 0), axis=0)
+            np.maximum(here, np.abs(slope) / self.grid.cell_size[axis], out=here)
+        return steepness
+
+    @cached_property
     def _sampling(self) -> Sampling:
         return Sampling(self.indenter, self.open_gap, self.grid)
 
@@ -116,13 +127,12 @@ def strain_doubts(geometry: Geometry, rim: Rim, motion: NDArray[np.float64]) -> 
         Sentences by kind of doubt; empty if there is none.
     """
     doubts: dict[str, str] = {}
-    open_gap = rim.cut(geometry.open_gap)
     half_width, radius = _half_width(rim), geometry.indenter.radius_of_curvature
     # A roller's length is no measure of its width, and may be less.
     extents = zip((rim.length, rim.width), geometry.indenter.curvatures, strict=True)
     wide = max(extent / 2 * curvature for extent, curvature in extents)
     be, reach = geometry._verbs
-    slope = _steepest_slope(open_gap, rim.contact, motion, geometry.grid.cell_size)
+    slope = _steepest_slope(geometry, rim, motion)
     if slope > STEEP_SLOPE:
         doubts["slope"] = (
             f"the indenter's slope within the contact {reach} {slope:.2g}; "
@@ -273,16 +283,15 @@ def _around(lines: NDArray[np.intp], distance: int, grid: Grid, axis: int) -> ND
     return np.arange(max(first, 0), min(last + 1, count))
 
 
-def _steepest_slope(
-    open_gap: NDArray[np.float64],
-    contact: NDArray[np.bool_],
-    motion: NDArray[np.float64],
-    cell_size: tuple[float, float],
-) -> float:
-    steepest = 0.0
+def _steepest_slope(geometry: Geometry, rim: Rim, motion: NDArray[np.float64]) -> float:
+    """Steepest slope between cells in contact; where none around is steep, that of the block."""
+    around = float(rim.cut(geometry.steepness).max() + np.abs(motion[1:]).max())
+    if around <= STEEP_SLOPE:
+        return around
+    steepest, cell_size = 0.0, geometry.grid.cell_size
     for axis in (0, 1):
-        shape = np.moveaxis(open_gap, axis, 0)
-        touched = np.moveaxis(contact, axis, 0)
+        shape = np.moveaxis(rim.cut(geometry.open_gap), axis, 0)
+        touched = np.moveaxis(rim.contact, axis, 0)
         pairs = touched[1:] & touched[:-1]
         slope = (shape[1:][pairs] - shape[:-1][pairs]) / cell_size[axis]
         steepest = max(steepest, float(np.abs(slope - motion[1 + axis]).max(initial=0.0)))

@@ -233,6 +233,7 @@ class HalfSpace:
                 grid.x[self._first_row :][rows],
                 grid.y[self._first_column :][columns],
                 grid.cell_size,
+                self.mirrored,
             ),
         )
 

@@ -158,7 +158,7 @@ def sampling_doubts(
     dict of str to str
         Sentences by kind of doubt; empty if there is none.
     """
-    missed = float(rim.cut(sampling.missed)[rim.contact].max(initial=0.0))
+    missed = float(rim.cut(sampling.missed).max(where=rim.contact, initial=0.0))
     extent = min(rim.length, rim.width)
     strain = 2 * float(motion[0]) / extent if extent > 0 else math.inf
     cell = max(sampling.grid.cell_size)

@@ -88,7 +88,7 @@ def measure(problem: ContactProblem, patch: Patch, now: Guess) -> Measure:
     correction = inverse @ patch.plane.sums(gap_in_contact)
     plane = patch.plane.field(correction)
     gap -= plane
-    gap_in_contact -= np.multiply(plane, weight, out=plane)
+    gap_in_contact -= np.multiply(weight, plane, out=weight)
     error = max(float(gap_in_contact.max()), -float(gap.min()), 0.0) / scale
     return Measure(contact, inverse, now.motion + correction, gap, gap_in_contact, error)
 
@@ -166,8 +166,7 @@ class Search:
         """Remove from a direction what lies outside the active cells or changes resultants."""
         plane = self.patch.plane
         vector = np.where(active, vector, 0.0)
-        rigid = plane.field(inverse @ plane.sums(vector))
-        vector -= np.multiply(rigid, active, out=rigid)
+        vector -= active * plane.field(inverse @ plane.sums(vector))
         return vector
 
     def _step(self) -> None:

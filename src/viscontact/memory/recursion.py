@@ -6,6 +6,9 @@ recursion over a few internal fields, exact on uneven steps.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -48,60 +51,33 @@ class RecursiveMemory(Memory):
 
     def __init__(self, compliance: SeriesCompliance, shape: tuple[int, ...]) -> None:
         self._compliance = compliance
-        self._instant = float(compliance.instant)
-        self._amplitudes = np.asarray(compliance.amplitudes, dtype=float)
-        self._times = np.asarray(compliance.times, dtype=float)
-        self._fluidity = float(compliance.fluidity)
-        flowing = self._fluidity > 0
-        self._fields = np.zeros((len(self._amplitudes) + flowing, *shape))
+        self._fields = np.zeros((_terms(compliance), *shape))
         self._value = np.zeros(shape)
         self._jumped = self._next_jumps = False
-        self._decay = np.ones(len(self._fields))
-        self._old_weight = np.zeros(len(self._fields))
-        self._new_weight = np.zeros(len(self._fields))
+        self._next = _jump(compliance)
 
     def jump(self) -> Response:
         """Response to a jump; see `Memory.jump`."""
         self._next_jumps = True
-        self._decay = np.ones(len(self._fields))
-        self._old_weight = np.zeros(len(self._fields))
-        self._new_weight = np.zeros(len(self._fields))
-        return self._response(resolved=True)
+        self._next = _jump(self._compliance)
+        return self._response()
 
     def ramp(self, duration: float) -> Response:
         """Response to a change over a step of the given time; see `Memory.ramp`."""
-        rise = longest_smooth_rise(self._compliance, duration, after_jump=self._jumped)
         self._next_jumps = False
-        decays = np.exp(-duration / self._times)
-        self._decay = np.append(decays, np.ones(len(self._fields) - len(decays)))
-        self._old_weight, self._new_weight = self._weights(duration, rise)
-        crept = self._compliance(duration) - self._instant
-        resolved = is_resolved(crept, self._instant, whole=rise == duration)
-        return self._response(resolved=resolved, held=1 - rise / duration)
-
-    def _weights(
-        self, duration: float, rise: float
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Parts of the old and the new value in each term after a rise and a hold."""
-        ratio = rise / self._times
-        rest = np.exp((rise - duration) / self._times)
-        share = _share_of_new(ratio)
-        old = self._amplitudes * (-np.expm1(-ratio) - share) * rest
-        new = self._amplitudes * (share * rest - np.expm1((rise - duration) / self._times))
-        if self._fluidity > 0:
-            old = np.append(old, self._fluidity * rise / 2)
-            new = np.append(new, self._fluidity * (duration - rise / 2))
-        return old, new
+        self._next = _ramp(self._compliance, duration, after_jump=self._jumped)
+        return self._response()
 
     def accept(self, value: NDArray[np.float64]) -> None:
         """Take the new value of the field into the memory and close the step."""
         self._jumped = self._next_jumps
+        term = np.empty_like(value)
         for field, decay, old, new in zip(
-            self._fields, self._decay, self._old_weight, self._new_weight, strict=True
+            self._fields, self._next.decay, self._next.old, self._next.new, strict=True
         ):
             field *= decay
-            field += old * self._value
-            field += new * value
+            field += np.multiply(old, self._value, out=term)
+            field += np.multiply(new, value, out=term)
         self._value = value.copy()
 
     def carried(self) -> Carried:
@@ -117,11 +93,54 @@ class RecursiveMemory(Memory):
         self._fields = carried["fields"].copy()
         self._value, self._jumped = carried["value"], carried["jumped"]
 
-    def _response(self, *, resolved: bool, held: float = 0.0) -> Response:
-        history = self._old_weight.sum() * self._value
-        for field, decay in zip(self._fields, self._decay, strict=True):
-            history += decay * field
-        return Response(history, self._instant + float(self._new_weight.sum()), resolved, held)
+    def _response(self) -> Response:
+        step = self._next
+        history = step.old.sum() * self._value
+        term = np.empty_like(history)
+        for field, decay in zip(self._fields, step.decay, strict=True):
+            history += np.multiply(decay, field, out=term)
+        met = self._compliance.instant + float(step.new.sum())
+        return Response(history, met, step.resolved, step.held)
+
+
+@dataclass(frozen=True, eq=False)
+class _Weights:
+    """What a step makes of each term: its decay, and its parts of the old and the new value."""
+
+    decay: NDArray[np.float64]
+    old: NDArray[np.float64]
+    new: NDArray[np.float64]
+    resolved: bool = True
+    held: float = 0.0
+
+
+def _jump(compliance: SeriesCompliance) -> _Weights:
+    nothing = np.zeros(_terms(compliance))
+    return _Weights(nothing + 1.0, nothing, nothing)
+
+
+def _terms(compliance: SeriesCompliance) -> int:
+    return len(compliance.times) + (compliance.fluidity > 0)
+
+
+# Several memories take the same step: of the fields, and of single numbers that go with them.
+@lru_cache(maxsize=16)
+def _ramp(compliance: SeriesCompliance, duration: float, *, after_jump: bool) -> _Weights:
+    """Parts of the old and the new value in each term after a rise and a hold."""
+    rise = longest_smooth_rise(compliance, duration, after_jump=after_jump)
+    times, amplitudes = np.asarray(compliance.times), np.asarray(compliance.amplitudes)
+    ratio, rest = rise / times, np.exp((rise - duration) / times)
+    share = _share_of_new(ratio)
+    decay = np.exp(-duration / times)
+    old = amplitudes * (-np.expm1(-ratio) - share) * rest
+    new = amplitudes * (share * rest - np.expm1((rise - duration) / times))
+    if compliance.fluidity > 0:
+        decay = np.append(decay, 1.0)
+        old = np.append(old, compliance.fluidity * rise / 2)
+        new = np.append(new, compliance.fluidity * (duration - rise / 2))
+    crept = compliance(duration) - compliance.instant
+    resolved = is_resolved(crept, compliance.instant, whole=rise == duration)
+    return _Weights(decay, old, new, resolved, 1 - rise / duration)
 
 
 def _share_of_new(ratio: NDArray[np.float64]) -> NDArray[np.float64]:
