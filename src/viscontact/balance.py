@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -71,12 +72,12 @@ class Support:
         """Support of one period of a body: it does not tilt, or periods would not fit together."""
         return Support((self.resultants[0], None, None), (self.motions[0], 0.0, 0.0))
 
-    @property
+    @cached_property
     def free(self) -> NDArray[np.bool_]:
         """Which of the three motions the balances determine."""
         return np.array([resultant is not None for resultant in self.resultants])
 
-    @property
+    @cached_property
     def targets(self) -> NDArray[np.float64]:
         """Resultants, zero where the motion is prescribed."""
         return np.array([resultant or 0.0 for resultant in self.resultants])

@@ -74,10 +74,12 @@ def early_doubts(
     >>> list(early_doubts(1.0, step(5.0), 0.5)), list(early_doubts(1.0, step(5.0), 1.0))
     (['early'], [])
     """
+    if measured_from <= 0:
+        return {}
     begin = time - measured_from * (1 - 1e-9)
     before = float(load.level_at(begin)) if begin >= 0 else 0.0
     came = abs(float(load.level_at(time, side=side)) - before)
-    if measured_from <= 0 or came <= EARLY_PART * load.largest_level:
+    if came <= EARLY_PART * load.largest_level:
         return {}
     return {
         "early": (

@@ -15,8 +15,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-#: Points of the extrapolating polynomial. Four and more follow noise, not physics.
-POINTS = 3
+#: Points of the extrapolating polynomial. A third one tells more about what the solver's tolerance
+#: left in its answers than about physics: it costs half an iteration a step.
+POINTS = 2
 
 #: Neighbouring steps of the twin force may differ by this factor, else time is extrapolated in.
 UNEVEN = 20.0
@@ -51,7 +52,7 @@ def predict(past: Sequence[Twin], time: float, drive: float) -> Twin | None:
     Parameters
     ----------
     past : sequence of Twin
-        Instants since the load's last kink or jump, oldest first; the last three are used.
+        Instants since the load's last kink or jump, oldest first; the last two are used.
     time : float
         The instant to guess [s].
     drive : float
@@ -60,8 +61,8 @@ def predict(past: Sequence[Twin], time: float, drive: float) -> Twin | None:
     Returns
     -------
     Twin or None
-        Polynomial of degree up to two, in the drive where that moves steadily, else in time;
-        None without a past.
+        A line through them, in the drive where that moves steadily, else in time; the one there
+        is; None without a past.
     """
     if not past:
         return None

@@ -80,8 +80,9 @@ class Rim:
         """The block's part of a field on the grid."""
         if self.grid.periodic:
             return field[np.ix_(self.rows, self.columns)]
-        (first_row, last_row), (first, last) = self.rows[[0, -1]], self.columns[[0, -1]]
-        return field[first_row : last_row + 1, first : last + 1]
+        both = (self.rows, self.columns)
+        rows, columns = (slice(int(lines[0]), int(lines[-1]) + 1) for lines in both)
+        return field[rows, columns]
 
 
 def trace_rim(
@@ -199,7 +200,9 @@ def _crossings(
     distance = np.where(known, ratio / (1 - np.where(known, ratio, 0.0)), 0.5)
     located = np.maximum(1 - distance, -0.5)
     if outline is not None:
-        located = np.where(np.isinf(gap[first, j]), np.nan_to_num(outline[i, j], nan=0.5), located)
+        end = outline[i, j]
+        end[np.isnan(end)] = 0.5
+        located = np.where(np.isinf(gap[first, j]), end, located)
     crossings[i, j] = located
     return crossings
 
@@ -211,7 +214,7 @@ def _enclosed_squares(rim: Rim) -> float:
     i, j = _places((count > 0) & (count < 4))
     corners = (inside[i, j], inside[i + 1, j], inside[i + 1, j + 1], inside[i, j + 1])
     crossings = (rim.along_x[i, j], rim.along_y[i + 1, j], rim.along_x[i, j + 1], rim.along_y[i, j])
-    edges = tuple(np.clip(np.nan_to_num(crossing), 0.0, 1.0) for crossing in crossings)
+    edges = tuple(np.fmin(np.fmax(crossing, 0.0), 1.0) for crossing in crossings)  # no NaN left
     mixed = count[i, j]
     total = float((count == 4).sum())
     for k in range(4):

@@ -46,11 +46,14 @@ class StepError:
         What it adds to the pressure's error, relative to the largest still to come [-].
     size : float
         Largest deflection so far [Pa m].
+    level : float
+        Largest level of the load so far [N or m].
     """
 
     bulge: float
     relative: float
     size: float
+    level: float
 
 
 class TimeErrors:
@@ -99,13 +102,13 @@ class TimeErrors:
             For the first step after a kink a guess from the change over it.
         """
         # Deflections are positive: the kernel is.
-        size = max(self._size, float(values[1].max()))
+        size, level = max(self._size, float(values[1].max())), self._level_after(step)
         if step.is_jump or size == 0:
-            return StepError(0.0, 0.0, size)
+            return StepError(0.0, 0.0, size, level)
         bulge = self._bulge(step, values[1], response)
         crept = self._compliance(step.duration) - self._compliance.instant
-        to_come = size * self._growth_to_come(step)
-        return StepError(bulge, bulge * crept / (response.compliance * to_come), size)
+        to_come = size * self._growth_to_come(level)
+        return StepError(bulge, bulge * crept / (response.compliance * to_come), size, level)
 
     def after(
         self, step: Step, values: NDArray[np.float64], response: Response, error: StepError
@@ -124,7 +127,7 @@ class TimeErrors:
         float
             Relative to the largest deflection of the run so far [-].
         """
-        self._size, self._level = error.size, self._level_after(step)
+        self._size, self._level = error.size, error.level
         if not step.smooth or step.is_jump:
             self._settle(alone=True)
             self._past = self._past[-1:]
@@ -168,9 +171,8 @@ class TimeErrors:
         """Go on with larger fields, which `grown` makes of those that are remembered."""
         self._past = [(time, grown(values)) for time, values in self._past]
 
-    def _growth_to_come(self, step: Step) -> float:
+    def _growth_to_come(self, level: float) -> float:
         """By how much pressure and deflection will still grow with the load, at least."""
-        level = self._level_after(step)
         return (self._load.largest_level / level) ** GROWTH if level > 0 else 1.0
 
     def _level_after(self, step: Step) -> float:
