@@ -108,9 +108,11 @@ def _by_quadrature(
     x: NDArray[np.float64], y: NDArray[np.float64], cell_size: tuple[float, float]
 ) -> NDArray[np.float64]:
     dx, dy = cell_size
-    total = np.zeros_like(x)
+    total, distance = np.zeros_like(x), np.empty_like(x)
     for node_x, weight_x in zip(GAUSS_NODES, GAUSS_WEIGHTS, strict=True):
+        along_x = np.square(x - node_x * dx / 2)
         for node_y, weight_y in zip(GAUSS_NODES, GAUSS_WEIGHTS, strict=True):
-            distance = np.hypot(x - node_x * dx / 2, y - node_y * dy / 2)
-            total += weight_x * weight_y / distance
+            np.square(np.subtract(y, node_y * dy / 2, out=distance), out=distance)
+            np.sqrt(np.add(along_x, distance, out=distance), out=distance)
+            total += np.divide(weight_x * weight_y, distance, out=distance)
     return np.asarray(total * (dx * dy / 4))
