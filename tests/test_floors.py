@@ -91,6 +91,7 @@ FLOORS = (
         "many_runs",
         "results",
         "stated_errors",
+        "history_csv",
         "stresses",
         "recording",
     ),  # 5 labels and files
@@ -106,6 +107,7 @@ FLOORS = (
         "forecast",
         "case",
         "plot",
+        "report",
         "verify",
     ),  # 6 people
     ("cli", "__main__"),  # 7 shell
@@ -220,6 +222,8 @@ NEIGHBOURS = {
     ("plot", "units"),
     ("verify", "units"),
     ("plot", "identification"),  # data, what was fitted, and what is left
+    ("report", "plot"),  # has drawings of it
+    ("report", "units"),
     ("plot", "materials"),  # curves are drawn over the points they rest on
     ("__main__", "cli"),  # python -m viscontact
 }

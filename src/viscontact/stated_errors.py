@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
@@ -64,3 +66,56 @@ def mesh_dependent(results: xr.Dataset, name: str) -> NDArray[np.bool_]:
     """
     error = stated_error(results, name)
     return np.zeros(results.sizes["time"], dtype=np.bool_) if error is None else np.isposinf(error)
+
+
+@dataclass(frozen=True)
+class LargestError:
+    """The largest error bar of a scalar over a run.
+
+    Attributes
+    ----------
+    half_width : float
+        In the unit of the scalar; inf where the value depends on the mesh, NaN where nothing is
+        known.
+    part : float
+        Of the scalar's largest magnitude [-].
+    unknown : int
+        At how many instants there is a value, but its error is not known.
+    """
+
+    half_width: float
+    part: float
+    unknown: int
+
+
+def largest_error(ds: xr.Dataset, name: str) -> LargestError | None:
+    """Return the largest error bar of a scalar.
+
+    Parameters
+    ----------
+    ds : xarray.Dataset
+        A result.
+    name : str
+        The scalar.
+
+    Returns
+    -------
+    LargestError or None
+        None if the result states no errors of it, or holds no value.
+
+    Examples
+    --------
+    >>> run = xr.Dataset({"force": ("time", [2.0, 4.0]), "force_error": ("time", [0.1, np.nan])})
+    >>> largest_error(run, "force")
+    LargestError(half_width=0.1, part=0.025, unknown=1)
+    """
+    error, values = stated_error(ds, name), np.asarray(ds[name].values, dtype=np.float64)
+    given = ~np.isnan(values)
+    if error is None or not given.any():
+        return None
+    known = error[given & ~np.isnan(error)]
+    if not known.size:
+        return LargestError(np.nan, np.nan, int(given.sum()))
+    half_width, largest = float(known.max()), float(np.abs(values[given]).max())
+    part = half_width / largest if largest > 0 else (np.inf if half_width > 0 else 0.0)
+    return LargestError(half_width, part, int(given.sum()) - known.size)

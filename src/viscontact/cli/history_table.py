@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import csv
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from textwrap import wrap
-from typing import IO
 
 import numpy as np
 import xarray as xr
@@ -19,17 +17,15 @@ from rich.markup import escape
 from rich.table import Table
 
 from viscontact.cli.accuracy import (
-    LargestError,
     accuracy_lines,
     has_errors,
-    largest_error,
     mesh_lines,
     unknown_lines,
 )
 from viscontact.cli.messages import refuse
 from viscontact.cli.stored import early_end
-from viscontact.state import Outcome
-from viscontact.stated_errors import stated_error
+from viscontact.history_csv import write_history
+from viscontact.stated_errors import LargestError, largest_error, stated_error
 from viscontact.units import (
     in_digits,
     in_error_digits,
@@ -39,7 +35,6 @@ from viscontact.units import (
     is_rounding_tilt,
     readable_unit,
 )
-from viscontact.variables import SCALARS, error_name
 
 _COLUMNS = (
     *("force", "approach", "tilt_x", "tilt_y", "contact_area", "contact_length"),
@@ -97,11 +92,11 @@ def write_csv(ds: xr.Dataset, output: Path | None) -> None:
         The file; None for stdout.
     """
     if output is None:
-        _write_rows(ds, sys.stdout)
+        write_history(ds, sys.stdout)
         return
     try:
         with output.open("w", encoding="utf-8", newline="") as file:
-            _write_rows(ds, file)
+            write_history(ds, file)
     except OSError as error:
         refuse(f"{output}: cannot be written: {error}")
 
@@ -231,32 +226,3 @@ def _trimmed(digits: str) -> str:
 
 def _is_rounding(ds: xr.Dataset, tilt: str) -> bool:
     return is_rounding_tilt(ds[tilt].values, ds["contact_length"].values, ds["approach"].values)
-
-
-def _write_rows(ds: xr.Dataset, file: IO[str]) -> None:
-    writer = csv.writer(file, lineterminator="\n")
-    writer.writerow(_header(ds))
-    writer.writerows(_rows(ds))
-
-
-def _header(ds: xr.Dataset) -> Iterator[str]:
-    yield "time [s]"
-    for name in (*SCALARS, *_errors(ds)):
-        units = SCALARS[name].units if name in SCALARS else str(ds[name].attrs["units"])
-        unit = {"m2": "m^2"}.get(units, units)
-        yield name if unit == "1" else f"{name} [{unit}]"
-
-
-def _errors(ds: xr.Dataset) -> list[str]:
-    """The errors that a result states; older ones do not."""
-    return [error_name(name) for name in SCALARS if error_name(name) in ds]
-
-
-def _rows(ds: xr.Dataset) -> Iterator[list[object]]:
-    numbers = [ds["time"].values, *(ds[name].values for name in (*SCALARS, *_errors(ds)))]
-    place = 1 + list(SCALARS).index("outcome")  # the one column of words
-    for row in zip(*numbers, strict=True):
-        # repr: every digit, so that the numbers are those of the result
-        cells: list[object] = [number.item() for number in row]
-        cells[place] = Outcome(int(row[place])).name.lower()
-        yield cells

@@ -10,8 +10,8 @@ from viscontact import __version__
 from viscontact.cli.cases import demo, example, schema
 from viscontact.cli.drawing import compare, plot
 from viscontact.cli.fitting import fit
-from viscontact.cli.later import report
 from viscontact.cli.materials import material
+from viscontact.cli.reporting import report
 from viscontact.cli.running import check, run
 from viscontact.cli.showing import export, show
 from viscontact.cli.verification import verify

@@ -13,10 +13,10 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from viscontact.cli.accuracy import accuracy_lines, largest_error, mesh_lines, unknown_lines
+from viscontact.cli.accuracy import accuracy_lines, mesh_lines, unknown_lines
 from viscontact.recording.recorded import PROGRESS_NAME
 from viscontact.results import RESULT_NAME, open_results
-from viscontact.stated_errors import MESH_DEPENDENT, stated_error
+from viscontact.stated_errors import MESH_DEPENDENT, largest_error, stated_error
 from viscontact.units import (
     in_error_digits,
     in_percent,

@@ -174,7 +174,7 @@ def _draw(
 
 def _scale_time(panels: list[Axes], runs: Mapping[str, xr.Dataset], time_unit: DisplayUnit) -> None:
     instants = [time_unit(run["time"].values) for run in runs.values()]
-    on_log = all(_steps_grow(run["time"].values) and _held_from(run) for run in runs.values())
+    on_log = all(map(suits_log_time, runs.values()))
     start = min(float(instant[0]) for instant in instants)
     end = max(float(instant[-1]) for instant in instants)
     for axes in panels:
@@ -197,6 +197,29 @@ def _set_log_time(axes: Axes, first: float, end: float) -> None:
     axes.set_xticks([0.0, *decades[(decades >= first) & (decades <= end)]])
     axes.set_xticks(between[(between >= first) & (between <= end)], minor=True)
     axes.xaxis.set_minor_formatter(NullFormatter())
+
+
+def suits_log_time(run: xr.Dataset) -> bool:
+    """Tell whether a run reads best over logarithmic time.
+
+    Parameters
+    ----------
+    run : xarray.Dataset
+        A result.
+
+    Returns
+    -------
+    bool
+        Whether its steps are spread over decades and its load is held nearly from the start.
+
+    Examples
+    --------
+    >>> times = [0.0, 1.0, 2.0, 4.0, 1000.0]
+    >>> held = xr.Dataset({name: ("time", [1.0] * 5) for name in ("force", "approach")})
+    >>> suits_log_time(held.assign_coords(time=times))
+    True
+    """
+    return _steps_grow(run["time"].values) and _held_from(run)
 
 
 def _steps_grow(instants: NDArray[np.float64]) -> bool:

@@ -30,6 +30,7 @@ def draw_indenter(
     *,
     contact: tuple[float, float, float, float] | None = None,
     title: str = "",
+    shaded: str = "expected contact",
 ) -> Figure:
     """Draw an indenter: sections along x and y through its deepest point, and its plan.
 
@@ -43,6 +44,8 @@ def draw_indenter(
         Middle and extents of an expected contact, x, y, length and width, which is shaded [m].
     title : str, optional
         What stands above the facts.
+    shaded : str, optional
+        What the contact is called.
 
     Returns
     -------
@@ -72,7 +75,7 @@ def draw_indenter(
     _draw_section(panels[0, 0], along, unit, "x", "y", through[1], contact)
     _draw_section(panels[0, 1], across, unit, "y", "x", through[0], contact)
     _draw_plan(panels[1, 0], x, y, gap, unit, contact)
-    facts = _facts(indenter, along, across, contact)
+    facts = _facts(indenter, along, across, contact, shaded)
     _tell(panels[1, 1], [*filter(None, [title]), *facts])
     _tell_stretches(figure, panels, (along, across))
     return figure
@@ -184,6 +187,7 @@ def _facts(
     along: Section,
     across: Section,
     contact: tuple[float, float, float, float] | None,
+    shaded: str,
 ) -> list[str]:
     facts = [*_names(indenter), _ends_told("x", along), _ends_told("y", across)]
     facts.append("lines in the plan: equal gap")
@@ -192,7 +196,7 @@ def _facts(
             facts.append(f"radius of curvature along {axis}: {_length(1 / curvature)}")
     if contact is not None:
         extents = " × ".join(_length(extent, digits=3) for extent in contact[2:])
-        facts.append(f"shaded: expected contact, {extents}")
+        facts.append(f"shaded: {shaded}, {extents}")
     return facts
 
 

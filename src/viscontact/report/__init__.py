@@ -1,0 +1,16 @@
+"""A run as one self-contained page of HTML, to look at and to send."""
+
+try:
+    import plotly
+except ModuleNotFoundError as error:
+    raise ModuleNotFoundError(
+        "a report needs Plotly, which is not installed; type: pip install 'viscontact[plot]'",
+        name="plotly",
+    ) from error
+
+from viscontact.report.page import report_page, write_report
+
+#: Of whose scripts a page holds a copy.
+PLOTLY_VERSION: str = plotly.__version__
+
+__all__ = ["PLOTLY_VERSION", "report_page", "write_report"]

@@ -1,0 +1,94 @@
+"""Still drawings of a page: the geometry, and the curves of the materials."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Callable, Iterator
+from functools import partial
+from xml.etree.ElementTree import Element
+
+import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
+
+from viscontact.plot import creep_curve, draw_indenter
+from viscontact.plot.recorded import recorded_noun
+from viscontact.plot.saving import as_svg
+from viscontact.report.inputs import case_of
+from viscontact.report.markup import element
+
+#: A law is drawn from so much earlier than the end on [-]: how it comes to where the run begins.
+_BACK = 1e-4
+_POINTS = 300
+
+
+def geometry(ds: xr.Dataset) -> Element:
+    """Draw the indenter, with the largest contact shaded.
+
+    Parameters
+    ----------
+    ds : xarray.Dataset
+        A result.
+    """
+    return _drawn(partial(_indenter, ds), "Sections through the indenter, and its plan")
+
+
+def materials(ds: xr.Dataset) -> Iterator[tuple[str, Element]]:
+    """Yield the curves of each creeping body: whose they are, and the drawing.
+
+    Parameters
+    ----------
+    ds : xarray.Dataset
+        A result.
+    """
+    bodies = {"material": "Half-space", "indenter_material": "Indenter"}
+    for part, title in bodies.items():
+        if case_of(ds).get(part) is not None or part == "material":
+            about = f"Creep compliance and relaxation modulus: {title.lower()}"
+            yield title, _drawn(partial(_curves, ds, part), about)
+
+
+def _indenter(ds: xr.Dataset) -> Figure:
+    indenter = recorded_noun(ds, "indenter", "geometry")
+    x, y = ds["x"].values, ds["y"].values
+    size = float(x[1] - x[0]) * x.size, float(y[1] - y[0]) * y.size
+    length, width = (float(ds[name].max()) for name in ("contact_length", "contact_width"))
+    contact = None
+    if length > 0 and width > 0:
+        middle = _middle(ds)
+        contact = (*middle, length, width)
+    return draw_indenter(indenter, size, contact=contact, shaded="largest contact")
+
+
+def _middle(ds: xr.Dataset) -> tuple[float, float]:
+    """Middle of the contact where it is largest, as far as stored fields tell."""
+    if "pressure" not in ds:
+        return 0.0, 0.0
+    over = ds["pressure"].dims[0]
+    areas = (ds["pressure"] > 0).sum(["x", "y"])
+    touched = ds["pressure"].isel({over: int(areas.values.argmax())}).transpose("x", "y").values > 0
+    if not touched.any():
+        return 0.0, 0.0
+    x, y = ds["x"].values[touched.any(axis=1)], ds["y"].values[touched.any(axis=0)]
+    return float(x[0] + x[-1]) / 2, float(y[0] + y[-1]) / 2
+
+
+def _curves(ds: xr.Dataset, part: str) -> Figure:
+    law = recorded_noun(ds, part, "creep").law
+    instants = ds["time"].values
+    positive = instants[instants > 0]
+    end = float(positive.max(initial=0.0)) or 1.0
+    first = min(float(positive.min(initial=end)), _BACK * end)
+    return creep_curve(law, np.geomspace(first, end, _POINTS))
+
+
+def _drawn(draw: Callable[[], Figure], about: str) -> Element:
+    """An image that needs nothing from outside, or why there is none."""
+    try:
+        figure = draw()
+    except (ValueError, AttributeError) as error:
+        return element("p", f"Not drawn: {error}.", class_="faint")
+    width, height = (f"{96 * inches:.0f}" for inches in figure.get_size_inches())
+    source = f"data:image/svg+xml;base64,{base64.b64encode(as_svg(figure)).decode('ascii')}"
+    image = element("img", src=source, alt=about, width=width, height=height)
+    return element("div", image, class_="scroll")

@@ -1,0 +1,123 @@
+"""Where the theory ends, said for one run."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator
+
+import numpy as np
+import xarray as xr
+
+from viscontact.plot.recorded import recorded_noun
+from viscontact.report.inputs import case_of
+from viscontact.state import Outcome
+from viscontact.units import in_digits, in_words
+
+
+def notices(ds: xr.Dataset) -> list[str]:
+    """Return what a reader must know first: an early end, instants that failed.
+
+    Parameters
+    ----------
+    ds : xarray.Dataset
+        A result.
+    """
+    said = []
+    times = case_of(ds).get("times") or []
+    reached = float(ds["time"][-1])
+    if times and reached < float(times[-1]):
+        said.append(
+            f"The run ended at t = {in_words(reached, 's')}, before its last instant, t = "
+            f"{in_words(float(times[-1]), 's')}: this page shows what it had completed."
+        )
+    failed = int((ds["outcome"].values == Outcome.NOT_CONVERGED).sum())
+    if failed:
+        said.append(f"The solver did not converge at {failed} of {ds.sizes['time']} instants.")
+    return said
+
+
+def warnings_of(ds: xr.Dataset) -> list[str]:
+    """Return the warnings of a run, each once, and what became of its grid.
+
+    Parameters
+    ----------
+    ds : xarray.Dataset
+        A result.
+    """
+    enlarged = str(ds.attrs.get("grid_enlarged", "")).splitlines()
+    lines = [
+        *str(ds.attrs.get("warnings", "")).splitlines(),
+        *(f"grid enlarged at {line}" for line in enlarged),
+    ]
+    return list(dict.fromkeys(filter(None, lines)))
+
+
+def assumptions(ds: xr.Dataset) -> Iterator[tuple[str, str]]:
+    """Yield what the theory always takes for granted, with this run's numbers.
+
+    Parameters
+    ----------
+    ds : xarray.Dataset
+        A result.
+
+    Yields
+    ------
+    tuple of str
+        The assumption, and what it means here.
+    """
+    yield "Half-space", f"the surface goes on without end, and the body below it{_size(ds)}"
+    yield (
+        "Small slopes",
+        (
+            "surfaces are nearly level where they touch, and displacements are along z only. "
+            f"{_approach(ds)}"
+        ),
+    )
+    yield "No friction", "the bodies slide on each other freely: pressure alone is passed on."
+    yield "No adhesion", "the bodies pull on each other nowhere; contact ends where pressure does."
+    yield (
+        "Linear viscoelasticity",
+        (
+            "twice the load gives twice the strain at any time, and the material neither ages nor "
+            f"changes its temperature. {_strain(ds)}"
+        ),
+    )
+    yield "No inertia", "loads change slowly against the time that waves take through the contact."
+
+
+def _size(ds: xr.Dataset) -> str:
+    if (case_of(ds).get("grid") or {}).get("periodic"):
+        return ": one period of it is pressed here; the approach is to its mean plane."
+    length, width = (float(ds[name].max()) for name in ("contact_length", "contact_width"))
+    return (
+        f". Largest contact here: {in_words(length, 'm', 3)} along x, {in_words(width, 'm', 3)} "
+        "along y. A part that is not large against it in every direction gives way differently."
+    )
+
+
+def _approach(ds: xr.Dataset) -> str:
+    approach, extents = np.abs(ds["approach"].values), ds["contact_width"].values
+    shorter = float(min(ds["contact_length"].max(), extents.max()))
+    if shorter <= 0:
+        return ""
+    part = float(approach.max()) / shorter
+    largest = in_words(float(approach.max()), "m", 3)
+    return f"Largest approach here: {largest}, {in_digits(part, 2)} of the contact's shorter way."
+
+
+def _strain(ds: xr.Dataset) -> str:
+    """Pressure over stiffness, which is of the order of the strain."""
+    try:
+        creep = recorded_noun(ds, "material", "limits").law
+    except (ValueError, AttributeError, json.JSONDecodeError):
+        return ""
+    compliance = float(creep(float(ds["time"][-1])))
+    strain = float(ds["mean_pressure"].max()) * compliance
+    if not math.isfinite(strain) or strain <= 0:
+        return ""
+    return (
+        f"Largest mean pressure times creep compliance at the end, which is of the order of the "
+        f"strain: {in_digits(strain, 2)}. Whether the material is still linear at that, its tests "
+        "must say."
+    )

@@ -1,0 +1,172 @@
+"""Pressure maps, outlines and sections as plain data for a page's figures."""
+
+from __future__ import annotations
+
+import base64
+import csv
+import io
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.plot.readable import DisplayUnit, display_number, display_unit, time_labels
+from viscontact.plot.rim_polygons import rim_polygons
+from viscontact.plot.snapshots import Snapshot
+from viscontact.plot.style import time_colours
+from viscontact.report.shown_fields import ShownFields
+
+Floats = NDArray[np.float64]
+
+#: More cells than these along an axis are joined.
+MOST_CELLS = 256
+#: Steps of a pressure on the page, two bytes each: far finer than its colours.
+STEPS = 65535
+#: As many outlines are told apart in one figure.
+_OUTLINES = 5
+
+
+def map_data(fields: ShownFields) -> dict[str, Any]:
+    """Return the pressure over the surface at every instant shown.
+
+    Parameters
+    ----------
+    fields : ShownFields
+        The fields.
+
+    Returns
+    -------
+    dict
+        Positions and the largest pressure in readable units; of each instant the pressures as
+        little-endian 16-bit parts of the largest, in base64, y by y.
+    """
+    length, pressure = fields.window.unit, display_unit("Pa", fields.peak)
+    first, (in_x, in_y) = fields.snapshots[0], fields.inside
+    strides = strides_of(fields)
+    x, y = (
+        _joined(positions[part], stride)
+        for positions, part, stride in zip((first.x, first.y), (in_x, in_y), strides, strict=True)
+    )
+    return {
+        "x": rounded(length(x)),
+        "y": rounded(length(y)),
+        "xRange": rounded(length(fields.window.x)),
+        "yRange": rounded(length(fields.window.y)),
+        "unit": length.symbol,
+        "stretch": fields.window.stretch,
+        "pressureUnit": pressure.symbol,
+        "peak": float(pressure(fields.peak)),
+        "steps": STEPS,
+        "parts": [_parts(each, fields, strides) for each in fields.snapshots],
+        "rims": [_rim(each, length) for each in fields.snapshots],
+        "labels": list(time_labels(each.time for each in fields.snapshots)),
+        "peaks": [
+            f"{display_number(float(pressure(each.pressure.max())), 4)} {pressure.symbol}"
+            if each.touching
+            else ""
+            for each in fields.snapshots
+        ],
+        "colours": time_colours(len(fields.snapshots)),
+        "outlines": _outlined(fields),
+    }
+
+
+def section_data(fields: ShownFields, along: Literal["x", "y"]) -> dict[str, Any]:
+    """Return the pressure on a line at every instant shown, at full resolution.
+
+    Parameters
+    ----------
+    fields : ShownFields
+        The fields.
+    along : {"x", "y"}
+        Which way the line goes, through the last instant's largest pressure.
+    """
+    length, pressure = fields.window.unit, display_unit("Pa", fields.peak)
+    inside = fields.inside["xy".index(along)]
+    positions, _ = fields.snapshots[0].section(along, _crossing(fields, along))
+    values = [each.section(along, _crossing(fields, along))[1] for each in fields.snapshots]
+    return {
+        "position": rounded(length(positions[inside])),
+        "pressure": [rounded(pressure(each[inside])) for each in values],
+        "along": along,
+        "unit": length.symbol,
+        "pressureUnit": pressure.symbol,
+        "at": section_place(fields, along),
+    }
+
+
+def section_place(fields: ShownFields, along: Literal["x", "y"]) -> str:
+    """Say where a section runs, such as ``"y = 0 mm"``."""
+    unit = fields.window.unit
+    other = "y" if along == "x" else "x"
+    return f"{other} = {display_number(float(unit(_crossing(fields, along))), 4)} {unit.symbol}"
+
+
+def section_csv(fields: ShownFields, along: Literal["x", "y"]) -> str:
+    """Write the section at every instant shown as CSV, in SI units.
+
+    Parameters
+    ----------
+    fields : ShownFields
+        The fields.
+    along : {"x", "y"}
+        Which way the line goes.
+    """
+    lines = [each.section(along, _crossing(fields, along)) for each in fields.snapshots]
+    heads = [f"pressure at {each.time!r} s [Pa]" for each in fields.snapshots]
+    file = io.StringIO()
+    writer = csv.writer(file, lineterminator="\n")
+    writer.writerow([f"{along} [m]", *heads])
+    columns = [lines[0][0].tolist(), *(pressure.tolist() for _, pressure in lines)]
+    writer.writerows(zip(*columns, strict=True))
+    return file.getvalue()
+
+
+def strides_of(fields: ShownFields) -> tuple[int, int]:
+    """How many cells along x and y are joined to one of the map's."""
+    along_x, along_y = (-(-(part.stop - part.start) // MOST_CELLS) for part in fields.inside)
+    return along_x, along_y
+
+
+def rounded(values: Any, digits: int = 6) -> list[float]:
+    """Return numbers with so many significant digits, which keeps a page small."""
+    return [float(f"{value:.{digits - 1}e}") for value in np.asarray(values).tolist()]
+
+
+def _crossing(fields: ShownFields, along: str) -> float:
+    return fields.through[1 if along == "x" else 0]
+
+
+def _parts(snapshot: Snapshot, fields: ShownFields, strides: tuple[int, int]) -> str:
+    joined = snapshot.pressure[fields.inside]
+    for axis, stride in enumerate(strides):
+        joined = _joined(joined, stride, axis)
+    parts = np.ceil(joined / fields.peak * STEPS - 0.5)
+    # A cell in contact is not to vanish from the map.
+    parts = np.where(joined > 0, np.maximum(parts, 1), 0)
+    return base64.b64encode(parts.T.astype("<u2").tobytes()).decode("ascii")
+
+
+def _joined(values: Floats, stride: int, axis: int = 0) -> Floats:
+    """Means over so many neighbours; the last may have fewer."""
+    starts = np.arange(0, values.shape[axis], stride)
+    counts = np.diff([*starts, values.shape[axis]])
+    sums = np.add.reduceat(values, starts, axis=axis)
+    return np.asarray(sums / np.expand_dims(counts, 1 - axis) if values.ndim > 1 else sums / counts)
+
+
+def _rim(snapshot: Snapshot, length: DisplayUnit) -> dict[str, list[float | None]]:
+    """All polygons as one line, interrupted between them."""
+    x: list[float | None] = []
+    y: list[float | None] = []
+    for polygon in rim_polygons(snapshot) if snapshot.touching else ():
+        x += [*rounded(length(polygon[:, 0]), 5), None]
+        y += [*rounded(length(polygon[:, 1]), 5), None]
+    return {"x": x, "y": y}
+
+
+def _outlined(fields: ShownFields) -> list[int]:
+    """Which instants have their outline drawn: some in contact, from the first to the last."""
+    touching = [index for index, each in enumerate(fields.snapshots) if each.touching]
+    chosen = np.linspace(0, len(touching) - 1, min(_OUTLINES, len(touching))).round().astype(int)
+    return [touching[index] for index in chosen]

@@ -1,0 +1,90 @@
+"""HTML made of elements, so that whatever users have named can only be text."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+from xml.etree.ElementTree import Element, tostring
+
+
+def element(name: str, *content: str | Element | None, **attributes: str) -> Element:
+    """Make an element of HTML.
+
+    Parameters
+    ----------
+    name : str
+        Its tag.
+    *content : str, Element or None
+        What it holds, in order; None holds nothing.
+    **attributes : str
+        Its attributes; ``class_`` stands for ``class``, ``data_x`` for ``data-x``.
+
+    Returns
+    -------
+    Element
+        The element.
+
+    Examples
+    --------
+    >>> written(element("p", "1 < 2 ", element("b", "<script>"), class_="a"))
+    '<p class="a">1 &lt; 2 <b>&lt;script&gt;</b></p>'
+    """
+    named = {key.rstrip("_").replace("_", "-"): value for key, value in attributes.items()}
+    made = Element(name, named)
+    for part in content:
+        if isinstance(part, Element):
+            made.append(part)
+        elif part is not None:
+            _add_text(made, part)
+    return made
+
+
+def written(made: Element) -> str:
+    """Write an element as HTML.
+
+    Parameters
+    ----------
+    made : Element
+        From `element`.
+
+    Returns
+    -------
+    str
+        Its source, everything escaped that could be taken for markup.
+    """
+    return tostring(made, encoding="unicode", method="html")
+
+
+def as_script(data: Any) -> str:
+    r"""Write data as JSON that can stand in a script of a page.
+
+    Parameters
+    ----------
+    data : object
+        Plain data.
+
+    Returns
+    -------
+    str
+        JSON in which no text can end the script.
+
+    Raises
+    ------
+    ValueError
+        If a number is not finite: JSON knows none.
+
+    Examples
+    --------
+    >>> as_script({"title": "</script>"})
+    '{"title":"\\u003c/script>"}'
+    """
+    text = json.dumps(data, separators=(",", ":"), allow_nan=False, ensure_ascii=False)
+    # Both begin what could end a script; neither stands in JSON but in texts.
+    return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
+
+
+def _add_text(made: Element, text: str) -> None:
+    if len(made):
+        made[-1].tail = (made[-1].tail or "") + text
+    else:
+        made.text = (made.text or "") + text

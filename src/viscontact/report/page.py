@@ -1,0 +1,128 @@
+"""A run as one page of HTML that needs nothing from outside."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from importlib.resources import files
+from pathlib import Path
+from string import Template
+from typing import Any
+from xml.etree.ElementTree import Element
+
+import xarray as xr
+from plotly.offline import get_plotlyjs
+
+from viscontact import __version__
+from viscontact.report import found, given
+from viscontact.report.histories import answer_panels, load_panels, time_axis
+from viscontact.report.map_data import map_data, section_data
+from viscontact.report.markup import as_script, element, written
+from viscontact.report.shown_fields import ShownFields, shown_fields
+
+_CHAPTERS = {
+    "pressure": "Pressure",
+    "histories": "Over time",
+    "inputs": "Inputs",
+    "geometry": "Geometry",
+    "material": "Material",
+    "accuracy": "Accuracy",
+    "limits": "Limits of the theory",
+    "about": "Versions and citation",
+}
+
+
+def write_report(ds: xr.Dataset, path: str | Path) -> None:
+    """Write a run as one page of HTML that needs nothing from outside.
+
+    Parameters
+    ----------
+    ds : xarray.Dataset
+        What ``simulate`` or ``open_results`` returned.
+    path : path
+        The file, by custom ending in ``.html``; replaced if it is there.
+
+    Raises
+    ------
+    ValueError
+        If the result holds no instant.
+    OSError
+        If the file cannot be written.
+
+    See Also
+    --------
+    report_page : the page as text.
+    """
+    Path(path).write_text(report_page(ds), encoding="utf-8")
+
+
+def report_page(ds: xr.Dataset) -> str:
+    """Return a run as one page of HTML that needs nothing from outside.
+
+    Parameters
+    ----------
+    ds : xarray.Dataset
+        What ``simulate`` or ``open_results`` returned.
+
+    Returns
+    -------
+    str
+        The page: result, pressure map with a slider over time, sections, outlines, histories with
+        error bands, inputs, geometry, material, accuracy, limits, versions, citation. It holds
+        its own scripts, forbids itself any connection, and has its numbers as CSV files inside.
+
+    Raises
+    ------
+    ValueError
+        If the result holds no instant.
+    """
+    if not ds.sizes.get("time"):
+        raise ValueError("a report needs one instant at least, got a result without any; run it")
+    fields = _fields(ds)
+    data = _data(ds, fields)
+    folder = files("viscontact.report")
+    template = Template((folder / "page.html").read_text(encoding="utf-8"))
+    return template.substitute(
+        generator=f"viscontact {__version__}",
+        title=written(element("title", found.title_of(ds))),
+        style=(folder / "page.css").read_text(encoding="utf-8"),
+        body="\n".join(map(written, _body(ds, fields, data))),
+        data=as_script(data),
+        plotly=get_plotlyjs(),
+        script=(folder / "page.js").read_text(encoding="utf-8"),
+    )
+
+
+def _fields(ds: xr.Dataset) -> ShownFields | None:
+    try:
+        return shown_fields(ds)
+    except ValueError:  # none are stored, or there is no contact in them
+        return None
+
+
+def _data(ds: xr.Dataset, fields: ShownFields | None) -> dict[str, Any]:
+    """What the page's figures are drawn from."""
+    return {
+        "time": time_axis(ds),
+        "load": load_panels(ds),
+        "answers": answer_panels(ds),
+        "map": None if fields is None else map_data(fields),
+        "sections": [] if fields is None else [section_data(fields, way) for way in ("x", "y")],
+    }
+
+
+def _body(ds: xr.Dataset, fields: ShownFields | None, data: dict[str, Any]) -> Iterable[Element]:
+    histories = found.history_chapter(ds, data["time"], data["load"], data["answers"])
+    chapters: dict[str, Iterable[Element]] = {
+        "pressure": found.pressure_chapter(ds, fields),
+        "histories": histories,
+        "inputs": given.inputs_chapter(ds),
+        "geometry": given.geometry_chapter(ds),
+        "material": given.material_chapter(ds),
+        "accuracy": given.accuracy_chapter(ds),
+        "limits": given.limits_chapter(ds),
+        "about": given.about_chapter(ds),
+    }
+    yield element("noscript", element("p", "The figures of this page need JavaScript."))
+    yield found.opening(ds, _CHAPTERS)
+    for place, parts in chapters.items():
+        yield element("section", element("h2", _CHAPTERS[place]), *parts, id=place)
