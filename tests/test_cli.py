@@ -709,8 +709,8 @@ def test_second_demo_replaces_the_first(folder: Path, monkeypatch: pytest.Monkey
 def test_what_is_not_built_is_refused_by_name(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert main(["report", "case"]) == 2
-    assert "report is not built yet" in capsys.readouterr().err
+    assert main(["plot", "case", "animation"]) == 2
+    assert "animation is not built yet" in capsys.readouterr().err
     assert [path.name for path in folder.iterdir()] == ["case.yaml"]
 
 

@@ -973,7 +973,6 @@ def test_exit_codes(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["report", "x"], "report is not built"),
         (["plot", "x", "animation"], "animation is not built yet"),
     ],
 )

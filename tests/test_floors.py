@@ -201,6 +201,7 @@ NEIGHBOURS = {
     ("error_bars", "companions"),
     ("error_bars", "run"),
     ("dataset", "variables"),
+    ("history_csv", "variables"),  # which are written, and in which units
     ("stated_errors", "variables"),  # what an error is called
     ("dataset", "description"),  # the case travels with the result
     ("recording", "variables"),

@@ -87,6 +87,7 @@ __getattr__, __dir__, __all__ = _lazy.attach(
         "dataset": ["simulate"],
         "many_runs": ["simulate_many"],
         "results": ["open_results", "save"],
+        "report": ["write_report"],
         "stresses": ["section_stresses"],
     },
 )

@@ -54,6 +54,7 @@ def demo(
     for figure in DEMO_FIGURES:
         draw(DEMO_DIRECTORY, figure, [], None)
     if not quiet:
+        print(f"One page to look at and to send: viscontact report {DEMO_DIRECTORY}")
         print(f"The same case to change: viscontact example {DEMO} -o my.yaml")
 
 

@@ -34,6 +34,8 @@ def write_page(directory: Path, output: Path | None) -> Path:
         refuse(f"{output}: a report is a page of HTML; name it so, e.g. -o {output.stem}.html")
     package = _package()
     file = output or _beside(directory)
+    if not file.parent.is_dir() and output is not None:
+        refuse(f"{file}: there is no directory {file.parent}")
     with opened(directory) as ds:
         if ended := early_end(ds):
             say(ended)

@@ -17,6 +17,7 @@ from viscontact.report.markup import element
 from viscontact.report.shown_fields import ShownFields
 from viscontact.report.told import headline, told_at
 from viscontact.stated_errors import MESH_DEPENDENT
+from viscontact.units import in_words
 
 _FACTS = {
     "contact_area": "Contact area",
@@ -113,11 +114,13 @@ def history_chapter(
 
 
 def _facts(ds: xr.Dataset) -> Element:
-    last = -1 if float(ds["contact_area"][-1]) > 0 else int(ds["contact_area"].values.argmax())
+    area = ds["contact_area"].values
+    last = -1 if area[-1] > 0 else int(area.argmax())
+    when = "" if area[-1] > 0 else f" at t = {in_words(float(ds['time'][last]), 's')}"
     return element(
         "dl",
         *(
-            element("div", element("dt", name), element("dd", told_at(ds, scalar, last)))
+            element("div", element("dt", name + when), element("dd", told_at(ds, scalar, last)))
             for scalar, name in _FACTS.items()
         ),
         class_="facts",
@@ -142,7 +145,7 @@ def _map(fields: ShownFields) -> Element:
         min="0",
         max=str(count - 1),
         step="1",
-        value=str(count - 1),
+        value=str(fields.start),
         aria_label="Instant of the pressure map",
     )
     controls = element(

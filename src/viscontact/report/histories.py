@@ -133,6 +133,7 @@ def _panel(ds: xr.Dataset, quantity: _Quantity) -> dict[str, Any]:
         "range": _range(unit(values), unit(errors)),
         "hover": _hover(ds, values, errors, units),
         "note": _note(errors, values),
+        "mesh": bool(np.isposinf(errors).any()),
     }
 
 

@@ -68,6 +68,7 @@ def map_data(fields: ShownFields) -> dict[str, Any]:
         ],
         "colours": time_colours(len(fields.snapshots)),
         "outlines": _outlined(fields),
+        "start": fields.start,
     }
 
 
@@ -79,7 +80,7 @@ def section_data(fields: ShownFields, along: Literal["x", "y"]) -> dict[str, Any
     fields : ShownFields
         The fields.
     along : {"x", "y"}
-        Which way the line goes, through the last instant's largest pressure.
+        Which way the line goes; where it runs says `ShownFields.through`.
     """
     length, pressure = fields.window.unit, display_unit("Pa", fields.peak)
     inside = fields.inside["xy".index(along)]

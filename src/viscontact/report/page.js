@@ -94,10 +94,10 @@
     if (!kept.has(index)) kept.set(index, unpack(map.parts[index]));
     return kept.get(index);
   };
-  let shown = map ? map.labels.length - 1 : 0;
+  let shown = map ? map.start : 0;
 
   const planeAxes = () => ({
-    xaxis: axis(`x [${map.unit}]`, { range: map.xRange, constrain: "range", showgrid: false }),
+    xaxis: axis(`x [${map.unit}]`, { range: map.xRange, constrain: "range", showgrid: false, automargin: false }),
     yaxis: axis(`y [${map.unit}]`, { range: map.yRange, constrain: "range", showgrid: false, scaleanchor: "x", scaleratio: map.stretch }),
   });
   // As high as the true (or stated) shape asks for at this width.

@@ -14,9 +14,6 @@ from viscontact.plot.window import Window, window_around
 
 #: More instants than these make a page large and show no more.
 MOST_INSTANTS = 24
-#: Cells whose pressures differ by so little share the peak; sections run through the one that is
-#: nearest to the axes.
-_SAME_PEAK = 1e-3
 
 
 @dataclass(frozen=True)
@@ -42,6 +39,11 @@ class ShownFields:
         """Largest pressure [Pa]."""
         return max(float(snapshot.pressure.max()) for snapshot in self.snapshots)
 
+    @property
+    def start(self) -> int:
+        """The instant that is shown first: the last one in contact."""
+        return max(index for index, each in enumerate(self.snapshots) if each.touching)
+
     @cached_property
     def inside(self) -> tuple[slice, slice]:
         """The cells along x and y within the window."""
@@ -50,15 +52,21 @@ class ShownFields:
 
     @cached_property
     def through(self) -> tuple[float, float]:
-        """Where sections run, x and y: through the last instant's largest pressure [m]."""
-        last = next(each for each in reversed(self.snapshots) if each.touching)
-        i, j = np.nonzero(last.pressure >= (1 - _SAME_PEAK) * last.pressure.max())
-        x, y = last.x[i], last.y[j]
-        nearest = int(np.hypot(x / np.ptp(last.x), y / np.ptp(last.y)).argmin())
-        # On an even grid no row of cells lies on an axis: the section there is between two.
-        dx, dy = last.cell_size
-        at_x, at_y = float(x[nearest]), float(y[nearest])
-        return (0.0 if abs(at_x) <= 0.51 * dx else at_x), (0.0 if abs(at_y) <= 0.51 * dy else at_y)
+        """Where sections run, x and y [m]: through the resultant of the first instant shown.
+
+        Where there is no contact at the resultant, as between two spots, through the largest
+        pressure.
+        """
+        shown = self.snapshots[self.start]
+        pressure, (dx, dy) = shown.pressure, shown.cell_size
+        force = pressure.sum()
+        # To a hundredth of a cell: the rest is rounding, and zero reads better.
+        x = round(float(shown.x @ pressure.sum(axis=1) / force) / dx, 2) * dx + 0.0
+        y = round(float(pressure.sum(axis=0) @ shown.y / force) / dy, 2) * dy + 0.0
+        if pressure[np.abs(shown.x - x).argmin(), np.abs(shown.y - y).argmin()] > 0:
+            return x, y
+        i, j = np.unravel_index(int(pressure.argmax()), pressure.shape)
+        return float(shown.x[i]), float(shown.y[j])
 
 
 def shown_fields(ds: xr.Dataset) -> ShownFields:
