@@ -96,9 +96,11 @@
   };
   let shown = map ? map.start : 0;
 
+  // Beyond the border of a period nothing is to be seen; elsewhere the plane goes on.
+  const constrain = map && map.periodic ? "domain" : "range";
   const planeAxes = () => ({
-    xaxis: axis(`x [${map.unit}]`, { range: map.xRange, constrain: "range", showgrid: false, automargin: false }),
-    yaxis: axis(`y [${map.unit}]`, { range: map.yRange, constrain: "range", showgrid: false, scaleanchor: "x", scaleratio: map.stretch }),
+    xaxis: axis(`x [${map.unit}]`, { range: map.xRange, constrain, showgrid: false, automargin: false, title: { text: `x [${map.unit}]`, font: { size: 12 } } }),
+    yaxis: axis(`y [${map.unit}]`, { range: map.yRange, constrain, showgrid: false, scaleanchor: "x", scaleratio: map.stretch }),
   });
   // As high as the true (or stated) shape asks for at this width.
   function planeHeight(box, around) {
