@@ -99,7 +99,7 @@
   // Beyond the border of a period nothing is to be seen; elsewhere the plane goes on.
   const constrain = map && map.periodic ? "domain" : "range";
   const planeAxes = () => ({
-    xaxis: axis(`x [${map.unit}]`, { range: map.xRange, constrain, showgrid: false, automargin: false, title: { text: `x [${map.unit}]`, font: { size: 12 } } }),
+    xaxis: axis(`x [${map.unit}]`, { range: map.xRange, constrain, showgrid: false }),
     yaxis: axis(`y [${map.unit}]`, { range: map.yRange, constrain, showgrid: false, scaleanchor: "x", scaleratio: map.stretch }),
   });
   // As high as the true (or stated) shape asks for at this width.
@@ -119,7 +119,10 @@
     };
     const rim = { ...map.rims[shown], mode: "lines", line: { color: ink, width: 1 }, hoverinfo: "skip" };
     box.style.height = `${planeHeight(box, 130)}px`;
-    return Plotly.newPlot(box, [heat, rim], layout({ ...planeAxes(), margin: { l: 56, r: 24, t: 60, b: 46 } }), config);
+    const plane = layout({ ...planeAxes(), margin: { l: 56, r: 24, t: 60, b: 54 } });
+    // Beside a horizontal colour bar the room of the tick labels is not counted.
+    plane.xaxis.title.standoff = 22;
+    return Plotly.react(box, [heat, rim], plane, config);
   }
 
   function drawOutlines() {
@@ -152,9 +155,7 @@
     place("instant").value = `t = ${label}`;
     place("map-account").textContent = peak ? `Largest pressure ${peak}` : "No contact";
     place("slider").setAttribute("aria-valuetext", label);
-    const rim = map.rims[shown];
-    Plotly.restyle(place("map"), { z: [pressure(shown)] }, [0]);
-    Plotly.restyle(place("map"), { x: [rim.x], y: [rim.y] }, [1]);
+    drawMap();
     drawSections();
   }
 
@@ -177,8 +178,6 @@
   }
 
   if (map) {
-    drawMap();
-    drawSections();
     drawOutlines();
     followSlider();
     showInstant(shown);
