@@ -22,7 +22,8 @@ from synthetic_results import maxwell_pressure, maxwell_sphere, roller
 from viscontact.cli import main
 from viscontact.report import report_page
 from viscontact.report.accuracy import accuracy_lines
-from viscontact.report.histories import answer_panels
+from viscontact.report.histories import answer_panels, load_panels
+from viscontact.report.inputs import inputs
 from viscontact.report.limits import notices
 from viscontact.report.map_data import map_data, section_csv, strides_of
 from viscontact.report.markup import as_script
@@ -213,6 +214,18 @@ def test_sections_run_through_the_resultant_or_else_the_largest_pressure() -> No
 def test_inputs_have_units(page: _Page) -> None:
     for told in ("radius 10 mm", "shear modulus 1 GPa", "force 50 N", "Poisson's ratio 0.5"):
         assert told in page.text
+
+
+def test_what_is_prescribed_is_the_load_and_the_rest_is_the_answer() -> None:
+    ds = _run(fields=False)
+    case = json.loads(ds.attrs["case"])
+    motion = {"type": "HarmonicHistory", "control": "approach", "mean": 2e-6, "period": 2.0}
+    moved = ds.assign_attrs(case=json.dumps(case | {"load": motion}))
+    assert [each["name"] for each in load_panels(ds)] == ["force"]
+    assert "approach" in [each["name"] for each in answer_panels(ds)]
+    assert [each["name"] for each in load_panels(moved)] == ["approach"]
+    assert "force" in [each["name"] for each in answer_panels(moved)]
+    assert ("mean", "2 µm") in [(each.name, each.value) for each in inputs(moved)]
 
 
 def test_a_long_run_stays_below_15_megabytes(page: _Page) -> None:

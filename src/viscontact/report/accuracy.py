@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from viscontact.plot.readable import display_unit
-from viscontact.report.inputs import case_of
+from viscontact.report.inputs import case_of, prescribes_approach
 from viscontact.stated_errors import MESH_DEPENDENT, WHY_MESH_DEPENDENT, largest_error
 from viscontact.units import (
     in_error_digits,
@@ -104,8 +104,7 @@ def _is_rounding(ds: xr.Dataset, name: str) -> bool:
 
 
 def _balance(ds: xr.Dataset) -> str:
-    load = case_of(ds).get("load") or {}
-    if load.get("type") == "ApproachHistory":
+    if prescribes_approach(ds):
         return "the approach is prescribed; the force is the pressure's integral"
     known = largest_error(ds, "force")
     if known is None or not math.isfinite(known.part):

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from viscontact.plot.history import suits_log_time
 from viscontact.plot.readable import display_number, display_unit
+from viscontact.report.inputs import prescribes_approach
 from viscontact.report.map_data import rounded
 from viscontact.report.told import errors_of, told
 from viscontact.stated_errors import MESH_DEPENDENT
@@ -37,14 +38,15 @@ class _Quantity:
     label: str
 
 
+_FORCE, _APPROACH = _Quantity("force", "Force"), _Quantity("approach", "Approach")
 _LOAD = (
-    _Quantity("force", "Force"),
+    _FORCE,
     _Quantity("eccentricity_x", "Eccentricity along x"),
     _Quantity("eccentricity_y", "Eccentricity along y"),
 )
 _ANSWERS = (
     _Quantity("contact_area", "Contact area"),
-    _Quantity("approach", "Approach"),
+    _APPROACH,
     _Quantity("tilt_x", "Tilt along x"),
     _Quantity("tilt_y", "Tilt along y"),
     _Quantity("peak_pressure", "Peak pressure"),
@@ -94,6 +96,8 @@ def load_panels(ds: xr.Dataset) -> list[dict[str, Any]]:
     ds : xarray.Dataset
         A result.
     """
+    if prescribes_approach(ds):
+        return [_panel(ds, _APPROACH)]
     shown = [each for each in _LOAD if each.name == "force" or _varies(ds, each.name)]
     return [_panel(ds, each) for each in shown]
 
@@ -108,7 +112,7 @@ def answer_panels(ds: xr.Dataset) -> list[dict[str, Any]]:
     """
     lengths, approaches = ds["contact_length"].values, ds["approach"].values
     return [
-        _panel(ds, each)
+        _panel(ds, _FORCE if each is _APPROACH and prescribes_approach(ds) else each)
         for each in _ANSWERS
         if not each.name.startswith("tilt")
         or not is_rounding_tilt(ds[each.name].values, lengths, approaches)

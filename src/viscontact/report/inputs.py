@@ -42,6 +42,10 @@ _UNITS = {
 _OTHERWISE = {
     ("CreepSeries", "amplitudes"): "1/Pa",
     ("Waviness", "amplitude"): "m",
+    ("HarmonicHistory force", "mean"): "N",
+    ("HarmonicHistory force", "amplitude"): "N",
+    ("HarmonicHistory approach", "mean"): "m",
+    ("HarmonicHistory approach", "amplitude"): "m",
     ("BesideSpring", "equilibrium"): "Pa",
 }
 #: What a law calls by a name that says too little alone.
@@ -122,6 +126,12 @@ def case_of(ds: xr.Dataset) -> dict[str, Any]:
     return case if isinstance(case, dict) else {}
 
 
+def prescribes_approach(ds: xr.Dataset) -> bool:
+    """Tell whether a run's load is an approach, which the force answers."""
+    load = case_of(ds).get("load") or {}
+    return load.get("control") == "approach" or load.get("type") == "ApproachHistory"
+
+
 def case_file(ds: xr.Dataset) -> str:
     """Return the case as it was written, if it lies beside the result."""
     source = Path(str(ds.encoding.get("source", "")))
@@ -162,7 +172,7 @@ def _told(noun: Mapping[str, Any], before: str) -> Iterator[tuple[str, str]]:
             for index, each in enumerate(value, 1):
                 yield from _told(each, f"{name} {index}")
         elif key != "type" and not (value is None or value is False or _is_idle(key, value)):
-            yield name, _worth(kind, key, value)
+            yield name, _worth(f"{kind} {noun.get('control', '')}".strip(), key, value)
 
 
 def _is_idle(key: str, value: Any) -> bool:
