@@ -221,13 +221,13 @@ def cells_across_spots(contact: NDArray[np.bool_], *, periodic: bool = False) ->
     >>> cells_across_spots(spots)
     2.0
     """
-    cells = int(contact.sum())
+    cells = int(np.count_nonzero(contact))
     if not cells:
         return 0.0
     begun = []
     for lines in (contact, contact.T):
         before = lines[-1:] if periodic else np.zeros_like(lines[:1])
-        begun.append(int((lines & ~np.concatenate([before, lines[:-1]])).sum()))
+        begun.append(int(np.count_nonzero(lines & ~np.concatenate([before, lines[:-1]]))))
     return cells / max(begun) if any(begun) else float(max(contact.shape))
 
 

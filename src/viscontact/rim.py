@@ -212,24 +212,24 @@ def _enclosed_squares(rim: Rim) -> float:
     inside = rim.contact
     count = inside[:-1, :-1].astype(np.int8) + inside[1:, :-1] + inside[1:, 1:] + inside[:-1, 1:]
     i, j = _places((count > 0) & (count < 4))
-    corners = (inside[i, j], inside[i + 1, j], inside[i + 1, j + 1], inside[i, j + 1])
-    crossings = (rim.along_x[i, j], rim.along_y[i + 1, j], rim.along_x[i, j + 1], rim.along_y[i, j])
-    edges = tuple(np.fmin(np.fmax(crossing, 0.0), 1.0) for crossing in crossings)  # no NaN left
+    # Four of each, the way round; each edge leaves the corner of its number.
+    corner = np.array([inside[i, j], inside[i + 1, j], inside[i + 1, j + 1], inside[i, j + 1]])
+    rim_x, rim_y = rim.along_x, rim.along_y
+    after = np.array([rim_x[i, j], rim_y[i + 1, j], rim_x[i, j + 1], rim_y[i, j]])
+    after = np.fmin(np.fmax(after, 0.0), 1.0)  # where nothing crosses, 0
+    before, beyond = after[[3, 0, 1, 2]], after[[1, 2, 3, 0]]
+    following, opposite = corner[[1, 2, 3, 0]], corner[[2, 3, 0, 1]]
     mixed = count[i, j]
-    total = float((count == 4).sum())
-    for k in range(4):
-        corner, following, opposite = (corners[(k + step) % 4] for step in range(3))
-        before, after, beyond = edges[k - 1], edges[k], edges[(k + 1) % 4]
-        # One corner in: a triangle. Opposite corners in: two of them, held apart.
-        lone = corner & ((mixed == 1) | ((mixed == 2) & opposite))
-        total += float((before * after)[lone].sum()) / 2
-        # One corner out: what is missing is a triangle.
-        missing = ~corner & (mixed == 3)
-        total += float((1 - (1 - before) * (1 - after) / 2)[missing].sum())
-        # A side in: a trapezium between the crossings of the two edges that leave it.
-        side = corner & following & (mixed == 2)
-        total += float((before + beyond)[side].sum()) / 2
-    return total
+    # One corner in: a triangle. Opposite corners in: two of them, held apart.
+    lone = corner & ((mixed == 1) | ((mixed == 2) & opposite))
+    # One corner out: what is missing is a triangle.
+    missing = ~corner & (mixed == 3)
+    # A side in: a trapezium between the crossings of the two edges that leave it.
+    side = corner & following & (mixed == 2)
+    triangles = (before * after)[lone].sum() / 2
+    cut_off = (1 - (1 - before) * (1 - after) / 2)[missing].sum()
+    trapezia = (before + beyond)[side].sum() / 2
+    return float(np.count_nonzero(count == 4) + triangles + cut_off + trapezia)
 
 
 def _places(where: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
@@ -239,10 +239,15 @@ def _places(where: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp
 
 def _extent(contact: NDArray[np.bool_], crossings: NDArray[np.float64]) -> float:
     """Extent along the first axis, in cells: the farthest crossings both ways."""
-    if not contact.any():
+    touched = np.flatnonzero(contact.any(axis=1))
+    if not touched.size:
         return 0.0
-    i, j = _places(~np.isnan(crossings))
-    upper = contact[i, j]
-    ends = i[upper] + crossings[i, j][upper]
-    starts = i[~upper] + 1 - crossings[i, j][~upper]
-    return float(ends.max(initial=0.0) - starts.min(initial=len(contact) - 1.0))
+    # None lies more than half a cell within, or a whole one beyond its inner centre: two rows tell.
+    (from_first, first), (from_last, last) = (
+        (max(int(row) - 1, 0), min(int(row) + 1, len(crossings))) for row in touched[[0, -1]]
+    )
+    starts = np.arange(from_first, first)[:, None] + 1 - crossings[from_first:first]
+    ends = np.arange(from_last, last)[:, None] + crossings[from_last:last]
+    upper, lower = contact[from_last:last], contact[from_first + 1 : first + 1]
+    end = np.fmax.reduce(ends[upper], initial=0.0)
+    return float(end - np.fmin.reduce(starts[lower], initial=len(contact) - 1.0))

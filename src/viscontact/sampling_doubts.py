@@ -82,6 +82,11 @@ class Sampling:
             np.maximum.at(missed, cells, seen[known] - self.indenter.gap(x[known], y[known]))
         return missed
 
+    @cached_property
+    def sees_all(self) -> bool:
+        """Whether nothing is missed anywhere."""
+        return not self.missed.any()
+
     def _jagged(self) -> NDArray[np.float64]:
         """Half of how far each point stands out from the middle of its neighbours [m]."""
         jagged = np.zeros(self.grid.shape)
@@ -158,7 +163,9 @@ def sampling_doubts(
     dict of str to str
         Sentences by kind of doubt; empty if there is none.
     """
-    missed = float(rim.cut(sampling.missed).max(where=rim.contact, initial=0.0))
+    missed = 0.0
+    if not sampling.sees_all:
+        missed = float(rim.cut(sampling.missed).max(where=rim.contact, initial=0.0))
     extent = min(rim.length, rim.width)
     strain = 2 * float(motion[0]) / extent if extent > 0 else math.inf
     cell = max(sampling.grid.cell_size)
