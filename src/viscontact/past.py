@@ -225,8 +225,9 @@ def _guess(twin: Twin | None, response: Response) -> Guess | None:
     """From a predicted twin back to the pressure and the deflection that would bring it about."""
     if twin is None:
         return None
-    pressure, deflection = (twin.fields - response.history) / response.compliance
-    return Guess(pressure, deflection, twin.motion)
+    values = twin.fields - response.history
+    values /= response.compliance
+    return Guess(values[0], values[1], twin.motion)
 
 
 def _without_pressure(

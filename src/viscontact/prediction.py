@@ -73,8 +73,9 @@ def predict(past: Sequence[Twin], time: float, drive: float) -> Twin | None:
     else:
         weights = lagrange_weights([twin.time for twin in known], time)
     fields = weights[0] * known[0].fields
+    term = np.empty_like(fields)
     for weight, twin in zip(weights[1:], known[1:], strict=True):
-        fields += weight * twin.fields
+        fields += np.multiply(weight, twin.fields, out=term)
     motion = np.tensordot(weights, [twin.motion for twin in known], axes=1)
     return Twin(time, drive, fields, motion)
 

@@ -184,14 +184,16 @@ class TimeErrors:
         if step.is_jump or not self._past:
             return 0.0
         change = self._change_to(field)
-        travel = float(np.abs(change).max())
+        travel = _largest(change)
         late = response.held * travel / 2
         if not step.smooth or len(self._past) < 2:
             return max(late, ALONE * travel)
         before = self._past[-1][0] - self._past[-2][0]
         earlier = self._past[-1][1][1] - self._past[-2][1][1]
-        slopes = change / step.duration - earlier / before
-        curvature = 2 * float(np.abs(slopes).max()) / (step.duration + before)
+        earlier /= before
+        change /= step.duration
+        change -= earlier
+        curvature = 2 * _largest(change) / (step.duration + before)
         return SAFETY * step.duration**2 / 12 * curvature + late
 
     def _change_to(self, deflection: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -225,3 +227,8 @@ class TimeErrors:
         wrong = -(response.history + left) / response.compliance
         self._wrong.accept(wrong)
         self._error = abs(float(wrong[0]))
+
+
+def _largest(field: NDArray[np.float64]) -> float:
+    """Largest absolute value."""
+    return max(float(field.max()), -float(field.min()))

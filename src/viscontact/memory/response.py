@@ -52,7 +52,9 @@ class Response:
 
     def of(self, value: NDArray[np.float64]) -> NDArray[np.float64]:
         """The displacement if the field ends the step at a value."""
-        return self.history + self.compliance * value
+        displacement = self.compliance * value
+        displacement += self.history
+        return displacement
 
 
 class Memory(ABC):
