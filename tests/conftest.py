@@ -1,5 +1,6 @@
 """Hypothesis draws the same examples in every run; campaigns report their figures at the end."""
 
+import signal
 from collections.abc import Callable, Iterator
 
 import pytest
@@ -7,6 +8,12 @@ from hypothesis import settings
 
 settings.register_profile("reproducible", derandomize=True, deadline=None)
 settings.load_profile("reproducible")
+
+# The tests send these; `nohup` and a shell's background leave them ignored, for children too.
+for name, usual in (("SIGINT", signal.default_int_handler), ("SIGHUP", signal.SIG_DFL)):
+    number = getattr(signal, name, None)  # Windows knows no SIGHUP
+    if number is not None and signal.getsignal(number) is signal.SIG_IGN:
+        signal.signal(number, usual)
 
 CAMPAIGN = "campaign"  # the name under which a report carries a campaign's line to the summary
 
