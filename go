@@ -53,6 +53,16 @@ def lint(args: list[str]) -> int:
     return max([run(["-m", *check]) for check in (style, layout, ["mypy"])])
 
 
+def docs(args: list[str]) -> int:
+    """Build the manual into build/docs/html; `-D plot_gallery=0` leaves out the gallery's runs."""
+    folder = "build/docs"
+    strict = ["-W", "--keep-going", "-n", "-q", "-d", f"{folder}/doctrees"]
+    status = run(["-m", "sphinx", *strict, *args, "docs", f"{folder}/html"])
+    if status == 0:
+        print(f"go: the manual is {folder}/html/index.html")
+    return status
+
+
 def bench(args: list[str]) -> int:
     """Time the paper's rollers, or what is named first: published, peers, growth, ..."""
     folder = ROOT / "benchmarks"
@@ -96,7 +106,15 @@ BENCHMARKS = {
     "start-up": "start_up.py",
 }
 
-TASKS = {"demo": demo, "test": test, "lint": lint, "bench": bench, "build": build, "lock": lock}
+TASKS = {
+    "demo": demo,
+    "test": test,
+    "lint": lint,
+    "docs": docs,
+    "bench": bench,
+    "build": build,
+    "lock": lock,
+}
 
 
 # --- environment ------------------------------------------------------------------------------

@@ -164,7 +164,7 @@ def test_without_a_task_all_are_listed() -> None:
     said = subprocess.run(
         [sys.executable, ROOT / "go"], text=True, capture_output=True, check=True
     ).stdout
-    for task in ("demo", "test", "lint", "bench", "build", "lock"):
+    for task in ("demo", "test", "lint", "docs", "bench", "build", "lock"):
         assert re.search(rf"^  {task} +\w", said, re.MULTILINE)
 
 
@@ -213,6 +213,7 @@ def test_ci_ends_with_the_readme_test_command() -> None:
     lines = (ROOT / ".ci" / "run").read_text(encoding="utf-8").strip().splitlines()
     assert lines[-1] == "./go test"
     assert "./go lint" in lines
+    assert "./go docs" in lines
 
 
 def test_the_extras_are_those_promised() -> None:

@@ -1,0 +1,46 @@
+"""Pictures for the gallery: figures are objects here, which matplotlib's own list does not know."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+from weakref import WeakSet
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from sphinx_gallery.scrapers import figure_rst
+
+_shown: WeakSet[Figure] = WeakSet()
+
+
+def pictures(block: Any, block_vars: dict[str, Any], gallery_conf: dict[str, Any]) -> str:
+    """Save each figure that a block of an example has made, and return how to show it.
+
+    Parameters
+    ----------
+    block, block_vars, gallery_conf
+        As sphinx-gallery gives them: ``block_vars`` holds the names of the example and the paths to
+        write to.
+
+    Returns
+    -------
+    str
+        The pictures in reStructuredText.
+    """
+    paths = []
+    for figure in _figures(block_vars["example_globals"].values()):
+        if figure in _shown:
+            continue
+        _shown.add(figure)
+        path = next(block_vars["image_path_iterator"])
+        figure.savefig(path, dpi=110, bbox_inches="tight", facecolor="white")
+        paths.append(path)
+    return str(figure_rst(paths, gallery_conf["src_dir"]))
+
+
+def _figures(values: Any) -> Iterator[Figure]:
+    for value in list(values):
+        if isinstance(value, Figure):
+            yield value
+        elif isinstance(value, Axes) and isinstance(value.figure, Figure):
+            yield value.figure

@@ -1,0 +1,84 @@
+"""How the manual is built: `./go docs`, or `sphinx-build -W -n docs build/docs/html`."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent / "_ext"))
+
+import viscontact
+
+project = "viscontact"
+author = "The viscontact developers"
+copyright = author  # Sphinx asks for this name
+version = release = viscontact.__version__
+
+extensions = [
+    "sphinx.ext.autodoc",
+    "sphinx.ext.autosummary",
+    "sphinx.ext.viewcode",
+    "numpydoc",
+    "myst_parser",
+    "sphinx_gallery.gen_gallery",
+    "equations",
+]
+exclude_patterns = ["_ext", "_templates", "gallery", "generated/gallery/**/*.ipynb"]
+nitpicky = True
+suppress_warnings = ["config.cache"]  # of the gallery's scraper, which is a function
+
+# --- pages in Markdown --------------------------------------------------------------------------
+
+myst_enable_extensions = ["dollarmath", "colon_fence", "deflist", "attrs_inline", "attrs_block"]
+myst_heading_anchors = 3
+myst_dmath_double_inline = True
+
+# --- the API ------------------------------------------------------------------------------------
+
+autosummary_generate = True
+autodoc_typehints = "none"  # numpydoc's sections say it
+numpydoc_show_class_members = False
+numpydoc_xref_param_type = False
+add_module_names = False
+
+# --- the gallery --------------------------------------------------------------------------------
+
+sphinx_gallery_conf = {
+    "examples_dirs": "gallery",
+    "gallery_dirs": "examples",
+    "filename_pattern": r"\.py$",
+    "image_scrapers": ("gallery_figures.pictures",),
+    "reset_modules": (),
+    "download_all_examples": False,
+    "remove_config_comments": True,
+    "show_memory": False,
+    "show_signature": False,
+    "write_computation_times": False,
+    "within_subsection_order": "FileNameSortKey",
+    "copyfile_regex": r".*\.(csv|npz|yaml)",
+    "abort_on_example_error": True,
+}
+
+# --- looks --------------------------------------------------------------------------------------
+
+html_theme = "pydata_sphinx_theme"
+html_title = "viscontact"
+html_static_path = ["_static"]
+html_css_files = ["viscontact.css"]
+html_math_renderer = "mathml"
+html_copy_source = False
+html_show_sourcelink = False
+html_show_sphinx = False
+html_theme_options = {
+    "logo": {"text": "viscontact"},
+    "header_links_before_dropdown": 8,
+    "navbar_align": "left",
+    "navbar_end": ["theme-switcher"],
+    "show_toc_level": 2,
+    "footer_start": ["copyright"],
+    "footer_end": [],
+    "secondary_sidebar_items": ["page-toc"],
+    "pygments_light_style": "a11y-high-contrast-light",
+    "pygments_dark_style": "a11y-high-contrast-dark",
+}
+html_sidebars = {"index": [], "tutorial": [], "examples/**": [], "examples/index": []}
