@@ -275,7 +275,6 @@ class LooserLoad(LoadHistory):
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "control", self.load.control)
-        object.__setattr__(self, "unit", self.load.unit)
 
     def at(self, time: float, *, side: str = "right") -> LoadPoint:
         """Return what is prescribed at an instant [s]."""

@@ -65,7 +65,7 @@ def material_section(fit: Fit | IndentationFit) -> str:
 def _law(law: Law) -> list[str]:
     """Return the lines of the law itself; the keys are the constructor's arguments."""
     lines = [f"law: {_NAMES[type(law)]}"]
-    for field in fields(law):  # type: ignore[arg-type]
+    for field in fields(law):
         value, write = getattr(law, field.name), _WRITTEN[field.name]
         if isinstance(value, tuple):
             lines.append(f"{field.name}: {_listed(map(write, value))}")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Self, overload
 
@@ -19,6 +20,7 @@ if TYPE_CHECKING:  # only names for type checkers: the series know laws, not law
     from viscontact.laws.series import CreepSeries, RelaxationSeries
 
 
+@dataclass(frozen=True, eq=False, repr=False)
 class Law(ABC):
     """A linear viscoelastic law in shear: creep compliance and relaxation modulus.
 

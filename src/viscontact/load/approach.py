@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.load import points
-from viscontact.load.history import Control, LoadPoint
+from viscontact.load.history import LoadPoint
 from viscontact.load.piecewise import PiecewiseHistory
 
 
@@ -52,8 +52,7 @@ class ApproachHistory(PiecewiseHistory):
     (True, 0.0)
     """
 
-    control: ClassVar[Control] = "approach"
-    unit: ClassVar[str] = "m"
+    control = "approach"
     eccentricity_x: ClassVar[float] = 0.0  # no force is prescribed that could act off centre
     eccentricity_y: ClassVar[float] = 0.0
 

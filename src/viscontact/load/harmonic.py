@@ -42,7 +42,7 @@ class HarmonicHistory(LoadHistory):
         Prescribed slopes; None where free [rad].
     """
 
-    control: Control  # type: ignore[misc]
+    control: Control
     mean: float
     amplitude: float
     period: float
@@ -52,11 +52,6 @@ class HarmonicHistory(LoadHistory):
     eccentricity_y: float = 0.0
     tilt_x: float | None = None
     tilt_y: float | None = None
-
-    @property
-    def unit(self) -> str:  # type: ignore[override]
-        """Unit of the level."""
-        return "N" if self.control == "force" else "m"
 
     @property
     def end(self) -> float:

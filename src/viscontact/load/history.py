@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import ClassVar, Literal
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -56,9 +56,13 @@ class LoadPoint:
 class LoadHistory(ABC):
     """A force or an approach over time, with where the force acts and prescribed tilts."""
 
-    #: What the history prescribes along z, and its unit.
-    control: ClassVar[Control] = "force"
-    unit: ClassVar[str] = "N"
+    #: What the history prescribes along z.
+    control: Control = "force"
+
+    @property
+    def unit(self) -> str:
+        """Unit of the level: N of a force, m of an approach."""
+        return "N" if self.control == "force" else "m"
 
     @abstractmethod
     def at(self, time: float, *, side: str = "right") -> LoadPoint:

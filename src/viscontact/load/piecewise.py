@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from dataclasses import fields
+from dataclasses import dataclass, fields
 from functools import cached_property
 from typing import Any
 
@@ -16,6 +16,7 @@ from viscontact.load.history import Cycle, LoadHistory, Moment
 _TILTS = ("tilt_x", "tilt_y")
 
 
+@dataclass(frozen=True, eq=False, init=False)
 class PiecewiseHistory(LoadHistory):
     """A history by points; a time given twice is a jump, from the first value to the second."""
 
@@ -130,7 +131,7 @@ class PiecewiseHistory(LoadHistory):
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):
             return NotImplemented
-        names = [field.name for field in fields(self)]  # type: ignore[arg-type]
+        names = [field.name for field in fields(self)]
         return all(np.array_equal(getattr(self, n), getattr(other, n)) for n in names)
 
     def __hash__(self) -> int:
