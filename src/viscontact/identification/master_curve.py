@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +13,7 @@ from numpy.typing import NDArray
 from viscontact.identification.columns import positive_column, require_rows, require_trend
 from viscontact.identification.fit import Fit
 from viscontact.identification.overlap import Curve, log_shift
-from viscontact.identification.prony import fit_creep, fit_dynamic, fit_relaxation
+from viscontact.identification.prony import FitOptions, fit_creep, fit_dynamic, fit_relaxation
 from viscontact.identification.shift_fit import ShiftFit, fit_arrhenius, fit_wlf
 from viscontact.laws import Shift, TabulatedShift
 
@@ -220,7 +221,7 @@ def build_master_curve(
     return MasterCurve(float(reference), ordered, factors, mismatches, found)
 
 
-def fit_master_curve(curve: MasterCurve, **options: object) -> Fit:
+def fit_master_curve(curve: MasterCurve, **options: Unpack[FitOptions]) -> Fit:
     """Return the Prony series of a master curve.
 
     Parameters
@@ -239,15 +240,10 @@ def fit_master_curve(curve: MasterCurve, **options: object) -> Fit:
     """
     points, measured = curve.points, curve.measured
     if "compliance" in measured:
-        return fit_creep(points, measured["compliance"], **options)  # type: ignore[arg-type]
+        return fit_creep(points, measured["compliance"], **options)
     if "modulus" in measured:
-        return fit_relaxation(points, measured["modulus"], **options)  # type: ignore[arg-type]
-    return fit_dynamic(
-        points,
-        measured["storage"],
-        measured["loss"],
-        **options,  # type: ignore[arg-type]
-    )
+        return fit_relaxation(points, measured["modulus"], **options)
+    return fit_dynamic(points, measured["storage"], measured["loss"], **options)
 
 
 def _ordered(isotherms: Sequence[Isotherm], least: int) -> tuple[Isotherm, ...]:

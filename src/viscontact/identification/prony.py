@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TypeVar
+from typing import Required, TypedDict
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.identification.columns import positive_column, require_rows, require_trend
+from viscontact.identification.conventions import CREEP, MODULI, in_shear, in_volume
 from viscontact.identification.fit import Fit
 from viscontact.identification.responses import (
     CreepResponse,
@@ -26,16 +26,18 @@ from viscontact.laws import CreepSeries, RelaxationSeries
 
 _LEAST_ROWS = 3
 _EXCESS, _TOLERANCE = 1.05, 1e-3
-_Series = TypeVar("_Series", CreepSeries, RelaxationSeries)
-_CREEP: dict[str, Callable[..., CreepSeries]] = {
-    "deviatoric": CreepSeries,
-    "shear": CreepSeries.from_shear,
-    "uniaxial": CreepSeries.from_uniaxial,
-}
-_MODULI: dict[str, Callable[..., RelaxationSeries]] = {
-    "shear": RelaxationSeries,
-    "uniaxial": RelaxationSeries.from_uniaxial,
-}
+
+
+class FitOptions(TypedDict, total=False):
+    """What `fit_creep`, `fit_relaxation` and `fit_dynamic` take besides the measured columns."""
+
+    data: Required[str]
+    poisson_ratio: float | None
+    bulk_modulus: float | None
+    fluid: bool
+    terms: int | None
+    excess: float
+    tolerance: float
 
 
 def fit_creep(
@@ -105,21 +107,15 @@ def fit_creep(
     require_rows(owner, _LEAST_ROWS, times=instants, compliance=values)
     require_trend(owner, "compliance", instants, values, rises=True)
     _require_span(owner, "times", instants)
-    make = _chosen(owner, _CREEP, data)
-    in_volume = _in_volume(owner, data, poisson_ratio, bulk_modulus)
+    make = in_shear(owner, CREEP, data)
+    volume = in_volume(owner, data, poisson_ratio, bulk_modulus)
     found = _found(owner, alike(CreepResponse(instants, fluid), values), terms, excess, tolerance)
     flow = float(found.constants[1]) if fluid else 0.0
     series = CreepSeries(
         float(found.constants[0]), found.strengths.tolist(), found.times.tolist(), flow
     )
-    law = make(
-        series.instant,
-        series.amplitudes,
-        series.times,
-        series.fluidity,
-        **in_volume,
-    )
-    return Fit(law, series, data, instants, {"compliance": values}, **in_volume)
+    law = make(series.instant, series.amplitudes, series.times, series.fluidity, **volume)
+    return Fit(law, series, data, instants, {"compliance": values}, **volume)
 
 
 def fit_relaxation(
@@ -180,19 +176,14 @@ def fit_relaxation(
     require_rows(owner, _LEAST_ROWS, times=instants, modulus=values)
     require_trend(owner, "modulus", instants, values, rises=False)
     _require_span(owner, "times", instants)
-    make = _chosen(owner, _MODULI, data)
-    in_volume = _in_volume(owner, data, poisson_ratio, bulk_modulus)
+    make = in_shear(owner, MODULI, data)
+    volume = in_volume(owner, data, poisson_ratio, bulk_modulus)
     found = _found(
         owner, alike(RelaxationResponse(instants, fluid), values), terms, excess, tolerance
     )
     series = _relaxation_series(found)
-    law = make(
-        series.equilibrium,
-        series.moduli,
-        series.times,
-        **in_volume,
-    )
-    return Fit(law, series, data, instants, {"modulus": values}, **in_volume)
+    law = make(series.equilibrium, series.moduli, series.times, **volume)
+    return Fit(law, series, data, instants, {"modulus": values}, **volume)
 
 
 def fit_dynamic(
@@ -254,27 +245,18 @@ def fit_dynamic(
     )
     require_trend(owner, "storage", frequencies, in_phase, rises=True)
     _require_span(owner, "angular_frequency", frequencies)
-    make = _chosen(owner, _MODULI, data)
-    in_volume = _in_volume(owner, data, poisson_ratio, bulk_modulus)
+    make = in_shear(owner, MODULI, data)
+    volume = in_volume(owner, data, poisson_ratio, bulk_modulus)
     values = np.concatenate([in_phase, out_of_phase])
     observed = by_scatter(alike(DynamicResponse(frequencies, fluid), values), tolerance)
     series = _relaxation_series(_found(owner, observed, terms, excess, tolerance))
-    law = make(
-        series.equilibrium,
-        series.moduli,
-        series.times,
-        **in_volume,
-    )
+    law = make(series.equilibrium, series.moduli, series.times, **volume)
     columns = {"storage": in_phase, "loss": out_of_phase}
-    return Fit(law, series, data, frequencies, columns, **in_volume)
+    return Fit(law, series, data, frequencies, columns, **volume)
 
 
 def _found(
-    owner: str,
-    observed: Observed,
-    terms: int | None,
-    excess: float,
-    tolerance: float,
+    owner: str, observed: Observed, terms: int | None, excess: float, tolerance: float
 ) -> Spectrum:
     if not (excess > 1.0 and tolerance >= 0.0):
         raise ValueError(
@@ -296,28 +278,6 @@ def _relaxation_series(found: Spectrum) -> RelaxationSeries:
     return RelaxationSeries(
         float(found.constants.sum()), found.strengths.tolist(), found.times.tolist()
     )
-
-
-def _chosen(
-    owner: str, conventions: dict[str, Callable[..., _Series]], data: str
-) -> Callable[..., _Series]:
-    if data not in conventions:
-        raise ValueError(f"{owner}: data must be one of {', '.join(conventions)}, got {data!r}")
-    return conventions[data]
-
-
-def _in_volume(
-    owner: str, data: str, poisson_ratio: float | None, bulk_modulus: float | None
-) -> dict[str, float | None]:
-    """Return what uniaxial data need besides; other data need nothing."""
-    if data == "uniaxial":
-        return {"poisson_ratio": poisson_ratio, "bulk_modulus": bulk_modulus}
-    if poisson_ratio is not None or bulk_modulus is not None:
-        raise ValueError(
-            f"{owner}: poisson_ratio and bulk_modulus go with uniaxial data only, got "
-            f"data={data!r}; leave them out, the Material takes them"
-        )
-    return {}
 
 
 def _require_span(owner: str, name: str, points: NDArray[np.float64]) -> None:
