@@ -16,7 +16,7 @@ from viscontact.case.medium import Medium
 from viscontact.laws import Law
 from viscontact.material import Material
 from viscontact.tables import Table, read_table
-from viscontact.units import parse_scale
+from viscontact.units import in_celsius, parse_scale
 
 # Of the temperature that a table tells and the one that its shift refers to [K].
 _SAME_TEMPERATURE = 1.0
@@ -118,8 +118,8 @@ class TableLaw(FromFile):
             return
         if abs(measured - reference) > _SAME_TEMPERATURE:
             raise ValueError(
-                f"shift: its reference_temperature is {reference - 273.15:.4g} °C, and "
-                f"{table.source.name} was measured at {measured - 273.15:.4g} °C; give the "
+                f"shift: its reference_temperature is {in_celsius(reference):.4g} °C, and "
+                f"{table.source.name} was measured at {in_celsius(measured):.4g} °C; give the "
                 "constants for the temperature of the table"
             )
 
@@ -141,7 +141,7 @@ def _told(sets: tuple[Table, ...]) -> str:
         return "number them in a column Set"
     return ", ".join(
         f"{each.set_number:g}"
-        + ("" if each.temperature is None else f" ({each.temperature - 273.15:.3g} °C)")
+        + ("" if each.temperature is None else f" ({in_celsius(each.temperature):.3g} °C)")
         for each in sets
         if each.set_number is not None
     )

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import dataclasses
 import warnings
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.cli.figures import plot_package
+from viscontact.cli.fit_wishes import Wishes, read_kelvin
 from viscontact.cli.messages import refuse, say
 from viscontact.errors import AccuracyWarning
 from viscontact.identification import (
@@ -28,29 +27,12 @@ from viscontact.identification import (
     fit_relaxation,
     material_section,
 )
-from viscontact.indenters import Cone, FlatPunch, Indenter, Sphere
 from viscontact.laws import WLF
 from viscontact.material import Material
 from viscontact.tables import Table, read_table
-from viscontact.units import parse_quantity
+from viscontact.units import in_celsius
 
-_ZERO_CELSIUS = 273.15  # [K]
 _ROOM = 293.15  # [K]
-
-
-@dataclass(frozen=True)
-class Wishes:
-    """What was typed behind `fit`, not yet understood."""
-
-    data: str | None
-    poisson_ratio: float | None
-    bulk_modulus: str | None
-    terms: int | None
-    fluid: bool
-    reference: str | None
-    temperature: str | None
-    indenter: str | None
-    law: str
 
 
 def report_fit(file: Path, wishes: Wishes, output: Path | None, section: Path | None) -> None:
@@ -110,7 +92,7 @@ def _found(table: Table, wishes: Wishes) -> tuple[str, _Drawing]:
             "there is one set"
         )
     points, measured = _columns(table)
-    options = _options(table, wishes)
+    options = wishes.options(table)
     if "compliance" in measured:
         fit = fit_creep(points, measured["compliance"], **options)
     elif "modulus" in measured:
@@ -125,13 +107,13 @@ def _found(table: Table, wishes: Wishes) -> tuple[str, _Drawing]:
 
 def _from_sets(table: Table, sets: tuple[Table, ...], wishes: Wishes) -> tuple[str, _Drawing]:
     """Join sets of several temperatures, print the shift factors and the fit."""
-    options = _options(table, wishes)
+    options = wishes.options(table)
     isotherms = [_isotherm(one) for one in sets]
     temperatures = [isotherm.temperature for isotherm in isotherms]
     reference = (
         min(temperatures, key=lambda kelvin: abs(kelvin - _ROOM))
         if wishes.reference is None
-        else _kelvin("--reference", wishes.reference)
+        else read_kelvin("--reference", wishes.reference)
     )
     curve = build_master_curve(isotherms, reference)
     rules = _rules(curve)
@@ -141,7 +123,7 @@ def _from_sets(table: Table, sets: tuple[Table, ...], wishes: Wishes) -> tuple[s
     drawing = _Drawing("master_curve", curve, fit=fit, rules=rules)
     if wishes.temperature is None:
         return material_section(fit), drawing
-    asked = _kelvin("--temperature", wishes.temperature)
+    asked = read_kelvin("--temperature", wishes.temperature)
     factor = curve.shift.factor(asked)
     print(f"At {_celsius(asked)} everything takes {factor:.4g} times as long (by the table above).")
     slowed = dataclasses.replace(fit, law=fit.law.slowed(factor), series=fit.series.slowed(factor))
@@ -149,48 +131,22 @@ def _from_sets(table: Table, sets: tuple[Table, ...], wishes: Wishes) -> tuple[s
 
 
 def _from_indentation(table: Table, wishes: Wishes) -> tuple[str, _Drawing]:
-    if wishes.indenter is None:
-        raise ValueError(
-            f"{table.source.name}: an indentation record needs --indenter, such as 'sphere 5 um'"
-        )
-    if wishes.poisson_ratio is None and wishes.bulk_modulus is None:
-        raise ValueError(
-            f"{table.source.name}: an indentation record needs --poisson-ratio, such as 0.4, or "
-            "--bulk-modulus"
-        )
-    _refuse_idle(table, wishes)
-    record = IndentationRecord(
-        _indenter(wishes.indenter), table["time"], table["approach"], table["force"]
-    )
+    indenter = wishes.indenter_of(table)
+    record = IndentationRecord(indenter, table["time"], table["approach"], table["force"])
+    poisson_ratio, bulk_modulus = wishes.volume()
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", AccuracyWarning)
         fit = fit_indentation(
             record,
             wishes.law,
             terms=1 if wishes.terms is None else wishes.terms,
-            poisson_ratio=wishes.poisson_ratio,
-            bulk_modulus=_bulk_modulus(wishes),
+            poisson_ratio=poisson_ratio,
+            bulk_modulus=bulk_modulus,
         )
     for warning in caught:
         say(f"warning: {warning.message}")
     print(repr(fit))
     return material_section(fit), _Drawing("fitted_indentation", fit)
-
-
-def _refuse_idle(table: Table, wishes: Wishes) -> None:
-    """Refuse options that an indentation record has no use for, rather than pass them over."""
-    options = {
-        "--data": wishes.data is not None,
-        "--fluid": wishes.fluid,
-        "--reference": wishes.reference is not None,
-        "--temperature": wishes.temperature is not None,
-    }
-    idle = [option for option, given in options.items() if given]
-    if idle:
-        raise ValueError(
-            f"{table.source.name}: {', '.join(idle)} does not go with an indentation record; leave "
-            "it out (its law is chosen by --law)"
-        )
 
 
 def _read(file: Path) -> Table:
@@ -200,32 +156,12 @@ def _read(file: Path) -> Table:
         refuse(str(error))
 
 
-def _options(table: Table, wishes: Wishes) -> dict[str, Any]:
-    data = wishes.data or table.data
-    if data is None:
-        raise ValueError(
-            f"{table.source.name}: the headings do not say what kind of test it is; add "
-            "--data shear, --data uniaxial or --data deviatoric"
-        )
-    options: dict[str, Any] = {"data": data, "fluid": wishes.fluid, "terms": wishes.terms}
-    if data == "uniaxial" and wishes.poisson_ratio is None and wishes.bulk_modulus is None:
-        raise ValueError(
-            f"{table.source.name}: uniaxial data need --poisson-ratio, such as 0.38, or "
-            "--bulk-modulus, such as '4 GPa'"
-        )
-    return options | (_volume(wishes) if data == "uniaxial" else {})
-
-
-def _volume(wishes: Wishes) -> dict[str, float | None]:
-    return {"poisson_ratio": wishes.poisson_ratio, "bulk_modulus": _bulk_modulus(wishes)}
-
-
 def _with_volume(fit: Fit, wishes: Wishes) -> Fit:
     """Return the fit with what is known of the volume, which data in shear say nothing of."""
-    volume = _volume(wishes)
-    if fit.data == "uniaxial" or not any(value is not None for value in volume.values()):
+    poisson_ratio, bulk_modulus = wishes.volume()
+    if fit.data == "uniaxial" or (poisson_ratio is None and bulk_modulus is None):
         return fit
-    material = Material(fit.law, volume["poisson_ratio"], bulk_modulus=volume["bulk_modulus"])
+    material = Material(fit.law, poisson_ratio, bulk_modulus=bulk_modulus)
     return dataclasses.replace(
         fit, poisson_ratio=material.poisson_ratio, bulk_modulus=material.bulk_modulus
     )
@@ -275,7 +211,7 @@ def _print_shifts(curve: MasterCurve, rules: list[ShiftFit]) -> None:
     rows = zip(curve.temperatures, curve.factors, mismatches, strict=True)
     for temperature, factor, mismatch in rows:
         share = f"{100 * mismatch:.2g} %" if np.isfinite(mismatch) else "-"
-        print(f"{temperature - _ZERO_CELSIUS:9.2f}  {np.log10(factor):10.3f}  {share}")
+        print(f"{in_celsius(temperature):9.2f}  {np.log10(factor):10.3f}  {share}")
     for rule in rules:
         print(f"{_constants(rule)}, misses them by {rule.residual:.2g} decades (rms)")
 
@@ -287,41 +223,8 @@ def _constants(rule: ShiftFit) -> str:
     return f"Arrhenius with {shift.activation_energy / 1e3:.4g} kJ/mol"
 
 
-def _bulk_modulus(wishes: Wishes) -> float | None:
-    if wishes.bulk_modulus is None:
-        return None
-    try:
-        return parse_quantity(wishes.bulk_modulus, "pressure")
-    except ValueError as error:
-        raise ValueError(f"--bulk-modulus: {error}") from None
-
-
-def _kelvin(option: str, text: str) -> float:
-    try:
-        return parse_quantity(text, "temperature")
-    except ValueError as error:
-        raise ValueError(f"{option}: {error}") from None
-
-
 def _celsius(kelvin: float) -> str:
-    return f"{kelvin - _ZERO_CELSIUS:.4g} °C"
-
-
-def _indenter(text: str) -> Indenter:
-    shape, _, size = text.strip().partition(" ")
-    try:
-        if shape == "sphere":
-            return Sphere(parse_quantity(size, "length"))
-        if shape == "cone":
-            return Cone(parse_quantity(size, "angle"))
-        if shape == "punch":
-            return FlatPunch(parse_quantity(size, "length"))
-    except ValueError as error:
-        raise ValueError(f"--indenter: {error}") from None
-    raise ValueError(
-        f"--indenter: {text!r} is no indenter; write e.g. 'sphere 5 um', 'cone 70 deg' or "
-        "'punch 2 um'"
-    )
+    return f"{in_celsius(kelvin):.4g} °C"
 
 
 def _write(path: Path, text: str) -> None:

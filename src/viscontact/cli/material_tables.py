@@ -19,7 +19,7 @@ from viscontact.cli.shown_material import Shown
 from viscontact.laws import WLF, Arrhenius, Shift
 from viscontact.material import Material
 from viscontact.materials import Entry
-from viscontact.units import in_digits, in_words, readable_unit
+from viscontact.units import in_celsius, in_digits, in_words, readable_unit
 
 _WIDTH = 78
 _DEPTH = 1e-6
@@ -99,7 +99,7 @@ def _shift(shift: Shift) -> str:
     else:
         rule = type(shift).__name__
     reference = getattr(shift, "reference_temperature", None)
-    at = "" if reference is None else f"{reference - 273.15:.6g} °C; "
+    at = "" if reference is None else f"{in_celsius(reference):.6g} °C; "
     return f"{at}times shift by {rule}"
 
 

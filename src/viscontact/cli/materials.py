@@ -3,88 +3,92 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from viscontact.cli.messages import refuse
 
+if TYPE_CHECKING:  # heavy, and only to name its type
+    from viscontact.cli.material_files import Typed
+
+Which = Annotated[
+    str | None,
+    typer.Argument(
+        metavar="[NAME|FILE]",
+        help="A shipped material, a case file, a measured table or an Abaqus or Ansys card; "
+        "lists the shipped ones if left out.",
+    ),
+]
+Output = Annotated[
+    Path | None,
+    typer.Option(
+        "-o",
+        "--output",
+        metavar="FILE",
+        help="Draw it: .png, .pdf or .svg; with --to, write it there.",
+    ),
+]
+Form = Annotated[
+    str | None,
+    typer.Option("--to", metavar="FORM", help="Write it instead: abaqus, ansys or csv."),
+]
+Test = Annotated[
+    str | None,
+    typer.Option(
+        "--data",
+        metavar="TEST",
+        help="Of a table: shear (G, 1/G), uniaxial (E, 1/E) or deviatoric (Phi), where the "
+        "headings do not say.",
+    ),
+]
+PoissonRatio = Annotated[
+    float | None,
+    typer.Option("--poisson-ratio", metavar="NU", help="Of a table's body, constant."),
+]
+BulkModulus = Annotated[
+    str | None,
+    typer.Option("--bulk-modulus", metavar="K", help="Instead, elastic, such as '4 GPa'."),
+]
+SetNumber = Annotated[
+    float | None, typer.Option("--set", metavar="N", help="Which set of a table.")
+]
+ModulusUnit = Annotated[
+    str | None,
+    typer.Option(
+        "--modulus-unit", metavar="UNIT", help="Of a card's moduli; MPa of what is written."
+    ),
+]
+TimeUnit = Annotated[
+    str | None,
+    typer.Option("--time-unit", metavar="UNIT", help="Of a card's times; s of what is written."),
+]
+TemperatureUnit = Annotated[
+    str | None,
+    typer.Option("--temperature-unit", metavar="UNIT", help="Of a card's shift: degC, K."),
+]
+Name = Annotated[
+    str | None,
+    typer.Option("--name", metavar="NAME", help="Which material of a card, or its number."),
+]
+
 
 def material(
-    which: Annotated[
-        str | None,
-        typer.Argument(
-            metavar="[NAME|FILE]",
-            help="A shipped material, a case file, a measured table or an Abaqus or Ansys card; "
-            "lists the shipped ones if left out.",
-        ),
-    ] = None,
-    output: Annotated[
-        Path | None,
-        typer.Option(
-            "-o",
-            "--output",
-            metavar="FILE",
-            help="Draw it: .png, .pdf or .svg; with --to, write it there.",
-        ),
-    ] = None,
-    to: Annotated[
-        str | None,
-        typer.Option("--to", metavar="FORM", help="Write it instead: abaqus, ansys or csv."),
-    ] = None,
-    data: Annotated[
-        str | None,
-        typer.Option(
-            "--data",
-            metavar="TEST",
-            help="Of a table: shear (G, 1/G), uniaxial (E, 1/E) or deviatoric (Phi), where the "
-            "headings do not say.",
-        ),
-    ] = None,
-    poisson_ratio: Annotated[
-        float | None,
-        typer.Option("--poisson-ratio", metavar="NU", help="Of a table's body, constant."),
-    ] = None,
-    bulk_modulus: Annotated[
-        str | None,
-        typer.Option("--bulk-modulus", metavar="K", help="Instead, elastic, such as '4 GPa'."),
-    ] = None,
-    number: Annotated[
-        float | None, typer.Option("--set", metavar="N", help="Which set of a table.")
-    ] = None,
-    modulus_unit: Annotated[
-        str | None,
-        typer.Option(
-            "--modulus-unit", metavar="UNIT", help="Of a card's moduli; MPa of what is written."
-        ),
-    ] = None,
-    time_unit: Annotated[
-        str | None,
-        typer.Option(
-            "--time-unit", metavar="UNIT", help="Of a card's times; s of what is written."
-        ),
-    ] = None,
-    temperature_unit: Annotated[
-        str | None,
-        typer.Option("--temperature-unit", metavar="UNIT", help="Of a card's shift: degC, K."),
-    ] = None,
-    name: Annotated[
-        str | None,
-        typer.Option("--name", metavar="NAME", help="Which material of a card, or its number."),
-    ] = None,
+    which: Which = None,
+    output: Output = None,
+    to: Form = None,
+    data: Test = None,
+    poisson_ratio: PoissonRatio = None,
+    bulk_modulus: BulkModulus = None,
+    number: SetNumber = None,
+    modulus_unit: ModulusUnit = None,
+    time_unit: TimeUnit = None,
+    temperature_unit: TemperatureUnit = None,
+    name: Name = None,
 ) -> None:
     """Show creep and relaxation of a law, and where a shipped one is from; or write it."""
-    from viscontact.cli.material_files import Typed, find_material
-    from viscontact.cli.material_tables import list_library, show_material
-    from viscontact.cli.material_writing import FORMS, write_material
+    from viscontact.cli.material_files import Typed
 
-    if to is not None and to not in FORMS:
-        refuse(f"--to: must be one of {', '.join(FORMS)}, got {to!r}")
-    if which is None:
-        if to is not None:
-            refuse(f"--to {to}: name one material, e.g. pmma-paper")
-        list_library(output)
-        return
     typed = Typed(
         data=data,
         poisson_ratio=poisson_ratio,
@@ -95,6 +99,21 @@ def material(
         temperature_unit=temperature_unit,
         name=name,
     )
+    _show_or_write(which, output, to, typed)
+
+
+def _show_or_write(which: str | None, output: Path | None, to: str | None, typed: Typed) -> None:
+    from viscontact.cli.material_files import find_material
+    from viscontact.cli.material_tables import list_library, show_material
+    from viscontact.cli.material_writing import FORMS, write_material
+
+    if to is not None and to not in FORMS:
+        refuse(f"--to: must be one of {', '.join(FORMS)}, got {to!r}")
+    if which is None:
+        if to is not None:
+            refuse(f"--to {to}: name one material, e.g. pmma-paper")
+        list_library(output)
+        return
     shown = find_material(which, typed, writes=to is not None)
     if to is None:
         show_material(shown, output)

@@ -17,10 +17,10 @@ from viscontact.identification import Fit, IndentationFit, MasterCurve, ShiftFit
 from viscontact.laws import Shift
 from viscontact.plot import style
 from viscontact.plot.readable import DisplayUnit, display_unit
+from viscontact.units import in_celsius
 
 Array = NDArray[np.float64]
 
-_ZERO_CELSIUS = 273.15  # [K]
 _WIDE = 4.0  # a column that spans more than this factor is drawn on a logarithmic axis
 _LABELS = {
     "compliance": "Creep compliance",
@@ -189,7 +189,7 @@ def master_curve(
     """
     figure = style.new_figure(style.TWO_COLUMNS, 5.4)
     panels = figure.subplot_mosaic([["sets", "shifts"], ["master", "master"]])
-    celsius = curve.temperatures - _ZERO_CELSIUS
+    celsius = in_celsius(curve.temperatures)
     # The palest end of the map fades on white.
     shades = LinearSegmentedColormap.from_list("sets", colormaps["plasma"](np.linspace(0, 0.85)))
     norm = Normalize(celsius.min(), max(celsius.max(), celsius.min() + 1.0))
@@ -238,13 +238,13 @@ def _dress_sets(
     sets.set_xlabel(_abscissa(curve.measured))
     master.set_xlabel("Reduced " + _abscissa(curve.measured, reduced=True))
     style.add_heading(sets, "As measured")
-    at = f"{curve.reference_temperature - _ZERO_CELSIUS:.4g} °C"
+    at = f"{in_celsius(curve.reference_temperature):.4g} °C"
     said = f", {_count(fit)}, residual {_rms(fit)}" if fit else ""
     style.add_heading(master, f"Master curve at {at}{said}")
 
 
 def _draw_shifts(curve: MasterCurve, axes: Axes, rules: Sequence[ShiftFit]) -> None:
-    celsius = curve.temperatures - _ZERO_CELSIUS
+    celsius = in_celsius(curve.temperatures)
     axes.plot(
         celsius,
         np.log10(curve.factors),
@@ -257,7 +257,7 @@ def _draw_shifts(curve: MasterCurve, axes: Axes, rules: Sequence[ShiftFit]) -> N
     handles, labels = list(axes.get_lines()), ["found" if curve.mismatches is not None else "given"]
     between = np.linspace(curve.temperatures[0], curve.temperatures[-1], 200)
     for rule, look in zip(rules, style.run_styles(len(rules)), strict=True):
-        [line] = axes.plot(between - _ZERO_CELSIUS, _decades(rule.shift, between), **look)
+        [line] = axes.plot(in_celsius(between), _decades(rule.shift, between), **look)
         handles.append(line)
         labels.append(f"{type(rule.shift).__name__} ± {rule.residual:.2g} decades")
     axes.axhline(0.0, color=style.FAINT, linewidth=style.THIN_LINE)

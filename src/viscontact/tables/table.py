@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.tables.names import Data
+from viscontact.units import in_celsius
 
 Array = NDArray[np.float64]
 
@@ -80,8 +81,8 @@ class Table:
         values = self["temperature"]
         if np.ptp(values) > _WIDEST_SET:
             raise ValueError(
-                f"{self.source.name}: temperatures from {values.min() - 273.15:.4g} to "
-                f"{values.max() - 273.15:.4g} °C are no single one; take one of its sets"
+                f"{self.source.name}: temperatures from {in_celsius(values.min()):.4g} to "
+                f"{in_celsius(values.max()):.4g} °C are no single one; take one of its sets"
             )
         return float(np.mean(values))
 
@@ -122,7 +123,7 @@ class Table:
         groups = np.split(order, starts)
         for group in groups:
             if np.ptp(values[group]) > _WIDEST_SET:
-                low, high = values[group].min() - 273.15, values[group].max() - 273.15
+                low, high = in_celsius(values[group].min()), in_celsius(values[group].max())
                 raise ValueError(
                     f"{self.source.name}: temperatures from {low:.4g} to {high:.4g} °C without a "
                     "gap of 1 K cannot be told apart; number the sets in a column Set"

@@ -10,51 +10,13 @@ from dataclasses import dataclass
 from decimal import Decimal
 from typing import Any
 
-
-@dataclass(frozen=True)
-class Dimension:
-    """What kind of quantity is wanted: its name in a sentence, its SI unit and an example."""
-
-    name: str
-    unit: str
-    example: str
-
-
-DIMENSIONS = {
-    "length": Dimension("a length", "m", "5 mm"),
-    "time": Dimension("a time", "s", "1000 s"),
-    "force": Dimension("a force", "N", "10 kN"),
-    "angle": Dimension("an angle", "rad", "1 mrad"),
-    "pressure": Dimension("a pressure", "Pa", "1800 MPa"),
-    "compliance": Dimension("a compliance", "1/Pa", "5.5e-4 / MPa"),
-    "viscosity": Dimension("a viscosity", "Pa s", "10 GPa s"),
-    "fluidity": Dimension("a fluidity", "1/(Pa s)", "1e-6 / (MPa s)"),
-    "frequency": Dimension("a frequency", "Hz", "10 Hz"),
-    "angular frequency": Dimension("an angular frequency", "rad/s", "62.8 rad/s"),
-    "temperature": Dimension("a temperature", "K", "25 degC"),
-    "temperature difference": Dimension("a temperature difference", "K", "51.6 K"),
-    "molar energy": Dimension("an energy per mole", "J/mol", "80 kJ/mol"),
-}
-
-# Only to name what was given instead: "(got a mass)".
-_OTHER_DIMENSIONS = {
-    "kg": "a mass",
-    "m^2": "an area",
-    "m^3": "a volume",
-    "m/s": "a speed",
-    "1/s": "a frequency or a rate",
-    "1/m": "a curvature",
-    "K": "a temperature",
-    "N m": "an energy or a moment",
-    "N/m": "a stiffness",
-    "W": "a power",
-    "V": "a voltage",
-}
+from viscontact.units.dimensions import DIMENSIONS, OTHER_DIMENSIONS, Dimension
+from viscontact.units.temperatures import ZERO_CELSIUS
 
 # Degrees have an offset, which units as factors cannot have, and C alone is no coulomb here.
 _DEGREES = {
     **dict.fromkeys(("k", "kelvin", "degk", "°k"), (1.0, 0.0)),
-    **dict.fromkeys(("c", "celsius", "degc", "°c", "℃"), (1.0, 273.15)),
+    **dict.fromkeys(("c", "celsius", "degc", "°c", "℃"), (1.0, ZERO_CELSIUS)),
     **dict.fromkeys(("f", "fahrenheit", "degf", "°f", "℉"), (5 / 9, 459.67 * 5 / 9)),
 }
 
@@ -293,7 +255,7 @@ def _in_base_units(unit: Any) -> tuple[float, str]:
 def _dimension_name(base: str) -> str:
     base = base.removesuffix(_OFFSET)
     known = {_si_base(d.unit): d.name for d in DIMENSIONS.values()}
-    known |= {_si_base(unit): name for unit, name in _OTHER_DIMENSIONS.items()}
+    known |= {_si_base(unit): name for unit, name in OTHER_DIMENSIONS.items()}
     return known.get(base, f"a quantity in {base}" if base != "dimensionless" else "a plain ratio")
 
 
