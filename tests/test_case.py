@@ -5,8 +5,10 @@ from __future__ import annotations
 import json
 import os
 import re
+from collections.abc import Iterator
 from importlib.resources import as_file, files
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -15,6 +17,7 @@ from pydantic import ValidationError
 import viscontact as vc
 from viscontact.case import CaseError, case_schema, read_case
 from viscontact.case.schedule import Cells
+from viscontact.units import parse_quantity
 
 ROLLER = """\
 title: Crowned roller on PMMA, load off centre
@@ -392,6 +395,26 @@ def test_schema_names_every_key_and_shows_units() -> None:
     assert len(schema["properties"]["indenter"]["anyOf"]) == 2
     names = schema["properties"]["material"]["anyOf"][0]["enum"]
     assert names[:2] == ["pmma-paper", "pmma-kumar-2004"]
+
+
+def _values_of(key: str, part: object) -> Iterator[Any]:
+    """All values of a key, wherever it stands."""
+    if isinstance(part, dict):
+        yield from [part[key]] if key in part else []
+        part = list(part.values())
+    for each in part if isinstance(part, list) else []:
+        yield from _values_of(key, each)
+
+
+def test_every_unit_that_the_schema_suggests_is_read() -> None:
+    schema = case_schema()
+    for dimension, units in schema["x-units"].items():
+        assert all(parse_quantity(f"1 {unit}", dimension) > 0 for unit in units)
+    asked = list(_values_of("x-dimension", schema["$defs"]))
+    assert "length" in asked
+    assert ["force", "length"] in asked  # either, as the amplitude of a swing
+    kinds = {kind for each in asked for kind in ([each] if isinstance(each, str) else each)}
+    assert kinds <= set(schema["x-units"])
 
 
 @pytest.mark.parametrize(

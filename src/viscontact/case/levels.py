@@ -79,6 +79,7 @@ class _LevelQuantity:
             "type": "string",
             "description": "a force, or for approach control a length, with its unit",
             "examples": [DIMENSIONS["force"].example, APPROACH_EXAMPLE],
+            "x-dimension": list(_DIMENSIONS),
         }
 
 

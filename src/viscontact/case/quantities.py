@@ -93,13 +93,17 @@ class Quantity:
     def __get_pydantic_json_schema__(
         self, schema: CoreSchema, handler: GetJsonSchemaHandler
     ) -> JsonSchemaValue:
-        """Tell editors that a text with a number in front is wanted, and show one."""
+        """Tell editors that a text with a number in front is wanted, and show one.
+
+        `x-dimension` leads to the units to suggest; editors skip what begins with x-.
+        """
         wanted = DIMENSIONS[self.dimension]
         return {
             "type": "string",
             "pattern": r"^\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?\s*[^\s\d].*$",
             "description": f"{wanted.name} with its unit, {self.sign}",
             "examples": [wanted.example],
+            "x-dimension": self.dimension,
         }
 
 

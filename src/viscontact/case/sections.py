@@ -13,6 +13,7 @@ from viscontact.case.quantities import Section
 from viscontact.case.schedule import Cells, Output, Time
 from viscontact.grid import Grid
 from viscontact.load import LoadHistory
+from viscontact.units import DIMENSIONS
 
 
 class CaseFile(Section):
@@ -53,7 +54,8 @@ def case_schema() -> dict[str, Any]:
     Returns
     -------
     dict
-        JSON Schema, draft 2020-12.
+        JSON Schema, draft 2020-12. Beyond the standard, `x-dimension` says what kind of quantity a
+        text is, or which kinds it may be, and `x-units` which units each kind is often written in.
 
     Examples
     --------
@@ -61,4 +63,6 @@ def case_schema() -> dict[str, Any]:
     ['indenter', 'load', 'material', 'time']
     """
     schema = CaseFile.model_json_schema()
-    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}
+    units = {name: list(dimension.units) for name, dimension in DIMENSIONS.items()}
+    draft = "https://json-schema.org/draft/2020-12/schema"
+    return {"$schema": draft, "x-units": units, **schema}

@@ -7,28 +7,52 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Dimension:
-    """What kind of quantity is wanted: its name in a sentence, its SI unit and an example."""
+    """What kind of quantity is wanted.
+
+    Attributes
+    ----------
+    name : str
+        What it is called in a sentence.
+    unit : str
+        Its SI unit.
+    example : str
+        A value as it may be written.
+    units : tuple of str
+        Units that it is often written in, to suggest; any other of its kind is read, too.
+
+    Examples
+    --------
+    >>> DIMENSIONS["force"].units
+    ('mN', 'N', 'kN', 'MN')
+    """
 
     name: str
     unit: str
     example: str
+    units: tuple[str, ...]
 
 
 #: What can be asked for, by the word for it.
 DIMENSIONS = {
-    "length": Dimension("a length", "m", "5 mm"),
-    "time": Dimension("a time", "s", "1000 s"),
-    "force": Dimension("a force", "N", "10 kN"),
-    "angle": Dimension("an angle", "rad", "1 mrad"),
-    "pressure": Dimension("a pressure", "Pa", "1800 MPa"),
-    "compliance": Dimension("a compliance", "1/Pa", "5.5e-4 / MPa"),
-    "viscosity": Dimension("a viscosity", "Pa s", "10 GPa s"),
-    "fluidity": Dimension("a fluidity", "1/(Pa s)", "1e-6 / (MPa s)"),
-    "frequency": Dimension("a frequency", "Hz", "10 Hz"),
-    "angular frequency": Dimension("an angular frequency", "rad/s", "62.8 rad/s"),
-    "temperature": Dimension("a temperature", "K", "25 degC"),
-    "temperature difference": Dimension("a temperature difference", "K", "51.6 K"),
-    "molar energy": Dimension("an energy per mole", "J/mol", "80 kJ/mol"),
+    "length": Dimension("a length", "m", "5 mm", ("nm", "um", "mm", "m", "in")),
+    "time": Dimension("a time", "s", "1000 s", ("ms", "s", "min", "h", "d")),
+    "force": Dimension("a force", "N", "10 kN", ("mN", "N", "kN", "MN")),
+    "angle": Dimension("an angle", "rad", "1 mrad", ("urad", "mrad", "rad", "deg")),
+    "pressure": Dimension("a pressure", "Pa", "1800 MPa", ("Pa", "kPa", "MPa", "GPa", "psi")),
+    "compliance": Dimension(
+        "a compliance", "1/Pa", "5.5e-4 / MPa", ("/ Pa", "/ kPa", "/ MPa", "/ GPa")
+    ),
+    "viscosity": Dimension(
+        "a viscosity", "Pa s", "10 GPa s", ("Pa s", "kPa s", "MPa s", "GPa s", "TPa s")
+    ),
+    "fluidity": Dimension(
+        "a fluidity", "1/(Pa s)", "1e-6 / (MPa s)", ("/ (Pa s)", "/ (MPa s)", "/ (GPa s)")
+    ),
+    "frequency": Dimension("a frequency", "Hz", "10 Hz", ("mHz", "Hz", "kHz")),
+    "angular frequency": Dimension("an angular frequency", "rad/s", "62.8 rad/s", ("rad/s",)),
+    "temperature": Dimension("a temperature", "K", "25 degC", ("degC", "K", "degF")),
+    "temperature difference": Dimension("a temperature difference", "K", "51.6 K", ("K",)),
+    "molar energy": Dimension("an energy per mole", "J/mol", "80 kJ/mol", ("kJ/mol", "J/mol")),
 }
 
 #: Only to name what was given instead: "(got a mass)".
