@@ -27,6 +27,7 @@ from viscontact.report.inputs import inputs
 from viscontact.report.limits import notices
 from viscontact.report.map_data import map_data, section_csv, strides_of
 from viscontact.report.markup import as_script
+from viscontact.report.run_data import run_data
 from viscontact.report.shown_fields import shown_fields
 from viscontact.report.told import headline
 
@@ -286,3 +287,25 @@ def test_what_cannot_be_reported_is_refused_in_a_line(
     assert error.startswith(said)
     assert error.count("\n") == 1
     assert [path.name for path in tmp_path.iterdir()] == ["run.nc"]
+
+
+def test_run_data_is_the_result_in_si_units_and_fits_into_json() -> None:
+    ds = _run()
+    ds["peak_pressure_error"][:] = np.inf
+    ds["approach_error"][0] = np.nan
+    data = json.loads(json.dumps(run_data(ds), allow_nan=False))
+    scalars, shown = data["scalars"], data["map"]
+    assert data["time"] == list(TIMES)
+    # The radius of a Hertz contact is sqrt(R d): the area is pi R d, here with R = 10 mm. The
+    # area is counted in cells, 30 to 50 across.
+    area, approach = (scalars[name]["value"] for name in ("contact_area", "approach"))
+    assert area == pytest.approx(np.pi * 0.01 * np.array(approach), rel=0.03)
+    assert scalars["peak_pressure"]["mesh"]
+    assert scalars["peak_pressure"]["error"] == [None] * len(TIMES)
+    assert [each is None for each in scalars["approach"]["error"]] == [True] + [False] * 4
+    # All the force is in the map: its cells times their pressure.
+    x, y = (shown["lengthFactor"] * np.diff(shown[way][:2])[0] for way in ("x", "y"))
+    parts = np.frombuffer(base64.b64decode(shown["parts"][0]), "<u2")
+    pressure = parts.sum() / shown["steps"] * shown["peak"] * shown["pressureFactor"]
+    assert pressure * x * y == pytest.approx(scalars["force"]["value"][0], rel=0.01)
+    assert shown["times"] == list(TIMES)

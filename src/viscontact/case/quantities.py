@@ -95,7 +95,8 @@ class Quantity:
     ) -> JsonSchemaValue:
         """Tell editors that a text with a number in front is wanted, and show one.
 
-        `x-dimension` leads to the units to suggest; editors skip what begins with x-.
+        `x-dimension` leads to the units to suggest, `x-sign` says which values make sense even
+        where a key has a description of its own; editors skip what begins with x-.
         """
         wanted = DIMENSIONS[self.dimension]
         return {
@@ -104,6 +105,7 @@ class Quantity:
             "description": f"{wanted.name} with its unit, {self.sign}",
             "examples": [wanted.example],
             "x-dimension": self.dimension,
+            "x-sign": self.sign,
         }
 
 

@@ -55,7 +55,8 @@ def case_schema() -> dict[str, Any]:
     -------
     dict
         JSON Schema, draft 2020-12. Beyond the standard, `x-dimension` says what kind of quantity a
-        text is, or which kinds it may be, and `x-units` which units each kind is often written in.
+        text is, or which kinds it may be, `x-sign` which values make sense, and `x-units` which
+        units each kind is often written in.
 
     Examples
     --------

@@ -43,7 +43,18 @@ def error_rows(ds: xr.Dataset) -> list[tuple[str, ...]]:
         Name with unit, value at the end, largest value, largest error, and that as a part of the
         largest value.
     """
-    return [_row(ds, name) for name in _ROWS if name in ds and not _is_rounding(ds, name)]
+    return [_row(ds, name) for name in told_scalars(ds)]
+
+
+def told_scalars(ds: xr.Dataset) -> list[str]:
+    """Return which scalars of a result a table tells of: not those that are rounding.
+
+    Parameters
+    ----------
+    ds : xarray.Dataset
+        A result.
+    """
+    return [name for name in _ROWS if name in ds and not _is_rounding(ds, name)]
 
 
 def accuracy_lines(ds: xr.Dataset) -> Iterator[tuple[str, str]]:

@@ -96,10 +96,7 @@ def load_panels(ds: xr.Dataset) -> list[dict[str, Any]]:
     ds : xarray.Dataset
         A result.
     """
-    if prescribes_approach(ds):
-        return [_panel(ds, _APPROACH)]
-    shown = [each for each in _LOAD if each.name == "force" or _varies(ds, each.name)]
-    return [_panel(ds, each) for each in shown]
+    return [_panel(ds, each) for each in _prescribed(ds)]
 
 
 def answer_panels(ds: xr.Dataset) -> list[dict[str, Any]]:
@@ -110,9 +107,33 @@ def answer_panels(ds: xr.Dataset) -> list[dict[str, Any]]:
     ds : xarray.Dataset
         A result.
     """
+    return [_panel(ds, each) for each in _answered(ds)]
+
+
+def panel_labels(ds: xr.Dataset) -> tuple[dict[str, str], dict[str, str]]:
+    """Return names and labels of what `load_panels` and `answer_panels` show.
+
+    Parameters
+    ----------
+    ds : xarray.Dataset
+        A result.
+    """
+    load, answers = (
+        {each.name: each.label for each in shown} for shown in (_prescribed(ds), _answered(ds))
+    )
+    return load, answers
+
+
+def _prescribed(ds: xr.Dataset) -> list[_Quantity]:
+    if prescribes_approach(ds):
+        return [_APPROACH]
+    return [each for each in _LOAD if each.name == "force" or _varies(ds, each.name)]
+
+
+def _answered(ds: xr.Dataset) -> list[_Quantity]:
     lengths, approaches = ds["contact_length"].values, ds["approach"].values
     return [
-        _panel(ds, _FORCE if each is _APPROACH and prescribes_approach(ds) else each)
+        _FORCE if each is _APPROACH and prescribes_approach(ds) else each
         for each in _ANSWERS
         if not each.name.startswith("tilt")
         or not is_rounding_tilt(ds[each.name].values, lengths, approaches)

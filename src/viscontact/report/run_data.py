@@ -1,0 +1,101 @@
+"""A run as plain data for figures that change as they are looked at."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from viscontact.plot.history import suits_log_time
+from viscontact.plot.readable import display_unit
+from viscontact.report.accuracy import accuracy_lines, told_scalars
+from viscontact.report.found import title_of
+from viscontact.report.histories import panel_labels
+from viscontact.report.limits import notices, warnings_of
+from viscontact.report.map_data import map_data, rounded, section_data
+from viscontact.report.shown_fields import shown_fields
+from viscontact.report.told import errors_of
+from viscontact.variables import SCALARS
+
+
+def run_data(ds: xr.Dataset) -> dict[str, Any]:
+    """Return the numbers of a run that figures are drawn from.
+
+    Parameters
+    ----------
+    ds : xarray.Dataset
+        What ``simulate`` or ``open_results`` returned.
+
+    Returns
+    -------
+    dict
+        Plain data without NaN and inf, which JSON cannot hold: instants and scalars with their
+        errors in SI units, which of them the load prescribes and which are told in tables; of
+        the fields what `map_data` and `section_data` give, with the factors of their units to
+        SI; warnings and the account of accuracy. Null where there is nothing, or an error is not
+        known; `mesh` says of a scalar that it depends on the mesh.
+
+    Raises
+    ------
+    ValueError
+        If the result holds no instant.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> pmma = vc.Material(vc.Elastic(1e9), 0.4)
+    >>> ds = vc.simulate(vc.Sphere(0.01), pmma, vc.step(100.0), times=[1.0], errors=False)
+    >>> run_data(ds)["scalars"]["force"]["value"], run_data(ds)["given"]
+    ([100.0], {'force': 'Force'})
+    """
+    if not ds.sizes.get("time"):
+        raise ValueError("figures need one instant at least, got a result without any; run it")
+    given, answers = panel_labels(ds)
+    return {
+        "title": title_of(ds),
+        "time": rounded(ds["time"].values, 12),
+        "logTime": bool(suits_log_time(ds)),
+        "scalars": {name: _scalar(ds, name) for name in SCALARS if name in ds},
+        "given": given,
+        "answers": answers,
+        "told": told_scalars(ds),
+        "map": _map(ds),
+        "notices": notices(ds),
+        "warnings": warnings_of(ds),
+        "accuracy": list(accuracy_lines(ds)),
+    }
+
+
+def _scalar(ds: xr.Dataset, name: str) -> dict[str, Any]:
+    values = np.asarray(ds[name].values, dtype=np.float64)
+    errors = errors_of(ds, name)
+    return {
+        "unit": SCALARS[name].units,
+        "meaning": SCALARS[name].long_name,
+        "value": _or_none(values),
+        "error": _or_none(errors),
+        "mesh": bool(np.isposinf(errors).any()),
+    }
+
+
+def _map(ds: xr.Dataset) -> dict[str, Any] | None:
+    try:
+        fields = shown_fields(ds)
+    except ValueError:  # none are stored, or there is no contact in them
+        return None
+    data = map_data(fields)
+    return data | {
+        "times": [each.time for each in fields.snapshots],
+        "lengthFactor": fields.window.unit.factor,
+        "pressureFactor": display_unit("Pa", fields.peak).factor,
+        "sections": [section_data(fields, "x"), section_data(fields, "y")],
+        "crossing": fields.through,
+    }
+
+
+def _or_none(values: NDArray[np.float64]) -> list[float | None]:
+    known = zip(values.tolist(), rounded(np.nan_to_num(values, posinf=0.0), 9), strict=True)
+    return [digits if math.isfinite(value) else None for value, digits in known]
