@@ -1,0 +1,70 @@
+"""
+Sphere on a body that creeps and comes to rest
+==============================================
+
+The same ball on a Zener body, a spring in series with a Kelvin unit: Fig. 7 of Spinu & Cerlinca
+(2018). Creep ends when the delayed spring carries its share, and the contact goes from one dome
+of Hertz to a flatter one.
+"""
+
+# %%
+# The case
+# --------
+#
+# Both springs are equal, so the compliance doubles in the end. It comes to rest within seconds:
+# the delayed spring answers with a time of viscosity/delayed modulus = 1 s.
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import viscontact as vc
+from viscontact import reference
+
+radius, force = 10e-3, 4.0
+law = vc.Zener(shear_modulus=10e6, delayed_modulus=10e6, viscosity=10e6)
+
+ds = vc.simulate(
+    vc.Paraboloid(radius, radius),
+    vc.Material(law, poisson_ratio=0.5),
+    vc.step(force),
+    vc.Grid((96, 96), (3e-3, 3e-3)),
+    vc.uniform_times(8.0, 80),
+    fields=[0.0, 1.0, 8.0],
+)
+
+# %%
+# The picture
+# -----------
+#
+# The pressure along x, with the domes of Hertz for the compliance at the start and in the end
+# (dashed), and the peak over time with its error bar.
+
+figure, (left, right) = plt.subplots(1, 2, figsize=(7.2, 3.0), layout="constrained")
+middle = len(ds.y) // 2
+for time, colour in zip([0.0, 1.0, 8.0], ["#440154", "#21918c", "#d98c00"], strict=True):
+    pressure = ds.pressure.sel(field_time=time)[:, middle]
+    left.plot(ds.x * 1e3, pressure / 1e6, color=colour, label=f"{time:g} s")
+for modulus in (10e6, 5e6):  # of both springs in series in the end
+    hertz = reference.hertz_sphere(force, radius, contact_modulus=2 * modulus / 0.5)
+    x = np.linspace(-1.3e-3, 1.3e-3, 400)
+    left.plot(x * 1e3, hertz.pressure(x) / 1e6, "k--", linewidth=0.8)
+left.set(xlabel="x [mm]", ylabel="pressure [MPa]", xlim=(-1.3, 1.3), ylim=(0, None))
+left.legend(frameon=False)
+
+peak, bar = ds.peak_pressure / 1e6, ds.peak_pressure_error / 1e6
+right.plot(ds.time, peak, color="#0072B2")
+right.fill_between(ds.time, peak - bar, peak + bar, color="#0072B2", alpha=0.25, linewidth=0)
+right.set(xlabel="time [s]", ylabel="peak pressure [MPa]")
+
+# %%
+# The check
+# ---------
+#
+# In the end the body is elastic again with half of the modulus: Hertz's p₀ = 3 F / (2 π a²).
+
+final = (3 * force * radius / (4 * 4 * 5e6)) ** (1 / 3)
+hertz_peak = 3 * force / (2 * np.pi * final**2)
+ours = float(ds.peak_pressure[-1])
+
+print(f"peak pressure in the end: {ours / 1e6:.4f} MPa, Hertz {hertz_peak / 1e6:.4f} MPa")
+assert abs(ours / hertz_peak - 1) < 2e-3

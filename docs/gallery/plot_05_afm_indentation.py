@@ -1,0 +1,65 @@
+"""
+A probe pushed into a gel and pulled out
+========================================
+
+The piezo of an atomic force microscope drives a bead of 5 µm 400 nm into a soft gel in a second,
+and pulls it out as fast. The gel is slower than the bead: on the way back contact is lost before
+the bead has left the dent. There is no adhesion here, so nothing pulls.
+"""
+
+# %%
+# The case
+# --------
+#
+# The approach is prescribed and the force follows. Steps are left to the run. As a case file:
+# ``viscontact example afm-indentation``.
+
+import viscontact as vc
+from viscontact import plot, reference
+
+bead = vc.Paraboloid(5e-6, 5e-6)
+gel = vc.Material(
+    vc.RelaxationSeries(equilibrium=500.0, moduli=[300.0, 200.0], times=[0.1, 1.0]),
+    poisson_ratio=0.5,
+)
+stage = vc.ApproachHistory(times=[0.0, 1.0, 3.0], approach=[0.0, 400e-9, -400e-9])
+
+ds = vc.simulate(
+    bead,
+    gel,
+    stage,
+    vc.Grid((96, 96), (3.8e-6, 3.8e-6)),
+    vc.adaptive_times(3.0, tolerance=1e-3),
+    fields=[0.5, 1.0, 1.2, 1.4],
+)
+
+# %%
+# The pictures
+# ------------
+#
+# Force against approach; the arrows go with time, and the area of the loop is lost as heat. The
+# band is the error bar.
+
+figure = plot.hysteresis(ds)
+
+# %%
+# The pressure on the way in and on the way out: the rim lets go first.
+
+figure = plot.pressure_profile(ds)
+
+# %%
+# The check
+# ---------
+#
+# Ting (1966) gives force and loss of contact in closed form, for M(t) = 2 G(t)/(1 - ν) = 4 G(t).
+
+exact = reference.ting_triangle(
+    reference.SphereProfile(5e-6), 400e-9, 1.0, 2000.0, [1200.0, 800.0], [0.1, 1.0]
+)
+ours, theirs = float(ds.force.sel(time=1.2)), float(exact.force(1.2))
+touching = ds.time.values[ds.force.values > 0]
+
+print(f"force on the way back, 1.2 s: {ours * 1e12:.2f} pN, Ting {theirs * 1e12:.2f} pN")
+print(f"contact is lost after {touching[-1]:.3f} s, Ting {exact.lost:.3f} s")
+assert abs(ours - theirs) < 3e-3 * float(exact.force(1.0))
+assert abs(touching[-1] - exact.lost) < 0.03
