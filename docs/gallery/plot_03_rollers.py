@@ -11,7 +11,7 @@ Cerlinca (2018), the crown is rounder (75 mm, of which their figures look).
 # Three runs
 # ----------
 #
-# The creep law is the paper's eq. 15; `viscontact material pmma-paper` says what it rests on.
+# The creep law is the paper's eq. 15; ``viscontact material pmma-paper`` says what it rests on.
 # The grids here are coarser than those of the shipped cases (``viscontact example
 # roller-dogbone``), to be done in a second each.
 
@@ -41,10 +41,15 @@ runs = {
 # First the pressure on the middle line, at once and after 1000 s. It rises where the crown begins;
 # off centre the near riser grows and the far one fades.
 
-figure, panels = plt.subplots(1, 3, figsize=(9, 2.8), sharey=True, layout="constrained")
+figure, panels = plt.subplots(1, 3, figsize=(7.2, 2.6), sharey=True, layout="constrained")
+middle = len(grid.y) // 2
 for axes, (name, ds) in zip(panels, runs.items(), strict=True):
-    plot.pressure_profile(ds, axes=axes)
-    axes.set_title(name, fontsize=9)
+    for time, colour in ((0.0, "#440154"), (1000.0, "#d98c00")):
+        pressure = ds.pressure.sel(field_time=time)[:, middle]
+        axes.plot(ds.x * 1e3, pressure / 1e6, color=colour, label=f"{time:g} s")
+    axes.set(xlabel="x [mm]", title=name, xlim=(-22, 22), ylim=(0, 400))
+panels[0].set_ylabel("pressure [MPa]")
+panels[0].legend(frameon=False, loc="upper left")
 
 # %%
 # The contact halfway off centre, as contours of pressure: an unequal dog bone.

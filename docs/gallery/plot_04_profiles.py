@@ -11,6 +11,9 @@ modulus falls, so one has to say for when: here the profile is designed for 1000
 # Three profiles under one load
 # -----------------------------
 
+import math
+import warnings
+
 import matplotlib.pyplot as plt
 
 import viscontact as vc
@@ -24,11 +27,11 @@ line_load = force / (2 * half_length)
 profiles = {
     "cylindrical": vc.CylindricalProfile(),
     "crowned": vc.FullCrown(crown_radius=2.0),
-    "logarithmic": vc.LogarithmicProfile(
-        line_load / (3.141592653589793 * modulus), end_drop=30e-6
-    ),
+    "logarithmic": vc.LogarithmicProfile(line_load / (math.pi * modulus), end_drop=30e-6),
 }
 grid = vc.Grid((192, 40), (20e-3, 1.1e-3))
+# Contact at the ends is what is studied here; a run warns of it.
+warnings.simplefilter("ignore", vc.AccuracyWarning)
 runs = {
     name: vc.simulate(
         vc.Roller(radius, half_length, profile=profile),
@@ -58,7 +61,7 @@ for axes, time in zip(panels, (0.0, 1000.0), strict=True):
     here = 1 / float(pmma.contact_compliance()(time))
     hertz = reference.hertz_line(line_load, radius, here)
     axes.axhline(hertz.peak_pressure / 1e6, color="k", linestyle="--", linewidth=0.8)
-    axes.set(xlabel="x [mm]", title=f"after {time:g} s", ylim=(0, 120))
+    axes.set(xlabel="x [mm]", title=f"after {time:g} s" if time else "at once", ylim=(0, 120))
 panels[0].set_ylabel("pressure [MPa]")
 panels[1].legend(frameon=False, loc="upper left", bbox_to_anchor=(1, 1))
 
@@ -69,11 +72,11 @@ panels[1].legend(frameon=False, loc="upper left", bbox_to_anchor=(1, 1))
 # Lundberg's amplitude w/(π E*) is made so that every section bears the same: the middle then has
 # Hertz's pressure of a line contact, p₀ = sqrt(w E*/(π R)).
 
-exact = (line_load * modulus / (3.141592653589793 * radius)) ** 0.5
+exact = (line_load * modulus / (math.pi * radius)) ** 0.5
 crept = runs["logarithmic"].pressure.sel(field_time=1000.0)[:, middle]
 ours = float(crept.sel(x=0.0, method="nearest"))
 evenness = float(crept.sel(x=slice(-8e-3, 8e-3)).max() / crept.sel(x=slice(-8e-3, 8e-3)).min())
 
 print(f"middle after 1000 s: {ours / 1e6:.2f} MPa, Hertz {exact / 1e6:.2f} MPa")
 print(f"largest over least pressure within |x| < 8 mm: {evenness:.3f}")
-assert abs(ours / exact - 1) < 0.02
+assert abs(ours / exact - 1) < 5e-3

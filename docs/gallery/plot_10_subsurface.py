@@ -39,16 +39,16 @@ ds = vc.simulate(
 figure = plot.stress_section(ds)
 
 # %%
-# The stress on the axis below the contact, with labels: `section_stresses` gives a dataset.
+# The stress on the axis below the contact, with labels: ``section_stresses`` gives a dataset.
 
 inside = vc.section_stresses(ds)
 axis = inside.von_mises.sel(x=0.0, method="nearest")
 
-figure, axes = plt.subplots(figsize=(4.2, 3.4), layout="constrained")
+figure, axes = plt.subplots(figsize=(4.6, 3.4), layout="constrained")
 for time, colour in zip(axis.time.values, ["#440154", "#21918c", "#d98c00"], strict=True):
     here = axis.sel(time=time)
     axes.plot(here / 1e6, here.z * 1e3, color=colour, label=f"{time:g} s")
-axes.set(xlabel="von Mises stress on the axis [MPa]", ylabel="depth [mm]")
+axes.set(xlabel="von Mises stress on the axis [MPa]", ylabel="depth [mm]", xlim=(0, None))
 axes.invert_yaxis()
 axes.legend(frameon=False)
 

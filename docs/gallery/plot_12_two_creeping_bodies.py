@@ -43,7 +43,8 @@ axes.legend(frameon=False)
 # The check
 # ---------
 #
-# Approach = a²/R with a³ = (3/4) R F (J₁ + J₂), where J = (1 - ν) Φ of each body (Lee & Radok 1960).
+# Lee & Radok (1960): the approach is a²/R, and a³ = (3/4) R F (J₁ + J₂), where J = (1 - ν) Φ of
+# each body.
 
 t = 400.0
 flowing = (1 - 0.4) * (1 / 400e6 + t / 80e9) / 2

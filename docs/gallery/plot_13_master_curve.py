@@ -50,14 +50,16 @@ figure = plot.master_curve(curve, fit=fit, rules=[wlf])
 # The check
 # ---------
 #
-# The shift factors that the tests were made with are found again, to a tenth of a decade over ten.
+# The shift factors that the tests were made with are found again, to a twentieth of a decade over
+# six decades.
 
 found, true = np.log10(curve.factors), np.log10(rule.factor(temperatures))
 worst = float(np.abs(found - true).max())
 print(f"shift factors over {np.ptp(true):.1f} decades, the worst off by {worst:.3f}")
-assert worst < 0.1
+assert worst < 0.05
 
 # And the law holds where it was fitted.
 check = np.geomspace(1e-3, 1e3, 13)
-print(f"relaxation modulus, worst: {np.abs(fit.law.relaxation(check) / truth.relaxation(check) - 1).max():.1%}")
-assert np.abs(fit.law.relaxation(check) / truth.relaxation(check) - 1).max() < 0.1
+off = float(np.abs(fit.law.relaxation(check) / truth.relaxation(check) - 1).max())
+print(f"relaxation modulus between 1 ms and 1000 s, the worst off by {off:.1%}")
+assert off < 0.01

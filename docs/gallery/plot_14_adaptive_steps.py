@@ -44,7 +44,8 @@ above.plot(ds.time, ds.approach * 1e6, ".-", color="#0072B2", markersize=3, line
 above.set(ylabel="approach [µm]", ylim=(0, None))
 below.semilogy(ds.time[1:], np.diff(ds.time), ".", color="#0072B2", markersize=3)
 below.set(xlabel="time [s]", ylabel="step [s]")
-print(f"{ds.sizes['time'] - 1} steps, from {np.diff(ds.time).min():.1e} to {np.diff(ds.time).max():.1e} s")
+steps = np.diff(ds.time)
+print(f"{steps.size} steps, from {steps.min() * 1e3:.1f} ms to {steps.max():.1f} s")
 
 # %%
 # The check

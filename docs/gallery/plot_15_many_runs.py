@@ -10,7 +10,7 @@ each result is the same to the last bit as if it had been computed alone.
 # Five forces
 # -----------
 #
-# Each run is a mapping of what `simulate` takes. New processes begin by importing the script, so
+# Each run is a mapping of what ``simulate`` takes. New processes begin by importing the script, so
 # the call stands behind ``if __name__ == "__main__"``; a notebook needs no such line.
 
 import matplotlib.pyplot as plt
