@@ -9,6 +9,7 @@ import signal
 import subprocess
 import sys
 import time as clock
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
@@ -19,6 +20,7 @@ import xarray as xr
 import viscontact as vc
 from viscontact.cli import jobs, main
 from viscontact.cli.variations import variations
+from viscontact.recording.lock import DirectoryInUse, locked
 
 PAGE = (Path(__file__).parent.parent / "docs" / "many-runs.md").read_text(encoding="utf-8")
 CASE = """\
@@ -90,7 +92,7 @@ def test_varied_values_have_directories_of_their_own_and_the_rim_stops_only_one(
     names = [f"zener_force={force}_size=3mm-3mm" for force in ("2N", "4N")]
     assert sorted(path.name for path in Path("forces").iterdir()) == names
     said = capsys.readouterr().err
-    assert "the contact reaches the grid's rim" in said
+    assert "--vary grid: the contact reaches the grid's rim" in said
     assert "2 of 4 runs stopped: zener_force=2N_size=1mm-1mm, zener_force=4N_size=1mm-1mm" in said
     for name, force in zip(names, (2.0, 4.0), strict=True):
         with vc.open_results(Path("forces") / name) as ds:
@@ -108,7 +110,7 @@ def test_one_case_that_is_refused_keeps_all_from_beginning(
     assert main([*words, "--vary", "load.force=2N,10 MPa,3N"]) == 2
     lines = capsys.readouterr().err.splitlines()
     assert len(lines) == 2  # each once, whatever the number of runs that have it
-    assert "load.force: cannot read '10 MPa' as a force" in lines[0]
+    assert lines[0].startswith("--vary load.force: cannot read '10 MPa' as a force")
     assert lines[1].startswith("broken.yaml:7: material.viscosity: cannot read '10 kg'")
     assert sorted(folder.iterdir()) == before
 
@@ -199,6 +201,40 @@ def test_runs_are_stopped_together_and_resumed_to_the_same_bits(folder: Path) ->
     assert main([*resuming, "-q"]) == 0
     assert main(["run", "zener.yaml", "--set", "load.force=3N", *words[8:], "-q"]) == 0
     assert contents("zener") == contents(both[1])
+
+
+@pytest.mark.skipif(os.name == "nt", reason="not tried there")
+def test_runs_whose_command_is_killed_save_and_end(folder: Path) -> None:
+    words = ["run", "zener.yaml", "--vary", "load.force=2N,3N", "--set", "time.steps=2000"]
+    runs = [Path(f"zener_force={force}N") for force in (2, 3)]
+    process = subprocess.Popen([sys.executable, "-m", "viscontact", *words, "-j", "2"])
+    until(lambda: all(steps_logged(run) > 3 for run in runs))
+    process.kill()
+    process.wait()
+    until(lambda: not any(is_at_work(run) for run in runs))
+    for run in runs:
+        with vc.open_results(run) as ds:  # published with all that was logged
+            assert 3 < ds.sizes["time"] == steps_logged(run) < 2001
+
+
+def until(holds: Callable[[], bool]) -> None:
+    give_up = clock.monotonic() + 60
+    while not holds():
+        assert clock.monotonic() < give_up
+        clock.sleep(0.01)
+
+
+def steps_logged(run: Path) -> int:
+    log = run / "progress.jsonl"
+    return log.read_bytes().count(b"\n") if log.exists() else 0
+
+
+def is_at_work(run: Path) -> bool:
+    try:
+        with locked(run):
+            return False
+    except DirectoryInUse:
+        return True
 
 
 def test_simulations_in_processes_are_the_simulations_in_order() -> None:

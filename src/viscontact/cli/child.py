@@ -1,4 +1,4 @@
-"""A run as a process of its own: `viscontact run` as anybody could type it."""
+"""A run as a process of its own, which ends when the one that began it is gone."""
 
 from __future__ import annotations
 
@@ -91,6 +91,8 @@ class Child:
         self._said.seek(0)
         lines = tuple(self._said.read().decode("utf-8", errors="replace").splitlines())
         self._said.close()
+        if self._process.stdin is not None:
+            self._process.stdin.close()
         if code == DONE:
             return Ended(self.job, "done", DONE)
         # Before it has met signals, they end it at once.
@@ -108,7 +110,8 @@ class Child:
 def _started(job: Job, said: Any) -> subprocess.Popen[bytes]:
     request = replace(job.request, output=job.directory, quiet=True)
     # -P: what lies in the working directory is not imported in place of a library.
-    command = [sys.executable, "-P", "-m", "viscontact", "run", *request.words()]
+    command = [sys.executable, "-P", "-m", "viscontact.cli.child_run", "run", *request.words()]
     environment = {**os.environ, "PYTHONIOENCODING": "utf-8"}
-    nowhere = subprocess.DEVNULL
-    return subprocess.Popen(command, stdin=nowhere, stdout=nowhere, stderr=said, env=environment)
+    # Nothing is ever written to its input: that this ends tells it that this process has ended.
+    held, nowhere = subprocess.PIPE, subprocess.DEVNULL
+    return subprocess.Popen(command, stdin=held, stdout=nowhere, stderr=said, env=environment)

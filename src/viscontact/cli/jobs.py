@@ -15,9 +15,11 @@ import typer
 
 from viscontact.cli.attempt import attempted
 from viscontact.cli.interruption import Interruption
+from viscontact.cli.many_request import ManyRequest
 from viscontact.cli.messages import refuse
 from viscontact.cli.run_request import RunRequest
 from viscontact.cli.taking_up import Standing
+from viscontact.cli.variations import as_typed
 from viscontact.forecast import available_memory, run_memory, step_count
 from viscontact.recording.lock import LOCK_NAME, DirectoryInUse, locked
 from viscontact.units import in_digits
@@ -57,12 +59,12 @@ class Job:
     memory: float
 
 
-def checked_jobs(requests: Sequence[RunRequest], interruption: Interruption) -> list[Job]:
+def checked_jobs(request: ManyRequest, interruption: Interruption) -> list[Job]:
     """Check runs, all of them before any is refused.
 
     Parameters
     ----------
-    requests : sequence of RunRequest
+    request : ManyRequest
         What is asked for.
     interruption : Interruption
         Who may stop it.
@@ -79,14 +81,15 @@ def checked_jobs(requests: Sequence[RunRequest], interruption: Interruption) -> 
     """
     jobs: list[Job] = []
     problems: dict[str, list[RunRequest]] = {}
-    for request in requests:
+    requests = request.runs()
+    for each in requests:
         said = io.StringIO()
         try:
             with redirect_stderr(said):
-                jobs.append(_checked(request, interruption))
+                jobs.append(_checked(each, interruption))
         except typer.Exit:
             for line in said.getvalue().splitlines():
-                problems.setdefault(line, []).append(request)
+                problems.setdefault(as_typed(line, request.varied), []).append(each)
     if problems:
         refuse(*(_told(line, concerned, requests) for line, concerned in problems.items()))
     _refuse_shared_directories(jobs)

@@ -17,6 +17,7 @@ from viscontact.cli.many_table import print_table
 from viscontact.cli.messages import DONE, INTERRUPTED, STOPPED, refuse, say, stop
 from viscontact.cli.streams import printing, unwritten
 from viscontact.cli.taking_up import Standing
+from viscontact.cli.variations import as_typed
 
 #: Time between two looks at the runs [s].
 PAUSE = 0.05
@@ -41,7 +42,7 @@ def execute_many(request: ManyRequest) -> None:
     quiet = request.common.quiet
     with watched_interruption() as interruption:
         with before_the_first_step():
-            jobs = checked_jobs(request.runs(), interruption)
+            jobs = checked_jobs(request, interruption)
             left = [job for job in jobs if job.standing is not Standing.FINISHED]
             at_once = min(request.jobs, fitting(left), max(1, len(left)))
             for line in (
@@ -117,7 +118,7 @@ def _end(request: ManyRequest, jobs: Sequence[Job], ended: Sequence[Ended]) -> N
         _tell(runs)
     for each in runs:
         for line in each.said if each.code else ():
-            say(line)
+            say(as_typed(line, request.varied))
     stopped = [each.job.name for each in runs if each.code == STOPPED]
     lines = [f"{len(stopped)} of {len(runs)} runs stopped: {', '.join(stopped)}"] if stopped else []
     if any(each.code == INTERRUPTED for each in runs):

@@ -69,6 +69,32 @@ def variations(varied: Sequence[str], settings: Sequence[str] = ()) -> list[Vari
     return found
 
 
+def as_typed(line: str, varied: Sequence[str]) -> str:
+    """Return what is said of a setting under the option by which it was given.
+
+    Parameters
+    ----------
+    line : str
+        A line of a run, which knows settings only.
+    varied : sequence of str
+        The values of ``--vary``.
+
+    Examples
+    --------
+    >>> as_typed("--set load.force: cannot read '2'", ["load.force=2,3"])
+    "--vary load.force: cannot read '2'"
+    """
+    option, blank, rest = line.partition(" ")
+    key = re.split(r"[:=\s]", rest, maxsplit=1)[0]
+    is_varied = option == "--set" and any(_share_a_branch(key, _key(text)) for text in varied)
+    return f"--vary{blank}{rest}" if is_varied else line
+
+
+def _share_a_branch(one: str, other: str) -> bool:
+    steps = zip(re.split(r"[.\[]", one), re.split(r"[.\[]", other), strict=False)
+    return all(a == b for a, b in steps)
+
+
 def _axis(text: str) -> tuple[str, list[str]]:
     _, equals, given = text.partition("=")
     values = _split(given)
