@@ -56,7 +56,7 @@ def lint(args: list[str]) -> int:
 def docs(args: list[str]) -> int:
     """Build the manual into build/docs/html; `-D plot_gallery=0` leaves out the gallery's runs."""
     folder = "build/docs"
-    strict = ["-W", "--keep-going", "-n", "-q", "-d", f"{folder}/doctrees"]
+    strict = ["-W", "--keep-going", "-n", "-q", "-E", "-d", f"{folder}/doctrees"]
     status = run(["-m", "sphinx", *strict, *args, "docs", f"{folder}/html"])
     if status == 0:
         print(f"go: the manual is {folder}/html/index.html")

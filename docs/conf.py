@@ -22,7 +22,11 @@ extensions = [
     "myst_parser",
     "sphinx_gallery.gen_gallery",
     "equations",
+    "docstrings",
+    "offline",
+    "made_pages",
 ]
+templates_path = ["_templates"]
 exclude_patterns = ["_ext", "_templates", "gallery", "generated/gallery/**/*.ipynb"]
 nitpicky = True
 suppress_warnings = ["config.cache"]  # of the gallery's scraper, which is a function

@@ -47,10 +47,6 @@ def write_report(ds: xr.Dataset, path: str | Path) -> None:
         If the result holds no instant.
     OSError
         If the file cannot be written.
-
-    See Also
-    --------
-    report_page : the page as text.
     """
     Path(path).write_text(report_page(ds), encoding="utf-8")
 

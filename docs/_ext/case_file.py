@@ -1,0 +1,240 @@
+"""The reference of the keys of a case file, made of its JSON schema."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+Schema = Mapping[str, Any]
+
+#: A key that so many kinds have alike is told once, above them.
+ALIKE = 4
+
+_BOUNDS = (
+    ("exclusiveMinimum", "above"),
+    ("minimum", "at least"),
+    ("ge", "at least"),
+    ("maximum", "at most"),
+    ("le", "at most"),
+)
+
+
+def case_file_reference(schema: Schema) -> str:
+    """Return a table of keys for each section of a case file, and for each kind of it.
+
+    Parameters
+    ----------
+    schema : mapping
+        As `viscontact schema` prints it.
+
+    Returns
+    -------
+    str
+        Markdown.
+
+    Examples
+    --------
+    >>> schema = {"properties": {"title": {"type": "string"}}, "required": [], "$defs": {}}
+    >>> print(case_file_reference(schema).splitlines()[-1])
+    | `title` |  | text | – |
+    """
+    keys = schema["properties"]
+    lines = ["## The whole file", "", *_table(keys, schema["required"])]
+    told: dict[tuple[str, ...], str] = {}
+    for name, value in keys.items():
+        kinds = tuple(_references(value))
+        if kinds and kinds in told:  # the indenter's material is told as the material's
+            lines += ["", _target(name), f"## `{name}`", "", _sentence(value["description"])]
+            lines += [f"Written as [`{told[kinds]}`](#{_label(told[kinds])})."]
+        else:
+            lines += _section(schema["$defs"], name, value, depth=2)
+            told[kinds] = name
+    return "\n".join(lines)
+
+
+def _section(defs: Schema, path: str, value: Schema, depth: int) -> Iterator[str]:
+    """What a key may hold, if that has keys itself: of one kind, or of several."""
+    names = list(dict.fromkeys(_references(value)))
+    if not names:
+        return
+    yield from ("", _target(path), f"{'#' * depth} `{path}`", "")
+    if "description" in value:
+        yield from (_sentence(value["description"]), "")
+    if len(names) == 1:
+        only = defs[names[0]]
+        yield from (_sentence(only["description"]), "")
+        yield from _table(only["properties"], only.get("required", []))
+        yield from _below(defs, path, only["properties"], depth)
+        return
+    kinds = {name: defs[name] for name in names}
+    shipped = _names_of_no_kind(value, kinds)
+    if shipped:
+        yield from ("A name, one of " + ", ".join(f"`{name}`" for name in shipped), "or one of", "")
+    alike = _alike(kinds)
+    if alike:
+        yield from ("Of every kind:", "", *_table(alike, []))
+    for kind in kinds.values():
+        yield from _kind(path, kind, alike, depth + 1)
+    nested = {key: each for kind in kinds.values() for key, each in kind["properties"].items()}
+    yield from _below(defs, path, nested, depth)
+
+
+def _kind(path: str, kind: Schema, alike: Schema, depth: int) -> Iterator[str]:
+    properties = kind["properties"]
+    chosen = {key: value["const"] for key, value in properties.items() if "const" in value}
+    name = ", ".join(f"{key}: {value}" for key, value in chosen.items())
+    own = {
+        key: value for key, value in properties.items() if key not in alike and key not in chosen
+    }
+    anchor = "-".join([path, *chosen.values()])
+    yield from ("", _target(anchor), f"{'#' * depth} `{name}`", "")
+    yield _sentence(kind["description"])
+    if own:
+        yield from ("", *_table(own, kind.get("required", [])))
+
+
+def _below(defs: Schema, path: str, properties: Schema, depth: int) -> Iterator[str]:
+    for key, value in properties.items():
+        yield from _section(defs, f"{path}.{key}", value, depth + 1)
+
+
+def _names_of_no_kind(value: Schema, kinds: Mapping[str, Schema]) -> list[str]:
+    """Names that may stand there and are not those of the kinds that are told below."""
+    consts = {each.get("const") for kind in kinds.values() for each in kind["properties"].values()}
+    options = value.get("anyOf", [])
+    return [name for each in options for name in each.get("enum", []) if name not in consts]
+
+
+def _alike(kinds: Mapping[str, Schema]) -> dict[str, Any]:
+    """The keys that all kinds have alike."""
+    every = [kind["properties"] for kind in kinds.values()]
+    if len(every) < ALIKE:
+        return {}
+    return {
+        key: value
+        for key, value in every[0].items()
+        if all(properties.get(key) == value for properties in every)
+    }
+
+
+def _table(properties: Schema, required: list[str]) -> Iterator[str]:
+    yield from ("| key | meaning | value | default |", "|---|---|---|---|")
+    for key, value in properties.items():
+        default = "required" if key in required else _default(value)
+        yield f"| `{key}` | {_meaning(value)} | {_cell(_value(value))} | {_cell(default)} |"
+
+
+def _meaning(value: Schema) -> str:
+    said = str(value.get("description", ""))
+    # What a quantity says of itself stands in the next column.
+    return "" if said.endswith(_SIGNS) and "with its unit" in said else _cell(said)
+
+
+_WORDS = {
+    "integer": "whole number",
+    "number": "number",
+    "string": "text",
+    "object": "keys of your own",
+}
+_SIGNS = ("any", "zero or more", "more than zero")
+
+
+def _default(value: Schema) -> str:
+    default = value.get("default")
+    if default is None or isinstance(default, dict):
+        return "–"
+    if isinstance(default, bool):
+        return f"`{str(default).lower()}`"
+    if isinstance(default, float) and default == int(default):
+        return f"`{int(default)}`"
+    return f"`{default}`" if default != "" else "–"
+
+
+def _value(value: Schema) -> str:
+    """What may stand there, in words."""
+    if "const" in value:
+        return f"`{value['const']}`"
+    if "enum" in value:
+        return " or ".join(f"`{each}`" for each in value["enum"])
+    options = value.get("anyOf") or value.get("oneOf")
+    if options:
+        if any(True for _ in _references(value)):
+            return _link_below(options)
+        told = [_value(each) for each in options if each.get("type") != "null"]
+        return ", or ".join(dict.fromkeys(told)) + _bounds(value)
+    if "$ref" in value:
+        return "keys below"
+    return _simple(value)
+
+
+def _link_below(options: list[Schema]) -> str:
+    """What is told in sections of their own."""
+    names = any("enum" in each for each in options)
+    lists = any(each.get("type") == "array" for each in options)
+    said = "a name, or a kind with its keys (below)" if names else "a kind with its keys (below)"
+    return f"{said}; or a list of these" if lists else said
+
+
+def _simple(value: Schema) -> str:
+    kind = value.get("type", "")
+    if kind == "array":
+        if "prefixItems" in value:
+            return "[" + ", ".join(_value(each) for each in value["prefixItems"]) + "]"
+        return f"list: {_value(value['items'])}"
+    if kind == "boolean":
+        return "`true` or `false`"
+    if "pattern" in value:
+        return _quantity(value)
+    return _WORDS[kind] + _bounds(value) + _example(value)
+
+
+def _quantity(value: Schema) -> str:
+    dimension = value.get("x-dimension")
+    sign = value.get("x-sign", "")
+    if dimension is None:  # by its own description, where no other took the place of that
+        said = str(value.get("description", ""))
+        dimension = said if "with its unit" in said else "quantity with its unit"
+        sign = ""
+    bound = f", {sign}" if sign and sign != "any" else ""
+    return f"{dimension}{bound}{_example(value)}".replace(", any", "")
+
+
+def _bounds(value: Schema) -> str:
+    return "".join(f", {words} {value[key]:g}" for key, words in _BOUNDS if key in value)
+
+
+def _example(value: Schema) -> str:
+    examples = value.get("examples", [])
+    texts = [each if isinstance(each, str) else json.dumps(each) for each in examples]
+    return f", e.g. `{texts[0]}`" if texts else ""
+
+
+def _references(value: Any) -> Iterator[str]:
+    """The definitions that a value may hold, in order."""
+    if isinstance(value, Mapping):
+        if "$ref" in value:
+            yield str(value["$ref"]).rsplit("/", 1)[-1]
+        for key in ("anyOf", "oneOf", "items"):
+            yield from _references(value.get(key))
+    elif isinstance(value, list):
+        for each in value:
+            yield from _references(each)
+
+
+def _target(path: str) -> str:
+    return f"({_label(path)})="
+
+
+def _label(path: str) -> str:
+    return f"case-{path.replace('.', '-').replace('_', '-')}"
+
+
+def _sentence(text: str) -> str:
+    whole = " ".join(text.split())
+    whole = whole[0].upper() + whole[1:]
+    return whole if whole.endswith(".") else f"{whole}."
+
+
+def _cell(text: str) -> str:
+    return " ".join(text.split()).replace("|", r"\|")

@@ -1,0 +1,101 @@
+"""Parts of pages that are made when the manual is built, so that they cannot go stale.
+
+A line ``{{ made: NAME }}`` in a page is replaced by what `PARTS` makes of the name.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+from case_file import case_file_reference
+from command_line import command_line_reference
+from sphinx.application import Sphinx
+from sphinx.environment import BuildEnvironment
+from sphinx.util.typing import ExtensionMetadata
+
+from viscontact.case.sections import case_schema
+from viscontact.materials.entry import Entry, entry, names
+from viscontact.units import in_words
+from viscontact.variables import COORDINATES, FIELDS, SCALARS, Variable
+
+
+def _changes() -> str:
+    text = (Path(__file__).parents[2] / "CHANGELOG.md").read_text(encoding="utf-8")
+    # Names of pages are links here.
+    return re.sub(r"\(`docs/([\w/-]+)\.md`\)", r"({doc}`/\1`)", text)
+
+
+def _citation() -> str:
+    text = (Path(__file__).parents[2] / "CITATION.cff").read_text(encoding="utf-8")
+    return f"```yaml\n{text.strip()}\n```"
+
+
+def _variables(kind: dict[str, Variable]) -> str:
+    lines = ["| name | unit | what it is |", "|---|---|---|"]
+    lines += [f"| `{name}` | {each.units} | {each.long_name} |" for name, each in kind.items()]
+    return "\n".join(lines)
+
+
+def _library() -> str:
+    """Return a section for each shipped material: what it is, where it is from, what to write."""
+    return "\n\n".join("\n".join(_material(entry(name))) for name in names())
+
+
+def _material(shipped: Entry) -> Iterator[str]:
+    yield from (f"(material-{shipped.name})=", f"## {shipped.name}", "", f"{shipped.title}.", "")
+    first, last = (in_words(time, "s") for time in shipped.measured)
+    told = {
+        "family": shipped.family,
+        "measured": f"{shipped.test}, temperature: {shipped.temperature}",
+        "rests on data": f"from {first} to {last}; a run that goes beyond warns",
+        "source": shipped.source,
+        "constants": shipped.constants,
+        "volume": shipped.volume,
+        "checked": shipped.checked,
+        "licence": shipped.licence,
+    }
+    yield from ("| | |", "|---|---|")
+    for name, text in told.items():
+        yield f"| {name} | {' '.join(text.split())} |".replace("*", r"\*")
+    yield from ("", "```yaml", "material:")
+    for key, value in shipped.material.items():
+        written = value if not isinstance(value, list) else f"[{', '.join(map(str, value))}]"
+        yield f"  {key}: {written}"
+    yield "```"
+
+
+PARTS: dict[str, Callable[[], str]] = {
+    "case file": lambda: case_file_reference(case_schema()),
+    "command line": command_line_reference,
+    "materials": _library,
+    "coordinates": lambda: _variables(COORDINATES),
+    "scalars": lambda: _variables(SCALARS),
+    "fields": lambda: _variables(FIELDS),
+    "changes": _changes,
+    "citation": _citation,
+}
+
+_MARK = re.compile(r"^\{\{ made: (.+?) \}\}$", re.MULTILINE)
+
+
+def _fill_in(app: Sphinx, page: str, source: list[str]) -> None:
+    source[0] = _MARK.sub(lambda found: PARTS[found[1]](), source[0])
+
+
+def _always_anew(
+    app: Sphinx, env: BuildEnvironment, added: set[str], changed: set[str], removed: set[str]
+) -> Iterator[str]:
+    """Pages with a mark: what they are made of is not a file that Sphinx would look at."""
+    for page in env.found_docs:
+        path = Path(str(env.doc2path(page)))
+        if path.suffix == ".md" and _MARK.search(path.read_text(encoding="utf-8")):
+            yield page
+
+
+def setup(app: Sphinx) -> ExtensionMetadata:
+    """Fill in the marks as pages are read."""
+    app.connect("source-read", _fill_in)
+    app.connect("env-get-outdated", _always_anew)
+    return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,0 +1,175 @@
+"""The manual tells all there is, and all its pages can be reached; its build is `./go docs`."""
+
+from __future__ import annotations
+
+import fnmatch
+import importlib.util
+import re
+from collections.abc import Iterator
+from pathlib import Path, PurePosixPath
+from types import ModuleType
+from typing import Any
+
+import pytest
+import typer
+
+import viscontact
+import viscontact.plot
+from viscontact.case.sections import case_schema
+from viscontact.cli.shell import app
+
+DOCS = Path(__file__).parent.parent / "docs"
+
+
+def extension(name: str) -> ModuleType:
+    """A module of the manual's own, which is no package."""
+    spec = importlib.util.spec_from_file_location(name, DOCS / "_ext" / f"{name}.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+# --- the Python reference -----------------------------------------------------------------------
+
+
+def listed() -> set[str]:
+    """Full names of all that the pages of the Python reference list."""
+    names = set()
+    for page in (DOCS / "reference" / "python").iterdir():
+        module = ""
+        for line in page.read_text(encoding="utf-8").splitlines():
+            if found := re.match(r"\.\. currentmodule:: (\S+)", line):
+                module = found[1]
+            elif found := re.fullmatch(r"   ([A-Za-z_.]+)|\.\. autodata:: (\w+)", line):
+                names.add(f"{module}.{found[1] or found[2]}")
+    return names
+
+
+@pytest.mark.parametrize(
+    "module",
+    [
+        viscontact,
+        viscontact.reference,
+        viscontact.plot,
+        viscontact.surfaces,
+        viscontact.verify,
+        viscontact.identification,
+    ],
+    ids=lambda module: str(module.__name__),
+)
+def test_the_python_reference_lists_every_public_name(module: ModuleType) -> None:
+    public = {name for name in module.__all__ if not isinstance(getattr(module, name), ModuleType)}
+    # Some are listed where they are most used: at the top.
+    told = {name.rpartition(".")[2] for name in listed()}
+    assert public - {"__version__"} - told == set()
+
+
+def test_the_python_reference_lists_nothing_that_is_not_there() -> None:
+    for name in listed():
+        value: Any = viscontact
+        for part in name.split(".")[1:]:
+            value = getattr(value, part)
+
+
+# --- pages that are made ------------------------------------------------------------------------
+
+
+def keys(schema: dict[str, Any]) -> Iterator[tuple[str, str]]:
+    """Each key of a case file, with the sentence that tells what section it is of."""
+    for kind in [schema, *schema["$defs"].values()]:
+        for key in kind["properties"]:
+            yield kind["description"], key
+
+
+def test_the_reference_of_case_files_tells_every_key() -> None:
+    schema = case_schema()
+    page = extension("case_file").case_file_reference(schema)
+    rows = set(re.findall(r"^\| `(\w+)` \|", page, re.MULTILINE))
+    chosen = set(re.findall(r"^#+ `(\w+): ", page, re.MULTILINE))
+    for section, key in keys(schema):
+        assert key in rows | chosen, key
+        # Each kind has its own place, under the words that the schema has for it.
+        assert section in page or section == schema["description"], section
+    for kind in ("shape: roller", "law: creep-series", "kind: harmonic", "kind: chamfer"):
+        assert page.count(f"`{kind}`") == 1
+
+
+def test_the_reference_of_case_files_tells_values_bounds_and_what_is_required() -> None:
+    page = extension("case_file").case_file_reference(case_schema())
+    rows = {row.split(" | ")[0]: row for row in page.splitlines() if row.startswith("| `")}
+    assert "| required |" in rows["| `end`"]
+    assert "above -1, at most 0.5" in rows["| `poisson_ratio`"]
+    assert "`uniform` or `log` or `adaptive` | `uniform` |" in rows["| `spacing`"]
+    assert "e.g. `10 kN`" in rows["| `force`"]
+
+
+def test_the_reference_of_commands_tells_every_command_and_option() -> None:
+    page = extension("command_line").command_line_reference()
+    sections = re.split(r"^## ", page, flags=re.MULTILINE)[1:]
+    commands = typer.main.get_command(app).commands
+    assert [section.split("\n")[0] for section in sections] == [f"viscontact {n}" for n in commands]
+    for section, command in zip(sections, commands.values(), strict=True):
+        for parameter in command.params:
+            if parameter.param_type_name == "option":
+                assert all(f"`{name}" in section for name in parameter.opts)
+
+
+# --- pages --------------------------------------------------------------------------------------
+
+
+def pages() -> set[str]:
+    """Names of all pages that are written by hand, and of those that the gallery makes."""
+    found = {"examples/index"}
+    for path in DOCS.rglob("*"):
+        place = path.relative_to(DOCS)
+        if path.suffix in (".md", ".rst") and place.parts[0] not in ("_templates", "examples"):
+            found.add(place.with_suffix("").as_posix())
+    return {page for page in found if not re.match(r"gallery/|reference/generated/", page)}
+
+
+def entries(page: str) -> Iterator[str]:
+    """Pages and patterns in the tables of contents of a page, from the root."""
+    path = DOCS / f"{page}.md"
+    text = path.read_text(encoding="utf-8") if path.exists() else ""
+    for block in re.findall(r"```\{toctree\}\n(.*?)```", text, re.DOTALL):
+        for line in block.splitlines():
+            if line and not line.startswith(":"):
+                inside = PurePosixPath(page).parent
+                parts: list[str] = []
+                for part in (inside / line.removesuffix(".md")).parts:
+                    if part == "..":
+                        parts.pop()
+                    elif part == "/":
+                        parts.clear()
+                    else:
+                        parts.append(part)
+                yield "/".join(parts)
+
+
+def test_every_page_is_in_one_table_of_contents() -> None:
+    patterns = [entry for page in pages() for entry in entries(page)]
+    for page in pages() - {"index"}:
+        depth = page.count("/")
+        met = [
+            each for each in patterns if each.count("/") == depth and fnmatch.fnmatch(page, each)
+        ]
+        met = [each for each in met if not (page.endswith("/index") and each.endswith("*"))]
+        assert len(met) == 1, (page, met)
+
+
+def test_what_a_page_would_load_from_the_network_is_seen() -> None:
+    find = extension("offline").loaded_from_outside
+    assert find('<link rel="stylesheet" href="https://a.org/b.css">')
+    assert find("<img class='x'\n src='//a.org/b.png'>")
+    assert find("@font-face { src: url(https://a.org/b.woff2) }")
+    assert not find('<a href="https://a.org">a</a> <script src="../_static/a.js"></script>')
+
+
+def test_equations_become_mathml() -> None:
+    mathml = extension("equations").mathml
+    assert mathml(r"\Phi(t-t')").count("′") == 1
+    assert 'display="block"' in mathml(r"a = \frac{b}{c}", as_block=True)
+    with pytest.raises(Exception, match="cannot write the equation"):
+        mathml(r"\notacommand")
