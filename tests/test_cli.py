@@ -20,7 +20,7 @@ import numpy as np
 import pytest
 
 import viscontact as vc
-from viscontact import forecast, past
+from viscontact import footprint, past
 from viscontact.cli import execution, figures, main, progress
 from viscontact.errors import ConvergenceError
 from viscontact.recording.step_log import StepLog
@@ -459,7 +459,7 @@ def test_forecast_counts_the_steps_within_swings_and_at_kinks() -> None:
     grid = vc.Grid((32, 32), (3e-3, 3e-3))
 
     def steps(load: vc.LoadHistory, times: Any = times) -> float:
-        return forecast.step_count(prepare_run(vc.Sphere(0.01), material, load, grid, times))
+        return footprint.step_count(prepare_run(vc.Sphere(0.01), material, load, grid, times))
 
     assert steps(vc.step(0.1)) == 2
     assert steps(vc.triangle(0.1, 1.0)) == 4
@@ -501,7 +501,7 @@ def test_check_doubts_a_contact_too_large_for_small_strains(
 def test_grid_is_measured_against_the_memory_that_is_free(
     folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    needed = forecast.needed_memory(vc.Grid((32, 32), (1.0, 1.0)), fields_kept=1)
+    needed = footprint.needed_memory(vc.Grid((32, 32), (1.0, 1.0)), fields_kept=1)
     monkeypatch.setattr("viscontact.cli.preparation.available_memory", lambda: needed + 1)
     assert main(["run", "case.yaml", "-q", "-o", "fits"]) == 0
     monkeypatch.setattr("viscontact.cli.preparation.available_memory", lambda: needed - 1)

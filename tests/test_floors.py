@@ -21,7 +21,7 @@ PACKAGE = Path(viscontact.__file__).parent
 # The floors from the ground up. A new module gets its place here; think twice before it is high.
 FLOORS = (
     # 0 words: they do not know each other
-    ("errors", "real", "carried", "grid", "load", "indenters", "laws"),
+    ("errors", "real", "carried", "free_memory", "grid", "load", "indenters", "laws"),
     # 1 single ideas
     (
         "compliance",
@@ -70,6 +70,7 @@ FLOORS = (
         "automatic_grid",
         "period",
         "run",
+        "footprint",
         "loading_doubts",
         "growth",
         "cycles",
@@ -165,6 +166,9 @@ NEIGHBOURS = {
     ("extent", "estimate"),  # of the contact that has to fit
     ("period_estimate", "estimate"),  # whose answer it gives as well
     ("forecast", "foresight"),  # of doubts
+    ("footprint", "adaptive"),  # which steps are likely
+    ("footprint", "run"),
+    ("footprint", "schedule"),
     ("loading_doubts", "plausibility"),  # by how much of it a step may change
     ("loading_doubts", "run"),
     ("loading_doubts", "schedule"),

@@ -9,6 +9,7 @@ import signal
 import subprocess
 import sys
 import time as clock
+import warnings
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
@@ -18,6 +19,7 @@ import pytest
 import xarray as xr
 
 import viscontact as vc
+from viscontact import many_runs
 from viscontact.cli import jobs, main
 from viscontact.cli.variations import variations
 from viscontact.recording.lock import DirectoryInUse, locked
@@ -255,9 +257,56 @@ def test_simulations_in_processes_are_the_simulations_in_order() -> None:
     assert failed.__notes__ == ["in run 3 of 3 of simulate_many"]
 
 
+@pytest.mark.parametrize(("free", "at_once"), [(4e9, 4), (3.1e9, 2), (2.9e9, 1), (1e9, 1)])
+def test_simulations_that_do_not_fit_into_memory_wait_for_one_another(
+    free: float, at_once: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[int] = []
+
+    def pool(count: int, **_: object) -> None:
+        asked.append(count)
+        raise InterruptedError
+
+    # of an elastic body: 0.22 GB, and 40 numbers of 8 bytes a cell
+    sizes = {n: {"material": RUBBER, "grid": vc.Grid((n, n), (1.0, 1.0))} for n in (100, 2000)}
+    monkeypatch.setattr(many_runs, "ProcessPoolExecutor", pool)
+    monkeypatch.setattr(many_runs, "available_memory", lambda: free)
+    with warnings.catch_warnings(record=True) as warned, pytest.raises(InterruptedError):
+        vc.simulate_many([sizes[n] for n in (100, 2000, 100, 2000)], workers=4)
+    assert asked == [at_once]
+    said = f"about 3.45 GB of memory, {free / 1e9:.3g} GB are free; {at_once} at a time"
+    assert [said in str(each.message) for each in warned] == [True] * (at_once < 4)
+
+
 def test_number_of_workers_is_checked() -> None:
     with pytest.raises(ValueError, match="workers must be a whole number"):
         vc.simulate_many([], workers=0)
+
+
+ORPHANS = """\
+import time
+import viscontact as vc
+
+def wait():
+    print("begun", flush=True)
+    time.sleep(100)
+
+if __name__ == "__main__":
+    vc.simulate_many([wait, wait], workers=2)
+"""
+
+
+@pytest.mark.skipif(os.name == "nt", reason="not tried there")
+@pytest.mark.slow  # three processes that import everything
+def test_simulations_whose_script_is_killed_end_with_it(tmp_path: Path) -> None:
+    script = tmp_path / "script.py"
+    script.write_text(ORPHANS, encoding="utf-8")
+    process = subprocess.Popen([sys.executable, str(script)], stdout=subprocess.PIPE, text=True)
+    assert process.stdout is not None
+    assert [process.stdout.readline() for _ in range(2)] == ["begun\n"] * 2
+    process.kill()
+    # Their output ends when the last of those that write to it has ended.
+    assert process.communicate(timeout=60) == ("", None)
 
 
 @pytest.mark.slow  # three processes that import everything

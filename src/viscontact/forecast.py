@@ -2,35 +2,23 @@
 
 from __future__ import annotations
 
-import ctypes
 import math
-import os
-import sys
 import time as clock
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 from scipy import fft
 
-from viscontact.adaptive import likely_steps
 from viscontact.companions import usual_companions
 from viscontact.estimate import ContactEstimate, estimate_contact, level_of
 from viscontact.extent import largest_load
+from viscontact.footprint import run_memory, step_count
 from viscontact.foresight import foreseen_doubts
+from viscontact.free_memory import available_memory
 from viscontact.grid import Grid
 from viscontact.load import LoadPoint
 from viscontact.period_estimate import estimate_period
 from viscontact.run import Run
-from viscontact.schedule import FixedSteps
-
-#: Bytes of the program itself, and arrays of the grid's size that a run holds at a time, both
-#: measured; two arrays more for each term of the law. The program takes 150 to 190 MB: what the
-#: linear algebra library sets aside for itself differs between processors.
-PROGRAM, WORK_ARRAYS, ARRAYS_PER_TERM = 2.2e8, 40, 2
-
-#: What is kept of each step besides fields: when it is, and the scalars it ends with; measured.
-BYTES_PER_STEP = 2000.0
 
 #: Plain convolutions' time that the first step and each later one take at tolerance 1e-6, and
 #: what a step takes besides [s]; measured on the shipped rollers and spheres.
@@ -127,113 +115,6 @@ def forecast(run: Run, *, errors: bool = False) -> Forecast:
         or all(r < size / 2 for r, size in zip(reach, run.grid.size, strict=True)),
         doubts=foreseen_doubts(run, estimate, compliance),
     )
-
-
-def run_memory(run: Run) -> float:
-    """Return how many bytes a run holds, what it keeps of its steps among them.
-
-    Parameters
-    ----------
-    run : Run
-        A run that has been checked.
-    """
-    kept = BYTES_PER_STEP * step_count(run)
-    return needed_memory(run.grid, run.memory.fields_kept) + kept
-
-
-def step_count(run: Run) -> float:
-    """Return the steps of a run, those at the load's kinks and within its swings among them.
-
-    Parameters
-    ----------
-    run : Run
-        A run that has been checked; where it chooses its steps, those that are likely.
-    """
-    if run.adaptive is None:
-        return float(len(FixedSteps(run.times, run.load).steps))
-    return likely_steps(run.adaptive, run.load, run.compliance)
-
-
-def needed_memory(grid: Grid, fields_kept: int) -> float:
-    """Return how many bytes a run holds.
-
-    Parameters
-    ----------
-    grid : Grid
-        Its grid; nothing of its size is allocated here.
-    fields_kept : int
-        Fields that the memory keeps of pressure, and as many of deflection: one for each
-        exponential term of the contact compliance, or one for each step.
-
-    Returns
-    -------
-    float
-        Bytes.
-
-    Examples
-    --------
-    >>> round(needed_memory(Grid((1000, 1000), (1.0, 1.0)), fields_kept=2) / 1e6)
-    572
-    """
-    nx, ny = grid.shape
-    return PROGRAM + 8.0 * float(nx) * float(ny) * (WORK_ARRAYS + ARRAYS_PER_TERM * fields_kept)
-
-
-def available_memory() -> float:
-    """Return how many bytes of memory a program may still take.
-
-    Returns
-    -------
-    float
-        Bytes; infinity where the system does not say.
-
-    Examples
-    --------
-    >>> available_memory() > 1e6
-    True
-    """
-    readers = {"linux": _linux_memory, "win32": _windows_memory}
-    try:
-        return readers.get(sys.platform, _physical_memory)()
-    except (OSError, ValueError, AttributeError, StopIteration):
-        return float("inf")
-
-
-def _linux_memory() -> float:
-    lines = Path("/proc/meminfo").read_text(encoding="ascii").splitlines()
-    free = next(1024.0 * int(line.split()[1]) for line in lines if line.startswith("MemAvailable"))
-    return min(free, _container_memory())
-
-
-def _container_memory() -> float:
-    """What a control group leaves, where one limits the process."""
-    group = Path("/sys/fs/cgroup")
-    try:
-        limit = (group / "memory.max").read_text(encoding="ascii").strip()
-        used = int((group / "memory.current").read_text(encoding="ascii"))
-    except (OSError, ValueError):
-        return float("inf")
-    return float("inf") if limit == "max" else float(int(limit) - used)
-
-
-def _physical_memory() -> float:
-    return float(os.sysconf("SC_PAGE_SIZE")) * float(os.sysconf("SC_PHYS_PAGES"))
-
-
-def _windows_memory() -> float:
-    class Status(ctypes.Structure):
-        _fields_ = (
-            ("length", ctypes.c_ulong),
-            ("load", ctypes.c_ulong),
-            *((name, ctypes.c_ulonglong) for name in ("total", "free", "t", "f", "v", "a", "x")),
-        )
-
-    status = Status(length=ctypes.sizeof(Status))
-    # Only there on Windows.
-    kernel = getattr(ctypes, "windll").kernel32  # noqa: B009
-    if not kernel.GlobalMemoryStatusEx(ctypes.byref(status)):
-        raise OSError("the system does not say how much memory is free")
-    return float(status.free)
 
 
 def _estimate(run: Run, compliance: float, point: LoadPoint) -> ContactEstimate:

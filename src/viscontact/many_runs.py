@@ -5,6 +5,7 @@ from __future__ import annotations
 import multiprocessing
 import os
 import signal
+import threading
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import Future, ProcessPoolExecutor
@@ -15,6 +16,10 @@ from typing import Any
 import xarray as xr
 
 from viscontact.dataset import simulate
+from viscontact.footprint import PROGRAM, fitting, least_memory
+from viscontact.free_memory import available_memory
+from viscontact.grid import Grid
+from viscontact.material import Material
 
 #: What a run is given as: the arguments of `simulate` by name, or what makes its result.
 Recipe = Mapping[str, Any] | Callable[[], xr.Dataset]
@@ -35,8 +40,9 @@ def simulate_many(
         result. They are sent to the processes: what they hold must be picklable, so that a
         ``lambda`` will not do, a function of a module or a `functools.partial` of one will.
     workers : int, optional
-        So many processes at once; as many as there are cores when left out. Each holds a run in
-        memory, and computes on one thread if the run's own ``threads`` does not say otherwise.
+        So many processes at once; as many as there are cores when left out, fewer if so many runs
+        do not fit into the memory that is free. Each computes on one thread if the run's own
+        ``threads`` does not say otherwise.
     return_exceptions : bool
         Let what a run raises take the place of its result, so that the others are not lost.
 
@@ -58,6 +64,9 @@ def simulate_many(
     -----
     AccuracyWarning
         What the runs warn of, each told with its number.
+    RuntimeWarning
+        If memory is too short for so many at once. What a run takes whose grid is not given is not
+        known before, nor that of a function.
 
     Notes
     -----
@@ -77,7 +86,7 @@ def simulate_many(
     4.0
     """
     recipes = list(runs)
-    count = min(_checked(workers), max(1, len(recipes)))
+    count = _affordable(recipes, min(_checked(workers), max(1, len(recipes))))
     before = set(multiprocessing.active_children())
     spawn = multiprocessing.get_context("spawn")  # a fork would copy threads' locks
     with ProcessPoolExecutor(count, mp_context=spawn, initializer=_begin_worker) as pool:
@@ -100,6 +109,29 @@ def _checked(workers: int | None) -> int:
     return workers
 
 
+def _affordable(recipes: list[Recipe], wanted: int) -> int:
+    """How many of the runs are made at once: no more than fit into memory, as far as is known."""
+    needs, available = sorted(map(_least_memory, recipes))[-wanted:], available_memory()
+    count = max(1, fitting(needs, available))
+    if count < len(needs):
+        warnings.warn(
+            f"{wanted} of these runs at once would need about {sum(needs) / 1e9:.3g} GB of memory, "
+            f"{available / 1e9:.3g} GB are free; {count} at a time",
+            RuntimeWarning,
+            stacklevel=3,
+        )
+        return count
+    return wanted
+
+
+def _least_memory(recipe: Recipe) -> float:
+    given = {} if callable(recipe) else recipe
+    grid, material = given.get("grid"), given.get("material")
+    if isinstance(grid, Grid) and isinstance(material, Material):
+        return least_memory(grid, material)
+    return PROGRAM
+
+
 @contextmanager
 def _single_threaded() -> Iterator[None]:
     """Within it, processes begin whose libraries start no threads of their own accord."""
@@ -116,6 +148,15 @@ def _single_threaded() -> Iterator[None]:
 def _begin_worker() -> None:
     # Ctrl-C reaches every process at the terminal; the first one ends the others.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    # It waits for runs from a pipe of which it holds both ends: a parent that is killed does not
+    # end it.
+    if (parent := multiprocessing.parent_process()) is not None:
+        parent.join()
+        os._exit(1)
 
 
 def _outcome(recipe: Recipe) -> tuple[xr.Dataset, list[tuple[str, type[Warning]]]]:

@@ -7,12 +7,12 @@ from collections import Counter
 from collections.abc import Sequence
 from contextlib import redirect_stderr, suppress
 from dataclasses import dataclass
-from itertools import accumulate
 from os import cpu_count
 from pathlib import Path
 
 import typer
 
+from viscontact import footprint
 from viscontact.cli.attempt import attempted
 from viscontact.cli.interruption import Interruption
 from viscontact.cli.many_request import ManyRequest
@@ -20,7 +20,7 @@ from viscontact.cli.messages import refuse
 from viscontact.cli.run_request import RunRequest
 from viscontact.cli.taking_up import Standing
 from viscontact.cli.variations import as_typed
-from viscontact.forecast import available_memory, run_memory, step_count
+from viscontact.free_memory import available_memory
 from viscontact.recording.lock import LOCK_NAME, DirectoryInUse, locked
 from viscontact.units import in_digits
 
@@ -109,9 +109,7 @@ def fitting(jobs: Sequence[Job]) -> int:
     int
         At least 1: none has been admitted that does not fit alone.
     """
-    largest_first = sorted((job.memory for job in jobs), reverse=True)
-    available = available_memory()
-    return max(1, sum(together <= available for together in accumulate(largest_first)))
+    return max(1, footprint.fitting((job.memory for job in jobs), available_memory()))
 
 
 def doubts(jobs: Sequence[Job], wanted: int, at_once: int, threads: int) -> list[str]:
@@ -172,8 +170,8 @@ def _checked(request: RunRequest, interruption: Interruption) -> Job:
         stands,
         len(run.times) if run.adaptive is None else None,
         float(run.times[-1]),
-        cells * (1.0 + step_count(run)),
-        run_memory(run),
+        cells * (1.0 + footprint.step_count(run)),
+        footprint.run_memory(run),
     )
 
 

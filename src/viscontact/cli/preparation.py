@@ -8,8 +8,8 @@ from pathlib import Path
 
 from viscontact.case import Case, CaseError, read_case
 from viscontact.cli.messages import refuse
-from viscontact.compliance import SeriesCompliance
-from viscontact.forecast import available_memory, needed_memory
+from viscontact.footprint import least_memory, needed_memory
+from viscontact.free_memory import available_memory
 from viscontact.grid import Grid
 from viscontact.run import Run, prepare_run
 from viscontact.units import in_digits
@@ -76,10 +76,7 @@ def _refuse_beyond_memory(case: Case) -> None:
     """Refuse the grid before anything of its size is allocated."""
     if not isinstance(case.grid, Grid):
         return
-    compliance = case.material.contact_compliance()
-    # What any other law keeps depends on the steps, of which nothing is known yet.
-    terms = len(compliance.times) if isinstance(compliance, SeriesCompliance) else 1
-    _refuse_beyond(case, case.grid, needed_memory(case.grid, terms))
+    _refuse_beyond(case, case.grid, least_memory(case.grid, case.material))
 
 
 def _refuse_beyond(case: Case, grid: Grid, needed: float) -> None:
