@@ -21,7 +21,7 @@ PACKAGE = Path(viscontact.__file__).parent
 # The floors from the ground up. A new module gets its place here; think twice before it is high.
 FLOORS = (
     # 0 words: they do not know each other
-    ("errors", "real", "carried", "free_memory", "grid", "load", "indenters", "laws"),
+    ("errors", "shown", "real", "carried", "free_memory", "grid", "load", "indenters", "laws"),
     # 1 single ideas
     (
         "compliance",
@@ -85,6 +85,7 @@ FLOORS = (
         "error_bars",
     ),
     (
+        "accessor",
         "description",
         "outgrown",
         "variables",
@@ -98,7 +99,12 @@ FLOORS = (
     ),  # 5 labels and files
     (
         "examples",
+        "cross_section",
+        "markup",
         "units",
+        "particulars",
+        "told",
+        "notebook",
         "tables",
         "surfaces",
         "cards",
@@ -116,6 +122,10 @@ FLOORS = (
 # Neighbours on a floor of which the first needs the second; the second stands to the left above.
 NEIGHBOURS = {
     ("load", "real"),  # what counts as a number
+    ("load", "shown"),  # in a notebook, as all nouns
+    ("indenters", "shown"),
+    ("laws", "shown"),
+    ("grid", "shown"),
     ("indenters", "real"),
     ("grid", "real"),
     ("material", "compliance"),  # what contact sees of it
@@ -192,6 +202,8 @@ NEIGHBOURS = {
     ("marching", "run"),
     ("marching", "stepping"),
     ("marching", "step_by_step"),
+    ("dataset", "accessor"),  # what a result offers beside its variables
+    ("results", "accessor"),
     ("dataset", "outgrown"),  # fields on a grid that has been enlarged meanwhile
     ("recording", "outgrown"),
     ("companions", "plausibility"),  # of how small the spots are
@@ -213,6 +225,13 @@ NEIGHBOURS = {
     ("recording", "dataset"),  # the file is laid out as the dataset is
     ("recording", "description"),  # whose a record is
     ("recording", "results"),  # what the result is called
+    ("particulars", "units"),
+    ("told", "units"),
+    ("notebook", "units"),
+    ("notebook", "particulars"),  # are its tables
+    ("notebook", "told"),
+    ("notebook", "markup"),
+    ("notebook", "cross_section"),  # is what it draws
     ("case", "units"),
     ("case", "materials"),  # which may be given by name
     ("case", "cards"),  # materials of other programs
@@ -227,11 +246,18 @@ NEIGHBOURS = {
     ("plot", "units"),
     ("verify", "units"),
     ("plot", "identification"),  # data, what was fitted, and what is left
+    ("plot", "cross_section"),
     ("report", "plot"),  # has drawings of it
+    ("report", "markup"),
+    ("report", "particulars"),
+    ("report", "told"),
     ("report", "units"),
     ("plot", "materials"),  # curves are drawn over the points they rest on
     ("__main__", "cli"),  # python -m viscontact
 }
+# Who may ask the front door, which loads names from any floor when they are used: nouns that are
+# asked to show themselves, as notebooks ask the noun and not the page it is shown on.
+AT_THE_FRONT_DOOR = {"shown"}
 # The exact solutions stand aside: they rest on the lower floors, and the product computes nothing
 # with what it is checked against, so only people's floors may show them.
 REFERENCE_RESTS_ON, REFERENCE_SEEN_FROM = 1, 6
@@ -331,7 +357,7 @@ def fault_of_own(part: str, floor: int, found: Import, root: str) -> str | None:
     if wanted == "reference":
         allowed = floor >= REFERENCE_SEEN_FROM
     elif below is None:  # a name of the package's front door, which knows all floors
-        allowed = floor == TOP
+        allowed = floor == TOP or part in AT_THE_FRONT_DOOR
     else:
         limit = REFERENCE_RESTS_ON + 1 if part == "reference" else floor
         allowed = below < limit or (part, wanted) in NEIGHBOURS

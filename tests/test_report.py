@@ -20,16 +20,16 @@ from ruamel.yaml import YAML
 import viscontact
 from synthetic_results import maxwell_pressure, maxwell_sphere, roller
 from viscontact.cli import main
+from viscontact.markup import as_script
 from viscontact.report import report_page
 from viscontact.report.accuracy import accuracy_lines
 from viscontact.report.histories import answer_panels, load_panels
 from viscontact.report.inputs import inputs
 from viscontact.report.limits import notices
 from viscontact.report.map_data import map_data, section_csv, strides_of
-from viscontact.report.markup import as_script
 from viscontact.report.run_data import run_data
 from viscontact.report.shown_fields import shown_fields
-from viscontact.report.told import headline
+from viscontact.told import headline
 
 TIMES = (0.0, 1.0, 10.0, 100.0, 300.0)
 _MARKUP = "</title></script><script>alert(1)</script><img src=x onerror=alert(2)>"

@@ -13,6 +13,7 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact import __version__
+from viscontact.accessor import ResultAccessor as ResultAccessor
 from viscontact.companions import history_of
 from viscontact.description import describe_run
 from viscontact.error_bars import ErrorBars, error_bars, unknown_bars

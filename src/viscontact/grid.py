@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.real import as_real
+from viscontact.shown import Shown
 
 #: What a mesh can be chosen for.
 GRID_QUANTITIES = ("peak_pressure", "contact_area", "approach")
@@ -23,7 +24,7 @@ _LARGEST = 1e300
 
 
 @dataclass(frozen=True)
-class Grid:
+class Grid(Shown):
     """A uniform grid of rectangular cells, centred on the origin.
 
     Parameters
@@ -184,7 +185,7 @@ class Grid:
 
 
 @dataclass(frozen=True)
-class AutomaticGrid:
+class AutomaticGrid(Shown):
     """A grid to be chosen by the run itself, fine enough for the tolerance asked for.
 
     Parameters

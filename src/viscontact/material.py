@@ -16,10 +16,11 @@ from viscontact.compliance import (
 from viscontact.laws import BesideSpring, Law, SeriesLaw, TabulatedCreep, TabulatedRelaxation
 from viscontact.laws.arguments import compressibility, positive, store
 from viscontact.laws.interconversion import relaxation_from_creep
+from viscontact.shown import Shown
 
 
 @dataclass(frozen=True)
-class Material:
+class Material(Shown):
     """A linear viscoelastic material: creep in shear, and what its volume does.
 
     Parameters

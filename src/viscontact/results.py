@@ -6,6 +6,8 @@ from pathlib import Path
 
 import xarray as xr
 
+from viscontact.accessor import ResultAccessor as ResultAccessor
+
 #: The result's name in a run directory.
 RESULT_NAME = "result.nc"
 

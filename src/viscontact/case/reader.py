@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -25,7 +25,9 @@ from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.load import LoadHistory
 from viscontact.material import Material
+from viscontact.shown import Shown, ShownWhole
 from viscontact.stepping import AdaptiveTimes
+from viscontact.units import in_words
 
 # What a run writes beside its case; names that begin with a dot are its own, too.
 _RUN_NAMES = ("case.yaml", "result.nc", "progress.jsonl", "state.npz", "steps.log")
@@ -36,7 +38,7 @@ _MOST_PROBLEMS = 200
 
 
 @dataclass(frozen=True, eq=False)
-class Case:
+class Case(ShownWhole):
     """A run as a case file describes it, in nouns and SI numbers.
 
     Parameters
@@ -85,9 +87,26 @@ class Case:
     tolerance: float
     load_file: Path | None
     files: Mapping[KeyPath, Path]
-    digests: Mapping[Path, bytes]
+    digests: Mapping[Path, bytes] = field(repr=False)
     notes: tuple[str, ...]
-    document: Document
+    document: Document = field(repr=False)
+
+    @property
+    def shown_title(self) -> str:
+        """What the user calls it."""
+        return self.title or "Case"
+
+    def shown_parts(self) -> dict[str, Shown | str]:
+        """Return what a notebook shows of it."""
+        return {
+            "indenter": self.indenter,
+            "material": self.material,
+            "indenter material": self.indenter_material or "rigid",
+            "load": self.load,
+            "grid": self.grid or "automatic",
+            "steps": _steps_told(self.times),
+            "tolerance": f"{self.tolerance:g}",
+        }
 
     @property
     def text(self) -> str:
@@ -223,6 +242,15 @@ def _case(document: Document, found: CaseFile) -> Case:
 def _notes(found: CaseFile) -> tuple[str, ...]:
     described = (*found.indenter, found.material, found.indenter_material)
     return tuple(note for each in described if each is not None for note in each.notes)
+
+
+def _steps_told(times: NDArray[np.float64] | AdaptiveTimes) -> str:
+    if isinstance(times, AdaptiveTimes):
+        return (
+            f"chosen by their error, {times.tolerance:g} at most, up to {in_words(times.end, 's')}"
+        )
+    first, last = (in_words(float(instant), "s") for instant in times[[0, -1]])
+    return f"{times.size}, from {first} to {last}"
 
 
 def _files(found: CaseFile, document: Document) -> dict[KeyPath, Path]:

@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.indenters.lengths import positions, real_number
+from viscontact.shown import Shown
 
 
-class Indenter(ABC):
+class Indenter(Shown, ABC):
     """A rigid shape, known by its initial gap to the plane it is pressed on.
 
     To add a shape, write a frozen dataclass with a `gap`; give it `curvatures` too if it is

@@ -15,13 +15,14 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact.laws.arguments import positive
 from viscontact.laws.interconversion import creep_mean
 from viscontact.laws.oscillation import modulus_of_creep
+from viscontact.shown import Shown
 
 if TYPE_CHECKING:  # only names for type checkers: the series know laws, not laws the series
     from viscontact.laws.series import CreepSeries, RelaxationSeries
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Law(ABC):
+class Law(Shown, ABC):
     """A linear viscoelastic law in shear: creep compliance and relaxation modulus.
 
     ``law(t)`` is the creep compliance Phi(t), strain deviator per unit stress deviator, so that

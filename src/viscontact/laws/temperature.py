@@ -16,12 +16,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.laws import arguments
+from viscontact.shown import Shown
 
 #: Molar gas constant, exact since 2019 [J/(mol K)].
 GAS_CONSTANT = 8.31446261815324
 
 
-class Shift(ABC):
+class Shift(Shown, ABC):
     """A rule that gives the shift factor a_T of each temperature.
 
     ``law.slowed(shift.factor(T))`` is the law at temperature T.

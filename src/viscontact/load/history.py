@@ -10,6 +10,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from viscontact.shown import Shown
+
 #: An instant [s], and which side of a jump there: "left" before it, "right" after it.
 Moment = tuple[float, str]
 
@@ -53,7 +55,7 @@ class LoadPoint:
         return self.approach is not None and self.approach <= 0 and not (self.tilt_x or self.tilt_y)
 
 
-class LoadHistory(ABC):
+class LoadHistory(Shown, ABC):
     """A force or an approach over time, with where the force acts and prescribed tilts."""
 
     #: What the history prescribes along z.

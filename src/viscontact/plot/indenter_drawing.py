@@ -11,9 +11,9 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
+from viscontact.cross_section import SHOWN_PART, Section, cut, lines_through
 from viscontact.indenters import CombinedIndenter, Indenter, PlacedIndenter, Roller
 from viscontact.plot import style
-from viscontact.plot.cross_section import SHOWN_PART, Section, cut, lines_through
 from viscontact.plot.readable import DisplayUnit, display_number, display_unit
 
 _PLAN_POINTS = 601

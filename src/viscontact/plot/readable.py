@@ -46,7 +46,7 @@ def display_unit(si_unit: str, *values: ArrayLike) -> DisplayUnit:
     Parameters
     ----------
     si_unit : str
-        The SI unit of the values, as `viscontact.units.readable_unit` takes it, or ``"1/Pa"``.
+        The SI unit of the values, as `viscontact.units.readable_unit` takes it.
     *values : array_like
         Everything that shares the axis [SI]; what is not finite is disregarded.
 
@@ -64,10 +64,6 @@ def display_unit(si_unit: str, *values: ArrayLike) -> DisplayUnit:
     """
     finite = [np.abs(array[np.isfinite(array)]) for array in map(np.asarray, values)]
     largest = max((float(array.max(initial=0.0)) for array in finite), default=0.0)
-    if si_unit == "1/Pa":
-        # The largest prefix that leaves the compliance below a thousand.
-        modulus = display_unit("Pa", 999 / largest if largest else 1.0)
-        return DisplayUnit(f"1/{modulus.symbol}", 1 / modulus.factor)
     unit = units.readable_unit(largest, si_unit)
     return DisplayUnit(unit.symbol, unit.factor)
 

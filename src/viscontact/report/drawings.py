@@ -11,11 +11,11 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
+from viscontact.markup import element
 from viscontact.plot import creep_curve, draw_indenter
 from viscontact.plot.recorded import recorded_noun
 from viscontact.plot.saving import as_svg
 from viscontact.report.inputs import case_of
-from viscontact.report.markup import element
 
 #: A law is drawn from so much earlier than the end on [-]: how it comes to where the run begins.
 _BACK = 1e-4

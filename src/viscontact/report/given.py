@@ -14,9 +14,9 @@ import scipy
 import xarray as xr
 
 from viscontact import __version__
+from viscontact.markup import element
 from viscontact.report import accuracy, citation, drawings, limits
 from viscontact.report.inputs import Input, case_file, inputs
-from viscontact.report.markup import element
 from viscontact.units import in_words
 
 

@@ -14,8 +14,8 @@ from viscontact.plot.history import suits_log_time
 from viscontact.plot.readable import display_number, display_unit
 from viscontact.report.inputs import prescribes_approach
 from viscontact.report.map_data import rounded
-from viscontact.report.told import errors_of, told
 from viscontact.stated_errors import MESH_DEPENDENT
+from viscontact.told import errors_of, told
 from viscontact.units import in_words, is_rounding_tilt
 from viscontact.variables import SCALARS
 

@@ -13,10 +13,10 @@ import xarray as xr
 from plotly.offline import get_plotlyjs
 
 from viscontact import __version__
+from viscontact.markup import as_script, element, written
 from viscontact.report import found, given
 from viscontact.report.histories import answer_panels, load_panels, time_axis
 from viscontact.report.map_data import map_data, section_data
-from viscontact.report.markup import as_script, element, written
 from viscontact.report.shown_fields import ShownFields, shown_fields
 
 _CHAPTERS = {

@@ -30,7 +30,8 @@ def readable_unit(largest: float, unit: str) -> ReadableUnit:
     largest : float
         The largest magnitude to be printed, in `unit`.
     unit : str
-        The SI unit: ``"m"``, ``"m2"``, ``"s"``, ``"N"``, ``"Pa"``, ``"rad"``, ``"J"`` or ``"1"``.
+        The SI unit: ``"m"``, ``"m2"``, ``"s"``, ``"N"``, ``"Pa"``, ``"1/Pa"``, ``"Pa s"``,
+        ``"rad"``, ``"J"``, ``"J/mol"`` or ``"1"``.
 
     Returns
     -------
@@ -45,11 +46,17 @@ def readable_unit(largest: float, unit: str) -> ReadableUnit:
     'MPa'
     >>> readable_unit(2.6e-17, "J").symbol
     'aJ'
+    >>> readable_unit(5.5e-10, "1/Pa").symbol
+    '1/GPa'
     """
     symbol = _SYMBOLS.get(unit, unit)
     size = abs(largest)
     if not symbol or not math.isfinite(size) or size == 0.0:
         return ReadableUnit(symbol, 1.0)
+    if symbol == "1/Pa":
+        # The largest prefix that leaves the compliance below a thousand.
+        modulus = readable_unit(999 / size, "Pa")
+        return ReadableUnit(f"1/{modulus.symbol}", 1 / modulus.factor)
     if symbol == "s":
         for above, factor, name in reversed(_LONG_TIMES):
             if size > above:

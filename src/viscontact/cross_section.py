@@ -10,7 +10,9 @@ from scipy.optimize import minimize
 
 from viscontact.indenters import Indenter
 
-_POINTS = 1601
+POINTS = 1601
+# An axis passes for touching the deepest level if it comes so near to it, of all heights drawn.
+_TOUCHING = 1e-3
 # Halvings of a step that place an end to rounding.
 _BISECTIONS = 60
 # A section is drawn up to the height that so much of it stays below: ends may rise without end.
@@ -48,7 +50,7 @@ def lines_through(
     y: NDArray[np.float64],
     gap: NDArray[np.float64],
 ) -> tuple[float, float]:
-    """Where sections run: through deepest points, as near to the axes as there are any.
+    """Where sections run: along the axes if they touch the deepest level, else through its points.
 
     Parameters
     ----------
@@ -63,6 +65,25 @@ def lines_through(
         Of the section along y and of that along x [m].
     """
     step = float(max(x[1] - x[0], y[1] - y[0]))
+    at_x, at_y = _deepest(indenter, x, y, gap, step)
+    solid = gap[np.isfinite(gap)]
+    touching = float(solid.min()) + _TOUCHING * float(np.ptp(solid)) + 1e-9 * step
+    middle = np.zeros(1)
+    along_y, along_x = indenter.gap(middle, y), indenter.gap(x, middle)
+    return (
+        0.0 if along_y.min() <= touching else at_x,
+        0.0 if along_x.min() <= touching else at_y,
+    )
+
+
+def _deepest(
+    indenter: Indenter,
+    x: NDArray[np.float64],
+    y: NDArray[np.float64],
+    gap: NDArray[np.float64],
+    step: float,
+) -> tuple[float, float]:
+    """Deepest points of a body, the x and the y that are nearest to zero [m]."""
     i, j = np.nonzero(gap <= gap.min() + 1e-9 * step)
     at = float(x[i][np.abs(x[i]).argmin()]), float(y[j][np.abs(y[j]).argmin()])
     if gap.min() <= 1e-9 * step:
@@ -79,7 +100,7 @@ def lines_through(
     return float(deepest[0]), float(deepest[1])
 
 
-def cut(indenter: Indenter, extent: float, at: float, axis: int) -> Section:
+def cut(indenter: Indenter, extent: float, at: float, axis: int, points: int = POINTS) -> Section:
     """Cut a body along an axis.
 
     Parameters
@@ -92,13 +113,15 @@ def cut(indenter: Indenter, extent: float, at: float, axis: int) -> Section:
         Where it crosses the other axis [m].
     axis : int
         0 for a cut along x, 1 for one along y.
+    points : int, optional
+        How many, besides the ends of the body.
 
     Returns
     -------
     Section
         With its ends among the points.
     """
-    position = np.linspace(-extent / 2, extent / 2, _POINTS)
+    position = np.linspace(-extent / 2, extent / 2, points)
 
     def gap_at(along: NDArray[np.float64]) -> NDArray[np.float64]:
         fixed = np.full_like(along, at)

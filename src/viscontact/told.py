@@ -8,9 +8,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from viscontact.plot.readable import display_unit
 from viscontact.stated_errors import stated_error
-from viscontact.units import in_error_digits, in_supported_digits, in_words
+from viscontact.units import in_error_digits, in_supported_digits, in_words, readable_unit
 from viscontact.variables import SCALARS
 
 #: Digits of a number at most, whatever its error.
@@ -40,7 +39,7 @@ def told(value: float, error: float, units: str) -> str:
     >>> told(57.634e-6, 0.149e-6, "m2"), told(152.2e6, math.inf, "Pa")
     ('57.63 ± 0.15 mm²', '152.2 MPa, depends on the mesh')
     """
-    unit = display_unit(units, value)
+    unit = readable_unit(value, units)
     number = in_supported_digits(value / unit.factor, error / unit.factor, _DIGITS)
     if not error > _NEGLIGIBLE * abs(value) or math.isinf(error):
         number = in_words(value, units)

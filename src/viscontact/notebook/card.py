@@ -1,0 +1,102 @@
+"""What a noun shows: a title, drawings, and a table of names and values."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from xml.etree.ElementTree import Element
+
+from viscontact.markup import element, written
+
+_BOX = "display:flex;flex-wrap:wrap;gap:4px 20px;align-items:flex-start;margin:2px 0 8px"
+_TABLE = "border-collapse:collapse;font-size:13px;margin:0"
+_CELL = "text-align:left;padding:2px 14px 2px 0;border:0;vertical-align:top;background:none"
+_NAME = f"{_CELL};font-weight:400;opacity:.72;white-space:nowrap"
+_WRAP = f"{_CELL};max-width:34em;white-space:normal"
+
+Rows = Sequence[tuple[str, ...]]
+
+
+@dataclass(frozen=True)
+class Card:
+    """A part of what is shown.
+
+    Attributes
+    ----------
+    title : str
+        What it is.
+    rows : sequence of tuple of str
+        The table: names, and one value or more of each.
+    drawings : sequence of Element
+        Beside it.
+    heads : tuple of str
+        Above the columns of values; none for a single one.
+    lead : str
+        A sentence below the title.
+    """
+
+    title: str
+    rows: Rows
+    drawings: Sequence[Element] = ()
+    heads: tuple[str, ...] = ()
+    lead: str = ""
+
+    def text(self) -> str:
+        """Write title, sentence and table for a terminal."""
+        table = [("", *self.heads), *self.rows] if self.heads else list(self.rows)
+        columns = max((len(row) for row in table), default=0)
+        widths = [max(len(row[k]) for row in table if k < len(row)) for k in range(columns)]
+        lines = [
+            "  " + "  ".join(each.ljust(width) for each, width in zip(row, widths, strict=False))
+            for row in table
+        ]
+        return "\n".join(line.rstrip() for line in filter(None, [self.title, self.lead, *lines]))
+
+    def element(self) -> Element:
+        """Make the drawings, and the table beside them."""
+        title = element("div", self.title, style="font-weight:600;margin:2px 0")
+        lead = element("div", self.lead, style="margin:0 0 4px;max-width:60em")
+        head = (
+            element("tr", *(element("th", text, style=_NAME) for text in ("", *self.heads)))
+            if self.heads
+            else None
+        )
+        table = element("table", head, *map(_row, self.rows), style=_TABLE)
+        figures = (element("div", each) for each in self.drawings)
+        box = element("div", *figures, element("div", table) if self.rows else None, style=_BOX)
+        return element("div", title, lead if self.lead else None, box)
+
+
+def as_html(cards: Iterable[Card]) -> str:
+    """Write cards, one below the other, as a piece of HTML.
+
+    Parameters
+    ----------
+    cards : iterable of Card
+        What is shown.
+    """
+    return written(element("div", *(card.element() for card in cards), class_="viscontact"))
+
+
+def as_text(cards: Iterable[Card]) -> str:
+    """Write the tables of cards for a terminal.
+
+    Parameters
+    ----------
+    cards : iterable of Card
+        What is shown.
+
+    Examples
+    --------
+    >>> print(as_text([Card("Roller", [("radius", "5 mm"), ("half length", "9 mm")])]))
+    Roller
+      radius       5 mm
+      half length  9 mm
+    """
+    return "\n\n".join(card.text() for card in cards)
+
+
+def _row(row: tuple[str, ...]) -> Element:
+    name, *values = row
+    cells = (element("td", value, style=_WRAP) for value in values)
+    return element("tr", element("th", name, scope="row", style=_NAME), *cells)

@@ -1,0 +1,168 @@
+"""Small drawings over time: creep laws and load histories."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import Any
+from xml.etree.ElementTree import Element
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.description import describe
+from viscontact.laws import Elastic, Law, SeriesLaw, TabulatedCreep, TabulatedRelaxation
+from viscontact.load import HarmonicHistory, LoadHistory
+from viscontact.notebook.panel import ORANGE, Mark, panel
+from viscontact.notebook.scales import Scale, linear, logarithmic
+
+_POINTS = 121
+#: A formula is drawn over its own times and so many times shorter and longer ones.
+_AROUND = 100.0
+#: Of a harmonic load so many cycles are drawn, with so many points each.
+_MOST_CYCLES, _POINTS_OF_CYCLE = 5, 48
+#: What is held after the last point of a history is drawn over this part of its time.
+_HELD = 0.25
+#: The drawing begins by so much of its length earlier.
+_BEFORE = 0.05
+#: Beyond this ratio of last to first compliance its axis is logarithmic.
+_DECADES = 20.0
+#: Names of arguments that are times.
+_TIMES = ("times", "time", "reference_time")
+_PHI, _G = ("creep compliance Φ", "1/Pa"), ("relaxation modulus G", "Pa")
+
+
+def law_drawings(law: Law) -> list[Element]:
+    """Draw creep compliance and relaxation modulus of a law over logarithmic time.
+
+    Parameters
+    ----------
+    law : Law
+        The law.
+
+    Returns
+    -------
+    list of Element
+        The two curves; that alone which a table gives, the other takes an interconversion; none
+        of an elastic law.
+    """
+    if isinstance(law, Elastic):
+        return []
+    span = law_span(law)
+    if isinstance(law, TabulatedCreep):
+        return [_curve(law, *_PHI, span, (law.times, law.compliance))]
+    if isinstance(law, TabulatedRelaxation):
+        return [_curve(law.relaxation, *_G, span, (law.times, law.modulus))]
+    drawn = [_curve(law, *_PHI, span)]
+    if law(0.0) > 0 and law.inversion_error == 0:
+        drawn.append(_curve(law.relaxation, *_G, span))
+    return drawn
+
+
+def law_span(law: Law) -> tuple[float, float]:
+    """Return the first and the last time worth drawing, whole decades [s].
+
+    Parameters
+    ----------
+    law : Law
+        The law.
+
+    Examples
+    --------
+    >>> from viscontact.laws import Maxwell
+    >>> law_span(Maxwell(1e9, 1e11))
+    (1.0, 10000.0)
+    """
+    if isinstance(law, TabulatedCreep | TabulatedRelaxation):
+        times = [time for time in law.times if time > 0]
+        return min(times), max(times) if len(times) > 1 else 10 * min(times)
+    own = _own_times(describe(law))
+    if isinstance(law, SeriesLaw):
+        own = (*own, *law.creep_series().times)
+        own = (*own, *law.relaxation_series().times) if law(0.0) > 0 else own
+    first, last = (min(own) / _AROUND, max(own) * _AROUND) if own else (1e-3, 1e3)
+    return 10.0 ** math.floor(math.log10(first) + 1e-9), 10.0 ** math.ceil(math.log10(last) - 1e-9)
+
+
+def load_drawings(load: LoadHistory) -> list[Element]:
+    """Draw force or approach over time.
+
+    Parameters
+    ----------
+    load : LoadHistory
+        The history.
+
+    Returns
+    -------
+    list of Element
+        One drawing.
+    """
+    times, levels, end = _course(load)
+    low, high = float(levels.min(initial=0.0)), float(levels.max(initial=0.0))
+    if low == high:
+        high = 1.0
+    x = linear("time", "s", -_BEFORE * end, end)
+    if load.kinks[-1] == 0:  # the drawing's end means nothing
+        x = Scale("time", x.low, x.high, tuple(tick for tick in x.ticks if tick[1] == "0"))
+    y = linear(load.control, load.unit, low - 0.04 * (high - low), high + 0.06 * (high - low), 3)
+    return [panel(f"{load.control} over time", x, y, [Mark(times, levels)], aside=_aside(load))]
+
+
+def _aside(load: LoadHistory) -> str:
+    if isinstance(load, HarmonicHistory) and load.cycles > _MOST_CYCLES:
+        return f"{_MOST_CYCLES} of {load.cycles} cycles"
+    return "then held"
+
+
+def _course(load: LoadHistory) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
+    """Points of a history, both of a jump, and where the drawing ends [s]."""
+    if isinstance(load, HarmonicHistory):
+        cycles = min(load.cycles, _MOST_CYCLES)
+        end = cycles * load.period
+        instants = np.linspace(0.0, end, cycles * _POINTS_OF_CYCLE + 1)
+        levels = [*2 * [float(load.level_at(0.0, side="left"))], *load.level_at(instants)]
+        return np.array([-_BEFORE * end, 0.0, *instants]), np.array(levels), end
+    kinks = load.kinks
+    end = float(kinks[-1]) * (1 + _HELD) or 1.0
+    instants = np.unique(np.concatenate([[-_BEFORE * end, 0.0], kinks, [end]]))
+    both = [load.level_at(instants, side=side) for side in ("left", "right")]
+    return np.repeat(instants, 2), np.stack(both, axis=1).ravel(), end
+
+
+def _curve(
+    of: Callable[[NDArray[np.float64]], NDArray[np.float64]],
+    quantity: str,
+    unit: str,
+    span: tuple[float, float],
+    rows: tuple[Sequence[float], Sequence[float]] | None = None,
+) -> Element:
+    times = np.geomspace(*span, _POINTS)
+    values = of(times)
+    good = values[np.isfinite(values)]
+    marks = [Mark(times, values)]
+    if rows is not None:
+        marks.append(Mark(np.array(rows[0]), np.array(rows[1]), "dots", ORANGE))
+    x = logarithmic("time", "s", *span, each_with_unit=True)
+    return panel(quantity, x, _upward(quantity.split()[-1], unit, good), marks)
+
+
+def _upward(symbol: str, unit: str, values: NDArray[np.float64]) -> Scale:
+    """The axis for values above zero."""
+    low, high = float(values.min()), float(values.max())
+    if values[-1] > _DECADES * values[0]:  # what flows; what relaxes goes to zero on a linear one
+        return logarithmic(symbol, unit, 0.8 * low, 1.2 * high)
+    top = 1.08 * high
+    # A curve that moves little is drawn around itself; others down to zero.
+    return linear(symbol, unit, low - 0.15 * (top - low) if low > 0.5 * top else 0.0, top, 3)
+
+
+def _own_times(described: Any) -> tuple[float, ...]:
+    """All arguments above 0 that are times, those of laws within laws as well [s]."""
+    if not isinstance(described, dict):
+        return ()
+    found: list[float] = []
+    for key, value in described.items():
+        if key in _TIMES:
+            found += np.atleast_1d(np.asarray(value, dtype=np.float64)).tolist()
+        found += _own_times(value)
+    return tuple(time for time in found if 0 < time < math.inf)

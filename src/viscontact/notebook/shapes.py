@@ -1,0 +1,187 @@
+"""Small drawings of indenters and grids."""
+
+from __future__ import annotations
+
+import math
+from xml.etree.ElementTree import Element
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.cross_section import Section, cut, lines_through
+from viscontact.grid import Grid
+from viscontact.indenters import Indenter
+from viscontact.markup import element
+from viscontact.notebook.panel import ROOM, WIDTH, Mark, panel
+from viscontact.notebook.scales import linear
+
+_POINTS, _MESH = 241, 121
+#: Of the smallest radius of curvature: bodies are drawn where their gap is below it.
+_CAP = 1 / 8
+#: Where bodies may end: powers of ten [m], and how many places are tried in each.
+_DECADES, _TRIALS = (-9, 2), 24
+#: Bodies without any length of their own are drawn over this [m]; they look alike at any size.
+_ANY_EXTENT = 1e-3
+_PERIODS = 3
+#: Lines of a grid are drawn so far apart at least, and all of it in so much room [px].
+_LEAST_MESH, _ROOM = 7.0, (206.0, 120.0)
+
+
+def indenter_drawings(indenter: Indenter) -> list[Element]:
+    """Draw sections through the deepest point of a body, along x and along y.
+
+    Parameters
+    ----------
+    indenter : Indenter
+        The body.
+
+    Returns
+    -------
+    list of Element
+        Two drawings; one where both would be alike; none if no part of the body is found.
+    """
+    along, across = drawn_size(indenter)
+    x, y = (np.linspace(-extent / 2, extent / 2, _MESH) for extent in (along, across))
+    gap = indenter.gap(x[:, None], y)
+    if not np.isfinite(gap).any():
+        return []
+    at_x, at_y = lines_through(indenter, x, y, gap)
+    first = cut(indenter, along, at_y, 0, _POINTS)
+    second = cut(indenter, across, at_x, 1, _POINTS)
+    if _alike(first, second):
+        return [_section(first, "x", "along x and along y")]
+    return [_section(first, "x", "along x"), _section(second, "y", "along y")]
+
+
+def drawn_size(indenter: Indenter) -> tuple[float, float]:
+    """Choose how much of a body is worth drawing, along x and y around the origin [m].
+
+    Parameters
+    ----------
+    indenter : Indenter
+        The body.
+
+    Examples
+    --------
+    A cap an eighth of the radius high:
+
+    >>> from viscontact.indenters import Sphere
+    >>> [round(extent, 3) for extent in drawn_size(Sphere(radius=1.0))]
+    [0.968, 0.968]
+    """
+    found = [_reach(indenter, axis) for axis in (0, 1)]
+    own = 0.5 * _PERIODS * indenter.period
+    known = [reach for reach in found if math.isfinite(reach)]
+    fallback = own if math.isfinite(own) else max(known, default=_ANY_EXTENT / 2)
+    reaches = [reach if math.isfinite(reach) else fallback for reach in found]
+    # A body that is far longer than wide looks so in numbers; one of no height is no drawing.
+    return 2 * reaches[0], 2 * reaches[1]
+
+
+def grid_drawings(grid: Grid) -> list[Element]:
+    """Draw a grid in its true proportions, with some of its lines.
+
+    Parameters
+    ----------
+    grid : Grid
+        The grid.
+
+    Returns
+    -------
+    list of Element
+        One drawing.
+    """
+    scale = min(room / extent for room, extent in zip(_ROOM, grid.size, strict=True))
+    width, height = (max(scale * extent, 6.0) for extent in grid.size)
+    every = [
+        math.ceil(cells * _LEAST_MESH / extent)
+        for cells, extent in zip(grid.shape, (width, height), strict=True)
+    ]
+    columns = [width * i / grid.shape[0] for i in range(0, grid.shape[0] + 1, every[0])]
+    rows = [height * j / grid.shape[1] for j in range(0, grid.shape[1] + 1, every[1])]
+    lines = "".join(
+        [f"M{7 + x:.1f},22v{height:.1f}" for x in columns]
+        + [f"M7,{22 + y:.1f}h{width:.1f}" for y in rows]
+    )
+    shown = " × ".join(str(each) for each in every)
+    head = "the cells" if max(every) == 1 else f"each mesh: {shown} cells"
+    border = {"stroke_dasharray": "5 3"} if grid.periodic else {}
+    frame = element(
+        "rect",
+        **{"x": "7", "y": "22", "width": f"{width:.1f}", "height": f"{height:.1f}"},
+        fill="none",
+        stroke="currentColor",
+        stroke_width="1.6",
+        **border,
+    )
+    return [
+        element(
+            "svg",
+            element("text", head, x="6", y="13", font_weight="600"),
+            element("path", d=lines, stroke="currentColor", stroke_opacity="0.4", fill="none"),
+            frame,
+            viewBox=f"0 0 {WIDTH} {height + 30:.0f}",
+            width=str(WIDTH),
+            height=f"{height + 30:.0f}",
+            role="img",
+            aria_label="the grid",
+            style="font:11px system-ui,sans-serif;max-width:100%",
+            fill="currentColor",
+        )
+    ]
+
+
+def _reach(indenter: Indenter, axis: int) -> float:
+    """How far from the origin a body is drawn along an axis [m]; inf where nothing tells."""
+    places = np.logspace(*_DECADES, (_DECADES[1] - _DECADES[0]) * _TRIALS + 1)
+    gap = np.fmin(*(_along(indenter, sign * places, axis) for sign in (1.0, -1.0)))
+    solid = np.flatnonzero(np.isfinite(gap))
+    if not solid.size:
+        return math.inf
+    # The first place beyond the end leaves some room beside it.
+    end = math.inf if solid[-1] == places.size - 1 else float(places[solid[-1] + 1])
+    radius = indenter.radius_of_curvature
+    if not math.isfinite(radius):
+        return end
+    below = np.flatnonzero(gap <= _CAP * radius)
+    last = int(below[-1]) if below.size else 0
+    if last == places.size - 1 or not math.isfinite(gap[last + 1]):
+        return end
+    low, high = places[last : last + 2].tolist()
+    return min(end, _where(indenter, _CAP * radius, low, high, axis))
+
+
+def _where(indenter: Indenter, height: float, low: float, high: float, axis: int) -> float:
+    """Where the gap comes to a height, between two places [m]."""
+    for _ in range(40):
+        middle = (low + high) / 2
+        gap = min(float(_along(indenter, np.array([s * middle]), axis)[0]) for s in (1.0, -1.0))
+        low, high = (middle, high) if gap <= height else (low, middle)
+    return high
+
+
+def _along(indenter: Indenter, places: NDArray[np.float64], axis: int) -> NDArray[np.float64]:
+    idle = np.zeros_like(places)
+    return indenter.gap(places, idle) if axis == 0 else indenter.gap(idle, places)
+
+
+def _alike(first: Section, second: Section) -> bool:
+    same = first.position.shape == second.position.shape
+    return same and bool(
+        np.allclose(first.position, second.position)
+        and np.allclose(first.gap, second.gap, rtol=1e-6, atol=1e-6 * first.top, equal_nan=True)
+    )
+
+
+def _section(section: Section, along: str, heading: str) -> Element:
+    half, top = float(section.position[-1]), section.top
+    x = linear(along, "m", -half, half)
+    y = linear("gap", "m", -0.16 * top, top, most=3)
+    plane = Mark(np.array([-half, half]), np.zeros(2), "ground")
+    body = Mark(section.position, section.gap, "body")
+    across, up = ROOM
+    stretch = (up / (1.16 * top)) / (across / (2 * half))
+    aside = f"heights ×{stretch:.2g}" if abs(stretch - 1) > 0.05 else ""
+    if stretch >= 100:
+        aside = f"heights ×{round(stretch, 1 - math.floor(math.log10(stretch))):.0f}"
+    return panel(heading, x, y, [plane, body], aside=aside)
