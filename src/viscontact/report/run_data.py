@@ -17,7 +17,7 @@ from viscontact.report.histories import panel_labels
 from viscontact.report.limits import notices, warnings_of
 from viscontact.report.map_data import map_data, rounded, section_data
 from viscontact.report.shown_fields import shown_fields
-from viscontact.report.told import errors_of
+from viscontact.told import errors_of
 from viscontact.variables import SCALARS
 
 
