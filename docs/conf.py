@@ -11,7 +11,7 @@ import viscontact
 
 project = "viscontact"
 author = "The viscontact developers"
-copyright = author  # Sphinx asks for this name
+copyright = f"{author}, MIT licence"  # Sphinx asks for this name
 version = release = viscontact.__version__
 
 extensions = [
@@ -26,8 +26,10 @@ extensions = [
     "offline",
     "made_pages",
 ]
+numfig = math_numfig = True  # (4.2) is the second equation of the fourth page of the theory
+numfig_secnum_depth = 1
 templates_path = ["_templates"]
-exclude_patterns = ["_ext", "_templates", "gallery", "generated/gallery/**/*.ipynb"]
+exclude_patterns = ["_ext", "_static", "_templates", "gallery", "generated/gallery/**/*.ipynb"]
 nitpicky = True
 suppress_warnings = ["config.cache"]  # of the gallery's scraper, which is a function
 
@@ -85,4 +87,4 @@ html_theme_options = {
     "pygments_light_style": "a11y-high-contrast-light",
     "pygments_dark_style": "a11y-high-contrast-dark",
 }
-html_sidebars = {"index": [], "tutorial": [], "examples/**": [], "examples/index": []}
+html_sidebars = {"index": [], "tutorial": []}

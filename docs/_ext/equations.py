@@ -13,8 +13,16 @@ from sphinx.util.math import get_node_equation_number
 from sphinx.util.typing import ExtensionMetadata
 from sphinx.writers.html5 import HTML5Translator
 
-#: A prime behind a symbol, a bracket or a group.
-_PRIMES = re.compile(r"(?<=[\w})\]])('+)")
+#: What LaTeX takes for a half, and the converter for something else, silently.
+_BARE = re.compile(r"\\[td]?frac\s*[^{\s]|\\[td]frac")
+
+#: A function's name before what it is of, if that has no brackets: they stand a little apart.
+_APPLIED = re.compile(
+    r"(\\(?:ln|log|exp|sin|cos|cot|arctan|operatorname\{\w+\})(?:[\^_](?:\w|\{\w+\}))?)\s+(?=[^\s({,])"
+)
+
+#: Signs as mathematics writes them.
+_SIGNS = {"<mo>'</mo>": '<mo lspace="0em" rspace="0em">′</mo>', "<mo>*</mo>": "<mo>∗</mo>"}
 
 
 def mathml(tex: str, as_block: bool = False) -> str:
@@ -42,11 +50,16 @@ def mathml(tex: str, as_block: bool = False) -> str:
     >>> mathml("t'").count("′")
     1
     """
-    primed = _PRIMES.sub(lambda found: r"^{" + r"\prime" * len(found[1]) + "}", tex)
+    bare = _BARE.search(tex)
+    if bare:
+        raise ExtensionError(f"in the equation {tex!r}: write \\frac{{a}}{{b}}, not {bare[0]!r}")
     try:
-        return tex2mathml(primed, as_block=as_block)
+        written = tex2mathml(_APPLIED.sub(r"\1\\,", tex), as_block=as_block)
     except MathError as error:
         raise ExtensionError(f"cannot write the equation {tex!r} in MathML: {error}") from error
+    for plain, sign in _SIGNS.items():
+        written = written.replace(plain, sign)
+    return str(written)
 
 
 def _inline(self: HTML5Translator, node: nodes.math) -> None:

@@ -21,14 +21,21 @@ from viscontact.units import in_words
 from viscontact.variables import COORDINATES, FIELDS, SCALARS, Variable
 
 
+ROOT = Path(__file__).parents[2]
+
+
 def _changes() -> str:
-    text = (Path(__file__).parents[2] / "CHANGELOG.md").read_text(encoding="utf-8")
+    text = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
     # Names of pages are links here.
     return re.sub(r"\(`docs/([\w/-]+)\.md`\)", r"({doc}`/\1`)", text)
 
 
+def _contributing() -> str:
+    return (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+
+
 def _citation() -> str:
-    text = (Path(__file__).parents[2] / "CITATION.cff").read_text(encoding="utf-8")
+    text = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
     return f"```yaml\n{text.strip()}\n```"
 
 
@@ -74,6 +81,7 @@ PARTS: dict[str, Callable[[], str]] = {
     "scalars": lambda: _variables(SCALARS),
     "fields": lambda: _variables(FIELDS),
     "changes": _changes,
+    "contributing": _contributing,
     "citation": _citation,
 }
 

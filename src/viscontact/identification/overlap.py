@@ -54,7 +54,7 @@ def log_shift(slow: Curve, fast: Curve) -> tuple[float, float]:
 
     Notes
     -----
-    The start is closed-form shifting (ISO 18437-6; Gergesova et al., Rheol. Acta 50 (2011)
+    The start is closed-form shifting (ISO 18437-6; Gergesova et al., J. Rheol. 55 (2011)
     1-16): the mean distance in ln(time) of the two curves over the values they have in common,
     with scatter that turns a curve evened out first (isotonic regression). It needs no
     starting value and cannot run off. From there the mean squared difference over the overlap
