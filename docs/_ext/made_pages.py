@@ -20,7 +20,6 @@ from viscontact.materials.entry import Entry, entry, names
 from viscontact.units import in_words
 from viscontact.variables import COORDINATES, FIELDS, SCALARS, Variable
 
-
 ROOT = Path(__file__).parents[2]
 
 
