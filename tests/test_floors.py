@@ -79,6 +79,7 @@ FLOORS = (
         "past",
         "step_by_step",
         "marching",
+        "looser_load",
         "companions",
         "nearby",
         "grid_levels",
@@ -206,6 +207,7 @@ NEIGHBOURS = {
     ("results", "accessor"),
     ("dataset", "outgrown"),  # fields on a grid that has been enlarged meanwhile
     ("recording", "outgrown"),
+    ("companions", "looser_load"),
     ("companions", "plausibility"),  # of how small the spots are
     ("companions", "run"),
     ("companions", "schedule"),  # coarser steps

@@ -13,7 +13,6 @@ from viscontact.carried import Carried
 from viscontact.cycles import Cycles
 from viscontact.errors import DomainError
 from viscontact.geometry_doubts import Geometry, corner_doubts, geometry_doubts
-from viscontact.grid import Grid
 from viscontact.growth import Enlargement
 from viscontact.load.history import LoadPoint
 from viscontact.loading_doubts import loading_doubts
@@ -110,9 +109,7 @@ class Observer:
         self._work += self._work_of(step, instant, resultants)
         self._cycles.pass_by(step, self._work)
         self._collect_doubts(step, instant, rim)
-        state = _state(
-            step, instant, self._run.grid, rim, resultants, self._work, self._cycles.last_loss
-        )
+        state = _state(step, instant, rim, resultants, self._work, self._cycles.last_loss)
         if state.contact_area > self._largest_area:
             self._largest_area, self._cells_at_largest = state.contact_area, state.cells_across
             periodic = self._run.grid.periodic
@@ -241,7 +238,6 @@ class Observer:
 def _state(
     step: Step,
     instant: Instant,
-    grid: Grid,
     rim: Rim,
     resultants: NDArray[np.float64],
     work: float,
@@ -259,7 +255,7 @@ def _state(
         pressure=instant.pressure,
         gap=instant.gap,
         displacement=instant.displacement,
-        grid=grid,
+        grid=rim.grid,
         force=force,
         eccentricity_x=moment_x / force if centred else math.nan,
         eccentricity_y=moment_y / force if centred else math.nan,

@@ -156,15 +156,12 @@ def prepare_run(
     """
     check_kinds(indenter, material, load, grid, indenter_material)
     check_numbers(tolerance, threads)
-    compliance = material.contact_compliance()
-    if indenter_material is not None:
-        compliance = compliance + indenter_material.contact_compliance()
+    compliance = _of_both(material, indenter_material)
     adaptive = times if isinstance(times, AdaptiveTimes) else None
     instants = run_instants(times, fields, load, compliance)
     end = float(instants[-1])
     field_instants(fields, instants)
-    given = grid if isinstance(grid, Grid) else None
-    check_magnitudes(compliance, load, given, end)
+    check_magnitudes(compliance, load, grid if isinstance(grid, Grid) else None, end)
     check_creep(compliance, instants)
     check_jumps(compliance, load, end)
     automatic = mesh = None
@@ -172,10 +169,7 @@ def prepare_run(
         automatic = grid or AutomaticGrid()
         mesh = choose_mesh(indenter, compliance, load, automatic, end)
         grid = mesh.grid
-    open_gap = _gap_on(indenter, grid)
-    check_touch(compliance, open_gap, grid, load)
-    check_period(indenter, open_gap, grid, load)
-    check_balance(open_gap, grid, load, end)
+    open_gap = _checked_gap(indenter, compliance, load, grid, end)
     return Run(
         indenter,
         material,
@@ -193,6 +187,25 @@ def prepare_run(
         int(threads),
         fastest_transforms(),
     )
+
+
+def _of_both(material: Material, indenter_material: Material | None) -> ContactCompliance:
+    """J(t) of the bodies that give way."""
+    compliance = material.contact_compliance()
+    if indenter_material is None:
+        return compliance
+    return compliance + indenter_material.contact_compliance()
+
+
+def _checked_gap(
+    indenter: Indenter, compliance: ContactCompliance, load: LoadHistory, grid: Grid, end: float
+) -> NDArray[np.float64]:
+    """The gap on the grid, of a body that can be pressed there."""
+    open_gap = _gap_on(indenter, grid)
+    check_touch(compliance, open_gap, grid, load)
+    check_period(indenter, open_gap, grid, load)
+    check_balance(open_gap, grid, load, end)
+    return open_gap
 
 
 def _gap_on(indenter: Indenter, grid: Grid) -> NDArray[np.float64]:

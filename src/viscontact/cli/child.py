@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -65,8 +66,10 @@ class Child:
         self.job = job
         self.course = Course(job)
         self._asked = False
-        self._said = tempfile.TemporaryFile()  # noqa: SIM115 - closed when it has ended
-        self._process = _started(job, self._said)
+        with ExitStack() as opened:
+            self._said = opened.enter_context(tempfile.TemporaryFile())
+            self._process = _started(job, self._said)
+            self._opened = opened.pop_all()  # until it has ended
 
     def ask_to_stop(self) -> None:
         """Ask it to finish its step, save and end; once is enough."""
@@ -90,7 +93,7 @@ class Child:
     def _ended(self, code: int) -> Ended:
         self._said.seek(0)
         lines = tuple(self._said.read().decode("utf-8", errors="replace").splitlines())
-        self._said.close()
+        self._opened.close()
         if self._process.stdin is not None:
             self._process.stdin.close()
         if code == DONE:

@@ -19,20 +19,29 @@ Settings = Annotated[
     list[str] | None,
     typer.Option("--set", metavar="KEY=VALUE", help="Replace a value, e.g. load.force=20kN."),
 ]
+Output = Annotated[
+    Path | None,
+    typer.Option(
+        "-o",
+        "--output",
+        metavar="DIR",
+        help="Where to; CASE/ beside the file. Of several runs each gets a directory in DIR.",
+    ),
+]
+Varied = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--vary",
+        metavar="KEY=VALUE,VALUE,...",
+        help="A run for each value, e.g. load.force=5kN,10kN; given again, for each pair.",
+    ),
+]
 Threads = Annotated[int, typer.Option(min=1, help="Threads of one Fourier transform.")]
 
 
 def run(
     cases: CaseFiles,
-    output: Annotated[
-        Path | None,
-        typer.Option(
-            "-o",
-            "--output",
-            metavar="DIR",
-            help="Where to; CASE/ beside the file. Of several runs each gets a directory in DIR.",
-        ),
-    ] = None,
+    output: Output = None,
     overwrite: Annotated[
         bool, typer.Option("--overwrite", help="Replace the result that DIR holds.")
     ] = False,
@@ -40,14 +49,7 @@ def run(
         bool, typer.Option("--resume", help="Go on with the run that DIR holds.")
     ] = False,
     settings: Settings = None,
-    varied: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--vary",
-            metavar="KEY=VALUE,VALUE,...",
-            help="A run for each value, e.g. load.force=5kN,10kN; given again, for each pair.",
-        ),
-    ] = None,
+    varied: Varied = None,
     jobs: Annotated[
         int, typer.Option("-j", "--jobs", min=1, metavar="N", help="So many runs at once.")
     ] = 1,

@@ -7,7 +7,6 @@ import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from pathlib import Path
 
 
 class _Output(io.TextIOWrapper):
@@ -52,7 +51,8 @@ def occupy_streams() -> None:
 def lead_nowhere(name: str, mode: str = "w") -> None:
     """Let a stream of `sys` lead to nowhere, as long as the process lasts."""
     # Not by its number, which a file may have taken before this.
-    setattr(sys, name, Path(os.devnull).open(mode, encoding="utf-8"))  # noqa: SIM115
+    opened = os.open(os.devnull, os.O_RDONLY if mode == "r" else os.O_WRONLY)
+    setattr(sys, name, os.fdopen(opened, mode, encoding="utf-8"))
 
 
 def remember_output() -> None:

@@ -103,12 +103,7 @@ def fit_indentation(
 
     modulus = _apparent_modulus(record, poisson_ratio)
     material(Elastic(modulus))  # refuses what is wrong with the body's volume
-    shape = candidate(law, int(terms), modulus, float(np.ptp(record.times)))
-    if record.times.size < 2 * len(shape.names):
-        raise ValueError(
-            f"fit_indentation: {law} has {len(shape.names)} parameters and needs at least "
-            f"{2 * len(shape.names)} rows, got {record.times.size}; take a simpler law"
-        )
+    shape = _candidate(law, int(terms), modulus, record.times)
     measured, counted = compared(record, given)
     scale = float(np.abs(measured).max())
 
@@ -132,6 +127,17 @@ def fit_indentation(
         fitted=_answer(record, given, best),
         units=shape.units,
     )
+
+
+def _candidate(law: str, terms: int, modulus: float, times: Array) -> Candidate:
+    """Return a law with starts near a modulus; it needs twice as many rows as parameters."""
+    shape = candidate(law, terms, modulus, float(np.ptp(times)))
+    if times.size < 2 * len(shape.names):
+        raise ValueError(
+            f"fit_indentation: {law} has {len(shape.names)} parameters and needs at least "
+            f"{2 * len(shape.names)} rows, got {times.size}; take a simpler law"
+        )
+    return shape
 
 
 def _answer(record: IndentationRecord, given: str, material: Material) -> Array:
