@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 
 from docutils import nodes
@@ -13,16 +14,28 @@ from sphinx.util.math import get_node_equation_number
 from sphinx.util.typing import ExtensionMetadata
 from sphinx.writers.html5 import HTML5Translator
 
-#: What LaTeX takes for a half, and the converter for something else, silently.
-_BARE = re.compile(r"\\[td]?frac\s*[^{\s]|\\[td]frac")
+#: What LaTeX understands, and the converter draws as something else, silently: how to write it.
+_MISREAD = {
+    r"\\[td]?frac\s*[^{\s]|\\[td]frac": r"\frac{a}{b}",
+    r"\\(?:d?dot|bar|hat|tilde|vec)\s*(?:\w|\\\w+|\{[^}]*\})\s*[_^]": r"{\bar a}_b",
+    r"\\underbrace": "words",
+}
 
-#: A function's name before what it is of, if that has no brackets: they stand a little apart.
-_APPLIED = re.compile(
-    r"(\\(?:ln|log|exp|sin|cos|cot|arctan|operatorname\{\w+\})(?:[\^_](?:\w|\{\w+\}))?)\s+(?=[^\s({,])"
-)
+#: A function's name stands a little apart from what it multiplies, and from what it is of, if
+#: that has no brackets.
+_NAME = r"\\(?:ln|log|exp|sin|cos|cot|arctan|operatorname\{\w+\})"
+_MULTIPLIED = re.compile(rf"(?<=[\w}}*])\s*(?={_NAME}(?![a-z]))")
+_APPLIED = re.compile(rf"({_NAME}(?:[\^_](?:\w|\{{\w+\}}))?)\s+(?=[^\s({{,])")
 
 #: Signs as mathematics writes them.
-_SIGNS = {"<mo>'</mo>": '<mo lspace="0em" rspace="0em">′</mo>', "<mo>*</mo>": "<mo>∗</mo>"}
+_SIGNS = {
+    "<mo>'</mo>": '<mo lspace="0em" rspace="0em">′</mo>',
+    "<mo>*</mo>": "<mo>∗</mo>",
+    '<mo stretchy="false">/</mo>': '<mo stretchy="false" lspace="0.06em" rspace="0.06em">/</mo>',
+}
+
+#: Bars come in pairs, and browsers cannot tell which of them opens.
+_BAR = re.compile(r"<mo[^>]*>\|</mo>")
 
 
 def mathml(tex: str, as_block: bool = False) -> str:
@@ -50,16 +63,22 @@ def mathml(tex: str, as_block: bool = False) -> str:
     >>> mathml("t'").count("′")
     1
     """
-    bare = _BARE.search(tex)
-    if bare:
-        raise ExtensionError(f"in the equation {tex!r}: write \\frac{{a}}{{b}}, not {bare[0]!r}")
+    for misread, remedy in _MISREAD.items():
+        if found := re.search(misread, tex):
+            raise ExtensionError(f"in the equation {tex!r}: write {remedy}, not {found[0]!r}")
     try:
-        written = tex2mathml(_APPLIED.sub(r"\1\\,", tex), as_block=as_block)
+        spaced = _APPLIED.sub(r"\1\\,", _MULTIPLIED.sub(r"\\,", tex))
+        written = tex2mathml(spaced, as_block=as_block)
     except MathError as error:
         raise ExtensionError(f"cannot write the equation {tex!r} in MathML: {error}") from error
     for plain, sign in _SIGNS.items():
         written = written.replace(plain, sign)
-    return str(written)
+    forms = itertools.cycle(("prefix", "postfix"))
+    return _BAR.sub(lambda _: _bar(next(forms)), written)
+
+
+def _bar(form: str) -> str:
+    return f'<mo form="{form}" stretchy="false" lspace="0em" rspace="0em">|</mo>'
 
 
 def _inline(self: HTML5Translator, node: nodes.math) -> None:
