@@ -28,7 +28,8 @@ import numpy as np
 import xarray as xr
 
 import viscontact
-from viscontact.cli import execution, main, preparation
+from viscontact import preparation
+from viscontact.cli import execution, main
 from viscontact.grid import AutomaticGrid, Grid
 from viscontact.recording import run_record
 from viscontact.run import Run, prepare_run

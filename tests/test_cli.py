@@ -502,9 +502,9 @@ def test_grid_is_measured_against_the_memory_that_is_free(
     folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     needed = footprint.needed_memory(vc.Grid((32, 32), (1.0, 1.0)), fields_kept=1)
-    monkeypatch.setattr("viscontact.cli.preparation.available_memory", lambda: needed + 1)
+    monkeypatch.setattr("viscontact.preparation.available_memory", lambda: needed + 1)
     assert main(["run", "case.yaml", "-q", "-o", "fits"]) == 0
-    monkeypatch.setattr("viscontact.cli.preparation.available_memory", lambda: needed - 1)
+    monkeypatch.setattr("viscontact.preparation.available_memory", lambda: needed - 1)
     assert main(["run", "case.yaml", "-q", "-o", "too large"]) == 2
     assert "GB are free; use fewer cells" in capsys.readouterr().err
     assert not Path("too large").exists()

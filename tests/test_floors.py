@@ -114,11 +114,13 @@ FLOORS = (
         "foresight",
         "forecast",
         "case",
+        "preparation",
+        "inspection",
         "plot",
         "report",
         "verify",
     ),  # 6 people
-    ("cli", "__main__"),  # 7 shell
+    ("processes", "web", "cli", "__main__"),  # 7 shell
 )
 # Neighbours on a floor of which the first needs the second; the second stands to the left above.
 NEIGHBOURS = {
@@ -238,6 +240,11 @@ NEIGHBOURS = {
     ("case", "materials"),  # which may be given by name
     ("case", "cards"),  # materials of other programs
     ("case", "tables"),  # loads and materials may be measured ones
+    ("preparation", "case"),  # makes a run of it
+    ("preparation", "units"),
+    ("inspection", "preparation"),
+    ("inspection", "forecast"),  # in words
+    ("inspection", "units"),
     ("surfaces", "tables"),  # maps in text files
     ("surfaces", "units"),
     ("case", "surfaces"),  # which may be pressed
@@ -255,6 +262,7 @@ NEIGHBOURS = {
     ("report", "told"),
     ("report", "units"),
     ("plot", "materials"),  # curves are drawn over the points they rest on
+    ("cli", "processes"),  # several runs
     ("__main__", "cli"),  # python -m viscontact
 }
 # Who may ask the front door, which loads names from any floor when they are used: nouns that are

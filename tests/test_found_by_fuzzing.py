@@ -13,10 +13,11 @@ import numpy as np
 import pytest
 
 import viscontact as vc
+from viscontact import preparation
 from viscontact.cards import read_card
 from viscontact.case import CaseError, read_case
 from viscontact.case.sentences import read_sentences, split_sentences
-from viscontact.cli import main, preparation
+from viscontact.cli import main
 from viscontact.forecast import forecast
 from viscontact.run import prepare_run
 from viscontact.schedule import MOST_STEPS, FixedSteps

@@ -13,7 +13,7 @@ from matplotlib.text import Text
 
 import viscontact as vc
 from viscontact.cli import main
-from viscontact.cli.inspection import drawn_size
+from viscontact.inspection import drawn_size
 from viscontact.plot import draw_indenter
 from viscontact.run import prepare_run
 

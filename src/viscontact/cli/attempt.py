@@ -8,11 +8,13 @@ from pathlib import Path
 
 from viscontact.cli.interruption import Interruption
 from viscontact.cli.messages import refuse, say
-from viscontact.cli.preparation import Prepared, prepare
+from viscontact.cli.preparation import prepare
 from viscontact.cli.run_directory import chosen_directory
-from viscontact.cli.run_request import RunRequest
 from viscontact.cli.stored import CASE_NAME, progress_made
-from viscontact.cli.taking_up import Standing, standing
+from viscontact.cli.taking_up import standing
+from viscontact.preparation import Prepared
+from viscontact.processes.job import Standing
+from viscontact.processes.request import RunRequest
 from viscontact.recording.checkpoint import STATE_NAME
 from viscontact.recording.recorded import Recorded
 from viscontact.results import RESULT_NAME

@@ -12,11 +12,12 @@ from viscontact.cli.interruption import Interruption, watched_interruption
 from viscontact.cli.messages import INTERRUPTED, refuse, say, stop
 from viscontact.cli.progress import shown_progress
 from viscontact.cli.run_directory import taken, write_case
-from viscontact.cli.run_request import RunRequest
 from viscontact.cli.streams import printing, unwritten
 from viscontact.cli.summary import print_summary
-from viscontact.cli.taking_up import Standing, refuse_changed
+from viscontact.cli.taking_up import refuse_changed
 from viscontact.errors import ConvergenceError, DomainError
+from viscontact.processes.job import Standing
+from viscontact.processes.request import RunRequest
 from viscontact.recording.checkpoint import STATE_NAME
 from viscontact.recording.lock import DirectoryInUse, locked
 from viscontact.recording.recorded import ChangedCaseError, remove_traces

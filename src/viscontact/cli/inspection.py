@@ -2,28 +2,18 @@
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
 
-import numpy as np
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
+from viscontact.case import CaseError
 from viscontact.cli.figures import plot_package, save
 from viscontact.cli.messages import refuse
-from viscontact.cli.preparation import Prepared
-from viscontact.estimate import ContactEstimate
-from viscontact.forecast import Forecast, forecast
-from viscontact.geometry_doubts import SINGULAR_KINDS
-from viscontact.grid import Grid
-from viscontact.plausibility import DOUBTFUL_CELLS
-from viscontact.run import Run
-from viscontact.stated_errors import MESH_DEPENDENT
-from viscontact.units import in_digits, in_words
-
-#: An end of the body within so many times the grid is drawn as well.
-FARTHEST_END = 1.3
+from viscontact.forecast import Forecast
+from viscontact.inspection import drawn_size, expectations, foreseen, needs, verdict, warnings_of
+from viscontact.preparation import Prepared
 
 
 def print_forecast(prepared: Prepared) -> Forecast:
@@ -40,24 +30,20 @@ def print_forecast(prepared: Prepared) -> Forecast:
         What was printed.
     """
     try:
-        expected = forecast(prepared.run, errors=prepared.case.errors)
-    except ValueError as error:
-        refuse(*prepared.case.error(str(error)).problems)
-    console, doubts = Console(), _doubts(expected, prepared.run.grid)
-    verdict = "can be read, but:" if doubts else "no problems found"
-    console.print(f"{prepared.case.document.path}: {verdict}", highlight=False, soft_wrap=True)
-    for line in doubts:
+        expected = foreseen(prepared)
+    except CaseError as error:
+        refuse(*error.problems)
+    console = Console()
+    console.print(verdict(prepared, expected), highlight=False, soft_wrap=True)
+    for line in warnings_of(prepared, expected):
         console.print(f"[yellow]warning:[/] {escape(line)}")
     for line in prepared.case.notes:
         console.print(f"note: {escape(line)}", highlight=False, soft_wrap=True)
-    console.print(_listed(_needs(prepared, expected)))
-    if expected.estimate is not None:
-        control = prepared.run.load.control
-        console.print(
-            f"Under the largest {control}, with {expected.compliance} (a coarse elastic solve):",
-            soft_wrap=True,
-        )
-        console.print(_listed(_expectations(prepared, expected, expected.estimate, control)))
+    console.print(_listed(needs(prepared, expected)))
+    title, rows = expectations(prepared, expected)
+    if rows:
+        console.print(title, soft_wrap=True)
+        console.print(_listed(rows))
     return expected
 
 
@@ -81,125 +67,8 @@ def draw_body(prepared: Prepared, expected: Forecast, picture: Path | None) -> N
     save(plot, file, plot.draw_indenter, run.indenter, size=size, contact=contact)
 
 
-def drawn_size(run: Run) -> tuple[float, float]:
-    """Return how much of the body is drawn: the grid, and more if the body ends not far beyond it.
-
-    Parameters
-    ----------
-    run : Run
-        A run that has been checked.
-
-    Returns
-    -------
-    tuple of float
-        Extents along x and y [m].
-    """
-    size = list(run.grid.size)
-    for axis in (0, 1):
-        beyond = np.linspace(1.0, FARTHEST_END, 400) * size[axis] / 2
-        places = np.zeros((2, 2, beyond.size))
-        places[axis] = -beyond, beyond
-        gap = run.indenter.gap(places[0], places[1])
-        if np.isinf(gap[:, -1]).any() and np.isfinite(gap[:, 0]).any():
-            last = beyond[np.flatnonzero(np.isfinite(gap).any(axis=0))[-1]]
-            size[axis] = 2.1 * float(last)
-    return size[0], size[1]
-
-
 def _listed(rows: list[tuple[str, str]]) -> Table:
     table = Table(show_header=False, box=None, padding=(0, 2))
     for row in rows:
         table.add_row(*row)
     return table
-
-
-def _needs(prepared: Prepared, expected: Forecast) -> list[tuple[str, str]]:
-    run = prepared.run
-    (nx, ny), (lx, ly), (dx, dy) = run.grid.shape, run.grid.size, run.grid.cell_size
-    chosen = " (automatic)" if run.automatic is not None else ""
-    growing = "; more if the grid has to grow" if run.grows else ""
-    period = ", periodic" if run.grid.periodic else ""
-    kept = prepared.case.fields
-    return [
-        ("grid", f"{nx} x {ny} cells on {in_words(lx, 'm')} x {in_words(ly, 'm')}{chosen}{period}"),
-        ("cell", f"{in_words(dx, 'm', 3)} x {in_words(dy, 'm', 3)}"),
-        *_expected_errors(run),
-        ("steps", f"{_steps(run)} to t = {in_words(float(run.times[-1]), 's')}"),
-        ("fields kept", kept if isinstance(kept, str) else f"at {len(kept)} instants"),
-        (
-            "memory",
-            f"about {_bytes(expected.memory)}, {_bytes(expected.available)} are free{growing}",
-        ),
-        ("time", f"{_duration(expected.seconds)} on this machine"),
-    ]
-
-
-def _expected_errors(run: Run) -> list[tuple[str, str]]:
-    """How exact the cells are under the largest load, where they were chosen for it."""
-    if run.mesh is None:
-        return []
-    told = [
-        f"{name.replace('_', ' ')} {in_digits(100 * error, 1)} %"
-        for name, error in run.mesh.errors.items()
-    ]
-    return [("expected errors", ", ".join(told))] if told else []
-
-
-def _steps(run: Run) -> str:
-    if run.adaptive is None:
-        return f"{len(run.times) - 1}"
-    return f"adaptive, tolerance {run.adaptive.tolerance:g},"
-
-
-def _expectations(
-    prepared: Prepared, expected: Forecast, found: ContactEstimate, control: str
-) -> list[tuple[str, str]]:
-    # What is prescribed is known.
-    follows = (
-        ("approach", in_words(found.approach, "m", 3))
-        if control == "force"
-        else ("force", in_words(found.force, "N", 3))
-    )
-    return [
-        ("contact", f"{in_words(found.length, 'm', 3)} long, {in_words(found.width, 'm', 3)} wide"),
-        ("cells in it", f"{expected.cells_along:.0f} along, {expected.cells_across:.0f} across"),
-        ("peak pressure", _peak_told(expected, found)),
-        follows,
-    ]
-
-
-def _peak_told(expected: Forecast, found: ContactEstimate) -> str:
-    told = in_words(found.peak_pressure, "Pa", 3)
-    is_sharp = not SINGULAR_KINDS.isdisjoint(expected.doubts)
-    return f"{MESH_DEPENDENT} ({told} on a coarse one)" if is_sharp else told
-
-
-def _doubts(expected: Forecast, grid: Grid) -> list[str]:
-    """What a run would warn of, as far as the coarse solve can tell."""
-    if expected.estimate is None:
-        return list(expected.doubts.values())
-    doubts = []
-    if not expected.fits:
-        reach = " and ".join(in_words(far, "m", 3) for far in expected.estimate.reach)
-        doubts.append(
-            f"the contact will probably overrun the grid: it reaches {reach} from the middle "
-            "along x and y; enlarge grid.size"
-        )
-    across = (expected.cells_along, expected.cells_across)
-    # Where a contact goes on from period to period there is nothing that the cells lie across.
-    ended = [n for n, k in zip(across, grid.shape, strict=True) if not grid.periodic or n < k]
-    if min(ended, default=math.inf) < DOUBTFUL_CELLS:
-        doubts.append(
-            f"fewer than {DOUBTFUL_CELLS} cells across the contact; use more cells or a smaller "
-            "grid.size"
-        )
-    return doubts + list(expected.doubts.values())
-
-
-def _duration(seconds: float) -> str:
-    return f"about {in_words(seconds, 's', 1)}" if seconds > 1 else "about a second"
-
-
-def _bytes(count: float) -> str:
-    megabytes = count / 1e6
-    return f"{in_digits(megabytes / 1e3, 3)} GB" if megabytes > 1e3 else f"{megabytes:.0f} MB"

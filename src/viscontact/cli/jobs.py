@@ -6,7 +6,6 @@ import io
 from collections import Counter
 from collections.abc import Sequence
 from contextlib import redirect_stderr, suppress
-from dataclasses import dataclass
 from os import cpu_count
 from pathlib import Path
 
@@ -17,46 +16,12 @@ from viscontact.cli.attempt import attempted
 from viscontact.cli.interruption import Interruption
 from viscontact.cli.many_request import ManyRequest
 from viscontact.cli.messages import refuse
-from viscontact.cli.run_request import RunRequest
-from viscontact.cli.taking_up import Standing
 from viscontact.cli.variations import as_typed
 from viscontact.free_memory import available_memory
+from viscontact.processes.job import Job
+from viscontact.processes.request import RunRequest
 from viscontact.recording.lock import LOCK_NAME, DirectoryInUse, locked
 from viscontact.units import in_digits
-
-
-@dataclass(frozen=True)
-class Job:
-    """One of several runs, checked.
-
-    Attributes
-    ----------
-    request : RunRequest
-        What is asked for, its directory included.
-    directory : Path
-        That directory.
-    name : str
-        What it is called among the others.
-    standing : Standing
-        Whether it begins, goes on, or is over already.
-    instants : int or None
-        How many it will have; None where it chooses its steps.
-    end : float
-        Its last instant [s].
-    work : float
-        Cells times steps: how much there is to do, compared with the others.
-    memory : float
-        What it will hold [bytes].
-    """
-
-    request: RunRequest
-    directory: Path
-    name: str
-    standing: Standing
-    instants: int | None
-    end: float
-    work: float
-    memory: float
 
 
 def checked_jobs(request: ManyRequest, interruption: Interruption) -> list[Job]:

@@ -17,9 +17,9 @@ from rich.progress import (
     TimeRemainingColumn,
 )
 
-from viscontact.cli.child import Child, Ended
-from viscontact.cli.jobs import Job
 from viscontact.cli.messages import say
+from viscontact.processes.child import Child, Ended
+from viscontact.processes.job import Job
 from viscontact.units import in_words
 
 #: Plain lines come at this part of all the work, or after so many seconds.

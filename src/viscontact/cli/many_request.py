@@ -8,8 +8,8 @@ from pathlib import Path
 
 from viscontact.cli.messages import refuse
 from viscontact.cli.run_directory import chosen_directory
-from viscontact.cli.run_request import RunRequest, command, no_option
 from viscontact.cli.variations import variations
+from viscontact.processes.request import RunRequest, command, no_option
 
 
 @dataclass(frozen=True)

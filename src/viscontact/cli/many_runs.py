@@ -7,17 +7,17 @@ from collections import deque
 from collections.abc import Sequence
 from contextlib import suppress
 
-from viscontact.cli.child import Child, Ended
 from viscontact.cli.execution import before_the_first_step, tidy
 from viscontact.cli.interruption import Interruption, watched_interruption
-from viscontact.cli.jobs import Job, checked_jobs, doubts, fitting
+from viscontact.cli.jobs import checked_jobs, doubts, fitting
 from viscontact.cli.many_progress import Shown, shown_runs
 from viscontact.cli.many_request import ManyRequest
 from viscontact.cli.many_table import print_table
 from viscontact.cli.messages import DONE, INTERRUPTED, STOPPED, refuse, say, stop
 from viscontact.cli.streams import printing, unwritten
-from viscontact.cli.taking_up import Standing
 from viscontact.cli.variations import as_typed
+from viscontact.processes.child import Child, Ended
+from viscontact.processes.job import Job, Standing
 
 #: Time between two looks at the runs [s].
 PAUSE = 0.05

@@ -12,7 +12,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from viscontact.cli.child import Ended
+from viscontact.processes.child import Ended
 from viscontact.results import open_results
 from viscontact.units import in_digits, in_words, readable_unit
 from viscontact.variables import SCALARS

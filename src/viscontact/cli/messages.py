@@ -6,7 +6,9 @@ import sys
 from contextlib import suppress
 from typing import NoReturn
 
-DONE, STOPPED, REFUSED, INTERRUPTED = 0, 1, 2, 130
+from viscontact.processes.codes import DONE, INTERRUPTED, REFUSED, STOPPED
+
+__all__ = ["DONE", "INTERRUPTED", "REFUSED", "STOPPED", "refuse", "say", "stop"]
 
 
 def say(line: str) -> None:

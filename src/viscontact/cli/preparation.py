@@ -3,24 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
-from viscontact.case import Case, CaseError, read_case
+from viscontact.case import CaseError, read_case
 from viscontact.cli.messages import refuse
-from viscontact.footprint import least_memory, needed_memory
-from viscontact.free_memory import available_memory
-from viscontact.grid import Grid
-from viscontact.run import Run, prepare_run
-from viscontact.units import in_digits
-
-
-@dataclass(frozen=True, eq=False)
-class Prepared:
-    """A case, and the run it makes."""
-
-    case: Case
-    run: Run
+from viscontact.preparation import Prepared, prepared
 
 
 def prepare(path: Path, settings: Sequence[str], threads: int = 1) -> Prepared:
@@ -46,44 +33,6 @@ def prepare(path: Path, settings: Sequence[str], threads: int = 1) -> Prepared:
         With code 2, after all problems have been printed.
     """
     try:
-        case = read_case(path, settings)
-        _refuse_beyond_memory(case)
-        run = _prepared_run(case, threads)
-        _refuse_beyond(case, run.grid, needed_memory(run.grid, run.memory.fields_kept))
-        return Prepared(case, run)
+        return prepared(read_case(path, settings), threads)
     except CaseError as error:
         refuse(*error.problems)
-
-
-def _prepared_run(case: Case, threads: int) -> Run:
-    try:
-        return prepare_run(
-            case.indenter,
-            case.material,
-            case.load,
-            case.grid,
-            case.times,
-            indenter_material=case.indenter_material,
-            tolerance=case.tolerance,
-            fields=case.fields,
-            threads=threads,
-        )
-    except ValueError as error:
-        raise case.error(str(error)) from error
-
-
-def _refuse_beyond_memory(case: Case) -> None:
-    """Refuse the grid before anything of its size is allocated."""
-    if not isinstance(case.grid, Grid):
-        return
-    _refuse_beyond(case, case.grid, least_memory(case.grid, case.material))
-
-
-def _refuse_beyond(case: Case, grid: Grid, needed: float) -> None:
-    available = available_memory()
-    if needed > available:
-        nx, ny = grid.shape
-        raise case.error(
-            f"grid.shape: {nx} x {ny} cells need about {in_digits(needed / 1e9, 3)} GB of memory, "
-            f"{in_digits(available / 1e9, 3)} GB are free; use fewer cells"
-        )

@@ -9,7 +9,7 @@ import typer
 
 from viscontact.cli.interruption import Interruption, watched_interruption
 from viscontact.cli.messages import INTERRUPTED, stop
-from viscontact.cli.run_request import RunRequest
+from viscontact.processes.request import RunRequest
 
 CaseFiles = Annotated[
     list[Path], typer.Argument(metavar="CASE.yaml...", help="The case file, or several.")

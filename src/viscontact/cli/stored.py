@@ -11,7 +11,7 @@ from pathlib import Path
 import xarray as xr
 
 from viscontact.cli.messages import refuse
-from viscontact.cli.run_request import RunRequest
+from viscontact.processes.request import RunRequest
 from viscontact.recording.checkpoint import STATE_NAME
 from viscontact.recording.lock import LOCK_NAME, DirectoryInUse, locked
 from viscontact.results import RESULT_NAME, open_results

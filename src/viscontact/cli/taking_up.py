@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from enum import Enum
 from pathlib import Path
 from typing import NoReturn
 
@@ -11,21 +10,14 @@ from viscontact.case import Case
 from viscontact.cli.case_changes import case_changes
 from viscontact.cli.messages import refuse
 from viscontact.cli.run_directory import is_of_a_run, refuse_no_directory, refuse_occupied
-from viscontact.cli.run_request import RunRequest
 from viscontact.cli.stored import CASE_NAME
+from viscontact.processes.job import Standing
+from viscontact.processes.request import RunRequest
 from viscontact.recording.checkpoint import STATE_NAME
 from viscontact.recording.differences import Difference, differences
 from viscontact.recording.recorded import Recorded
 from viscontact.recording.stored_run import StoredRun, stored_run
 from viscontact.results import RESULT_NAME
-
-
-class Standing(Enum):
-    """How a run stands to its directory."""
-
-    NEW = "begins"
-    STOPPED = "goes on"
-    FINISHED = "is over"
 
 
 def standing(request: RunRequest, recorded: Recorded, case: Case) -> Standing:

@@ -6,8 +6,7 @@ import json
 from contextlib import suppress
 from os import stat_result
 
-from viscontact.cli.jobs import Job
-from viscontact.cli.taking_up import Standing
+from viscontact.processes.job import Job, Standing
 from viscontact.recording.recorded import PROGRESS_NAME
 
 

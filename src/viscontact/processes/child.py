@@ -11,9 +11,9 @@ from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from typing import Any
 
-from viscontact.cli.course import Course
-from viscontact.cli.jobs import Job
-from viscontact.cli.messages import DONE, INTERRUPTED, REFUSED, STOPPED
+from viscontact.processes.codes import DONE, INTERRUPTED, REFUSED, STOPPED
+from viscontact.processes.course import Course
+from viscontact.processes.job import Job
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,1 @@
+"""Runs as processes of their own: asked for, started, followed, and asked to stop."""
