@@ -1,7 +1,7 @@
 """Case files: a run described in words, read, checked and turned into nouns."""
 
 from viscontact.case.problems import CaseError
-from viscontact.case.reader import Case, read_case
+from viscontact.case.reader import Case, read_case, read_case_text
 from viscontact.case.sections import case_schema
 from viscontact.case.single_material import read_material, read_section, shipped_material
 
@@ -10,6 +10,7 @@ __all__ = [
     "CaseError",
     "case_schema",
     "read_case",
+    "read_case_text",
     "read_material",
     "read_section",
     "shipped_material",

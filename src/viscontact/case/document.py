@@ -31,6 +31,8 @@ class Document:
         Line number of each key and list entry, by its path.
     overridden : frozenset
         Paths of the keys that were given on the command line.
+    confined : bool
+        Whether it may name no files but those that lie in its folder.
     """
 
     path: Path
@@ -38,6 +40,7 @@ class Document:
     data: dict[str, Any]
     lines: dict[KeyPath, int]
     overridden: frozenset[KeyPath] = field(default_factory=frozenset)
+    confined: bool = False
 
     def place(self, key: KeyPath) -> str:
         """Say where a key stands: ``case.yaml:6:``, or ``--set`` if it came from there."""
@@ -75,7 +78,33 @@ def read_document(path: Path) -> Document:
     CaseError
         If there is no such file, or it is not text, empty, broken or not a mapping.
     """
-    text = _read_text(path)
+    return document_of(_read_text(path), path)
+
+
+def document_of(text: str, path: Path, *, confined: bool = False) -> Document:
+    """Read the text of a case file, YAML or by the path's suffix TOML.
+
+    Parameters
+    ----------
+    text : str
+        The text.
+    path : Path
+        What messages call it; files that it names lie in the same folder.
+    confined : bool
+        Whether it may name no other files.
+
+    Returns
+    -------
+    Document
+        Its content and line numbers.
+
+    Raises
+    ------
+    CaseError
+        If it is too large, empty, broken or not a mapping.
+    """
+    if len(text.encode(errors="surrogatepass")) > _LARGEST_FILE:
+        raise _too_large(path)
     if not text.strip():
         raise CaseError(f"{path}: the file is empty; `viscontact example` shows complete ones")
     is_toml = path.suffix.lower() == ".toml"
@@ -90,7 +119,15 @@ def read_document(path: Path) -> Document:
             f"{path}: a case file is a mapping of keys such as indenter:, material:, load:, "
             f"got {_kind(data)}; `viscontact example` shows complete ones"
         )
-    return Document(path, yaml_source.write(data) if is_toml else text, data, lines)
+    written = yaml_source.write(data) if is_toml else text
+    return Document(path, written, data, lines, confined=confined)
+
+
+def _too_large(path: Path) -> CaseError:
+    return CaseError(
+        f"{path}: larger than {_LARGEST_FILE // 1_000_000} MB, which no case file is; a "
+        "long history belongs in a CSV file"
+    )
 
 
 def _read_text(path: Path) -> str:
@@ -102,10 +139,7 @@ def _read_text(path: Path) -> str:
         with path.open("rb") as file:
             data = file.read(_LARGEST_FILE + 1)
         if len(data) > _LARGEST_FILE:
-            raise CaseError(
-                f"{path}: larger than {_LARGEST_FILE // 1_000_000} MB, which no case file is; a "
-                "long history belongs in a CSV file"
-            )
+            raise _too_large(path)
         return data.decode("utf-8-sig")
     except FileNotFoundError:
         raise CaseError(f"{path}: no such file{_nearest_file(path)}") from None

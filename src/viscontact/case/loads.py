@@ -7,10 +7,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, ValidationInfo, field_validator, model_validator
+from pydantic import Field, model_validator
 
 from viscontact import load
 from viscontact.case.course import SentenceError, course_of
+from viscontact.case.data_file import DataFile
 from viscontact.case.levels import APPROACH_EXAMPLE, ForceOrApproach, Level, Tilt
 from viscontact.case.load_table import read_load_table
 from viscontact.case.problems import dotted
@@ -177,18 +178,13 @@ class History(Load):
         description="on a periodic grid: [time, pressure] each, in place of points",
         examples=[[["0 s", "0 MPa"], ["1 s", PRESSURE_EXAMPLE]]],
     )
-    file: str | None = Field(
+    file: DataFile | None = Field(
         default=None,
         description="CSV with a header such as: time [s], force [kN], eccentricity_x [mm]; or "
         "approach [um] in place of the force",
         examples=["load.csv"],
     )
     sentences: Sentences | None = None
-
-    @field_validator("file")
-    @classmethod
-    def _beside_the_case(cls, name: str | None, info: ValidationInfo) -> str | None:
-        return name if name is None else str(Path((info.context or {}).get("folder", "."), name))
 
     @property
     def table(self) -> Path | None:

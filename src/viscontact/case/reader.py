@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import ValidationError
 
-from viscontact.case.document import Document, read_document
+from viscontact.case.document import Document, document_of, read_document
 from viscontact.case.indenters import combined
 from viscontact.case.overrides import override
 from viscontact.case.problems import CaseError, KeyPath
@@ -174,6 +174,41 @@ def read_case(path: str | PathLike[str], overrides: Iterable[str] = ()) -> Case:
     return _case(document, _checked(document))
 
 
+def read_case_text(text: str, path: str | PathLike[str], overrides: Iterable[str] = ()) -> Case:
+    """Read and check a case that somebody else sends, and that may read no files of the user's.
+
+    Parameters
+    ----------
+    text : str
+        The case, in YAML.
+    path : path-like
+        What messages call it, a file or not. The files that it names lie in the same folder, and
+        are named by plain names: paths that lead elsewhere are refused before anything is read.
+    overrides : iterable of str
+        Values in place of those in the text, such as ``"load.force=20kN"``.
+
+    Returns
+    -------
+    Case
+        The run it describes.
+
+    Raises
+    ------
+    CaseError
+        As `read_case`.
+
+    Examples
+    --------
+    >>> try:
+    ...     read_case_text("material: {law: table, file: /etc/passwd}", "case.yaml")
+    ... except CaseError as error:
+    ...     "'/etc/passwd' is not the plain name of a file" in str(error)
+    True
+    """
+    document = override(document_of(text, Path(path), confined=True), overrides)
+    return _case(document, _checked(document))
+
+
 def digest(path: Path) -> bytes:
     """Tell what a file holds, so that a change is noticed; nothing if it cannot be read.
 
@@ -210,7 +245,8 @@ def _checked(document: Document) -> CaseFile:
 
 
 def _validated(document: Document, data: dict[str, Any]) -> CaseFile:
-    return CaseFile.model_validate(data, context={"folder": str(document.path.parent)})
+    folder, confined = str(document.path.parent), document.confined
+    return CaseFile.model_validate(data, context={"folder": folder, "confined": confined})
 
 
 def _case(document: Document, found: CaseFile) -> Case:
