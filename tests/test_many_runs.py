@@ -22,6 +22,8 @@ import viscontact as vc
 from viscontact import many_runs
 from viscontact.cli import jobs, main
 from viscontact.cli.variations import variations
+from viscontact.processes.job import Job, Standing
+from viscontact.processes.request import RunRequest
 from viscontact.recording.lock import DirectoryInUse, locked
 
 PAGE = (Path(__file__).parent.parent / "docs" / "many-runs.md").read_text(encoding="utf-8")
@@ -171,9 +173,9 @@ def test_runs_that_do_not_fit_into_memory_wait_for_one_another(
     assert "2 runs of 2 threads each at once share 2 cores" in crowded
 
 
-def job(name: str, memory: float) -> jobs.Job:
-    request = jobs.RunRequest(Path(f"{name}.yaml"))
-    return jobs.Job(request, Path(name), name, jobs.Standing.NEW, 5, 1.0, 1.0, memory)
+def job(name: str, memory: float) -> Job:
+    request = RunRequest(Path(f"{name}.yaml"))
+    return Job(request, Path(name), name, Standing.NEW, 5, 1.0, 1.0, memory)
 
 
 @pytest.mark.skipif(os.name == "nt", reason="there, only the console asks processes to stop")

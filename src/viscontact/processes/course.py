@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from contextlib import suppress
 from os import stat_result
+from typing import Any
 
 from viscontact.processes.job import Job, Standing
 from viscontact.recording.recorded import PROGRESS_NAME
@@ -24,10 +26,14 @@ class Course:
         How many are complete.
     time : float
         The last of them [s].
+    first, last : mapping
+        What the run's lines say of its first and its last instant; empty without any.
     """
 
     def __init__(self, job: Job) -> None:
         self.instants, self.time = 0, 0.0
+        self.first: Mapping[str, Any] = {}
+        self.last: Mapping[str, Any] = {}
         self._job, self._path = job, job.directory / PROGRESS_NAME
         self._file, self._read = 0, 0
         # Lines of an earlier run, which this one replaces, tell nothing.
@@ -55,9 +61,12 @@ class Course:
                 lines.seek(self._read)
                 whole, newline, _ = lines.read().rpartition(b"\n")
             if newline:
+                if not self._read:
+                    self.first = json.loads(whole.partition(b"\n")[0])
                 self._read += len(whole) + 1
                 self.instants += whole.count(b"\n") + 1
-                self.time = float(json.loads(whole.rpartition(b"\n")[2])["time"])
+                self.last = json.loads(whole.rpartition(b"\n")[2])
+                self.time = float(self.last["time"])
 
     def _marks(self) -> tuple[int, int, int] | None:
         """What tells one state of the file from another; None without a file."""
