@@ -21,6 +21,7 @@ from viscontact.plot.history import compare_histories, history
 from viscontact.plot.hysteresis import compare_hysteresis, hysteresis
 from viscontact.plot.identified import fitted_indentation, fitted_series, master_curve
 from viscontact.plot.indenter_drawing import draw_indenter
+from viscontact.plot.load_drawing import draw_load
 from viscontact.plot.material_curves import material_curves
 from viscontact.plot.pressure_map import pressure_map
 from viscontact.plot.pressure_profile import compare_pressure_profiles, pressure_profile
@@ -58,6 +59,7 @@ __all__ = [
     "creep",
     "creep_curve",
     "draw_indenter",
+    "draw_load",
     "fitted_indentation",
     "fitted_series",
     "history",

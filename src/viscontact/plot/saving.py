@@ -61,8 +61,31 @@ def as_svg(figure: Figure) -> bytes:
     >>> as_svg(Figure())[:5]
     b'<?xml'
     """
+    return written(figure, "svg")
+
+
+def written(figure: Figure, kind: str) -> bytes:
+    """Return what a file of a figure would hold.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+        What one of the figures returned.
+    kind : str
+        ``"png"``, ``"pdf"`` or ``"svg"``.
+
+    Returns
+    -------
+    bytes
+        The file's content.
+
+    Examples
+    --------
+    >>> written(Figure(), "pdf")[:4]
+    b'%PDF'
+    """
     drawing = io.BytesIO()
-    _write(figure, drawing, "svg")
+    _write(figure, drawing, kind)
     return drawing.getvalue()
 
 
