@@ -116,6 +116,7 @@ FLOORS = (
         "case",
         "preparation",
         "inspection",
+        "summary",
         "plot",
         "report",
         "verify",
@@ -242,6 +243,7 @@ NEIGHBOURS = {
     ("case", "tables"),  # loads and materials may be measured ones
     ("preparation", "case"),  # makes a run of it
     ("preparation", "units"),
+    ("summary", "units"),
     ("inspection", "preparation"),
     ("inspection", "forecast"),  # in words
     ("inspection", "units"),
@@ -263,6 +265,8 @@ NEIGHBOURS = {
     ("report", "units"),
     ("plot", "materials"),  # curves are drawn over the points they rest on
     ("cli", "processes"),  # several runs
+    ("web", "processes"),
+    ("cli", "web"),  # the command that serves it
     ("__main__", "cli"),  # python -m viscontact
 }
 # Who may ask the front door, which loads names from any floor when they are used: nouns that are
@@ -280,6 +284,7 @@ OTHERS = {
     "SurfaceTopography": 6,
     "matplotlib": 6, "contourpy": 6, "plotly": 6,
     "typer": 7, "click": 7, "rich": 7,
+    "fastapi": 7, "starlette": 7, "uvicorn": 7,
 }  # fmt: skip
 TOP = len(FLOORS) - 1
 

@@ -103,8 +103,11 @@ def document_of(text: str, path: Path, *, confined: bool = False) -> Document:
     CaseError
         If it is too large, empty, broken or not a mapping.
     """
-    if len(text.encode(errors="surrogatepass")) > _LARGEST_FILE:
-        raise _too_large(path)
+    try:
+        if len(text.encode()) > _LARGEST_FILE:
+            raise _too_large(path)
+    except UnicodeEncodeError:
+        raise CaseError(f"{path}: is not a text in UTF-8") from None
     if not text.strip():
         raise CaseError(f"{path}: the file is empty; `viscontact example` shows complete ones")
     is_toml = path.suffix.lower() == ".toml"

@@ -105,6 +105,49 @@ def with_overrides(text: str, values: dict[KeyPath, Any]) -> str:
     return write(document)
 
 
+def rewritten(text: str, data: dict[str, Any]) -> str:
+    r"""Write data as YAML in the manner of an earlier text: its order and its comments are kept.
+
+    Parameters
+    ----------
+    text : str
+        The text of a YAML file; if it cannot be read, nothing of it is kept.
+    data : dict
+        What is to stand there now.
+
+    Returns
+    -------
+    str
+        The text with the new values in it, and without the keys that are gone.
+
+    Examples
+    --------
+    >>> print(rewritten("b: 2 m  # long\na: 1\nc: 0", {"a": 1, "b": "3 m"}))
+    b: 3 m  # long
+    a: 1
+    <BLANKLINE>
+    """
+    try:
+        document = _load(text)
+    except SourceError:
+        document = None
+    if not isinstance(document, CommentedMap):
+        return write(data)
+    _bring_up_to_date(document, data)
+    return write(document)
+
+
+def _bring_up_to_date(old: CommentedMap, new: dict[str, Any]) -> None:
+    for key in [key for key in old if str(key) not in new]:
+        del old[key]
+    for key, value in new.items():
+        before = old.get(key)
+        if isinstance(before, CommentedMap) and isinstance(value, dict):
+            _bring_up_to_date(before, value)
+        elif key not in old or _plain(before, (), {}) != value:
+            old[key] = value
+
+
 def write(data: Any) -> str:
     r"""Write data as YAML.
 

@@ -13,6 +13,7 @@ from viscontact.cli.fitting import fit
 from viscontact.cli.materials import material
 from viscontact.cli.reporting import report
 from viscontact.cli.running import check, run
+from viscontact.cli.serving import serve
 from viscontact.cli.showing import export, show
 from viscontact.cli.verification import verify
 
@@ -39,6 +40,7 @@ _COMMANDS = (
     (fit, "viscontact fit dma.csv --poisson-ratio 0.38 -o fit.png --yaml pmma.yaml"),
     (material, "viscontact material pmma-paper -o pmma.png"),
     (report, "viscontact report heavier -o heavier.html"),
+    (serve, "viscontact serve --dir my-runs"),
     (verify, "viscontact verify --fast"),
 )
 for _command, _example in _COMMANDS:

@@ -1,0 +1,116 @@
+"""The application: all routes, behind the guard."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager, suppress
+from importlib.resources import as_file, files
+from pathlib import Path
+
+from fastapi import FastAPI, Request
+from fastapi.exceptions import RequestValidationError
+from fastapi.responses import FileResponse, JSONResponse
+from starlette.concurrency import run_in_threadpool
+from starlette.exceptions import HTTPException
+
+from viscontact.case.data_file import is_plain_name
+from viscontact.web import case_routes, run_routes
+from viscontact.web.calculator import Calculator
+from viscontact.web.guard import Guard
+from viscontact.web.problems import Problem, RequestError
+
+_STATIC = Path(__file__).parent / "static"
+
+#: What may lie there; systems do not agree on what their endings mean.
+_MEDIA_TYPES = {
+    ".html": "text/html",
+    ".js": "text/javascript",
+    ".css": "text/css",
+    ".svg": "image/svg+xml",
+    ".png": "image/png",
+    ".ico": "image/vnd.microsoft.icon",
+    ".woff2": "font/woff2",
+    ".json": "application/json",
+    ".webmanifest": "application/manifest+json",
+}
+_PLOTLY = "plotly.min.js"
+
+
+def new_app(calculator: Calculator) -> FastAPI:
+    """Return the application.
+
+    Parameters
+    ----------
+    calculator : Calculator
+        What answers.
+    """
+
+    @asynccontextmanager
+    async def at_work(app: FastAPI) -> AsyncIterator[None]:
+        looking = asyncio.create_task(calculator.look_after_runs())
+        yield
+        looking.cancel()
+        with suppress(asyncio.CancelledError):
+            await looking
+        await run_in_threadpool(calculator.workshop.close)
+
+    # Its pages of documentation would load scripts from elsewhere.
+    app = FastAPI(lifespan=at_work, docs_url=None, redoc_url=None, openapi_url=None)
+    app.state.calculator = calculator
+    app.add_middleware(Guard)
+    app.add_exception_handler(RequestError, _refused)
+    app.add_exception_handler(RequestValidationError, _misunderstood)
+    app.add_exception_handler(HTTPException, _unknown)
+    app.add_exception_handler(Exception, _failed)
+    app.include_router(case_routes.router)
+    app.include_router(run_routes.router)
+    app.add_api_route("/", _page)
+    app.add_api_route("/static/{name}", _static)
+    return app
+
+
+def _page() -> FileResponse:
+    return _static("index.html")
+
+
+def _static(name: str) -> FileResponse:
+    path, media_type = _STATIC / name, _MEDIA_TYPES.get(Path(name).suffix)
+    if name == _PLOTLY:
+        with as_file(files("plotly") / "package_data" / _PLOTLY) as found:
+            headers = {"cache-control": "max-age=86400"}
+            return FileResponse(found, media_type="text/javascript", headers=headers)
+    if not is_plain_name(name) or media_type is None or not path.is_file():
+        raise RequestError(404, f"there is nothing called {name[:40]!r}")
+    return FileResponse(path, media_type=media_type, headers={"cache-control": "no-cache"})
+
+
+def _refused(request: Request, error: Exception) -> JSONResponse:
+    assert isinstance(error, RequestError)
+    return JSONResponse(error.body, error.status)
+
+
+def _misunderstood(request: Request, error: Exception) -> JSONResponse:
+    """Answer a request that no page of ours sends."""
+    assert isinstance(error, RequestValidationError)
+    found = [
+        Problem(
+            f"the request cannot be understood: {'.'.join(map(str, each['loc']))}: {each['msg']}"
+        )
+        for each in error.errors()
+    ]
+    return JSONResponse(RequestError(400, *found).body, 400)
+
+
+def _unknown(request: Request, error: Exception) -> JSONResponse:
+    assert isinstance(error, HTTPException)
+    why = f"{request.method} {request.url.path}: {error.detail}"
+    return JSONResponse(RequestError(error.status_code, why).body, error.status_code)
+
+
+def _failed(request: Request, error: Exception) -> JSONResponse:
+    why = (
+        f"unexpected {type(error).__name__}: {error}. This is a fault of viscontact; please report "
+        "it with the case"
+    )
+    return JSONResponse(RequestError(500, why).body, 500)

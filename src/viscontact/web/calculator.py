@@ -1,0 +1,123 @@
+"""What answers requests: cases at a desk, runs in a workshop, and one thread for heavy work."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from collections.abc import AsyncIterator, Callable
+from contextlib import suppress
+from typing import Any, TypeVar
+
+from starlette.concurrency import run_in_threadpool
+from starlette.requests import Request
+
+from viscontact.web.desk import Desk
+from viscontact.web.folder import Folder
+from viscontact.web.problems import RequestError
+from viscontact.web.status import found_by, status_of
+from viscontact.web.work import Work
+from viscontact.web.workshop import Workshop
+
+T = TypeVar("T")
+
+#: Time between two looks at the runs, and between two events of one [s].
+LOOK, EVENT = 0.1, 0.2
+#: After so many events without news a line is sent, lest somebody on the way gives up.
+_QUIET = 75
+#: Nobody reads an answer with this code: who asked is gone.
+_GONE = 499
+
+
+class Calculator:
+    """All that the page's requests need.
+
+    Parameters
+    ----------
+    folder : Folder
+        Where files and runs are kept.
+    at_once : int
+        So many runs are computed at once.
+
+    Attributes
+    ----------
+    folder : Folder
+        The same.
+    desk : Desk
+        Where cases are read.
+    workshop : Workshop
+        Where runs are computed.
+    is_to_end : bool
+        Whether no run is begun any more, and those at work are to save and end.
+    """
+
+    def __init__(self, folder: Folder, at_once: int) -> None:
+        self.folder, self.desk = folder, Desk(folder)
+        self.workshop = Workshop(folder, at_once)
+        self.is_to_end = False
+        self._turn = asyncio.Lock()
+        self._found: dict[tuple[str, str], dict[str, Any]] = {}
+
+    async def do(self, work: Callable[[], T], request: Request | None = None) -> T:
+        """Do heavy work in a thread, one piece after the other: HDF5 knows no threads.
+
+        Parameters
+        ----------
+        work : callable
+            The work.
+        request : Request, optional
+            Who waits for it; if they do so no longer, it is not begun.
+
+        Raises
+        ------
+        RequestError
+            If nobody waits for it any more.
+        """
+        async with self._turn:
+            if request is not None and await request.is_disconnected():
+                raise RequestError(_GONE, "nobody waits for the answer")
+            return await run_in_threadpool(work)
+
+    async def status(self, work: Work) -> dict[str, Any]:
+        """Return how a run stands, with what its result says once it is over.
+
+        Parameters
+        ----------
+        work : Work
+            The run.
+        """
+        if not work.is_over:
+            return status_of(work, {})
+        key = work.name, f"{work.asked.state} {work.course.instants}"
+        if key not in self._found:
+            with suppress(OSError, ValueError, KeyError):  # somebody has damaged it
+                self._found[key] = await self.do(lambda: found_by(work.directory))
+        return status_of(work, self._found.get(key, {}))
+
+    async def events(self, work: Work) -> AsyncIterator[str]:
+        """Yield how a run stands, at once and whenever that changes, until it is over.
+
+        Parameters
+        ----------
+        work : Work
+            The run.
+        """
+        before, quiet = "", 0
+        while True:
+            told = json.dumps(await self.status(work), allow_nan=False, ensure_ascii=False)
+            quiet = 0 if told != before else quiet + 1
+            if told != before:
+                yield f"data: {told}\n\n"
+            elif quiet % _QUIET == 0:
+                yield ": still there\n\n"
+            if work.is_over:
+                return
+            before = told
+            await asyncio.sleep(EVENT)
+
+    async def look_after_runs(self) -> None:
+        """Look after the runs for as long as this goes on."""
+        while True:
+            if self.is_to_end:
+                self.workshop.end()
+            self.workshop.look()
+            await asyncio.sleep(LOOK)

@@ -1,0 +1,205 @@
+"""What is told of a case before it is run: values, checks, drawings, and the run that it makes."""
+
+from __future__ import annotations
+
+import time as clock
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from viscontact.case import Case, CaseError, read_case_text
+from viscontact.case.document import document_of
+from viscontact.forecast import run_memory, step_count
+from viscontact.inspection import expectations, foreseen, needs, verdict, warnings_of
+from viscontact.preparation import Prepared, prepared
+from viscontact.web.coarse import coarse_settings, without_cells
+from viscontact.web.folder import Asked, Folder
+from viscontact.web.problems import RequestError, case_problems, without_folder
+
+
+@dataclass(frozen=True)
+class Desk:
+    """Where cases are read.
+
+    Attributes
+    ----------
+    folder : Folder
+        Where the files are that they may name.
+    """
+
+    folder: Folder
+
+    def values(self, text: str) -> Any:
+        """Return the values of a case, as its text has them.
+
+        Parameters
+        ----------
+        text : str
+            The case.
+
+        Raises
+        ------
+        RequestError
+            If it is no YAML, or no mapping.
+        """
+        try:
+            return document_of(text, self.folder.case).data
+        except CaseError as error:
+            raise case_problems(error, self.folder.case) from error
+
+    def case(self, text: str) -> Case:
+        """Read a case.
+
+        Parameters
+        ----------
+        text : str
+            The case.
+
+        Raises
+        ------
+        RequestError
+            With all that is wrong with it.
+        """
+        try:
+            return read_case_text(text, self.folder.case)
+        except CaseError as error:
+            raise case_problems(error, self.folder.case) from error
+
+    def prepared(self, text: str, quality: str) -> tuple[Prepared, tuple[str, ...]]:
+        """Read and check a case.
+
+        Parameters
+        ----------
+        text : str
+            The case.
+        quality : str
+            ``"full"``, or ``"coarse"`` for fewer cells and steps.
+
+        Returns
+        -------
+        Prepared
+            The run it makes.
+        tuple of str
+            What was set in it for that quality.
+
+        Raises
+        ------
+        RequestError
+            With all that is wrong with it.
+        """
+        try:
+            whole = prepared(read_case_text(text, self.folder.case))
+            if quality == "full":
+                return whole, ()
+            settings = coarse_settings(whole, foreseen(whole))
+            try:
+                return prepared(read_case_text(text, self.folder.case, settings)), settings
+            except CaseError:  # such as waves that need their cells
+                settings = without_cells(settings)
+                return prepared(read_case_text(text, self.folder.case, settings)), settings
+        except CaseError as error:
+            raise case_problems(error, self.folder.case) from error
+
+    def check(self, text: str, quality: str) -> dict[str, Any]:
+        """Check a case, and say how large it is, how long it takes and what to expect.
+
+        Parameters
+        ----------
+        text : str
+            The case.
+        quality : str
+            ``"full"`` or ``"coarse"``.
+
+        Raises
+        ------
+        RequestError
+            With all that is wrong with it.
+        """
+        run, _ = self.prepared(text, quality)
+        try:
+            expected = foreseen(run)
+        except CaseError as error:
+            raise case_problems(error, self.folder.case) from error
+        first = without_folder(verdict(run, expected), self.folder.case.parent)
+        doubts, rows = warnings_of(run, expected), needs(run, expected)
+        title, found = expectations(run, expected)
+        lines = [
+            *(first, *(f"warning: {line}" for line in doubts)),
+            *(f"note: {line}" for line in run.case.notes),
+            *(f"{name}: {value}" for name, value in rows),
+            *((title, *(f"{name}: {value}" for name, value in found)) if found else ()),
+        ]
+        return {
+            **{"lines": lines, "warnings": doubts, "notes": list(run.case.notes)},
+            **{"needs": rows, "expectations_title": title, "expectations": found},
+            **{"seconds": expected.seconds, "memory": expected.memory},
+            **{"cells": list(run.run.grid.shape), "steps": _steps(run)},
+        }
+
+    def new_run(self, text: str, quality: str) -> tuple[str, Asked]:
+        """Check a case, and keep it and all that it reads, to be run.
+
+        Parameters
+        ----------
+        text : str
+            The case.
+        quality : str
+            ``"full"`` or ``"coarse"``.
+
+        Returns
+        -------
+        str
+            What the run is called.
+        Asked
+            What was asked for.
+
+        Raises
+        ------
+        RequestError
+            With all that is wrong with the case.
+        """
+        found, settings = self.prepared(text, quality)
+        run, case = found.run, found.case
+        asked = Asked(
+            title=case.title or "Untitled case",
+            quality=quality,
+            created=clock.strftime("%Y-%m-%dT%H:%M:%SZ", clock.gmtime()),
+            settings=settings,
+            instants=len(run.times) if run.adaptive is None else None,
+            end=float(run.times[-1]),
+            work=run.grid.shape[0] * run.grid.shape[1] * (1.0 + step_count(run)),
+            memory=run_memory(run),
+            errors=case.errors,
+        )
+        try:
+            name = self.folder.new_run(text, asked, {path: path.name for path in _data(case)})
+        except OSError as error:
+            raise RequestError(500, f"the run cannot be kept: {error.strerror or error}") from error
+        return name, asked
+
+
+def filled(value: Any) -> Any:
+    """Return values without those that are empty.
+
+    Parameters
+    ----------
+    value : dict, list, str, int, float, bool or None
+        Values as a form has them.
+
+    Examples
+    --------
+    >>> filled({"title": "", "load": {"force": "1 N", "tilt_x": None}, "grid": {}})
+    {'load': {'force': '1 N'}}
+    """
+    if isinstance(value, dict):
+        parts = {str(name): filled(part) for name, part in value.items()}
+        return {name: part for name, part in parts.items() if part not in (None, "", {})}
+    return [filled(part) for part in value] if isinstance(value, list) else value
+
+
+def _steps(found: Prepared) -> int | None:
+    return None if found.run.adaptive is not None else len(found.run.times) - 1
+
+
+def _data(case: Case) -> set[Path]:
+    return set(case.files.values())

@@ -1,0 +1,78 @@
+"""Drawings of a case before it is run: the indenter, the material's curves, the load."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from viscontact.case import Case, CaseError
+from viscontact.inspection import drawn_size, foreseen
+from viscontact.material import Material
+from viscontact.plot import creep_curve, draw_indenter, draw_load
+from viscontact.preparation import prepared
+from viscontact.stepping import AdaptiveTimes
+from viscontact.web.desk import Desk
+from viscontact.web.problems import RequestError, case_problems
+
+#: A law is drawn from so much earlier than the end on [-], at so many points.
+_BACK, _POINTS = 1e-4, 300
+
+
+def drawing(desk: Desk, text: str, what: str) -> Figure:
+    """Draw a part of a case.
+
+    Parameters
+    ----------
+    desk : Desk
+        Where cases are read.
+    text : str
+        The case.
+    what : str
+        indenter, material, indenter_material or load.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The drawing.
+
+    Raises
+    ------
+    RequestError
+        With all that is wrong with the case, or why it cannot be drawn.
+    """
+    case = desk.case(text)
+    try:
+        if what == "indenter":
+            return _indenter(case)
+        if what == "load":
+            return draw_load(case.load, _end(case))
+        return _curves(_material(case, what), _end(case))
+    except CaseError as error:
+        raise case_problems(error, case.document.path) from error
+    except ValueError as error:
+        raise RequestError(422, f"the {what} cannot be drawn: {error}") from error
+
+
+def _indenter(case: Case) -> Figure:
+    found = prepared(case)
+    estimate = foreseen(found).estimate
+    contact = None
+    if estimate is not None:
+        contact = (estimate.centre_x, estimate.centre_y, estimate.length, estimate.width)
+    return draw_indenter(case.indenter, drawn_size(found.run), contact=contact)
+
+
+def _material(case: Case, what: str) -> Material:
+    material = case.indenter_material if what == "indenter_material" else case.material
+    if material is None:
+        raise RequestError(422, "the indenter is rigid: there are no curves of its material")
+    return material
+
+
+def _curves(material: Material, end: float) -> Figure:
+    return creep_curve(material.law, np.geomspace(_BACK * end, end, _POINTS))
+
+
+def _end(case: Case) -> float:
+    times = case.times
+    return times.end if isinstance(times, AdaptiveTimes) else float(times[-1])

@@ -1,0 +1,256 @@
+"""The folder in which the page keeps what it was given and what it has computed."""
+
+from __future__ import annotations
+
+import json
+import os
+import secrets
+import shutil
+import sys
+import time as clock
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from dataclasses import asdict, dataclass, fields
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+from viscontact.case.data_file import is_plain_name
+from viscontact.recording.exchange import replace
+from viscontact.web.problems import RequestError
+
+_FILES, _RUNS, _ASKED, _GIVEN, _RUN = "files", "runs", "asked.json", "given", "run"
+
+#: What a case is called here; no file that it names may have this name.
+CASE_NAME = "case.yaml"
+
+#: Endings of shipped files that examples read.
+_SHIPPED = (".npz", ".csv")
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What was asked for, and how it stands; kept beside the run.
+
+    Attributes
+    ----------
+    title : str
+        What the case is called.
+    quality : str
+        ``"full"`` or ``"coarse"``.
+    created : str
+        When it was asked for, in UTC.
+    settings : tuple of str
+        What differs from the case as it was given, as ``--set`` takes it.
+    instants : int or None
+        How many the run will have; None where it chooses its steps.
+    end : float
+        Its last instant [s].
+    work : float
+        Cells times steps.
+    memory : float
+        What it will hold [bytes].
+    errors : bool
+        Whether the errors of its scalars are estimated in the end.
+    state : str
+        waiting, running, done, cancelled, interrupted or failed.
+    said : tuple of str
+        What it had to say for itself when it ended.
+    """
+
+    title: str
+    quality: str
+    created: str
+    settings: tuple[str, ...]
+    instants: int | None
+    end: float
+    work: float
+    memory: float
+    errors: bool
+    state: str = "waiting"
+    said: tuple[str, ...] = ()
+
+
+class Folder:
+    """Where files that cases may name, and runs, are kept.
+
+    Parameters
+    ----------
+    path : Path
+        The folder; made if it is not there.
+
+    Attributes
+    ----------
+    path : Path
+        The same, absolute.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path.absolute()
+        for part in (_FILES, _RUNS):
+            (self.path / part).mkdir(parents=True, exist_ok=True)
+        self._put_shipped_files()
+
+    @property
+    def case(self) -> Path:
+        """What a case is called that is only looked at: beside the files that it may name."""
+        return self.path / _FILES / CASE_NAME
+
+    def files(self) -> list[dict[str, Any]]:
+        """Return what files there are: name and size [bytes]."""
+        found = sorted((self.path / _FILES).iterdir())
+        return [
+            {"name": path.name, "size": path.stat().st_size}
+            for path in found
+            if path.is_file() and is_plain_name(path.name)
+        ]
+
+    def put_file(self, name: str, content: bytes) -> None:
+        """Keep a file under a name; one of that name is replaced.
+
+        Parameters
+        ----------
+        name : str
+            A plain name.
+        content : bytes
+            What it holds.
+
+        Raises
+        ------
+        RequestError
+            If that is no plain name.
+        """
+        _write(self._file(name), content)
+
+    def remove_file(self, name: str) -> None:
+        """Remove a file.
+
+        Parameters
+        ----------
+        name : str
+            Its name.
+
+        Raises
+        ------
+        RequestError
+            If there is none of that name.
+        """
+        path = self._file(name)
+        if not path.is_file():
+            raise RequestError(404, f"there is no file {name!r}")
+        path.unlink()
+
+    def new_run(self, text: str, asked: Asked, data: Mapping[Path, str]) -> str:
+        """Keep a case that is to be run, and what it reads.
+
+        Parameters
+        ----------
+        text : str
+            The case as it was given.
+        asked : Asked
+            What was asked for.
+        data : mapping of Path to str
+            The files that it reads, and what they are called in it.
+
+        Returns
+        -------
+        str
+            What the run is called from now on.
+        """
+        name = f"{clock.strftime('%Y%m%d-%H%M%S', clock.gmtime())}-{secrets.token_hex(3)}"
+        given = self.path / _RUNS / name / _GIVEN
+        given.mkdir(parents=True)
+        (given / CASE_NAME).write_text(text, encoding="utf-8")
+        for path, called in data.items():
+            shutil.copyfile(path, given / called)
+        self.keep(name, asked)  # last: without it there is no run
+        return name
+
+    def keep(self, name: str, asked: Asked) -> None:
+        """Keep how a run stands.
+
+        Parameters
+        ----------
+        name : str
+            The run.
+        asked : Asked
+            How it stands.
+        """
+        told = json.dumps(asdict(asked), ensure_ascii=False, indent=1)
+        _write(self.path / _RUNS / name / _ASKED, told.encode())
+
+    def runs(self) -> Iterator[tuple[str, Asked]]:
+        """Yield the runs that are kept, oldest first; what cannot be read is left alone."""
+        known = {field.name for field in fields(Asked)}
+        for path in sorted((self.path / _RUNS).glob(f"*/{_ASKED}")):
+            with suppress(OSError, ValueError, TypeError, AttributeError):
+                told = json.loads(path.read_text(encoding="utf-8"))
+                asked = Asked(**{name: _frozen(told[name]) for name in told if name in known})
+                yield path.parent.name, asked
+
+    def remove_run(self, name: str) -> None:
+        """Remove a run and all that is kept of it.
+
+        Parameters
+        ----------
+        name : str
+            The run.
+        """
+        # First what makes a run of it: whatever cannot be removed comes back no more.
+        with suppress(OSError):
+            (self.path / _RUNS / name / _ASKED).unlink()
+        shutil.rmtree(self.path / _RUNS / name, ignore_errors=True)
+
+    def given(self, name: str) -> Path:
+        """Return the case of a run, as it was given."""
+        return self.path / _RUNS / name / _GIVEN / CASE_NAME
+
+    def directory(self, name: str) -> Path:
+        """Return the run directory of a run."""
+        return self.path / _RUNS / name / _RUN
+
+    def report(self, name: str) -> Path:
+        """Return where the report of a run is kept."""
+        return self.path / _RUNS / name / "report.html"
+
+    def _file(self, name: str) -> Path:
+        if not is_plain_name(name) or name.lower() == CASE_NAME or len(name) > 200:
+            raise RequestError(
+                400, f"{name!r} cannot be the name of a file here; call it e.g. 'pmma.csv'"
+            )
+        return self.path / _FILES / name
+
+    def _put_shipped_files(self) -> None:
+        """Put what shipped examples read beside what users give."""
+        for entry in files("viscontact.examples").iterdir():
+            path = self.path / _FILES / entry.name
+            if path.suffix in _SHIPPED and not path.exists():
+                _write(path, entry.read_bytes())
+
+
+def usual_folder() -> Path:
+    """Return where data of programs belong on this system, below the user's own folder.
+
+    Returns
+    -------
+    Path
+        Such as ``~/.local/share/viscontact``.
+    """
+    if sys.platform == "win32":
+        base = Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local")
+    elif sys.platform == "darwin":
+        base = Path.home() / "Library" / "Application Support"
+    else:
+        base = Path(os.environ.get("XDG_DATA_HOME") or Path.home() / ".local" / "share")
+    return base / "viscontact"
+
+
+def _frozen(value: Any) -> Any:
+    return tuple(value) if isinstance(value, list) else value
+
+
+def _write(path: Path, content: bytes) -> None:
+    """Write a file so that it is there whole or not at all."""
+    fresh = path.with_name(f".{secrets.token_hex(6)}.new")  # two may come at once
+    fresh.write_bytes(content)
+    replace(fresh, path)

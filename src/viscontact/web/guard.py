@@ -1,0 +1,119 @@
+"""Who may ask: pages of this server, on this machine, with requests of a sensible size."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from urllib.parse import urlsplit
+
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+#: What this machine calls itself. Another name in `Host` is another site's, whose address has been
+#: turned to this machine to let its page talk to us.
+LOOPBACK = ("127.0.0.1", "localhost", "::1")
+
+#: How much a request may carry [bytes]: a case of a megabyte as JSON, and files of measurements.
+MOST_JSON, MOST_FILE = 3_000_000, 64_000_000
+
+#: What may be shown, and what the page may do; figures and drawings bring styles of their own.
+_PAGE_POLICY = (
+    "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; "
+    "img-src 'self' data: blob:; connect-src 'self'; font-src 'self'; manifest-src 'self'; "
+    "form-action 'none'; base-uri 'none'; frame-ancestors 'none'"
+)
+_DRAWING_POLICY = "default-src 'none'; style-src 'unsafe-inline'"
+#: A report is one page that needs nothing from anywhere; its scripts get no access to this server.
+REPORT_POLICY = (
+    "sandbox allow-scripts allow-downloads; default-src 'none'; script-src 'unsafe-inline'; "
+    "style-src 'unsafe-inline'; img-src data: blob:; font-src data:"
+)
+_HEADERS = {
+    "x-content-type-options": "nosniff",
+    "referrer-policy": "no-referrer",
+    "cross-origin-resource-policy": "same-origin",
+    "cross-origin-opener-policy": "same-origin",
+    "x-frame-options": "DENY",
+    "cache-control": "no-store",
+}
+
+
+class Guard:
+    """Lets no request through that is another site's or too large, and marks every answer.
+
+    Parameters
+    ----------
+    app : callable
+        What answers, by ASGI.
+    """
+
+    def __init__(self, app: ASGIApp) -> None:
+        self._app = app
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Answer a request."""
+        if scope["type"] != "http":
+            await self._app(scope, receive, send)
+            return
+        asked = {
+            name.decode("latin-1"): value.decode("latin-1") for name, value in scope["headers"]
+        }
+        if refusal := _refusal(scope["method"], scope["path"], asked):
+            await _refuse(_marking(send), *refusal)
+        else:
+            await self._app(scope, receive, _marking(send))
+
+
+def _refusal(method: str, path: str, asked: dict[str, str]) -> tuple[int, str] | None:
+    """Why a request is not let through, if it is not."""
+    host = asked.get("host", "")
+    if _name(f"//{host}") not in LOOPBACK:
+        return 403, f"this server answers to {', '.join(LOOPBACK)} only, and was called {host!r}"
+    origin = asked.get("origin")
+    if origin is not None and origin != f"http://{host}":
+        return 403, f"a page of {origin} may not use this server"
+    # Where the user clicked a link to this page, nothing has been asked by another one.
+    is_visit = method == "GET" and asked.get("sec-fetch-mode") == "navigate" and path == "/"
+    if asked.get("sec-fetch-site", "none") not in ("none", "same-origin") and not is_visit:
+        return 403, "another page may not use this server"
+    if "content-length" not in asked:
+        has_body = "transfer-encoding" in asked
+        return (411, "say in Content-Length how much you send") if has_body else None
+    most = MOST_FILE if path == "/api/files" else MOST_JSON
+    if not asked["content-length"].isdecimal() or int(asked["content-length"]) > most:
+        return 413, f"that is too large: at most {most // 1_000_000} MB can be sent here"
+    return None
+
+
+def _name(address: str) -> str | None:
+    try:
+        return urlsplit(address).hostname
+    except ValueError:
+        return None
+
+
+async def _refuse(send: Send, status: int, why: str) -> None:
+    body = json.dumps({"problems": [{"message": why, "path": "", "line": None}]}).encode()
+    headers = [(b"content-type", b"application/json"), (b"content-length", b"%d" % len(body))]
+    await send({"type": "http.response.start", "status": status, "headers": headers})
+    await send({"type": "http.response.body", "body": body})
+
+
+def _marking(send: Send) -> Send:
+    """Send answers with what tells browsers to be careful."""
+
+    async def marked(message: Message) -> None:
+        if message["type"] == "http.response.start":
+            given: list[tuple[bytes, bytes]] = list(message["headers"])
+            names = {name.lower() for name, _ in given}
+            own = {**_HEADERS, "content-security-policy": _policy(given)}
+            missing = ((k.encode(), v.encode()) for k, v in own.items() if k.encode() not in names)
+            message = {**message, "headers": [*given, *missing]}
+        await send(message)
+
+    return marked
+
+
+def _policy(headers: Iterable[tuple[bytes, bytes]]) -> str:
+    kinds = [value for name, value in headers if name.lower() == b"content-type"]
+    is_drawing = any(kind.startswith(b"image/svg") for kind in kinds)
+    return _DRAWING_POLICY if is_drawing else _PAGE_POLICY

@@ -1,0 +1,198 @@
+"""Figures as files for a page, light or dark."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+import xarray as xr
+from matplotlib.figure import Figure
+
+from viscontact.plot import style
+from viscontact.plot.saving import written
+from viscontact.results import open_results
+from viscontact.units import in_words, parse_quantity
+from viscontact.web.problems import RequestError
+
+Kind = Literal["svg", "png", "pdf"]
+MEDIA_TYPES: dict[str, str] = {
+    **{"svg": "image/svg+xml", "png": "image/png", "pdf": "application/pdf"},
+}
+
+#: What the colours of a light drawing become on a dark ground.
+_DARK = {style.INK: "#e4e4e4", style.FAINT: "#9a9a9a", style.LINE: "#56b4e9", "#ffffff": "#1c1f24"}
+
+
+@dataclass(frozen=True)
+class Wish:
+    """What a figure is to show, and how.
+
+    Attributes
+    ----------
+    name : str
+        Which figure.
+    kind : str
+        svg, png or pdf.
+    times : tuple of str
+        Instants in words; none for the figure's own choice.
+    is_dark : bool
+        Whether it is to stand on a dark ground.
+    """
+
+    name: str
+    kind: Kind = "svg"
+    times: tuple[str, ...] = ()
+    is_dark: bool = False
+
+    def instants(self) -> list[float] | None:
+        """Return the instants [s]; None for the figure's own choice.
+
+        Raises
+        ------
+        RequestError
+            If one of them cannot be read.
+        """
+        try:
+            return [parse_quantity(text, "time") for text in self.times] or None
+        except ValueError as error:
+            raise RequestError(422, f"time: {error}") from error
+
+
+def figure_of(directory: Path, figures: Mapping[str, Callable[..., Figure]], wish: Wish) -> bytes:
+    """Draw a figure of a run.
+
+    Parameters
+    ----------
+    directory : Path
+        The run's.
+    figures : mapping
+        The figures that there are, by name.
+    wish : Wish
+        What to draw.
+
+    Raises
+    ------
+    RequestError
+        If there is no such figure, or it cannot be drawn.
+    """
+    draw, instants = _named(figures, wish.name), wish.instants()
+    with opened(directory) as ds:
+        _refuse_outside(instants, ds)
+        return _drawn(draw, ds, instants, wish)
+
+
+def comparison_of(
+    runs: Mapping[str, Path], figures: Mapping[str, Callable[..., Figure]], wish: Wish
+) -> bytes:
+    """Draw a figure of several runs.
+
+    Parameters
+    ----------
+    runs : mapping of str to Path
+        Their directories by what they are called in it.
+    figures : mapping
+        The figures that there are, by name.
+    wish : Wish
+        What to draw.
+
+    Raises
+    ------
+    RequestError
+        If there is no such figure, or it cannot be drawn.
+    """
+    draw, instants = _named(figures, wish.name), wish.instants()
+    with ExitStack() as stack:
+        results = {label: stack.enter_context(opened(path)) for label, path in runs.items()}
+        for ds in results.values():
+            _refuse_outside(instants, ds)
+        return _drawn(draw, results, instants, wish)
+
+
+def picture(figure: Figure, wish: Wish) -> bytes:
+    """Return a figure as a file.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+        The figure.
+    wish : Wish
+        Which kind, and for which ground.
+    """
+    if wish.kind != "svg":
+        return written(figure, wish.kind)
+    figure.patch.set_alpha(0.0)
+    for axes in figure.axes:
+        axes.patch.set_alpha(0.0)
+    drawn = written(figure, "svg")
+    return on_dark(drawn) if wish.is_dark else drawn
+
+
+def on_dark(drawing: bytes) -> bytes:
+    """Return a drawing in colours for a dark ground.
+
+    Parameters
+    ----------
+    drawing : bytes
+        SVG as matplotlib writes it.
+    """
+    dark = {light.lower().encode(): colour.encode() for light, colour in _DARK.items()}
+    pattern = re.compile(b"|".join(map(re.escape, dark)), re.IGNORECASE)
+    recoloured = pattern.sub(lambda found: dark[found[0].lower()], drawing)
+    # Text as outlines has no colour of its own unless it was given one.
+    return recoloured.replace(b"<svg ", b'<svg fill="#e4e4e4" ', 1)
+
+
+def opened(directory: Path) -> xr.Dataset:
+    """Open the result of a run.
+
+    Parameters
+    ----------
+    directory : Path
+        The run's.
+
+    Raises
+    ------
+    RequestError
+        If there is nothing to see yet.
+    """
+    try:
+        ds = open_results(directory)
+    except (OSError, ValueError) as error:
+        raise RequestError(409, "the run has no result yet; wait for its first step") from error
+    if not ds.sizes.get("time"):
+        ds.close()
+        raise RequestError(409, "the run has no result yet; wait for its first step")
+    return ds
+
+
+def _named(figures: Mapping[str, Callable[..., Figure]], name: str) -> Callable[..., Figure]:
+    if name not in figures:
+        raise RequestError(
+            404, f"no figure is called {name[:40]!r}. There are {', '.join(figures)}"
+        )
+    return figures[name]
+
+
+def _drawn(
+    draw: Callable[..., Figure], results: Any, instants: Sequence[float] | None, wish: Wish
+) -> bytes:
+    try:
+        return picture(draw(results, times=instants), wish)
+    except ValueError as error:
+        raise RequestError(422, str(error)) from error
+
+
+def _refuse_outside(instants: Sequence[float] | None, ds: xr.Dataset) -> None:
+    start, end = (float(ds["time"][index]) for index in (0, -1))
+    slack = 1e-9 * end
+    for instant in instants or ():
+        if not start - slack <= instant <= end + slack:
+            raise RequestError(
+                422,
+                f"time: {in_words(instant, 's')} lies outside the run, which goes from "
+                f"{in_words(start, 's')} to {in_words(end, 's')}",
+            )

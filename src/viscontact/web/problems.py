@@ -1,0 +1,126 @@
+"""What is wrong with a request, in the words of the command line, and in one form."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from viscontact.case import CaseError
+
+#: A key as messages write it: words joined by points, positions in lists in brackets.
+_KEY = re.compile(r"([A-Za-z_][\w-]*(?:\[\d+\])*(?:\.[A-Za-z_][\w-]*(?:\[\d+\])*)*): ")
+
+
+@dataclass(frozen=True)
+class Problem:
+    """One thing that is wrong.
+
+    Attributes
+    ----------
+    message : str
+        What, and what to do.
+    path : str
+        The key of the case that it is about; empty if it is about none.
+    line : int or None
+        The line of the case.
+    """
+
+    message: str
+    path: str = ""
+    line: int | None = None
+
+
+class RequestError(Exception):
+    """A request that is not granted.
+
+    Parameters
+    ----------
+    status : int
+        HTTP's code.
+    *problems : Problem or str
+        Why not.
+
+    Attributes
+    ----------
+    status : int
+        The same.
+    body : dict
+        What is answered.
+    """
+
+    def __init__(self, status: int, *problems: Problem | str) -> None:
+        super().__init__(*problems)
+        self.status = status
+        told = (Problem(each) if isinstance(each, str) else each for each in problems)
+        self.body: dict[str, Any] = {"problems": [asdict(each) for each in told]}
+
+
+def case_problems(error: CaseError, path: Path) -> RequestError:
+    """Return what is wrong with a case as an answer.
+
+    Parameters
+    ----------
+    error : CaseError
+        All that is wrong.
+    path : Path
+        What the case was called when it was read.
+    """
+    return RequestError(422, *(problem_of(line, path) for line in error.problems))
+
+
+def problem_of(line: str, path: Path) -> Problem:
+    """Take a message of the command line apart.
+
+    Parameters
+    ----------
+    line : str
+        Such as ``case.yaml:6: load.force: cannot read '10 MPa' as a force``.
+    path : Path
+        What the case is called in it; that it lies in a folder is left out.
+
+    Examples
+    --------
+    >>> problem_of("a/case.yaml:6: load.force: cannot read it", Path("a/case.yaml"))
+    Problem(message='cannot read it', path='load.force', line=6)
+    >>> problem_of("a/case.yaml: a/pmma.csv: no such file", Path("a/case.yaml"))
+    Problem(message='pmma.csv: no such file', path='', line=None)
+    """
+    number: int | None = None
+    if found := re.match(rf"{re.escape(str(path))}:(\d*):? ", line):
+        line, number = line[found.end() :], int(found[1]) if found[1] else None
+    key = _KEY.match(line)
+    where = key[1] if key and _is_key(key[1], number) else ""
+    line = line[key.end() :] if key and where else line
+    return Problem(without_folder(line, path.parent), where, number)
+
+
+def without_folder(text: str, folder: Path) -> str:
+    """Leave out where files lie, which says nothing to whoever has sent them.
+
+    Parameters
+    ----------
+    text : str
+        A message.
+    folder : Path
+        The folder.
+    """
+    return re.sub(rf"{re.escape(str(folder))}[/\\]", "", text)
+
+
+def lines_of(problems: Iterable[Problem]) -> list[str]:
+    """Return problems as lines of text.
+
+    Parameters
+    ----------
+    problems : iterable of Problem
+        The problems.
+    """
+    return [f"{each.path}: {each.message}" if each.path else each.message for each in problems]
+
+
+def _is_key(text: str, line: int | None) -> bool:
+    """Whether it is a key, and not the name of a file."""
+    return line is not None or not re.search(r"\.(csv|npz|npy|ya?ml)$", text)
