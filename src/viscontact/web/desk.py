@@ -9,7 +9,7 @@ from typing import Any
 
 from viscontact.case import Case, CaseError, read_case_text
 from viscontact.case.document import document_of
-from viscontact.forecast import run_memory, step_count
+from viscontact.footprint import run_memory, step_count
 from viscontact.inspection import expectations, foreseen, needs, verdict, warnings_of
 from viscontact.preparation import Prepared, prepared
 from viscontact.web.coarse import coarse_settings, without_cells

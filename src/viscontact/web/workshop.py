@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from os import cpu_count
 
-from viscontact.forecast import available_memory
+from viscontact.free_memory import available_memory
 from viscontact.web.folder import Asked, Folder
 from viscontact.web.problems import RequestError
 from viscontact.web.work import Work
