@@ -56,7 +56,11 @@ def test_every_figure_of_a_roller_draws(name: str, long_contact: xr.Dataset) -> 
     FIGURES[name](long_contact, times=[0.0, 1000.0]).draw_without_rendering()
 
 
-@pytest.mark.parametrize("name", sorted(COMPARISONS))
+#: Comparisons that put runs side by side, and do not lay their lines over one another.
+SIDE_BY_SIDE = {"pressure-3d"}
+
+
+@pytest.mark.parametrize("name", sorted(set(COMPARISONS) - SIDE_BY_SIDE))
 def test_every_comparison_draws_every_run(name: str, long_contact: xr.Dataset) -> None:
     figure = COMPARISONS[name]({"straight": long_contact, "tilted": roller(tilt=0.2)})
     figure.draw_without_rendering()
@@ -104,7 +108,11 @@ def test_fields_stored_at_chosen_instants_are_found_by_field_time(sphere: xr.Dat
 
 
 @pytest.mark.parametrize(
-    "name", ["pressure-map", "pressure-profile", "pressure-radial", "contact-outline"]
+    "name",
+    [
+        *("pressure-map", "pressure-profile", "pressure-radial", "contact-outline"),
+        *("pressure-3d", "surface-3d"),
+    ],
 )
 def test_figures_of_fields_refuse_a_result_without_them(name: str) -> None:
     with pytest.raises(ValueError, match=rf"{name}: .*no pressure.*fields"):

@@ -17,6 +17,7 @@ except ModuleNotFoundError as error:
 
 from viscontact.plot.contact_outline import contact_outline
 from viscontact.plot.creep import creep, creep_curve
+from viscontact.plot.deformed_surface import deformed_surface
 from viscontact.plot.history import compare_histories, history
 from viscontact.plot.hysteresis import compare_hysteresis, hysteresis
 from viscontact.plot.identified import fitted_indentation, fitted_series, master_curve
@@ -26,6 +27,7 @@ from viscontact.plot.material_curves import material_curves
 from viscontact.plot.pressure_map import pressure_map
 from viscontact.plot.pressure_profile import compare_pressure_profiles, pressure_profile
 from viscontact.plot.pressure_radial import pressure_radial
+from viscontact.plot.pressure_surface import compare_pressure_surfaces, pressure_surface
 from viscontact.plot.saving import save_figure
 from viscontact.plot.stress_section import stress_section, von_mises_history
 
@@ -33,6 +35,8 @@ FIGURES: dict[str, Callable[..., Figure]] = {
     "pressure-map": pressure_map,
     "pressure-profile": pressure_profile,
     "pressure-radial": pressure_radial,
+    "pressure-3d": pressure_surface,
+    "surface-3d": deformed_surface,
     "contact-outline": contact_outline,
     "history": history,
     "hysteresis": hysteresis,
@@ -46,6 +50,7 @@ COMPARISONS: dict[str, Callable[..., Figure]] = {
     "history": compare_histories,
     "hysteresis": compare_hysteresis,
     "pressure-profile": compare_pressure_profiles,
+    "pressure-3d": compare_pressure_surfaces,
 }
 """Figures of several runs by name: ``COMPARISONS[name]({label: results, ...}, times=None)``."""
 
@@ -55,9 +60,11 @@ __all__ = [
     "compare_histories",
     "compare_hysteresis",
     "compare_pressure_profiles",
+    "compare_pressure_surfaces",
     "contact_outline",
     "creep",
     "creep_curve",
+    "deformed_surface",
     "draw_indenter",
     "draw_load",
     "fitted_indentation",
@@ -69,6 +76,7 @@ __all__ = [
     "pressure_map",
     "pressure_profile",
     "pressure_radial",
+    "pressure_surface",
     "save_figure",
     "stress_section",
     "von_mises_history",

@@ -229,6 +229,39 @@ def take_snapshots(
     return snapshots
 
 
+def field_at(results: xr.Dataset, name: str, time: float, figure: str) -> NDArray[np.float64]:
+    """Return a field at a stored instant.
+
+    Parameters
+    ----------
+    results : xarray.Dataset
+        What ``simulate`` or ``open_results`` returned.
+    name : str
+        Such as ``"displacement"``.
+    time : float
+        An instant at which fields are stored [s].
+    figure : str
+        Name of the figure, for the message.
+
+    Returns
+    -------
+    ndarray
+        Shape (nx, ny), in SI units.
+
+    Raises
+    ------
+    ValueError
+        If the field is not stored.
+    """
+    if name not in results:
+        raise ValueError(
+            f"{figure}: needs the stored field {name}, which this result does not have; run again "
+            "with fields stored"
+        )
+    field = results[name].sel({_time_dimension(results): time}, method="nearest")
+    return np.asarray(field.transpose("x", "y").values, dtype=np.float64)
+
+
 def _time_dimension(results: xr.Dataset) -> str:
     return "field_time" if "field_time" in results["pressure"].dims else "time"
 

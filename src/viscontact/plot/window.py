@@ -60,13 +60,15 @@ class Window:
         axes.set(xlim=self.unit(self.x), ylim=self.unit(self.y), aspect=self.stretch)
 
 
-def window_around(snapshots: Iterable[Snapshot]) -> Window:
+def window_around(snapshots: Iterable[Snapshot], *, slender: float = _PANEL_SHAPE) -> Window:
     """Find the window that holds the contact of all snapshots, with a margin.
 
     Parameters
     ----------
     snapshots : iterable of Snapshot
         At least one of them in contact.
+    slender : float, optional
+        Length against width that a contact is left with at least when it is stretched.
 
     Returns
     -------
@@ -83,7 +85,7 @@ def window_around(snapshots: Iterable[Snapshot]) -> Window:
         x_low, x_high, y_low, y_high = snapshots[0].borders()
         x = max(x[0], x_low), min(x[1], x_high)
         y = max(y[0], y_low), min(y[1], y_high)
-    return Window(x, y, _stretch((x[1] - x[0]) / (y[1] - y[0])))
+    return Window(x, y, _stretch((x[1] - x[0]) / (y[1] - y[0]), slender))
 
 
 def _widened(low: float, high: float) -> tuple[float, float]:
@@ -91,9 +93,9 @@ def _widened(low: float, high: float) -> tuple[float, float]:
     return low - margin, high + margin
 
 
-def _stretch(length_to_width: float) -> float:
+def _stretch(length_to_width: float, slender: float) -> float:
     if length_to_width < 1:
-        return 1 / _stretch(1 / length_to_width)
+        return 1 / _stretch(1 / length_to_width, slender)
     if length_to_width <= _TRUE_ASPECT:
         return 1.0
-    return float(max((s for s in _STRETCHES if s <= length_to_width / _PANEL_SHAPE), default=1))
+    return float(max((s for s in _STRETCHES if s <= length_to_width / slender), default=1))
