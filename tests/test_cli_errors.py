@@ -12,15 +12,11 @@ import pytest
 import xarray as xr
 
 import viscontact as vc
-from test_cli_resume import CASE, COUNT, folder, same_bits, whole
+from interrupted_runs import CASE, COUNT, Killed, folder, same_bits, whole
 from viscontact import companions
 from viscontact.cli import main
 
 __all__ = ["folder", "whole"]  # fixtures
-
-
-class Killed(BaseException):
-    """The process is gone."""
 
 
 def within_the_stage(act: Callable[[], None]) -> Callable[[], None]:

@@ -16,15 +16,7 @@ import pytest
 import xarray as xr
 
 import viscontact as vc
-from test_cli_resume import (  # noqa: F401 - fixtures
-    CASE,
-    at_instant,
-    contents,
-    folder,
-    kill,
-    same_bits,
-    whole,
-)
+from interrupted_runs import CASE, at_instant, contents, folder, kill, same_bits, whole
 from viscontact import past
 from viscontact.cli import main
 from viscontact.recording import checkpoint, restart_files, run_record
@@ -32,11 +24,13 @@ from viscontact.recording.progress import ProgressLog
 from viscontact.recording.result_writer import ResultWriter
 from viscontact.recording.step_log import StepLog
 
+__all__ = ["folder", "whole"]  # fixtures
+
 resource = pytest.importorskip("resource") if os.name != "nt" else None
 
 
 @pytest.fixture
-def stopped(folder: Path, capsys: pytest.CaptureFixture[str]) -> Path:  # noqa: F811
+def stopped(folder: Path, capsys: pytest.CaptureFixture[str]) -> Path:
     """The directory of a run that was stopped, all saved, after its fourth instant."""
     undo = at_instant(4, lambda: signal.raise_signal(signal.SIGTERM))
     assert main(["run", "case.yaml", "-q"]) == 130
@@ -77,8 +71,8 @@ def test_full_disk_stops_the_run_which_goes_on_once_there_is_space(
     calls: int,
     where: Any,
     name: str,
-    folder: Path,  # noqa: F811
-    whole: xr.Dataset,  # noqa: F811
+    folder: Path,
+    whole: xr.Dataset,
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
@@ -116,8 +110,8 @@ def test_full_disk_stops_the_run_which_goes_on_once_there_is_space(
 @pytest.mark.parametrize("size", [0, 2_000, 20_000, 60_000])
 def test_quota_stops_the_run_which_goes_on_without_it(
     size: int,
-    folder: Path,  # noqa: F811
-    whole: xr.Dataset,  # noqa: F811
+    folder: Path,
+    whole: xr.Dataset,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     before = resource.getrlimit(resource.RLIMIT_FSIZE)
@@ -219,8 +213,8 @@ def test_course_of_another_run_is_not_gone_on_with(
 @pytest.mark.parametrize("damage", [_cut, _empty, _garbage, _text, Path.unlink])
 def test_damaged_log_costs_time_and_nothing_else(
     damage: Callable[[Path], None],
-    folder: Path,  # noqa: F811
-    whole: xr.Dataset,  # noqa: F811
+    folder: Path,
+    whole: xr.Dataset,
 ) -> None:
     kill(4, "-q")  # three steps are in the log, and nowhere else
     damage(folder / "case" / "steps.log")
@@ -232,7 +226,7 @@ def test_damaged_log_costs_time_and_nothing_else(
 def test_overwrite_replaces_a_damaged_result(
     damage: Callable[[Path], None],
     stopped: Path,
-    whole: xr.Dataset,  # noqa: F811
+    whole: xr.Dataset,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     damage(stopped / "result.nc")
@@ -246,8 +240,8 @@ def test_overwrite_replaces_a_damaged_result(
 
 
 def test_links_are_replaced_and_not_written_through(
-    folder: Path,  # noqa: F811
-    whole: xr.Dataset,  # noqa: F811
+    folder: Path,
+    whole: xr.Dataset,
 ) -> None:
     Path("load.csv").write_text("time [s], force [N]\n0, 0\n1, 4\n", encoding="utf-8")
     load = ["--set", "load={kind: history, file: load.csv}"]
@@ -265,7 +259,7 @@ def test_links_are_replaced_and_not_written_through(
 
 def test_result_that_is_a_link_goes_on_as_a_file(
     stopped: Path,
-    whole: xr.Dataset,  # noqa: F811
+    whole: xr.Dataset,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(run_record, "PAUSE", 0.0)
@@ -296,7 +290,7 @@ def test_file_that_no_run_has_written_is_not_replaced(
     name: str,
     content: str,
     words: list[str],
-    folder: Path,  # noqa: F811
+    folder: Path,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     Path("d").mkdir()
@@ -315,7 +309,7 @@ def test_file_that_no_run_has_written_is_not_replaced(
     assert sorted(contents("d")) == [name]
 
 
-def test_hidden_files_of_other_programs_stay(folder: Path) -> None:  # noqa: F811
+def test_hidden_files_of_other_programs_stay(folder: Path) -> None:
     Path("d").mkdir()
     Path("d/.result.nc.backup").write_text("precious", encoding="utf-8")
     assert main(["run", "case.yaml", "-q", "-o", "d"]) == 0
@@ -329,8 +323,8 @@ def test_hidden_files_of_other_programs_stay(folder: Path) -> None:  # noqa: F81
 )
 def test_link_at_a_temporary_name_is_not_written_through(
     name: str,
-    folder: Path,  # noqa: F811
-    whole: xr.Dataset,  # noqa: F811
+    folder: Path,
+    whole: xr.Dataset,
 ) -> None:
     Path("precious.txt").write_text("precious", encoding="utf-8")
     Path("d").mkdir()
@@ -371,7 +365,7 @@ def ending_within(seconds: int) -> Iterator[None]:
 @pytest.mark.parametrize("line", ["[" * 200_000, '{"time": 1' + "0" * 400 + "}", '{"time": 1'])
 def test_course_that_cannot_be_read_is_refused_and_the_hidden_copy_stays(
     line: str,
-    folder: Path,  # noqa: F811
+    folder: Path,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     kill(4, "-q")
@@ -387,8 +381,8 @@ def test_course_that_cannot_be_read_is_refused_and_the_hidden_copy_stays(
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows removes no open file")
 def test_course_that_is_removed_meanwhile_is_written_anew(
-    folder: Path,  # noqa: F811
-    whole: xr.Dataset,  # noqa: F811
+    folder: Path,
+    whole: xr.Dataset,
 ) -> None:
     assert main(["run", "case.yaml", "-q", "-o", "other"]) == 0
     undo = at_instant(4, Path("case/progress.jsonl").unlink)
@@ -422,7 +416,7 @@ def test_directory_that_may_not_be_written_to_is_refused(
 @pytest.mark.parametrize("call", ["mkdir", "lock", "working copy"])
 def test_directory_that_cannot_be_written_to_is_refused(
     call: str,
-    folder: Path,  # noqa: F811
+    folder: Path,
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
@@ -448,7 +442,7 @@ def test_directory_that_cannot_be_written_to_is_refused(
 
 
 def test_finished_run_on_a_disk_that_is_read_only_is_still_finished(
-    folder: Path,  # noqa: F811
+    folder: Path,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     assert main(["run", "case.yaml", "-q"]) == 0
@@ -465,7 +459,7 @@ def test_finished_run_on_a_disk_that_is_read_only_is_still_finished(
 
 
 def test_contact_at_the_rim_advises_no_resumption(
-    folder: Path,  # noqa: F811
+    folder: Path,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     small = ["--set", "grid.size=[2.1 mm, 2.1 mm]", "-q"]
@@ -482,7 +476,7 @@ def test_contact_at_the_rim_advises_no_resumption(
 
 
 def test_failed_step_stands_at_the_end_of_the_result(
-    folder: Path,  # noqa: F811
+    folder: Path,
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
@@ -507,8 +501,8 @@ def test_failed_step_stands_at_the_end_of_the_result(
 
 
 def test_memory_that_runs_out_stops_the_run_in_one_message(
-    folder: Path,  # noqa: F811
-    whole: xr.Dataset,  # noqa: F811
+    folder: Path,
+    whole: xr.Dataset,
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
@@ -553,9 +547,9 @@ LAW = "time [s], relaxation_modulus [MPa]\n0.01, 10\n0.1, 9.5\n1, 7\n10, 5\n100,
 def test_table_is_copied_into_the_directory_and_over_nothing(
     file: str,
     copied: str,
-    folder: Path,  # noqa: F811
+    folder: Path,
     tmp_path: Path,
-    whole: xr.Dataset,  # noqa: F811
+    whole: xr.Dataset,
 ) -> None:
     (folder / "tables" / "a" / "b").mkdir(parents=True)
     file = file.format(absolute=tmp_path)
@@ -577,7 +571,7 @@ def test_table_is_copied_into_the_directory_and_over_nothing(
     assert same_bits("again", whole)
 
 
-def test_two_tables_of_one_name_stay_two(folder: Path) -> None:  # noqa: F811
+def test_two_tables_of_one_name_stay_two(folder: Path) -> None:
     for name, text in (("a", TABLE), ("b", LAW)):
         Path(name).mkdir()
         Path(name, "x.csv").write_text(text, encoding="utf-8")
@@ -595,7 +589,7 @@ def test_two_tables_of_one_name_stay_two(folder: Path) -> None:  # noqa: F811
 
 
 def test_table_of_the_users_is_not_replaced_by_one_of_its_name(
-    folder: Path,  # noqa: F811
+    folder: Path,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     Path("tables").mkdir()
@@ -615,7 +609,7 @@ def test_table_of_the_users_is_not_replaced_by_one_of_its_name(
 
 
 def test_table_whose_name_is_but_a_part_of_a_copys_is_the_users(
-    folder: Path,  # noqa: F811
+    folder: Path,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     Path("tables").mkdir()
@@ -635,8 +629,8 @@ def test_table_whose_name_is_but_a_part_of_a_copys_is_the_users(
 @pytest.mark.parametrize("change", [lambda path: path.write_text("0, 8\n"), Path.unlink])
 def test_table_that_is_changed_before_the_first_step_stops_the_run(
     change: Callable[[Path], None],
-    folder: Path,  # noqa: F811
-    whole: xr.Dataset,  # noqa: F811
+    folder: Path,
+    whole: xr.Dataset,
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
@@ -664,7 +658,7 @@ def test_table_that_is_changed_before_the_first_step_stops_the_run(
 
 def test_case_that_is_no_text_is_replaced_when_asked(
     stopped: Path,
-    whole: xr.Dataset,  # noqa: F811
+    whole: xr.Dataset,
 ) -> None:
     (stopped / "case.yaml").write_bytes(b"title: R\xf6lle\n")
     assert main(["run", "case.yaml", "-q", "--overwrite"]) == 0
@@ -672,7 +666,7 @@ def test_case_that_is_no_text_is_replaced_when_asked(
 
 
 def test_clock_that_is_set_back_makes_no_duration_negative(
-    folder: Path,  # noqa: F811
+    folder: Path,
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
@@ -689,7 +683,7 @@ def test_clock_that_is_set_back_makes_no_duration_negative(
 
 def test_moved_directory_goes_on_where_it_is(
     stopped: Path,
-    whole: xr.Dataset,  # noqa: F811
+    whole: xr.Dataset,
 ) -> None:
     shutil.move(stopped, "elsewhere")
     assert main(["run", "case.yaml", "-o", "elsewhere", "-q", "--resume"]) == 0

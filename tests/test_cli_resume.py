@@ -9,8 +9,6 @@ import signal
 import subprocess
 import sys
 import time as clock
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +17,16 @@ import pytest
 import xarray as xr
 
 import viscontact as vc
+from interrupted_runs import (
+    CASE,
+    Killed,
+    at_instant,
+    contents,
+    folder,
+    kill,
+    same_bits,
+    whole,
+)
 from viscontact import past
 from viscontact.cli import attempt, execution, main
 from viscontact.cli.interruption import watched_interruption
@@ -26,85 +34,7 @@ from viscontact.recording import restart_files, run_record
 from viscontact.recording.lock import locked
 from viscontact.recording.run_record import RunRecord
 
-CASE = """\
-title: Zener sphere
-indenter: {shape: sphere, radius: 10 mm}
-material:
-  law: zener
-  shear_modulus: 10 MPa
-  delayed_modulus: 10 MPa
-  viscosity: 10 MPa s
-  poisson_ratio: 0.5
-load: {kind: ramp, force: 4 N, duration: 1 s}  # then held
-time: {end: 5 s, steps: 10}
-grid: {shape: [24, 24], size: [3 mm, 3 mm]}
-output: {fields: [0 s, 2 s, 5 s]}
-"""
-COUNT = 11  # instants
-
-
-class Killed(BaseException):
-    """The process is gone."""
-
-
-@pytest.fixture
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """An empty working directory whose name has a space, with a case in it."""
-    here = tmp_path / "my runs"
-    here.mkdir()
-    (here / "case.yaml").write_text(CASE, encoding="utf-8")
-    monkeypatch.chdir(here)
-    return here
-
-
-@pytest.fixture(scope="module")
-def whole(tmp_path_factory: pytest.TempPathFactory) -> xr.Dataset:
-    """The result of the same run, uninterrupted."""
-    here = tmp_path_factory.mktemp("whole")
-    (here / "case.yaml").write_text(CASE, encoding="utf-8")
-    assert main(["run", str(here / "case.yaml"), "-q"]) == 0
-    with xr.open_dataset(here / "case" / "result.nc") as ds:
-        return ds.load()
-
-
-def at_instant(number: int, act: Callable[[], None]) -> Callable[[], None]:
-    """Do something when an instant is being shown; return what undoes that."""
-
-    @contextmanager
-    def shown(*arguments: Any, **options: Any) -> Iterator[Any]:
-        def report(state: vc.ContactState, done: int, total: int) -> None:
-            if done == number:
-                act()
-
-        yield report
-
-    patched = pytest.MonkeyPatch()
-    patched.setattr(execution, "shown_progress", shown)
-    return patched.undo
-
-
-def kill(number: int, *words: str) -> None:
-    """Let a run end at an instant, as far as its directory is concerned, as if it were killed."""
-
-    def die() -> None:
-        raise Killed
-
-    undo = at_instant(number, die)
-    with pytest.raises(Killed):
-        main(["run", "case.yaml", *words])
-    undo()
-
-
-def contents(directory: str) -> dict[str, bytes]:
-    return {path.name: path.read_bytes() for path in Path(directory).iterdir()}
-
-
-def same_bits(directory: str, whole: xr.Dataset) -> bool:
-    with xr.open_dataset(Path(directory) / "result.nc") as ds:
-        same = ds.sizes == whole.sizes and set(ds.variables) == set(whole.variables)
-        return same and all(
-            ds[name].values.tobytes() == whole[name].values.tobytes() for name in whole.variables
-        )
+__all__ = ["folder", "whole"]  # fixtures
 
 
 def test_resumed_run_ends_in_the_bits_of_an_uninterrupted_one(
