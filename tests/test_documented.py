@@ -1,0 +1,123 @@
+"""Every command and every line of Python that the documentation shows works as it stands."""
+
+from __future__ import annotations
+
+import ast
+import re
+from importlib.machinery import SourceFileLoader
+from importlib.util import module_from_spec, spec_from_loader
+from pathlib import Path
+
+import pytest
+import typer
+
+import viscontact as vc
+from documented import PAGES, ROOT, Reader, blocks, commands, pictures, why_not_run, words
+from viscontact.cli.shell import app
+
+COMMANDS = typer.main.get_group(app).commands
+
+#: What lies in the reader's directory before a page begins, made as other pages say.
+GIVEN = {
+    "docs/many-runs.md": """
+```sh
+viscontact example sphere-zener -o zener.yaml
+viscontact example sphere-maxwell -o maxwell.yaml
+```
+""",
+    "docs/report.md": """
+```sh
+viscontact demo
+```
+```python
+import shutil
+import viscontact as vc
+shutil.copy("viscontact-demo/result.nc", "result.nc")
+ds = vc.open_results("result.nc").load()
+```
+""",
+    "docs/accuracy.md": """
+```sh
+viscontact example afm-indentation -o my.yaml
+viscontact run my.yaml
+```
+""",
+}
+
+
+def named(pages: list[Path]) -> list[object]:
+    return [pytest.param(page, id=str(page.relative_to(ROOT))) for page in pages]
+
+
+def kinds(page: Path, *wanted: str) -> list[str]:
+    found = blocks(page.read_text(encoding="utf-8"))
+    return [block.text for block in found if block.kind in wanted]
+
+
+def require_known(command: str) -> None:
+    """Refuse a command or an option that the command line does not have."""
+    _, *arguments = words(command.split(" > ")[0])
+    subcommand = next(iter(arguments), "--help")
+    if subcommand.startswith("-"):
+        return
+    known = COMMANDS[subcommand].params
+    options = {option for one in known for option in (*one.opts, *one.secondary_opts)}
+    for word in arguments[1:]:
+        if word.startswith("-"):
+            assert word.split("=")[0] in options | {"--help"}, command
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "page", named([page for page in PAGES if kinds(page, "commands", "python")])
+)
+@pytest.mark.filterwarnings("default::viscontact.AccuracyWarning")
+def test_what_a_page_says_comes_true(
+    page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "80")
+    markdown = page.read_text(encoding="utf-8")
+    reader = Reader()
+    reader.follow(GIVEN.get(str(page.relative_to(ROOT)), ""))
+    reader.follow(markdown)
+    if page.parent.name == "howto" or page.name == "tutorial.md":
+        # Pictures on these pages are what their commands draw.
+        for picture in pictures(markdown, page):
+            assert (tmp_path / picture.name).exists(), picture.name
+
+
+@pytest.mark.parametrize("page", named(PAGES))
+def test_commands_options_and_names_of_a_page_exist(page: Path) -> None:
+    markdown = page.read_text(encoding="utf-8")
+    inline = re.findall(r"(?<!`)`(viscontact [^`]+)`(?!`)", markdown)
+    shown = [line for text in kinds(page, "commands") for line in commands(text)]
+    for command in [*shown, *inline]:
+        if command.startswith("viscontact "):
+            require_known(command.replace("\n", " "))
+    for source in kinds(page, "python"):
+        for node in ast.walk(ast.parse(source)):
+            if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
+                assert node.value.id != "vc" or hasattr(vc, node.attr), node.attr
+    for picture in pictures(markdown, page):
+        assert picture.exists(), picture
+
+
+def test_tasks_that_pages_name_exist() -> None:
+    loader = SourceFileLoader("go", str(ROOT / "go"))
+    spec = spec_from_loader("go", loader)
+    assert spec is not None
+    go = module_from_spec(spec)
+    loader.exec_module(go)
+    for page in PAGES:
+        for task in re.findall(r"\./go (\w+)", page.read_text(encoding="utf-8")):
+            assert task in go.TASKS, f"{page.name}: ./go {task}"
+
+
+def test_a_line_of_a_shell_is_run_or_has_its_reason() -> None:
+    for page in PAGES:
+        for text in kinds(page, "commands"):
+            for command in commands(text):
+                program = command.split()[0]
+                known = why_not_run(command) or program in ("viscontact", "./go", "python")
+                assert known, f"{page.name}: {command}"
