@@ -26,7 +26,7 @@ def follow(values, duration=1.0, compliance=FLUID):
         each = Step(k * duration, duration if k else 0.0, None, smooth=k > 1)
         response = memory.ramp(duration) if k else memory.jump()
         field = value * FIELD
-        estimates.append(errors.after(each, field, response, errors.of_step(each, field, response)))
+        estimates.append(errors.after(each, field, errors.of_step(each, field, response)))
         memory.accept(field)
     return np.array(estimates), response.compliance
 
@@ -73,7 +73,7 @@ def test_a_first_step_without_a_successor_counts_by_its_change():
     ):
         response = memory.jump() if each.is_jump else memory.ramp(each.duration)
         measured = errors.of_step(each, value * FIELD, response)
-        estimate = errors.after(each, value * FIELD, response, measured)
+        estimate = errors.after(each, value * FIELD, measured)
         memory.accept(value * FIELD)
     assert estimate == pytest.approx(ALONE * 0.01 / response.compliance, rel=1e-12)
 
@@ -91,7 +91,7 @@ def test_what_touches_first_is_measured_against_what_the_load_will_come_to():
         for each in (Step(0.0, 0.0, 0.0, smooth=False), Step(time, 1.0, 1.0, smooth=False)):
             response = memory.jump() if each.is_jump else memory.ramp(each.duration)
             measured = errors.of_step(each, each.time * FIELD, response)
-            errors.after(each, each.time * FIELD, response, measured)
+            errors.after(each, each.time * FIELD, measured)
             memory.accept(each.time * FIELD)
         parts.append(measured.relative)
     assert parts[0] / parts[1] == pytest.approx(10.0**0.25, rel=1e-12)

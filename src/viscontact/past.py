@@ -179,7 +179,7 @@ class Past:
         self._motion = trial.solution.found.motion
         self._memory.accept(trial.values)
         self._force_memory.accept(np.array([trial.force]))
-        time_error = self._errors.after(step, trial.values, trial.response, trial.error)
+        time_error = self._errors.after(step, trial.values, trial.error)
         instant = _whole(self._half_space, trial, time_error)
         self._scale = max(self._scale, HISTORY_COUNTS * float(instant.displacement.max()))
         return instant

@@ -110,14 +110,12 @@ class TimeErrors:
         to_come = size * self._growth_to_come(level)
         return StepError(bulge, bulge * crept / (response.compliance * to_come), size, level)
 
-    def after(
-        self, step: Step, values: NDArray[np.float64], response: Response, error: StepError
-    ) -> float:
+    def after(self, step: Step, values: NDArray[np.float64], error: StepError) -> float:
         """Take a step, and return the estimated relative error of the pressure after it.
 
         Parameters
         ----------
-        step, values, response
+        step, values
             As in `of_step`.
         error : StepError
             From `of_step`.

@@ -85,7 +85,7 @@ def read_abaqus(
     """
     path = Path(path)
     units = card_units(modulus_unit, time_unit, temperature_unit)
-    sections = _sections(path.name, read_blocks(path.name, read_text(path)))
+    sections = _sections(read_blocks(path.name, read_text(path)))
     if name is not None:
         chosen = [s for s in sections if s.name.upper() == name.upper()]
         if not chosen:
@@ -99,7 +99,7 @@ def read_abaqus(
     return tuple(_card(section, units) for section in sections)
 
 
-def _sections(source: str, blocks: list[Block]) -> list[_Section]:
+def _sections(blocks: list[Block]) -> list[_Section]:
     sections: list[_Section] = []
     current: _Section | None = None
     for block in blocks:

@@ -77,7 +77,7 @@ def march(function: Function, mean: Mean, nodes: Floats, load: Load | None) -> t
         rates = _rates(kernel, nodes, np.ones_like(nodes), begun / nodes[0])
         return 0.0, np.cumsum(rates * steps)
     load = load or _ONE
-    loads, kernel = load.at(nodes), _growing(function, mean, steps, instant)
+    loads, kernel = load.at(nodes), _growing(function, mean, steps)
     if instant > 0:
         at_once, begun = float(load.at(np.zeros(1))[0]) / instant, loads[0] / begin
         average = load.mean(np.zeros(1), nodes[:1])[0] / begin
@@ -126,8 +126,8 @@ def _falling(function: Function, mean: Mean, steps: Floats) -> Kernel:
     return Kernel(past, mean(none, steps) * steps, bent * steps**2)
 
 
-def _growing(function: Function, mean: Mean, steps: Floats, instant: float) -> Kernel:
-    """Return the kernel κ = f(0) δ + f' of a function that grows."""
+def _growing(function: Function, mean: Mean, steps: Floats) -> Kernel:
+    """Return the kernel κ = f(0) δ + f' of a function that grows, from its values f."""
 
     def past(lags: Floats, steps: Floats) -> tuple[Floats, Floats]:
         middle = lags - steps / 2

@@ -47,13 +47,6 @@ class LoadPoint:
     tilt_y: float | None
     approach: float | None = None
 
-    @property
-    def is_unloaded(self) -> bool:
-        """Whether the bodies are known to be apart: no force, or no closer than at first."""
-        if self.force is not None:
-            return self.force == 0
-        return self.approach is not None and self.approach <= 0 and not (self.tilt_x or self.tilt_y)
-
 
 class LoadHistory(Shown, ABC):
     """A force or an approach over time, with where the force acts and prescribed tilts."""
