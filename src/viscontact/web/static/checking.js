@@ -1,0 +1,73 @@
+// After each change: the text, what is wrong with it, what it would take, and the drawings.
+
+import { caseText, draft, writeText } from "./draft.js";
+import { make, place, settled, write } from "./dom.js";
+import { draw } from "./drawings.js";
+import { clearProblems, showProblems } from "./problems.js";
+import { post } from "./server.js";
+import { lasting } from "./units.js";
+
+// Long enough for a word, short enough to feel at once.
+const PAUSE = 350;
+let request = null;
+export const check = { problems: [], full: null, busy: false };
+export const checked = new EventTarget();
+
+export function setUpChecking() {
+  draft.addEventListener("values", settled(async () => {
+    try {
+      if (await writeText()) await Promise.all([look(), draw()]);
+    } catch (error) {
+      refuse(error);
+    }
+  }, PAUSE));
+}
+
+export async function look() {
+  request?.abort();
+  request = new AbortController();
+  tell({ busy: true });
+  try {
+    const full = await post("/api/check", { yaml: caseText() }, request.signal);
+    clearProblems(place("form"));
+    tell({ problems: [], full, busy: false });
+  } catch (error) {
+    refuse(error);
+  }
+}
+
+export function refuse(error) {
+  if (error.name === "AbortError") return;
+  if (!error.problems) throw error;
+  showProblems(place("form"), error.problems);
+  tell({ problems: error.problems, full: null, busy: false });
+}
+
+function tell(news) {
+  Object.assign(check, news);
+  drawCheck();
+  checked.dispatchEvent(new Event("change"));
+}
+
+function drawCheck() {
+  const { problems, full } = check, count = problems.length;
+  place("estimate").setAttribute("aria-busy", String(check.busy));
+  place("to-problem").hidden = count === 0;
+  write(place("to-problem"), count === 1 ? "One problem: show it" : `${count} problems: show the first`);
+  write(place("estimate-text"), full ? estimate(full) : count ? "" : "Looking at the case…");
+  write(place("refine-time"), full ? lasting(full.seconds) : "");
+  place("expected").hidden = count > 0;
+  if (!full) return;
+  const rows = [...(full.needs ?? []), ...(full.expectations ?? [])];
+  place("expected-rows").replaceChildren(...rows.flatMap(([name, value]) => [make("dt", { textContent: name }), make("dd", { textContent: value })]));
+  const said = [...(full.warnings ?? []), ...(full.notes ?? [])];
+  place("expected-warnings").replaceChildren(...said.map((text) => make("li", { textContent: text })));
+  place("warned").hidden = !full.warnings?.length;
+  write(place("warned"), full.warnings?.length === 1 ? "1 warning" : `${full.warnings?.length} warnings`);
+}
+
+function estimate({ cells, steps, memory }) {
+  const said = [`${cells.join(" × ")} cells`, steps ? `${steps} steps` : "steps as needed"];
+  if (memory) said.push(memory < 1e9 ? `${Math.round(memory / 1e6)} MB` : `${(memory / 1e9).toFixed(1)} GB`);
+  return said.join(" · ");
+}

@@ -1,0 +1,31 @@
+// Elements of the page, made and found.
+
+// An element with properties and children; null and false children are left out.
+export function make(tag, properties = {}, ...children) {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(properties)) {
+    if (value === null || value === undefined || value === false) continue;
+    if (name.startsWith("on")) element.addEventListener(name.slice(2), value);
+    else if (name === "class") element.className = value;
+    else if (name in element && !name.includes("-") && name !== "list") element[name] = value;
+    else element.setAttribute(name, value === true ? "" : value);
+  }
+  element.append(...children.flat(3).filter((child) => child !== null && child !== false && child !== undefined));
+  return element;
+}
+
+export const place = (id) => document.getElementById(id);
+
+// Sets text only where it differs: what is read aloud is not to be read twice.
+export function write(element, text) {
+  if (element.textContent !== text) element.textContent = text;
+}
+
+// Calls `act` once nobody has asked for it for so long.
+export function settled(act, milliseconds) {
+  let clock = null;
+  return (...words) => {
+    clearTimeout(clock);
+    clock = setTimeout(() => act(...words), milliseconds);
+  };
+}

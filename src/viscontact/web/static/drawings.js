@@ -1,0 +1,85 @@
+// The shape, the material and the load as they are written, drawn by the server.
+
+import { caseText, caseValues } from "./draft.js";
+import { make, place } from "./dom.js";
+import { postForImage } from "./server.js";
+import { isDark } from "./theme.js";
+
+const KINDS = {
+  indenter: { tab: "Shape", about: "Sections through the indenter, and its plan", section: "indenter" },
+  material: { tab: "Material", about: "Creep compliance and relaxation modulus of the half-space", section: "material" },
+  load: { tab: "Load", about: "The load over time", section: "load" },
+};
+const narrow = window.matchMedia("(max-width: 860px)");
+const boxes = {};
+let request = null;
+
+export function setUpDrawings() {
+  const tabs = Object.entries(KINDS).map(([kind, { tab }]) => make("button", {
+    type: "button", role: "tab", id: `tab-${kind}`, "aria-controls": `drawing-${kind}`, textContent: tab,
+    onclick: () => showDrawing(kind), onkeydown: (event) => walk(event, kind),
+  }));
+  place("drawing-tabs").append(...tabs);
+  for (const [kind, { about }] of Object.entries(KINDS))
+    boxes[kind] = make("figure", { class: "drawing", id: `drawing-${kind}`, role: "tabpanel", "aria-labelledby": `tab-${kind}` },
+      make("div", { class: "scroll" }, make("img", { alt: about })), make("p", { class: "told" }));
+  narrow.addEventListener("change", placeDrawings);
+  place("form").addEventListener("focusin", (event) => {
+    const section = event.target.closest("[data-section]")?.dataset.section;
+    if (KINDS[section]) showDrawing(section);
+  });
+  showDrawing("indenter");
+  placeDrawings();
+}
+
+// On a narrow page each drawing stands with its section, else they share one place.
+export function placeDrawings() {
+  for (const [kind, { section }] of Object.entries(KINDS)) {
+    const slot = document.querySelector(`[data-slot="${section}"]`);
+    (narrow.matches && slot ? slot : place("drawing")).append(boxes[kind]);
+  }
+}
+
+export function showDrawing(kind) {
+  for (const each of Object.keys(KINDS)) {
+    const tab = place(`tab-${each}`), chosen = each === kind;
+    tab.setAttribute("aria-selected", String(chosen));
+    tab.tabIndex = chosen ? 0 : -1;
+    boxes[each].classList.toggle("chosen", chosen);
+  }
+}
+
+function walk(event, kind) {
+  const kinds = Object.keys(KINDS), step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+  if (!step) return;
+  const next = kinds[(kinds.indexOf(kind) + step + kinds.length) % kinds.length];
+  showDrawing(next);
+  place(`tab-${next}`).focus();
+}
+
+export async function draw() {
+  request?.abort();
+  request = new AbortController();
+  const { signal } = request;
+  await Promise.all(Object.keys(KINDS).map((kind) => drawOne(kind, signal)));
+}
+
+async function drawOne(kind, signal) {
+  const image = boxes[kind].querySelector("img"), note = boxes[kind].querySelector(".told");
+  boxes[kind].setAttribute("aria-busy", "true");
+  try {
+    const address = await postForImage("/api/drawing", { yaml: caseText(), what: kind, dark: isDark() }, signal);
+    const before = image.src;
+    image.src = address;
+    if (before.startsWith("blob:")) URL.revokeObjectURL(before);
+    boxes[kind].classList.remove("stale");
+    note.textContent = "";
+  } catch (error) {
+    if (error.name === "AbortError") return;
+    boxes[kind].classList.add("stale");
+    note.textContent = image.src ? "As it was before the last change: what is written now cannot be drawn." : missing(kind);
+  }
+  boxes[kind].removeAttribute("aria-busy");
+}
+
+const missing = (kind) => (caseValues()[kind] ? "What is written cannot be drawn yet." : "Nothing is written yet.");

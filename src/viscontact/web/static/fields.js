@@ -1,0 +1,177 @@
+// Single values: a text with a unit, a number, a choice, a switch.
+
+import { dotted, setValue, valueAt } from "./draft.js";
+import { make } from "./dom.js";
+import { FILES, titleOf } from "./hints.js";
+import { unitsOf } from "./schema.js";
+import { get, upload } from "./server.js";
+
+export const idOf = (path) => `field-${dotted(path)}`;
+
+// A label, the control, what it means, and room for what is wrong with it.
+export function field(path, node, required) {
+  const key = path.at(-1), id = idOf(path);
+  const told = [node.description, hint(node)].filter(Boolean).join(" · ");
+  const control = make("div", { class: "control" }, controlFor(path, node, required));
+  const label = make("label", { htmlFor: id, textContent: titleOf(key) });
+  return make("div", { class: `field ${node.kind}`, "data-path": dotted(path), "data-key": key },
+    label, control,
+    told && make("p", { class: isPlain(node) ? "hidden" : "told", id: `${id}-told`, textContent: told }),
+    make("ul", { class: "problems", id: `${id}-problems` }));
+}
+
+// A description that says no more than the label and the example do is only read aloud.
+const isPlain = (node) => /^an? [a-z ]+ with its unit, (any|zero or more|more than zero)$/.test(node.description);
+
+// What may be written, as far as the description does not say so.
+function hint(node) {
+  const said = [];
+  if (node.kind === "number") said.push(range(node));
+  if (node.words?.length) said.push(`or ${node.words.map((word) => `“${word}”`).join(", ")}`);
+  if (node.many) said.push("several with commas between");
+  const usual = node.default;
+  if (usual !== null && usual !== undefined && !["", true, false].includes(usual) && typeof usual !== "object")
+    said.push(`${asText(usual)} when left out`);
+  return said.filter(Boolean).join("; ");
+}
+
+function range({ whole, least, most, above, below }) {
+  const low = least !== undefined ? `from ${asText(least)}` : above !== undefined ? `above ${above}` : "";
+  const high = most !== undefined ? `to ${most}` : below !== undefined ? `below ${below}` : "";
+  const bounds = [low, high].filter(Boolean).join(" ");
+  return [whole ? "whole number" : bounds ? "" : "number", bounds].filter(Boolean).join(" ");
+}
+
+function controlFor(path, node, required) {
+  if (node.kind === "choice") return choice(path, node, required);
+  if (node.kind === "switch") return toggle(path, node);
+  if (node.kind === "set") return choices(path, node);
+  if (node.kind === "tuple") return node.items.map((item, index) => entry([...path, index], item, {
+    label: `${titleOf(path.at(-1))}, ${index + 1} of ${node.items.length}`, example: node.examples[0]?.[index],
+  }));
+  if (node.kind === "lines") return lines(path);
+  if (node.kind === "mapping") return mapping(path);
+  return entry(path, node, { required });
+}
+
+// A text field. `label` where no visible one stands beside it.
+export function entry(path, node, { label = null, required = true, example = node.examples?.[0] } = {}) {
+  const id = idOf(path), key = path.at(-1);
+  const input = make("input", {
+    id, type: "text", autocomplete: "off", spellcheck: false, autocapitalize: "off",
+    value: asText(valueAt(path)), placeholder: [required ? "" : "optional", asText(example) && `e.g. ${asText(example)}`].filter(Boolean).join(", "),
+    "aria-label": label, "aria-describedby": label ? null : `${id}-told ${id}-problems`,
+    "data-path": label ? dotted(path) : null, inputMode: node.kind === "number" ? "decimal" : "text",
+    oninput: () => setValue(path, asValue(input.value, node)),
+  });
+  if (FILES.has(key)) return fileEntry(path, input);
+  if (node.kind === "text" && node.dimension) suggestUnits(input, node);
+  else if (node.words?.length) suggest(input, node.words);
+  return input;
+}
+
+function asText(value) {
+  if (value === undefined || value === null) return "";
+  if (typeof value === "number" && value !== 0 && Math.abs(value) < 1e-3) return value.toExponential();
+  return Array.isArray(value) ? value.map(asText).join(", ") : String(value);
+}
+
+// Numbers as numbers where numbers are wanted; everything else as it was typed.
+function asValue(typed, node) {
+  const text = typed.trim();
+  const plain = text !== "" && /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(text);
+  if ((node.kind === "number" || node.numeric) && plain) return Number(text);
+  if (node.many && text.includes(",")) return text.split(",").map((part) => part.trim());
+  if (node.many && text && !node.words.includes(text) && node.words.length) return [text];
+  return text;
+}
+
+function suggest(input, options) {
+  const list = make("datalist", { id: `${input.id}-options` }, options.map((value) => make("option", { value })));
+  input.setAttribute("list", list.id);
+  queueMicrotask(() => input.after(list));
+  return list;
+}
+
+// The number as typed, with each usual unit.
+function suggestUnits(input, node) {
+  const list = suggest(input, []);
+  const offer = () => {
+    const number = input.value.match(/^\s*[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?/i)?.[0].trim();
+    const offered = number ? unitsOf(node.dimension).map((unit) => `${number} ${unit}`) : [];
+    list.replaceChildren(...[...offered, ...(node.words ?? [])].map((value) => make("option", { value })));
+  };
+  input.addEventListener("focus", offer);
+  input.addEventListener("input", offer);
+}
+
+function choice(path, node, required) {
+  const value = valueAt(path), usual = node.default ?? "";
+  const options = node.options.map((each) =>
+    make("option", { value: each, textContent: titleOf(each), selected: each === (value ?? usual) }));
+  const none = !required && !node.options.includes(usual) && make("option", { value: "", textContent: "—", selected: value === undefined });
+  const strange = value !== undefined && !node.options.includes(value) && make("option", { value, textContent: String(value), selected: true });
+  const select = make("select", {
+    id: idOf(path), "aria-describedby": `${idOf(path)}-told ${idOf(path)}-problems`,
+    onchange: () => setValue(path, select.value === usual && !required ? undefined : select.value),
+  }, none, strange, options);
+  return select;
+}
+
+function toggle(path, node) {
+  const usual = node.default ?? false;
+  const box = make("input", {
+    id: idOf(path), type: "checkbox", checked: valueAt(path) ?? usual, "aria-describedby": `${idOf(path)}-told`,
+    onchange: () => setValue(path, box.checked === usual ? undefined : box.checked),
+  });
+  return box;
+}
+
+function choices(path, node) {
+  const write = () => {
+    const chosen = boxes.filter((box) => box.checked).map((box) => box.value);
+    setValue(path, chosen);
+  };
+  const given = [valueAt(path) ?? []].flat();
+  const boxes = node.item.options.map((value) =>
+    make("input", { type: "checkbox", value, checked: given.includes(value), onchange: write }));
+  return make("div", { class: "boxes", role: "group", "aria-label": titleOf(path.at(-1)), id: idOf(path), tabIndex: -1 },
+    boxes.map((box) => make("label", {}, box, ` ${titleOf(box.value)}`)));
+}
+
+function lines(path) {
+  const given = [valueAt(path) ?? []].flat();
+  const area = make("textarea", {
+    id: idOf(path), rows: Math.max(3, given.length + 1), value: given.join("\n"), spellcheck: false,
+    oninput: () => setValue(path, area.value.split("\n").map((line) => line.trim()).filter(Boolean)),
+  });
+  return area;
+}
+
+function mapping(path) {
+  const given = valueAt(path) ?? {};
+  const area = make("textarea", {
+    id: idOf(path), rows: 2, spellcheck: false, placeholder: "name: value",
+    value: Object.entries(given).map(([key, value]) => `${key}: ${value ?? ""}`).join("\n"),
+    oninput: () => setValue(path, Object.fromEntries(area.value.split("\n")
+      .map((line) => line.match(/^\s*([^:]+):\s*(.*)$/)).filter(Boolean).map(([, key, value]) => [key.trim(), value.trim() || null]))),
+  });
+  return area;
+}
+
+function fileEntry(path, input) {
+  const list = suggest(input, []);
+  input.addEventListener("focus", async () => {
+    const files = await get("/api/files").catch(() => []);
+    list.replaceChildren(...files.map((file) => make("option", { value: file.name })));
+  });
+  const chosen = make("input", { type: "file", class: "hidden", tabIndex: -1, "aria-label": "File to upload" });
+  chosen.addEventListener("change", async () => {
+    const file = chosen.files[0];
+    if (!file) return;
+    input.value = (await upload(file)).name;
+    input.dispatchEvent(new Event("input"));
+  });
+  const button = make("button", { type: "button", textContent: "Upload…", onclick: () => chosen.click() });
+  return make("div", { class: "file" }, input, button, chosen);
+}

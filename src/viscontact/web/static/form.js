@@ -1,0 +1,155 @@
+// The form: sections, groups and variants as the schema has them.
+
+import { caseValues, changed, dotted, rewrite, setValue, valueAt } from "./draft.js";
+import { make } from "./dom.js";
+import { field, idOf } from "./fields.js";
+import { LATER, titleOf } from "./hints.js";
+import { list, terms } from "./rows.js";
+import { keysOf, startOf, startOfVariant, wholeCase } from "./schema.js";
+
+// What a variant held before another was chosen, to be there when it is chosen again.
+const left = new Map();
+// Folds that were opened by hand stay open.
+const opened = new Set();
+let materials = new Map();
+
+export function useMaterials(known) {
+  materials = new Map(known.map((each) => [each.name, each]));
+}
+
+// Draws the form anew; the focus stays where it was.
+export function drawForm(box) {
+  const focused = document.activeElement?.id, scrolled = box.scrollTop;
+  const keys = keysOf(wholeCase(), { requiredFirst: false });
+  const main = keys.filter(({ key }) => !LATER.has(key)), later = keys.filter(({ key }) => LATER.has(key));
+  const parts = main.map((each) => (isSection(each.node) ? section(each) : part([each.key], each)));
+  box.replaceChildren(...parts, ...later.map(foldedSection));
+  if (focused) document.getElementById(focused)?.focus({ preventScroll: true });
+  box.scrollTop = scrolled;
+}
+
+const isSection = (node) => node.kind === "group" || node.kind === "variants";
+
+function section({ key, node, required }) {
+  return make("section", { class: "part", "data-path": key, "data-section": key, "aria-labelledby": `head-${key}` },
+    make("h2", { id: `head-${key}`, textContent: titleOf(key) }, make("small", { textContent: node.description })),
+    body([key], node, required),
+    make("div", { class: "slot", "data-slot": key }),
+    make("ul", { class: "problems" }));
+}
+
+function foldedSection({ key, node, required }) {
+  const told = make("small", { textContent: node.description });
+  const inside = isSection(node) ? body([key], node, required) : part([key], { key, node, required });
+  return fold(key, caseValues()[key] !== undefined, "part", [make("h2", {}, titleOf(key), told)], [
+    make("div", { "data-path": isSection(node) ? key : null, "data-section": key }, inside, make("ul", { class: "problems" })),
+  ]);
+}
+
+function fold(name, open, style, heading, inside) {
+  const box = make("details", {
+    class: style, open: open || opened.has(name),
+    ontoggle: () => (box.open ? opened.add(name) : opened.delete(name)),
+  }, make("summary", {}, heading), inside);
+  return box;
+}
+
+function body(path, node, required) {
+  if (node.kind === "variants") return node.sum ? sum(path, node) : variants(path, node, required);
+  return group(path, node);
+}
+
+function part(path, { node, required }) {
+  if (node.kind === "variants" || node.kind === "group") return nested(path, node, required);
+  if (node.kind === "list") return list(path, node);
+  return field(path, node, required);
+}
+
+function nested(path, node, required) {
+  return make("div", { class: "nested", role: "group", "aria-label": titleOf(path.at(-1)), "data-path": dotted(path), "data-key": path.at(-1) },
+    node.kind === "group" && make("span", { class: "label", textContent: titleOf(path.at(-1)) }),
+    node.kind === "group" && node.description && make("p", { class: "told", textContent: node.description }),
+    body(path, node, required), make("ul", { class: "problems" }));
+}
+
+// The keys of a group: lists that go together as one table, later ones folded unless they are set.
+function group(path, node) {
+  const keys = keysOf(node), given = valueAt(path) ?? {};
+  const together = keys.filter(({ node: each, required }) => required && each.kind === "list" && each.item.kind !== "tuple");
+  const tabled = together.length > 1 ? together : [];
+  const shown = keys.filter((each) => !tabled.includes(each));
+  const later = shown.filter(({ key, required }) => !required && path.length > 0 && LATER.has(key) && given[key] === undefined);
+  const first = shown.filter((each) => !later.includes(each));
+  const draw = (each) => part([...path, each.key], each);
+  const ahead = first.filter((each) => each.required && each.node.kind !== "choice"), behind = first.filter((each) => !ahead.includes(each));
+  return make("div", { class: "group" },
+    ahead.map(draw),
+    tabled.length > 0 && terms(path, tabled),
+    behind.map(draw),
+    later.length > 0 && fold(`${dotted(path)} more`, false, "more",
+      [make("span", { textContent: `More: ${later.map(({ key }) => titleOf(key).toLowerCase()).join(", ")}` })], later.map(draw)));
+}
+
+// One shape or, with others laid over it, a sum of shapes.
+function sum(path, node) {
+  const value = valueAt(path), several = Array.isArray(value);
+  const count = several ? value.length : 1;
+  const add = () => {
+    const before = several ? value : [value ?? startOf(node)];
+    setValue(path, [...before, startOfVariant(node, node.options.keys().next().value, {})]);
+    changed("structure");
+  };
+  const drop = (index) => () => {
+    const rest = value.filter((_, each) => each !== index);
+    setValue(path, rest.length === 1 ? rest[0] : rest);
+    changed("structure");
+  };
+  const parts = Array.from({ length: count }, (_, index) => {
+    const at = several ? [...path, index] : path;
+    return make("div", { class: several ? "summand" : "", "data-path": several ? dotted(at) : null },
+      variants(at, node, true, several ? `, ${index + 1} of ${count}` : ""), several && make("ul", { class: "problems" }),
+      several && make("button", { type: "button", class: "add", textContent: "Remove this shape", onclick: drop(index) }));
+  });
+  return [...parts, make("button", { type: "button", class: "add", textContent: "Add a shape to the sum", onclick: add })];
+}
+
+// A choice between groups of keys, and names that stand for whole groups.
+function variants(path, node, required, which = "") {
+  // A variant by its name alone: its keys have to have a place.
+  if (keysOf(node.options.get(valueAt(path)) ?? { properties: {} }).length) rewrite(path, { [node.tag]: valueAt(path) });
+  const value = valueAt(path), written = value !== null && typeof value === "object";
+  const chosen = written ? value[node.tag] : value;
+  const option = (name, text = titleOf(name)) => make("option", { value: name, textContent: text, selected: name === chosen });
+  const named = node.named.map((name) => option(name, materials.get(name)?.title ?? titleOf(name)));
+  const tagged = [...node.options.keys()].map((name) => option(name));
+  const strange = chosen !== undefined && ![...node.named, ...node.options.keys()].includes(chosen) && option(chosen, String(chosen));
+  const none = !required && make("option", { value: "", textContent: "left out", selected: chosen === undefined });
+  const empty = required && chosen === undefined && make("option", { value: "", textContent: "choose…", selected: true });
+  const select = make("select", { id: idOf([...path, node.tag]), onchange: () => choose(path, node, select.value) }, none, empty, strange,
+    named.length ? [make("optgroup", { label: "Library" }, named), make("optgroup", { label: "By its numbers" }, tagged)] : tagged);
+  const asked = node.options.get(chosen);
+  const label = path.length > 1 && typeof path.at(-1) === "string" ? titleOf(path.at(-1)) : titleOf(node.tag) + which;
+  return [
+    make("div", { class: "field choice", "data-path": dotted([...path, node.tag]), "data-key": node.tag },
+      make("label", { htmlFor: select.id, textContent: label }), make("div", { class: "control" }, select),
+      make("p", { class: "told", textContent: asked?.description ?? toldOf(chosen) ?? node.description }), make("ul", { class: "problems" })),
+    asked && group(path, asked),
+  ];
+}
+
+function toldOf(name) {
+  const known = materials.get(name);
+  return known && [known.temperature, known.source].filter(Boolean).join(" · ");
+}
+
+function choose(path, node, name) {
+  const before = valueAt(path), place = dotted(path);
+  if (before?.[node.tag]) left.set(`${place} ${before[node.tag]}`, before);
+  if (name === "" || node.named.includes(name)) setValue(path, name);
+  else {
+    const old = left.get(`${place} ${name}`) ?? {};
+    const now = typeof before === "object" ? { ...old, ...before } : old;
+    setValue(path, startOfVariant(node, name, now));
+  }
+  changed("structure");
+}

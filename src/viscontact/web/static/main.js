@@ -1,0 +1,191 @@
+// The page: what there is, and what follows from what.
+
+import { check, checked, look, refuse, setUpChecking } from "./checking.js";
+import { caseText, draft, keptText, replaceText } from "./draft.js";
+import { make, place, settled } from "./dom.js";
+import { draw, placeDrawings, setUpDrawings } from "./drawings.js";
+import { drawForm, useMaterials } from "./form.js";
+import { START } from "./hints.js";
+import { setUpMap } from "./map.js";
+import { goToProblem } from "./problems.js";
+import { drawList, drawProgress, setUpProgress } from "./progress.js";
+import { drawResults, newRunShown } from "./results.js";
+import { findAgain, list, refer, runs, start, state } from "./runs.js";
+import { useSchema } from "./schema.js";
+import { connection, get } from "./server.js";
+import { onTheme, setUpTheme } from "./theme.js";
+import { SYSTEMS, useSystem } from "./units.js";
+
+let examples = [];
+// Whether the next answer is one that was asked for here: it is brought into sight.
+let arriving = false;
+const narrow = window.matchMedia("(max-width: 860px)");
+
+function complain(error) {
+  if (error.name === "AbortError") return;
+  if (!error.problems) throw error;
+  notify(error.problems.map(({ path, message }) => [path, message].filter(Boolean).join(": ")).join("\n"));
+}
+
+// A line at the foot of the page, with a way back where there is one.
+function notify(text, undo = null) {
+  const close = () => place("notice").replaceChildren();
+  place("notice").replaceChildren(make("p", {}, text,
+    undo && make("button", { type: "button", class: "small", textContent: "Undo", onclick: () => { close(); undo(); } }),
+    make("button", { type: "button", class: "small", textContent: "Close", onclick: close })));
+  if (undo) setTimeout(close, 12000);
+}
+
+async function write(yaml) {
+  try {
+    await replaceText(yaml);
+    await Promise.all([look(), draw()]);
+  } catch (error) {
+    refuse(error);
+  }
+}
+
+async function load(yaml, name) {
+  const back = caseText();
+  await write(yaml);
+  notify(`Loaded: ${name}.`, () => write(back));
+}
+
+function redrawForm() {
+  drawForm(place("form"));
+  placeDrawings();
+}
+
+function drawStale() {
+  const shown = state.shown;
+  const changed = shown && shown.yaml.trim() !== caseText().trim();
+  place("stale").hidden = !changed;
+  place("keep").hidden = !shown || state.reference?.id === shown.id;
+  place("unkeep").hidden = !state.reference;
+}
+
+function drawButtons() {
+  const refused = check.problems.length > 0;
+  for (const name of ["coarse", "refine"]) place(name).setAttribute("aria-disabled", String(refused));
+}
+
+async function begin(quality) {
+  if (check.problems.length) { goToProblem(place("form")); return; }
+  try {
+    await start(quality);
+    arriving = true;
+    if (!narrow.matches) place("answer").scrollIntoView({ behavior: "smooth", block: "start" });
+  } catch (error) {
+    refuse(error);
+    complain(error);
+  }
+}
+
+function setUpCase() {
+  const select = place("examples");
+  select.append(...examples.map(({ name, title }) => make("option", { value: name, textContent: title })));
+  select.addEventListener("change", () => {
+    const { yaml, title } = examples.find(({ name }) => name === select.value);
+    select.value = "";
+    load(yaml, title);
+  });
+  const file = place("open-file");
+  place("open").addEventListener("click", () => file.click());
+  file.addEventListener("change", async () => {
+    const [chosen] = file.files;
+    file.value = "";
+    if (chosen) load(await chosen.text(), chosen.name);
+  });
+  place("save").addEventListener("click", () => {
+    const address = URL.createObjectURL(new Blob([caseText()], { type: "application/yaml" }));
+    make("a", { href: address, download: "case.yaml" }).click();
+    setTimeout(() => URL.revokeObjectURL(address), 1000);
+  });
+  const text = place("yaml");
+  text.addEventListener("input", settled(() => write(text.value), 500));
+  draft.addEventListener("text", () => {
+    if (document.activeElement !== text) text.value = caseText();
+    drawStale();
+  });
+  for (const mode of ["form", "text"]) place(`as-${mode}`).addEventListener("click", () => choose(mode));
+}
+
+function choose(mode) {
+  for (const each of ["form", "text"]) place(`as-${each}`).setAttribute("aria-pressed", String(each === mode));
+  place("form").hidden = mode !== "form";
+  place("text").hidden = mode !== "text";
+  place("yaml").value = caseText();
+}
+
+function setUpUnits() {
+  const select = place("units"), key = "viscontact.units";
+  select.append(...Object.entries(SYSTEMS).map(([value, { name }]) => make("option", { value, textContent: name })));
+  try { select.value = localStorage.getItem(key) ?? "auto"; } catch { /* a browser that keeps nothing */ }
+  if (!select.value) select.value = "auto";
+  useSystem(select.value);
+  select.addEventListener("change", () => {
+    try { localStorage.setItem(key, select.value); } catch { /* likewise */ }
+    useSystem(select.value);
+    drawResults();
+  });
+}
+
+function setUpRuns() {
+  place("coarse").addEventListener("click", () => begin("coarse"));
+  place("refine").addEventListener("click", () => begin("full"));
+  place("to-problem").addEventListener("click", () => { choose("form"); goToProblem(place("form")); });
+  place("keep").addEventListener("click", () => refer(state.shown.id).catch(complain));
+  place("unkeep").addEventListener("click", () => refer(null));
+  document.addEventListener("keydown", (event) => {
+    if (event.key === "Enter" && (event.ctrlKey || event.metaKey)) begin(event.shiftKey ? "full" : "coarse");
+  });
+  const redraw = () => { drawStale(); drawList(complain); return drawResults(); };
+  runs.addEventListener("active", drawProgress);
+  runs.addEventListener("shown", () => {
+    newRunShown();
+    redraw();
+    if (arriving && state.shown?.id === state.active?.id && narrow.matches) place("results").scrollIntoView();
+    arriving = false;
+  });
+  runs.addEventListener("reference", redraw);
+  runs.addEventListener("listed", () => drawList(complain));
+  checked.addEventListener("change", drawButtons);
+  window.addEventListener("focus", () => list().catch(() => {}));
+  onTheme(() => { draw(); drawResults(); });
+}
+
+function setUpConnection() {
+  connection.addEventListener("gone", () => { place("offline").hidden = false; });
+  connection.addEventListener("back", () => {
+    place("offline").hidden = true;
+    look();
+    draw();
+  });
+}
+
+async function open() {
+  setUpConnection();
+  const [schema, shipped, materials] = await Promise.all([get("/api/schema"), get("/api/examples"), get("/api/materials")]);
+  examples = shipped;
+  useSchema(schema);
+  useMaterials(materials);
+  setUpTheme();
+  setUpUnits();
+  setUpMap();
+  setUpDrawings();
+  setUpCase();
+  setUpChecking();
+  setUpProgress(complain);
+  setUpRuns();
+  draft.addEventListener("replaced", redrawForm);
+  draft.addEventListener("structure", redrawForm);
+  const first = examples.find(({ name }) => name === START) ?? examples[0];
+  await Promise.all([write(keptText() ?? first.yaml), findAgain()]);
+  document.documentElement.dataset.ready = "yes";
+}
+
+open().catch((error) => {
+  place("offline").hidden = false;
+  if (!error.problems) throw error;
+  connection.addEventListener("back", () => location.reload());
+});

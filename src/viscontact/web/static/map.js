@@ -1,0 +1,132 @@
+// The pressure over the surface with a slider over time, and sections along and across.
+
+import { axis, config, instant, layout, plotly, quiet } from "./charts.js";
+import { make, place } from "./dom.js";
+import { colour } from "./theme.js";
+import { digits, unitFor } from "./units.js";
+
+const COLOURS = [[0, "#f1f8c9"], [0.2, "#c7e9b4"], [0.4, "#7fcdbb"], [0.6, "#41b6c4"], [0.8, "#1d91c0"], [0.9, "#225ea8"], [1, "#0c2c84"]];
+let picture = null;
+let clock = null;
+
+export function setUpMap() {
+  place("instant-slider").addEventListener("input", () => showInstant(Number(place("instant-slider").value)));
+  place("instant-slider").addEventListener("pointerdown", pause);
+  place("play").addEventListener("click", () => (clock === null ? play() : pause()));
+}
+
+// Draws the map anew; the instant stays, where the run is the same.
+export async function drawMap(shown, reference) {
+  const Plotly = await plotly(), map = shown.data.map;
+  place("map-chapter").hidden = !map;
+  if (!map) { picture = null; return; }
+  const same = picture?.id === shown.id, index = same ? picture.index : map.start;
+  const extent = [...map.x, ...map.y].map((value) => value * map.lengthFactor);
+  picture = {
+    id: shown.id, map, reference: reference?.data.map ?? null, Plotly, index, kept: same ? picture.kept : new Map(),
+    length: unitFor("m", extent), pressure: unitFor("Pa", map.peak * map.pressureFactor), time: unitFor("s", map.times),
+  };
+  const slider = place("instant-slider");
+  slider.max = String(map.times.length - 1);
+  slider.value = String(index);
+  place("map-controls").hidden = map.times.length < 2;
+  showInstant(index);
+}
+
+function unpacked(index) {
+  const { map, kept } = picture;
+  if (kept.has(index)) return kept.get(index);
+  const bytes = Uint8Array.from(atob(map.parts[index]), (letter) => letter.charCodeAt(0));
+  const parts = new DataView(bytes.buffer), width = map.x.length;
+  const rows = map.y.map((_, j) => map.x.map((_, i) => parts.getUint16(2 * (j * width + i), true) * map.peak * map.pressureFactor / map.steps || null));
+  kept.set(index, rows);
+  return rows;
+}
+
+function showInstant(index) {
+  if (!picture) return;
+  picture.index = index;
+  const { map, pressure, time } = picture, peak = Math.max(...unpacked(index).flat());
+  const label = `t = ${instant(map.times[index], time)}`;
+  place("instant").value = label;
+  place("instant-slider").setAttribute("aria-valuetext", label);
+  place("map-told").textContent = peak > 0
+    ? `Largest pressure ${digits(peak / pressure.factor)} ${pressure.symbol}.${map.stretch === 1 ? "" : ` y is drawn ${digits(map.stretch)} times as long as x.`}`
+    : "No contact.";
+  drawPlane();
+  for (const section of map.sections) drawSection(section);
+}
+
+const rim = (source, index, unit) => {
+  const factor = source.lengthFactor / unit.factor, times = (values) => values.map((value) => (value === null ? null : value * factor));
+  return { x: times(source.rims[index].x), y: times(source.rims[index].y), mode: "lines", hoverinfo: "skip" };
+};
+
+// Which instant of the reference is nearest.
+function nearest(times, time) {
+  return times.reduce((best, each, index) => (Math.abs(each - time) < Math.abs(times[best] - time) ? index : best), 0);
+}
+
+function drawPlane() {
+  const { map, reference, index, length, pressure, Plotly } = picture, box = place("map");
+  const factor = map.lengthFactor / length.factor, scaled = (values) => values.map((value) => value * factor);
+  const heat = {
+    type: "heatmap", x: scaled(map.x), y: scaled(map.y), z: unpacked(index).map((row) => row.map((value) => value === null ? null : value / pressure.factor)),
+    zmin: 0, zmax: map.peak * map.pressureFactor / pressure.factor, colorscale: COLOURS, hoverongaps: false, zsmooth: false,
+    hovertemplate: `x %{x:.4g} ${length.symbol}, y %{y:.4g} ${length.symbol}<br>%{z:.4g} ${pressure.symbol}<extra></extra>`,
+    colorbar: {
+      orientation: "h", thickness: 10, len: 0.9, x: 0.5, y: 1, yanchor: "bottom", outlinewidth: 0, tickfont: { size: 11, color: colour("ink") },
+      title: { text: `Pressure [${pressure.symbol}]`, side: "top", font: { size: 12, color: colour("ink") } },
+    },
+  };
+  const traces = [heat, { ...rim(map, index, length), line: { color: colour("ink"), width: 1 } }];
+  if (reference) traces.push({ ...rim(reference, nearest(reference.times, map.times[index]), length), line: { color: colour("warm"), width: 1.6, dash: "dash" } });
+  const xRange = scaled(map.xRange), yRange = scaled(map.yRange), constrain = map.periodic ? "domain" : "range";
+  const ratio = map.stretch * (yRange[1] - yRange[0]) / (xRange[1] - xRange[0]);
+  box.style.height = `${Math.round(Math.min(Math.max((box.clientWidth - 76) * ratio + 112, 160), 560))}px`;
+  const plane = layout({
+    margin: { l: 56, r: 20, t: 60, b: 50 },
+    xaxis: axis(`x [${length.symbol}]`, { range: xRange, constrain, showgrid: false }),
+    yaxis: axis(`y [${length.symbol}]`, { range: yRange, constrain, showgrid: false, scaleanchor: "x", scaleratio: map.stretch }),
+  });
+  plane.xaxis.title.standoff = 18; // beside a horizontal colour bar the tick labels' room is not counted
+  Plotly.react(box, traces, plane, config());
+}
+
+function drawSection(section) {
+  const { map, reference, index, length, pressure, time, Plotly } = picture;
+  const across = (source, part, at, look) => ({
+    x: part.position.map((value) => value * source.lengthFactor / length.factor), mode: "lines", line: look,
+    y: part.pressure[at].map((value) => value * source.pressureFactor / pressure.factor),
+    hovertemplate: `${section.along} %{x:.4g} ${length.symbol}: %{y:.4g} ${pressure.symbol}<extra>t = ${instant(source.times[at], time)}</extra>`,
+  });
+  const traces = map.times.map((_, each) => across(map, section, each, { color: colour("line"), width: 1 }));
+  if (reference) {
+    const part = reference.sections.find((each) => each.along === section.along);
+    traces.push(across(reference, part, nearest(reference.times, map.times[index]), { color: colour("warm"), width: 2, dash: "dash" }));
+  }
+  traces.push(across(map, section, index, { color: colour("blue"), width: 2.4 }));
+  const box = place(`section-${section.along}`), other = section.along === "x" ? 1 : 0;
+  const through = `${"xy"[other]} = ${digits(map.crossing[other] / length.factor)} ${length.symbol}`;
+  box.previousElementSibling.replaceChildren(`Along ${section.along} `, make("span", { textContent: `at ${through}` }));
+  Plotly.react(box, traces, layout({
+    xaxis: axis(`${section.along} [${length.symbol}]`), yaxis: axis(`Pressure [${pressure.symbol}]`, { rangemode: "tozero" }),
+  }), quiet());
+}
+
+function play() {
+  const slider = place("instant-slider"), last = Number(slider.max);
+  if (Number(slider.value) >= last) { slider.value = "0"; showInstant(0); }
+  place("play").textContent = "Stop";
+  clock = setInterval(() => {
+    if (Number(slider.value) >= last) { pause(); return; }
+    slider.value = String(Number(slider.value) + 1);
+    showInstant(Number(slider.value));
+  }, 800);
+}
+
+function pause() {
+  clearInterval(clock);
+  clock = null;
+  place("play").textContent = "Play";
+}

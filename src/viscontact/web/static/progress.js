@@ -1,0 +1,91 @@
+// The run that is going on: how far it is, how to stop it, and what became of it.
+
+import { make, place, settled, write } from "./dom.js";
+import { cancel, forget, refer, resume, show, start, state, watch } from "./runs.js";
+import { get } from "./server.js";
+import { replaceText } from "./draft.js";
+import { lasting } from "./units.js";
+
+const STATES = { waiting: "waiting", running: "running", done: "done", cancelled: "cancelled", interrupted: "interrupted", failed: "failed" };
+const NOW = { contact_area: "contact area", approach: "approach", peak_pressure: "peak pressure" };
+let spoken = "";
+
+export function setUpProgress(complain) {
+  place("cancel").addEventListener("click", () => cancel().catch(complain));
+  place("resume").addEventListener("click", () => resume(state.active.id).catch(complain));
+  place("again").addEventListener("click", () => start(state.active.status.quality).catch(complain));
+}
+
+export function drawProgress() {
+  const active = state.active, status = active?.status, box = place("progress");
+  box.hidden = !status || status.state === "done";
+  if (!status) return;
+  box.dataset.state = state.lost ? "lost" : status.state;
+  write(place("progress-title"), `${status.quality === "coarse" ? "Coarse answer" : "Full run"}: ${status.title || "untitled"}`);
+  const bar = place("progress-bar");
+  if (status.part > 0 || status.over) bar.value = status.over ? 1 : status.part;
+  else bar.removeAttribute("value");
+  bar.hidden = status.over;
+  write(place("progress-text"), state.lost ? "No connection to the server; the run is looked for again." : told(status));
+  place("progress-now").replaceChildren(...(status.over ? [] : now(status.scalars ?? {})));
+  place("cancel").hidden = status.over || state.lost;
+  place("resume").hidden = !(status.over && status.resumable);
+  place("again").hidden = !status.over || status.state === "done" || status.resumable;
+  const problems = status.problems ?? [];
+  place("progress-problems").replaceChildren(...problems.filter(({ message }) => message !== status.message)
+    .map(({ path, message }) => make("li", { textContent: [path, message].filter(Boolean).join(": ") })));
+  speak(status);
+}
+
+function told(status) {
+  if (status.over || status.stage === "waiting") return status.message;
+  const parts = [status.stage === "errors" ? "error bars" : status.step ? `step ${status.step}${status.steps ? ` of ${status.steps}` : ""}` : "starting"];
+  if (status.time) parts.push(`t = ${status.time}`);
+  if (status.seconds_left !== null) parts.push(status.seconds_left < 1 ? "less than a second left" : `about ${lasting(status.seconds_left)} left`);
+  return parts.join(" · ");
+}
+
+const now = (scalars) => Object.entries(NOW).filter(([name]) => scalars[name])
+  .map(([name, label]) => make("span", {}, `${label} `, make("b", { textContent: scalars[name].text })));
+
+// Screen readers are told of changes of state at once, of progress now and then.
+const speakSoon = settled((text) => write(place("spoken"), text), 4000);
+function speak(status) {
+  const news = `${status.state} ${status.id}`;
+  if (news !== spoken) {
+    spoken = news;
+    write(place("spoken"), status.state === "done" ? "The answer is there." : status.over ? status.message : "The run has begun.");
+  } else if (!status.over && document.hasFocus()) speakSoon(told(status));
+}
+
+const buttonsFor = (run, complain) => [
+  run.figures.length > 0 && act("Show", "Show this answer", () => show(run.id), complain),
+  !run.over && act("Follow", "Follow this run", () => watch(run.id), complain),
+  run.resumable && act("Go on", "Go on with this run", () => resume(run.id), complain),
+  run.figures.length > 0 && act(state.reference?.id === run.id ? "Not the reference" : "Reference", "Compare with this answer",
+    () => refer(state.reference?.id === run.id ? null : run.id), complain),
+  act("Its case", "Write this run’s case into the form", async () => replaceText((await get(`/api/runs/${run.id}/given`)).yaml), complain),
+  act("Delete", "Delete this run and its files", () => forget(run.id), complain),
+];
+
+const act = (text, about, doIt, complain) => make("button", {
+  type: "button", class: "small", textContent: text, title: about, onclick: () => doIt().catch(complain),
+});
+
+// All runs that the server knows, those of other tabs too.
+export function drawList(complain) {
+  const rows = state.listed.map((run) => make("li", { class: run.id === state.shown?.id ? "current" : "" },
+    make("div", { class: "run-name" }, make("b", { textContent: run.title || "untitled" }),
+      make("span", { class: `chip ${run.quality}`, textContent: run.quality }),
+      run.id === state.shown?.id && make("span", { class: "chip", textContent: "shown" }),
+      run.id === state.reference?.id && make("span", { class: "chip warm", textContent: "reference" }),
+      make("span", { class: "faint", textContent: `${STATES[run.state] ?? run.state} · ${when(run.created)}` })),
+    make("div", { class: "run-acts" }, buttonsFor(run, complain))));
+  place("runs").replaceChildren(...rows);
+  place("runs-chapter").hidden = rows.length === 0;
+}
+
+function when(created) {
+  const then = new Date(created), today = then.toDateString() === new Date().toDateString();
+  return then.toLocaleString([], today ? { timeStyle: "short" } : { dateStyle: "medium", timeStyle: "short" });
+}

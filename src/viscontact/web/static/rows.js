@@ -1,0 +1,86 @@
+// Lists: the terms of a series as rows of one table, points as rows of pairs, single values.
+
+import { changed, dotted, setValue, valueAt } from "./draft.js";
+import { make } from "./dom.js";
+import { entry } from "./fields.js";
+import { titleOf } from "./hints.js";
+import { startOf } from "./schema.js";
+
+// Lists that belong together, term by term: all required lists of single values in a group.
+export function terms(path, keys) {
+  const columns = keys.map(({ key, node }) => ({ path: [...path, key], node: node.item, title: titleOf(key), told: node.description, key }));
+  const count = Math.max(1, ...columns.map((column) => lengthOf(column.path)));
+  const cells = (row) => columns.map((column) => ({ path: [...column.path, row], node: column.node, label: `${column.title}, term ${row + 1}` }));
+  return table(path, columns, count, cells, {
+    name: "term",
+    add: () => columns.forEach((column) => setValue([...column.path, count], last(column))),
+    drop: (row) => columns.forEach((column) => setValue(column.path, (valueAt(column.path) ?? []).filter((_, index) => index !== row))),
+  });
+}
+
+// A list of single values or of tuples under one key.
+export function list(path, node) {
+  const tuple = node.item.kind === "tuple" ? node.item.items : null;
+  const columns = (tuple ?? [node.item]).map((item) => ({ path, node: item, title: columnName(item, path) }));
+  const count = lengthOf(path);
+  const cells = (row) => columns.map((column, index) => ({
+    path: tuple ? [...path, row, index] : [...path, row], node: column.node, label: `${column.title}, row ${row + 1}`,
+  }));
+  const before = () => structuredClone((valueAt(path) ?? []).at(-1));
+  const box = table(path, columns, count, cells, {
+    name: tuple ? "row" : "value",
+    add: () => setValue([...path, count], before() ?? startOf(node.item)),
+    drop: (row) => setValue(path, (valueAt(path) ?? []).filter((_, index) => index !== row)),
+  });
+  return make("div", { class: "field list", "data-path": dotted(path), "data-key": path.at(-1) },
+    make("span", { class: "label", textContent: titleOf(path.at(-1)) }), box,
+    node.description && make("p", { class: "told", textContent: node.description }),
+    make("ul", { class: "problems" }));
+}
+
+const lengthOf = (path) => [valueAt(path) ?? []].flat(1).length && (Array.isArray(valueAt(path)) ? valueAt(path).length : 1);
+const columnName = (item, path) => (item.dimension ? titleOf([item.dimension].flat().join(" or ")) : titleOf(path.at(-1)));
+const last = (column) => (valueAt(column.path) ?? []).at(-1) ?? startOf(column.node);
+
+function table(path, columns, count, cells, { name, add, drop }) {
+  const act = (what) => () => { what(); changed("structure"); };
+  const head = make("tr", {}, columns.map((column) =>
+    make("th", { scope: "col" }, column.title, column.told && make("small", { textContent: column.told }))),
+    make("th", {}, make("span", { class: "hidden", textContent: "Remove" })));
+  const rows = Array.from({ length: count }, (_, row) => {
+    const inputs = cells(row).map((cell) => {
+      const made = entry(cell.path, cell.node, { label: cell.label });
+      return make("td", {}, pasting(made, row, columns, cells));
+    });
+    const button = make("button", {
+      type: "button", class: "quiet", textContent: "×", title: `Remove this ${name}`,
+      "aria-label": `Remove ${name} ${row + 1}`, onclick: act(() => drop(row)),
+    });
+    return make("tr", {}, inputs, make("td", {}, button));
+  });
+  return make("div", { class: "rows" },
+    count > 0 && make("table", {}, make("thead", {}, head), make("tbody", {}, rows)),
+    make("button", { type: "button", class: "add", textContent: `Add a ${name}`, "data-add": dotted(path), onclick: act(add) }));
+}
+
+// A block copied from a spreadsheet fills the rows from here on; numbers without a unit get that
+// of the cell they are pasted over.
+function pasting(input, row, columns, cells) {
+  input.addEventListener("paste", (event) => {
+    const copied = event.clipboardData.getData("text/plain").trim();
+    if (!/[\n\t]/.test(copied)) return;
+    event.preventDefault();
+    const column = cells(row).findIndex((cell) => input.dataset.path === dotted(cell.path));
+    copied.split(/\r?\n/).forEach((line, down) => line.split(/\t|;/).forEach((word, across) => {
+      const over = cells(row)[column + across], cell = cells(row + down)[column + across];
+      if (cell) setValue(cell.path, withUnit(word.trim(), String(valueAt(over.path) ?? over.node.examples[0] ?? "")));
+    }));
+    changed("structure");
+  });
+  return input;
+}
+
+function withUnit(word, like) {
+  const unit = like.replace(/^\s*[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?\s*/i, "");
+  return /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(word) && unit ? `${word} ${unit}` : word;
+}

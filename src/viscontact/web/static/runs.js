@@ -1,0 +1,120 @@
+// Runs on the server: started, followed, stopped, and found again after a reload.
+
+import { caseText } from "./draft.js";
+import { connection, follow, get, post, remove } from "./server.js";
+
+// Tells of "active" (the run being followed), "shown", "reference" and "listed".
+export const runs = new EventTarget();
+export const state = { active: null, shown: null, reference: null, listed: [], lost: false };
+
+let stop = () => {};
+const tell = (what) => runs.dispatchEvent(new Event(what));
+
+// The page's address names its runs: a reload, or the address sent to another tab, finds them.
+function remember() {
+  const names = { run: state.active?.id, shown: state.shown?.id, ref: state.reference?.id };
+  const parts = Object.entries(names).filter(([, id]) => id).map(([name, id]) => `${name}=${id}`);
+  history.replaceState(null, "", parts.length ? `#${parts.join("&")}` : location.pathname);
+}
+
+export async function findAgain() {
+  const named = new URLSearchParams(location.hash.slice(1));
+  const [active, shown, reference] = ["run", "shown", "ref"].map((name) => named.get(name));
+  const tries = [shown && show(shown), reference && refer(reference), active && watch(active), list()];
+  await Promise.all(tries.filter(Boolean).map((each) => each.catch(() => {})));
+}
+
+export async function start(quality) {
+  const status = await post("/api/runs", { yaml: caseText(), quality });
+  await watch(status.id, status);
+}
+
+// Follows a run from its present status on.
+export async function watch(id, known = null) {
+  stop();
+  state.lost = false;
+  state.active = { id, status: known ?? (await get(`/api/runs/${id}`)) };
+  remember();
+  heard(state.active.status);
+  if (!state.active?.status.over) connect(id);
+  list();
+}
+
+function connect(id) {
+  stop();
+  stop = follow(id, heard, () => {
+    state.lost = true;
+    tell("active");
+  });
+}
+
+async function heard(status) {
+  if (state.active?.id !== status.id) return;
+  const wasOver = state.active.status.over && state.active.status !== status;
+  state.active.status = status;
+  state.lost = false;
+  tell("active");
+  if (!status.over || wasOver) return;
+  stop();
+  if (hasResults(status)) await show(status.id, status).catch(() => {});
+  list();
+}
+
+const hasResults = (status) => status.figures.length > 0;
+
+export async function show(id, known = null) {
+  state.shown = await loaded(id, known);
+  remember();
+  tell("shown");
+}
+
+export async function refer(id) {
+  state.reference = id === null ? null : await loaded(id);
+  remember();
+  tell("reference");
+}
+
+async function loaded(id, known = null) {
+  const [status, given, data] = await Promise.all([
+    known ?? get(`/api/runs/${id}`), get(`/api/runs/${id}/given`), get(`/api/runs/${id}/data`),
+  ]);
+  return { id, status, data, yaml: given.yaml };
+}
+
+export const cancel = async () => heard(await post(`/api/runs/${state.active.id}/cancel`));
+
+export async function resume(id) {
+  await watch(id, await post(`/api/runs/${id}/resume`));
+}
+
+export async function forget(id) {
+  await remove(`/api/runs/${id}`);
+  for (const role of ["active", "shown", "reference"])
+    if (state[role]?.id === id) {
+      if (role === "active") stop();
+      state[role] = null;
+      tell(role);
+    }
+  remember();
+  await list();
+}
+
+export async function list() {
+  state.listed = await get("/api/runs");
+  tell("listed");
+}
+
+// The server is back: take up the run where it is now, or say that it is gone.
+connection.addEventListener("back", async () => {
+  list().catch(() => {});
+  const active = state.active;
+  if (!active || active.status.over) return;
+  try {
+    await watch(active.id);
+  } catch {
+    const message = "The server no longer knows this run; start it again.";
+    state.active = { ...active, status: { ...active.status, over: true, state: "failed", message, problems: [], figures: [] } };
+    state.lost = false;
+    tell("active");
+  }
+});

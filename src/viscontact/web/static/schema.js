@@ -1,0 +1,148 @@
+// What a part of the JSON Schema asks for, as one of a few kinds that the form can draw.
+
+import { FILLED, FIRST } from "./hints.js";
+
+let root = { properties: {}, $defs: {} };
+
+export function useSchema(schema) {
+  root = schema;
+}
+
+export const wholeCase = () => understand(root);
+export const unitsOf = (dimension) =>
+  [dimension].flat().flatMap((each) => root["x-units"]?.[each] ?? []);
+
+// The part with its reference followed; what stands beside the reference is the more special.
+function resolved(part) {
+  if (!part.$ref) return part;
+  const { $ref, ...beside } = part;
+  return { ...resolved(root.$defs[$ref.split("/").pop()]), ...beside };
+}
+
+// All that may stand here, unions within unions flattened.
+function alternatives(part) {
+  const union = part.anyOf ?? part.oneOf;
+  return union ? union.flatMap((each) => alternatives(resolved(each))) : [part];
+}
+
+const about = (part) => ({
+  description: part.description ?? "", default: part.default, examples: part.examples ?? [],
+});
+
+// The kind of a part: constant, choice, switch, number, text, group, mapping, tuple, list,
+// variants, lines; or text, which reads anything.
+export function understand(given) {
+  const part = resolved(given);
+  const all = alternatives(part);
+  const some = all.filter((each) => each.type !== "null");
+  const optional = some.length < all.length;
+  const single = some.length === 1;
+  const kind = single ? one(some[0]) : several(some);
+  const words = about(part), inner = single ? about(some[0]) : { examples: some.flatMap((each) => each.examples ?? []) };
+  return {
+    ...kind, optional, default: words.default,
+    description: words.description || inner.description || "",
+    examples: words.examples.length ? words.examples : inner.examples,
+  };
+}
+
+function one(part) {
+  if ("const" in part) return { kind: "constant", value: part.const };
+  if (part.enum) return { kind: "choice", options: part.enum };
+  if (part.type === "boolean") return { kind: "switch" };
+  if (part.type === "number" || part.type === "integer") return number(part);
+  if (part.type === "array") return array(part);
+  if (part.properties) return group(part);
+  if (part.type === "object") return { kind: "mapping" };
+  return { kind: "text", dimension: part["x-dimension"] ?? null, sign: part["x-sign"] ?? "" };
+}
+
+const number = (part) => ({
+  kind: "number", whole: part.type === "integer",
+  least: part.minimum, most: part.maximum, above: part.exclusiveMinimum, below: part.exclusiveMaximum,
+});
+
+function array(part) {
+  if (part.prefixItems) return { kind: "tuple", items: part.prefixItems.map(understand) };
+  const item = understand(part.items ?? {});
+  return { kind: item.kind === "choice" ? "set" : "list", item };
+}
+
+const group = (part) => ({ kind: "group", properties: part.properties, required: part.required ?? [] });
+
+// The key whose constant tells which of several groups it is.
+function tagOf(groups) {
+  const names = Object.keys(groups[0].properties);
+  return names.find((name) => groups.every((each) => "const" in (each.properties[name] ?? {})));
+}
+
+function several(parts) {
+  const groups = parts.filter((each) => each.properties);
+  if (groups.length && tagOf(groups)) return variants(parts, groups);
+  const kinds = parts.map(one), words = kinds.flatMap((each) => each.options ?? each.value ?? []);
+  const texts = kinds.filter((each) => each.kind === "text");
+  const lists = kinds.filter((each) => ["list", "tuple"].includes(each.kind));
+  if (lists.length && texts.length && lists[0].kind === "list") return { kind: "lines" };
+  const inner = texts[0] ?? lists[0]?.item ?? lists[0]?.items?.[0];
+  const numeric = kinds.some((each) => each.kind === "number");
+  return { kind: "text", words, numeric, many: lists.length > 0, dimension: inner?.dimension ?? null };
+}
+
+function variants(parts, groups) {
+  const tag = tagOf(groups);
+  const named = parts.filter((each) => each.enum).flatMap((each) => each.enum);
+  const unique = new Map(groups.map((each) => [each.properties[tag].const, understand(each)]));
+  const sum = parts.some((each) => each.type === "array");
+  return { kind: "variants", tag, named: named.filter((name) => !unique.has(name)), options: unique, sum };
+}
+
+// The keys of a group in the order in which they are shown, with what each asks for.
+export function keysOf(node, { requiredFirst = true } = {}) {
+  const rank = (key) => (FIRST.includes(key) ? FIRST.indexOf(key) : FIRST.length);
+  return Object.entries(node.properties)
+    .map(([key, part]) => ({ key, node: understand(part), required: node.required.includes(key) }))
+    .filter((each) => each.node.kind !== "constant")
+    .sort((a, b) => (requiredFirst ? b.required - a.required : 0) || rank(a.key) - rank(b.key));
+}
+
+// A value to begin with where one is required.
+export function startOf(node) {
+  if (node.default !== undefined && node.default !== null && node.kind !== "text") return node.default;
+  if (node.examples.length) return node.examples[0];
+  if (node.kind === "choice") return node.options[0];
+  if (node.kind === "number") return node.least ?? 0.5;
+  if (node.kind === "tuple") return node.items.map(startOf);
+  if (node.kind === "list") return [startOf(node.item)];
+  if (node.kind === "variants") return startOfVariant(node, node.options.keys().next().value, {});
+  if (node.kind === "group") return startOfGroup(node, {});
+  return "";
+}
+
+// A variant to begin with; what the one before had under the same keys goes on.
+export function startOfVariant(node, tag, before) {
+  return { [node.tag]: tag, ...startOfGroup(node.options.get(tag), before) };
+}
+
+function startOfGroup(node, before) {
+  const values = {};
+  for (const { key, node: asked, required } of keysOf(node)) {
+    const old = before[key];
+    if (old !== undefined && fits(asked, old)) values[key] = old;
+    else if (required) values[key] = startOf(asked);
+    else if (key in FILLED && !stoodFor(key, values, before)) values[key] = FILLED[key] ?? startOf(asked);
+  }
+  return values;
+}
+
+// A force is not filled in beside an approach.
+const stoodFor = (key, values, before) =>
+  (["force", "mean"].includes(key) && ("approach" in before || "mean_pressure" in before || "approach" in values)) ||
+  (key === "shear_modulus" && "youngs_modulus" in before) ||
+  (key === "poisson_ratio" && "bulk_modulus" in before);
+
+function fits(node, value) {
+  if (node.kind === "choice") return node.options.includes(value);
+  if (node.kind === "list" || node.kind === "tuple") return Array.isArray(value);
+  if (node.kind === "variants" || node.kind === "group") return typeof value === "object";
+  return typeof value !== "object" || node.many;
+}

@@ -1,0 +1,99 @@
+// What the server is asked. Every refusal carries its problems in the words of the command line.
+
+export class Refused extends Error {
+  constructor(status, problems) {
+    super(problems.map((problem) => problem.message).join("\n"));
+    this.status = status;
+    this.problems = problems;
+  }
+}
+
+// Tells of "gone" and "back".
+export const connection = new EventTarget();
+let reachable = true;
+let waiting = null;
+
+function lost() {
+  if (reachable) {
+    reachable = false;
+    connection.dispatchEvent(new Event("gone"));
+  }
+  if (waiting === null) waiting = setTimeout(look, 1000);
+}
+
+async function look() {
+  waiting = null;
+  try {
+    const answer = await fetch("/api/version", { cache: "no-store" });
+    if (!answer.ok) throw new TypeError("not yet");
+    found();
+  } catch {
+    lost();
+  }
+}
+
+function found() {
+  if (reachable) return;
+  reachable = true;
+  connection.dispatchEvent(new Event("back"));
+}
+
+// Somebody saw the connection break: ask whether the server is still there.
+export const doubt = () => look();
+
+async function ask(path, options) {
+  let answer;
+  try {
+    answer = await fetch(path, options);
+  } catch (error) {
+    if (error.name === "AbortError") throw error;
+    lost();
+    throw new Refused(0, [{ path: "", line: null, message: "The server does not answer." }]);
+  }
+  found();
+  if (answer.ok) return answer;
+  const told = await answer.json().catch(() => ({}));
+  const unknown = [{ path: "", line: null, message: `${answer.status} ${answer.statusText}` }];
+  throw new Refused(answer.status, told.problems ?? unknown);
+}
+
+export async function get(path) {
+  return (await ask(path, { cache: "no-store" })).json();
+}
+
+const posted = (content, signal) => ({
+  method: "POST", signal, headers: { "Content-Type": "application/json" }, body: JSON.stringify(content ?? {}),
+});
+
+export async function post(path, content, signal) {
+  return (await ask(path, posted(content, signal))).json();
+}
+
+export async function postForImage(path, content, signal) {
+  return URL.createObjectURL(await (await ask(path, posted(content, signal))).blob());
+}
+
+export async function remove(path) {
+  await ask(path, { method: "DELETE" });
+}
+
+export async function upload(file) {
+  const path = `/api/files?name=${encodeURIComponent(file.name)}`;
+  return (await ask(path, { method: "POST", body: file })).json();
+}
+
+// Follows a run: `tell` gets each status until the run is over. Returns what stops following.
+export function follow(id, tell, gone) {
+  const source = new EventSource(`/api/runs/${id}/events`);
+  source.onmessage = (event) => {
+    const status = JSON.parse(event.data);
+    if (status.over) source.close();
+    tell(status);
+  };
+  source.onerror = () => {
+    source.close();
+    doubt();
+    gone();
+  };
+  return () => source.close();
+}
