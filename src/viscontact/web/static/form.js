@@ -130,7 +130,7 @@ function variants(path, node, required, which = "") {
   const asked = node.options.get(chosen);
   const label = path.length > 1 && typeof path.at(-1) === "string" ? titleOf(path.at(-1)) : titleOf(node.tag) + which;
   return [
-    make("div", { class: "field choice", "data-path": dotted([...path, node.tag]), "data-key": node.tag },
+    make("div", { class: "field variant", "data-path": dotted([...path, node.tag]), "data-key": node.tag },
       make("label", { htmlFor: select.id, textContent: label }), make("div", { class: "control" }, select),
       make("p", { class: "told", textContent: asked?.description ?? toldOf(chosen) ?? node.description }), make("ul", { class: "problems" })),
     asked && group(path, asked),

@@ -51,7 +51,7 @@ function showInstant(index) {
   place("instant").value = label;
   place("instant-slider").setAttribute("aria-valuetext", label);
   place("map-told").textContent = peak > 0
-    ? `Largest pressure ${digits(peak / pressure.factor)} ${pressure.symbol}.${map.stretch === 1 ? "" : ` y is drawn ${digits(map.stretch)} times as long as x.`}`
+    ? `Largest pressure ${digits(peak / pressure.factor)} ${pressure.symbol}.${map.stretch === 1 ? "" : ` y is drawn ${digits(map.stretch, 0)} times as long as x.`}`
     : "No contact.";
   drawPlane();
   for (const section of map.sections) drawSection(section);
@@ -107,7 +107,7 @@ function drawSection(section) {
   }
   traces.push(across(map, section, index, { color: colour("blue"), width: 2.4 }));
   const box = place(`section-${section.along}`), other = section.along === "x" ? 1 : 0;
-  const through = `${"xy"[other]} = ${digits(map.crossing[other] / length.factor)} ${length.symbol}`;
+  const through = `${"xy"[other]} = ${digits(map.crossing[other] / length.factor, 0)} ${length.symbol}`;
   box.previousElementSibling.replaceChildren(`Along ${section.along} `, make("span", { textContent: `at ${through}` }));
   Plotly.react(box, traces, layout({
     xaxis: axis(`${section.along} [${length.symbol}]`), yaxis: axis(`Pressure [${pressure.symbol}]`, { rangemode: "tozero" }),

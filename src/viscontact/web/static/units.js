@@ -9,7 +9,7 @@ const LADDERS = {
   Pa: prefixed("Pa"), N: prefixed("N"), J: prefixed("J"), rad: [["rad", 1], ["mrad", 1e-3], ["µrad", 1e-6]], s: TIMES,
 };
 export const SYSTEMS = {
-  auto: { name: "Easy to read", units: {} },
+  auto: { name: "readable units", units: {} },
   mm: { name: "mm, N, MPa", units: { m: ["mm", 1e-3], m2: ["mm²", 1e-6], Pa: ["MPa", 1e6], N: ["N", 1], J: ["mJ", 1e-3], rad: ["mrad", 1e-3], s: ["s", 1] } },
   kn: { name: "mm, kN, MPa", units: { m: ["mm", 1e-3], m2: ["mm²", 1e-6], Pa: ["MPa", 1e6], N: ["kN", 1e3], J: ["J", 1], rad: ["mrad", 1e-3], s: ["s", 1] } },
   um: { name: "µm, mN, kPa", units: { m: ["µm", 1e-6], m2: ["µm²", 1e-12], Pa: ["kPa", 1e3], N: ["mN", 1e-3], J: ["µJ", 1e-6], rad: ["mrad", 1e-3], s: ["s", 1] } },
@@ -33,17 +33,18 @@ export function unitFor(si, ...values) {
 const MINUS = "\u2212";
 const decimalsOf = (error) => Math.max(0, 1 - Math.floor(Math.log10(error)));
 
-// As many digits as the error supports, five at most; four where it is not known.
+// As many digits as the error supports, five at most; four where it is not known, and no idle
+// zeros where there is none.
 export function digits(value, error = null) {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
   const size = Math.abs(value);
-  const supported = error > 0 ? Math.max(2, Math.floor(Math.log10(size / error)) + 2) : 4;
+  const supported = error > 0 ? Math.max(2, Math.floor(Math.log10(size / error)) + 2) : error === 0 ? 5 : 4;
   const kept = Math.min(5, Math.max(2, Number.isFinite(supported) ? supported : 2));
   if (size > 0 && (size < 1e-4 || size >= 1e7)) return value.toExponential(kept - 1).replace("-", MINUS);
   const rounded = Number(value.toPrecision(kept));
   const places = size > 0 ? Math.max(0, kept - 1 - Math.floor(Math.log10(Math.abs(rounded)))) : 0;
   const plain = rounded.toFixed(Math.min(places, 12));
-  return (error > 0 ? plain : String(Number(plain))).replace("-", MINUS);
+  return (error === 0 ? String(Number(plain)) : plain).replace("-", MINUS);
 }
 
 // The error bar by two digits.
@@ -57,7 +58,7 @@ export function bar(error) {
 export function told(value, error, si, mesh = false) {
   const unit = unitFor(si, value);
   if (value === null) return "–";
-  const half = error === null || error < 1e-5 * Math.abs(value) ? 0 : error / unit.factor;
+  const half = error === null ? null : error < 1e-5 * Math.abs(value) ? 0 : error / unit.factor;
   return [mesh ? ">" : "", digits(value / unit.factor, half), bar(half), unit.symbol].filter(Boolean).join(" ");
 }
 
