@@ -134,25 +134,39 @@ def until_ready(page: Any) -> None:
 def write_case(page: Any, text: str) -> None:
     """Paste a case as YAML, and wait until it has been looked at."""
     page.click("#as-text")
-    page.fill("#yaml", text)
     with page.expect_response("**/api/check"):
-        pass
+        page.fill("#yaml", text)
     page.click("#as-form")
+
+
+def until_checked(page: Any) -> None:
+    """Wait until the server has said what it thinks of the case as it stands."""
+    page.wait_for_selector("#estimate[aria-busy=false]", state="attached")
 
 
 def type_into(page: Any, path: str, text: str) -> None:
     """Write a value into the field of a key, as a person does, until the server has seen it."""
-    with page.expect_response("**/api/check"):
-        page.fill(f'[id="field-{path}"]', text)
+    page.fill(f'[id="field-{path}"]', text)
+    until_checked(page)
 
 
 def run(page: Any, button: str) -> str:
     """Press a button that computes; return the run once its results are drawn."""
-    with page.expect_response(lambda answer: answer.request.method == "POST" and answer.url.endswith("/api/runs")) as asked:
+    with page.expect_response(
+        lambda answer: answer.request.method == "POST" and answer.url.endswith("/api/runs")
+    ) as asked:
         page.click(button)
     name = str(asked.value.json()["id"])
     until_drawn(page, name)
     return name
+
+
+def until_at_work(page: Any) -> None:
+    """Wait until the first step of the run that is followed is done."""
+    page.wait_for_function(
+        "() => document.getElementById('progress-text').textContent.startsWith('step')",
+        timeout=60_000,
+    )
 
 
 def until_drawn(page: Any, run: str) -> None:

@@ -95,6 +95,7 @@ def test_a_newcomer_leaves_with_case_report_and_result(
     assert page.input_value('[id="field-indenter.shape"]') == "roller"  # what it begins with
     page.select_option("#examples", "sphere-zener")
     page.wait_for_selector('[id="field-material.viscosity"]')
+    page.select_option('[id="field-indenter.shape"]', "sphere")
     seen.type_into(page, "indenter.radius", "12 mm")
     seen.run(page, "#coarse")
     assert "coarse" in page.inner_text("#quality")
@@ -185,7 +186,9 @@ def test_a_reload_in_mid_run_finds_the_run_and_it_can_be_cancelled(
 ) -> None:
     seen.visit(page, server, LONG)
     page.click("#refine")
-    page.wait_for_function("() => document.getElementById('progress-text').textContent.includes('step')")
+    page.wait_for_function(
+        "() => document.getElementById('progress-text').textContent.includes('step')"
+    )
     page.reload()
     seen.until_ready(page)
     page.wait_for_function("() => document.getElementById('progress-bar').value > 0")
@@ -205,9 +208,7 @@ def test_a_server_that_is_stopped_in_mid_run_is_missed_and_gone_on_with(
         page, watched = seen.new_page(browser, server)
         seen.visit(page, server, LONG.replace("[768, 768]", "[512, 512]").replace("60", "20"))
         page.click("#refine")
-        page.wait_for_function(
-            "() => document.getElementById('progress-text').textContent.includes('step')"
-        )
+        seen.until_at_work(page)
         server.stop()
         page.wait_for_selector("#offline", state="visible")
         assert page.input_value('[id="field-load.force"]') == "100 N"
@@ -254,7 +255,10 @@ def test_a_new_key_of_the_schema_appears_by_itself(page: Any, server: seen.Serve
     assert page.is_visible('[id="field-remark"]')
     wall.focus()
     # The server does not know it: only what is offered is looked at here.
-    page.evaluate("input => { input.value = '2'; input.dispatchEvent(new Event('focus')); }", wall.element_handle())
+    page.evaluate(
+        "input => { input.value = '2'; input.dispatchEvent(new Event('focus')); }",
+        wall.element_handle(),
+    )
     assert "2 mm" in page.locator('[id="field-indenter.wall-options"] option').evaluate_all(
         "options => options.map((option) => option.value)"
     )
@@ -265,8 +269,7 @@ def test_terms_are_rows_and_variants_bring_their_own_fields(page: Any, server: s
     seen.visit(page, server, BALL)
     page.select_option('[id="field-material.law"]', "relaxation-series")
     assert page.input_value('[id="field-material.poisson_ratio"]') == "0.5"  # what both have
-    with page.expect_response("**/api/yaml"):
-        page.click('[data-add="material"]')
+    page.click('[data-add="material"]')
     # Three terms copied from a spreadsheet, without units.
     page.evaluate(
         """(text) => {
@@ -277,8 +280,8 @@ def test_terms_are_rows_and_variants_bring_their_own_fields(page: Any, server: s
         }""",
         "300\t0.1\n200\t1\n100\t10",
     )
-    with page.expect_response("**/api/check"):
-        page.click('[aria-label="Remove term 2"]')
+    page.click('[aria-label="Remove term 2"]')
+    seen.until_checked(page)
     text = page.evaluate("sessionStorage['viscontact.case']")
     assert re.search(r"moduli: *(\[|\n *- )300 MPa(, |\n *- )100 MPa", text), text
     assert re.search(r"times: *(\[|\n *- )0.1 s(, |\n *- )10 s", text), text
@@ -304,8 +307,10 @@ def test_results_change_units_and_stand_beside_a_reference(page: Any, server: se
     # Hertz: the peak pressure grows with the cubic root of the force, twice as large.
     change = page.locator('#told tr:has(th:text("Peak pressure")) td').last.inner_text()
     assert float(change.strip("+ %")) == pytest.approx(100, abs=3)
-    dashed = page.locator("#histories .panel").first.locator("path.js-line").evaluate_all(
-        "lines => lines.filter((line) => line.style.strokeDasharray !== '').length"
+    dashed = (
+        page.locator("#histories .panel")
+        .first.locator("path.js-line")
+        .evaluate_all("lines => lines.filter((line) => line.style.strokeDasharray !== '').length")
     )
     assert dashed == 1
     page.click("#unkeep")
@@ -356,8 +361,8 @@ def test_every_example_stands_in_the_form_as_it_is_written(page: Any, server: se
         shown = {
             box["path"]: box["value"]
             for box in page.evaluate(
-                """[...document.querySelectorAll("#form input[id^=field-], #form select[id^=field-]")]
-                  .map((each) => ({ path: each.id.replace("field-", ""), value:
+                """[...document.querySelectorAll("#form :is(input, select)[id^=field-]")].map(
+                  (each) => ({ path: each.id.replace("field-", ""), value:
                     each.type === "checkbox" ? each.checked : each.value }))"""
             )
         }

@@ -14,13 +14,18 @@ export const check = { problems: [], full: null, busy: false };
 export const checked = new EventTarget();
 
 export function setUpChecking() {
-  draft.addEventListener("values", settled(async () => {
+  const soon = settled(async () => {
     try {
       if (await writeText()) await Promise.all([look(), draw()]);
     } catch (error) {
       refuse(error);
     }
-  }, PAUSE));
+  }, PAUSE);
+  draft.addEventListener("values", () => {
+    request?.abort(); // what it would say is of a case that is no more
+    tell({ busy: true });
+    soon();
+  });
 }
 
 export async function look() {

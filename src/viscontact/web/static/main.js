@@ -150,7 +150,7 @@ function setUpRuns() {
   runs.addEventListener("reference", redraw);
   runs.addEventListener("listed", () => drawList(complain));
   checked.addEventListener("change", drawButtons);
-  window.addEventListener("focus", () => list().catch(() => {}));
+  window.addEventListener("focus", () => list());
   onTheme(() => { draw(); drawResults(); });
 }
 

@@ -99,14 +99,19 @@ export async function forget(id) {
   await list();
 }
 
+// Asks for all runs; while the server does not answer the old list stays.
 export async function list() {
-  state.listed = await get("/api/runs");
+  try {
+    state.listed = await get("/api/runs");
+  } catch (error) {
+    if (!error.problems) throw error;
+  }
   tell("listed");
 }
 
 // The server is back: take up the run where it is now, or say that it is gone.
 connection.addEventListener("back", async () => {
-  list().catch(() => {});
+  list();
   const active = state.active;
   if (!active || active.status.over) return;
   try {
