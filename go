@@ -55,7 +55,13 @@ def lint(args: list[str]) -> int:
 
 def docs(args: list[str]) -> int:
     """Build the manual into build/docs/html; `-D plot_gallery=0` leaves out the gallery's runs."""
-    folder = "build/docs"
+    folder, source = "build/docs", ROOT / "docs"
+    examples = {path.stem for path in (source / "gallery").glob("*.py")}
+    shown = {path.stem for path in (source / "examples").glob("plot_*.rst")}
+    # What an earlier build has made of sources that are gone would be taken for pages.
+    stale = [ROOT / folder / "html", source / "reference" / "generated"]
+    for made in [*stale, source / "examples"] if shown - examples else stale:
+        shutil.rmtree(made, ignore_errors=True)
     strict = ["-W", "--keep-going", "-n", "-q", "-E", "-d", f"{folder}/doctrees"]
     status = run(["-m", "sphinx", *strict, *args, "docs", f"{folder}/html"])
     if status == 0:

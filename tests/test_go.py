@@ -177,6 +177,27 @@ def test_arguments_reach_pytest_and_slow_means_all(
     assert ran[0][-3:] == ["-m", "", "-x"]
 
 
+def test_the_manual_is_built_strictly_and_without_what_is_gone(
+    go: ModuleType, installer: Installer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    ran: list[list[str]] = []
+    monkeypatch.setattr(go, "run", lambda args: ran.append(args) or 1)
+    kept, gone, page = (
+        go.ROOT / "docs" / place
+        for place in ("examples/plot_a.rst", "examples/plot_b.rst", "reference/generated/x.rst")
+    )
+    for made in (kept, page, go.ROOT / "docs" / "gallery" / "plot_a.py"):
+        made.parent.mkdir(parents=True, exist_ok=True)
+        made.touch()
+    assert go.main(["docs", "-D", "plot_gallery=0"]) == 1
+    assert {"-W", "-n", "-D", "plot_gallery=0"} <= set(ran[0])
+    assert kept.exists()
+    assert not page.exists()
+    gone.touch()
+    go.main(["docs"])
+    assert not gone.exists()
+
+
 # --- the lock -----------------------------------------------------------------------------------
 
 
