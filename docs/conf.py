@@ -28,6 +28,7 @@ extensions = [
 ]
 numfig = math_numfig = True  # (4.2) is the second equation of the fourth page of the theory
 numfig_secnum_depth = 1
+numfig_format = {"figure": "%.0s", "table": "%.0s", "code-block": "%.0s"}  # these have no numbers
 templates_path = ["_templates"]
 exclude_patterns = ["_ext", "_static", "_templates", "gallery", "generated/gallery/**/*.ipynb"]
 nitpicky = True
