@@ -1,7 +1,7 @@
 """A run that ends with the process that began it: `python -m viscontact.cli.child_run run CASE`.
 
-Whoever begins it holds the other end of its standard input, and lets go of it by ending, in
-whichever way. What is then at work finishes its step and saves, as when it is asked to end.
+Whoever begins it holds the other end of its standard input, and lets go of it to ask it to end, or
+by coming to an end, in whichever way. The step at work is finished then, and saved.
 """
 
 from __future__ import annotations

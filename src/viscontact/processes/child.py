@@ -69,17 +69,17 @@ class Child:
         with ExitStack() as opened:
             self._said = opened.enter_context(tempfile.TemporaryFile())
             self._process = _started(job, self._said)
+            if self._process.stdin is not None:
+                opened.callback(self._process.stdin.close)
             self._opened = opened.pop_all()  # until it has ended
 
     def ask_to_stop(self) -> None:
         """Ask it to finish its step, save and end; once is enough."""
-        if self._asked:
-            return
+        # It takes the end of its input as a request, on any system. If Ctrl-C has reached it as
+        # well, the two are one request; Ctrl-C does not count twice.
         self._asked = True
-        # If Ctrl-C has reached it as well, the two are one request; Ctrl-C does not count twice.
-        # On Windows everybody at the console has been asked already, and there is no other way.
-        if os.name != "nt":
-            self._process.send_signal(signal.SIGTERM)
+        if self._process.stdin is not None:
+            self._process.stdin.close()
 
     def ended(self) -> Ended | None:
         """How it has ended; None while it is at work."""
@@ -94,8 +94,6 @@ class Child:
         self._said.seek(0)
         lines = tuple(self._said.read().decode("utf-8", errors="replace").splitlines())
         self._opened.close()
-        if self._process.stdin is not None:
-            self._process.stdin.close()
         if code == DONE:
             return Ended(self.job, "done", DONE)
         # Before it has met signals, they end it at once.
@@ -115,6 +113,6 @@ def _started(job: Job, said: Any) -> subprocess.Popen[bytes]:
     # -P: what lies in the working directory is not imported in place of a library.
     command = [sys.executable, "-P", "-m", "viscontact.cli.child_run", "run", *request.words()]
     environment = {**os.environ, "PYTHONIOENCODING": "utf-8"}
-    # Nothing is ever written to its input: that this ends tells it that this process has ended.
+    # Nothing is ever written to its input. That it ends, as it does with this process, asks it to.
     held, nowhere = subprocess.PIPE, subprocess.DEVNULL
     return subprocess.Popen(command, stdin=held, stdout=nowhere, stderr=said, env=environment)
