@@ -105,6 +105,11 @@ def test_the_reference_of_case_files_tells_values_bounds_and_what_is_required() 
     assert "e.g. `10 kN`" in rows["| `force`"]
 
 
+def test_every_key_of_a_case_file_says_what_it_means() -> None:
+    page = extension("case_file").case_file_reference(case_schema())
+    assert re.findall(r"^\| `\w+` \|  \|.*$", page, re.MULTILINE) == []
+
+
 def test_the_reference_of_commands_tells_every_command_and_option() -> None:
     page = extension("command_line").command_line_reference()
     sections = re.split(r"^## ", page, flags=re.MULTILINE)[1:]

@@ -50,7 +50,16 @@ def case_file_reference(schema: Schema) -> str:
         else:
             lines += _section(schema["$defs"], name, value, depth=2)
             told[kinds] = name
-    return "\n".join(lines)
+    return "\n".join([*lines, *_units(schema.get("x-units", {}))])
+
+
+def _units(units: Mapping[str, list[str]]) -> Iterator[str]:
+    if not units:
+        return
+    yield from ("", "## Units", "", "These and their multiples, among others:", "")
+    yield from ("| quantity | units |", "|---|---|")
+    for dimension, names in units.items():
+        yield f"| {dimension} | {', '.join(f'`{name}`' for name in names)} |"
 
 
 def _section(defs: Schema, path: str, value: Schema, depth: int) -> Iterator[str]:
@@ -128,7 +137,10 @@ def _table(properties: Schema, required: list[str]) -> Iterator[str]:
 def _meaning(value: Schema) -> str:
     said = str(value.get("description", ""))
     # What a quantity says of itself stands in the next column.
-    return "" if said.endswith(_SIGNS) and "with its unit" in said else _cell(said)
+    if said and not (said.endswith(tuple(_SIGNS)) and "with its unit" in said):
+        return _cell(said)
+    # A key that may be left out hides what it says in the kind of value that it has then.
+    return next(filter(None, map(_meaning, value.get("anyOf", []))), "")
 
 
 _WORDS = {
@@ -137,7 +149,9 @@ _WORDS = {
     "string": "text",
     "object": "keys of your own",
 }
-_SIGNS = ("any", "zero or more", "more than zero")
+
+#: Bounds of quantities, in the schema's words.
+_SIGNS = {"any": "", "zero or more": " ≥ 0", "more than zero": " > 0"}
 
 
 def _default(value: Schema) -> str:
@@ -162,7 +176,8 @@ def _value(value: Schema) -> str:
         if any(True for _ in _references(value)):
             return _link_below(options)
         told = [_value(each) for each in options if each.get("type") != "null"]
-        return ", or ".join(dict.fromkeys(told)) + _bounds(value)
+        joined = ", or ".join(dict.fromkeys(told)) + _bounds(value)
+        return joined if "e.g." in joined else joined + _example(value)
     if "$ref" in value:
         return "keys below"
     return _simple(value)
@@ -190,18 +205,14 @@ def _simple(value: Schema) -> str:
 
 
 def _quantity(value: Schema) -> str:
-    dimension = value.get("x-dimension")
-    sign = value.get("x-sign", "")
-    if dimension is None:  # by its own description, where no other took the place of that
-        said = str(value.get("description", ""))
-        dimension = said if "with its unit" in said else "quantity with its unit"
-        sign = ""
-    bound = f", {sign}" if sign and sign != "any" else ""
-    return f"{dimension}{bound}{_example(value)}".replace(", any", "")
+    bound = _SIGNS[value["x-sign"]]
+    return f"{value['x-dimension']}{bound}{_example(value)}"
 
 
 def _bounds(value: Schema) -> str:
-    return "".join(f", {words} {value[key]:g}" for key, words in _BOUNDS if key in value)
+    return "".join(
+        f", {words} {value[key]:g}".replace("e+0", "e") for key, words in _BOUNDS if key in value
+    )
 
 
 def _example(value: Schema) -> str:

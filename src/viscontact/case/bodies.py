@@ -52,7 +52,7 @@ class Pyramid(Shape):
 
     shape: Literal["pyramid"]
     half_angle: OpenAngle = Field(description="from the axis to a face", examples=["68 deg"])
-    faces: FaceCount
+    faces: FaceCount = Field(description="how many")
 
     def noun(self) -> indenters.Pyramid:
         """Return the pyramid."""
@@ -125,7 +125,9 @@ class Dimples(Shape):
     depth: Length = Field(description="in the middle of a dimple", examples=["2 um"])
     radius: Length = Field(description="of its mouth", examples=["50 um"])
     spacing: Length = Field(description="between neighbours' middles", examples=["0.2 mm"])
-    pattern: Literal["square", "hexagonal"] = "square"
+    pattern: Literal["square", "hexagonal"] = Field(
+        default="square", description="how dimples lie beside each other"
+    )
 
     def noun(self) -> indenters.Dimples:
         """Return the texture."""
@@ -136,7 +138,9 @@ class _Drawn(Shape):
     """A shape by points of a line, from a file or written out."""
 
     points: Points | None = Field(default=None, description="position and drop, in pairs")
-    interpolation: Literal["smooth", "linear"] = "smooth"
+    interpolation: Literal["smooth", "linear"] = Field(
+        default="smooth", description="between the points: cubics without overshoot, or straight"
+    )
 
     def _line(self, file: str | None, along: str) -> tuple[list[float], list[float]]:
         if (self.points is None) == (file is None):

@@ -24,7 +24,7 @@ class Sphere(Shape):
     """A sphere, with its true circular section."""
 
     shape: Literal["sphere"]
-    radius: Length
+    radius: Length = Field(description="of the sphere")
 
     def noun(self) -> indenters.Sphere:
         """Return the sphere."""
@@ -73,7 +73,7 @@ class Roller(Shape):
     """A roller lying along x, with a profile along it."""
 
     shape: Literal["roller"]
-    radius: Length
+    radius: Length = Field(description="where it is thickest")
     half_length: Length = Field(
         description="half the length: of the straight part where a circular crown continues it, "
         "of the whole otherwise"

@@ -109,7 +109,7 @@ class Ramp(Controlled):
     """A force or an approach that grows evenly, then is held."""
 
     kind: Literal["ramp"]
-    duration: Duration
+    duration: Duration = Field(description="of the rise; then it is held")
 
     def noun(self, area: float = 1.0) -> LoadHistory:
         """Return the ramp."""
@@ -120,7 +120,7 @@ class Triangle(Controlled):
     """A force or an approach that grows evenly to its peak, then falls back to zero."""
 
     kind: Literal["triangle"]
-    rise: Duration
+    rise: Duration = Field(description="how long the way up takes")
     fall: Duration | None = Field(default=None, description="as long as rise when left out")
 
     def noun(self, area: float = 1.0) -> LoadHistory:

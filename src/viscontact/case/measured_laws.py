@@ -42,7 +42,9 @@ class TableLaw(FromFile):
         description="CSV with a header such as: time [s], creep_compliance [1/MPa]",
         examples=["pmma.csv"],
     )
-    quantity: Literal["creep_compliance", "relaxation_modulus"]
+    quantity: Literal["creep_compliance", "relaxation_modulus"] = Field(
+        description="what its values are"
+    )
     data: Literal["deviatoric", "shear", "uniaxial"] = Field(
         description="compliances are deviatoric (Phi = 1/(2G)), shear (1/G) or uniaxial (1/E); "
         "moduli shear (G) or uniaxial (E)"

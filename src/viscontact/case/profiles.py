@@ -177,7 +177,9 @@ class TabulatedLine(Line):
         description="position from the middle and drop, in pairs; half of a mirrored line will do",
         examples=[[["0 mm", "0 um"], ["4 mm", "0 um"], ["5 mm", "8 um"]]],
     )
-    interpolation: Interpolation = "smooth"
+    interpolation: Interpolation = Field(
+        default="smooth", description="between the points: cubics without overshoot, or straight"
+    )
 
     @property
     def files(self) -> Mapping[tuple[str, ...], Path]:

@@ -37,7 +37,7 @@ DEFAULT_TOLERANCE = 0.01
 class Time(Section):
     """The instants at which the state is computed."""
 
-    end: Duration
+    end: Duration = Field(description="last instant of the run")
     steps: StepCount | None = Field(
         default=None, description="number of steps; not with adaptive spacing"
     )

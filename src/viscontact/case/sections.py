@@ -19,16 +19,16 @@ from viscontact.units import DIMENSIONS
 class CaseFile(Section):
     """A viscontact case: what is pressed on what, how, for how long."""
 
-    title: str = ""
+    title: str = Field(default="", description="what tables, figures and reports call the run")
     indenter: Shapes
     material: AnyMaterial = Field(description="the half-space")
     indenter_material: AnyMaterial | None = Field(
         default=None, description="the pressed body's material; rigid when left out"
     )
-    load: AnyLoad
-    time: Time
+    load: AnyLoad = Field(description="what presses, over time")
+    time: Time = Field(description="the instants that are computed")
     grid: Cells | None = Field(default=None, description="an automatic grid when left out")
-    output: Output = Output()
+    output: Output = Field(default=Output(), description="what is kept of them")
     tolerance: Annotated[float, Field(ge=1e-13, le=1e-2)] = Field(
         default=1e-6, description="relative error of pressure and balances at every step"
     )

@@ -21,7 +21,7 @@ class CreepSeries(Medium):
     instant: Compliance = Field(description="J_0")
     amplitudes: list[Compliance] = Field(description="J_i")
     times: list[Duration] = Field(description="retardation times tau_i")
-    fluidity: Fluidity = 0.0
+    fluidity: Fluidity = Field(default=0.0, description="rate of steady flow")
     data: Literal["deviatoric", "shear", "uniaxial"] = Field(description=_DATA)
 
     def law_noun(self) -> Law:
@@ -57,7 +57,7 @@ class PowerLaw(Medium):
     law: Literal["power-law"]
     compliance: Compliance = Field(description="what has crept at the reference time")
     exponent: Exponent = Field(description="power of time")
-    reference_time: Duration
+    reference_time: Duration = Field(description="by when compliance has crept")
     instant: Compliance = Field(default=0.0, description="at once; without it no load can jump")
     data: Literal["deviatoric", "shear", "uniaxial"] = Field(description=_DATA)
 

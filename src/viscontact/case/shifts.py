@@ -47,7 +47,7 @@ class Arrhenius(Rule):
 
     kind: Literal["arrhenius"]
     reference_temperature: Temperature = Field(description="T_r, which the law is given at")
-    activation_energy: MolarEnergy
+    activation_energy: MolarEnergy = Field(description="of all temperatures alike")
 
     def noun(self) -> laws.Shift:
         """Return the rule."""

@@ -17,7 +17,7 @@ class Springs(Medium):
 
     built: ClassVar[Any]  # the law's class; from_shear and from_uniaxial differ in arguments
 
-    shear_modulus: Modulus | None = None
+    shear_modulus: Modulus | None = Field(default=None, description="at once")
     youngs_modulus: Modulus | None = Field(
         default=None, description="instead of shear_modulus, with data: uniaxial"
     )
@@ -66,7 +66,7 @@ class Maxwell(Springs):
     built = laws.Maxwell
 
     law: Literal["maxwell"]
-    viscosity: Viscosity
+    viscosity: Viscosity = Field(description="of the dashpot")
 
 
 class Zener(Springs):
@@ -75,8 +75,8 @@ class Zener(Springs):
     built = laws.Zener
 
     law: Literal["zener"]
-    delayed_modulus: Modulus
-    viscosity: Viscosity
+    delayed_modulus: Modulus = Field(description="of the Kelvin unit's spring")
+    viscosity: Viscosity = Field(description="of the Kelvin unit's dashpot")
 
 
 class Burgers(Springs):
@@ -85,9 +85,9 @@ class Burgers(Springs):
     built = laws.Burgers
 
     law: Literal["burgers"]
-    viscosity: Viscosity
-    delayed_modulus: Modulus
-    delayed_viscosity: Viscosity
+    viscosity: Viscosity = Field(description="of the Maxwell unit, the steady flow")
+    delayed_modulus: Modulus = Field(description="of the Kelvin unit's spring")
+    delayed_viscosity: Viscosity = Field(description="of the Kelvin unit's dashpot")
 
 
 class FractionalMaxwell(Springs):
