@@ -52,9 +52,10 @@ export function timeScale(instants, onLog) {
     unit, at: (time) => time / unit.factor, axis: () => axis(`Time [${unit.symbol}]`, { rangemode: "tozero" }),
   };
   const zero = Math.log10(first) - 0.5;
-  const decades = [];
-  for (let power = Math.ceil(Math.log10(first)); power <= Math.floor(Math.log10(last) + 1e-9); power++) decades.push(power);
-  const ticks = { tickmode: "array", tickvals: [zero, ...decades], ticktext: ["0", ...decades.map((power) => number(10 ** power))] };
+  const lowest = Math.ceil(Math.log10(first)), highest = Math.floor(Math.log10(last) + 1e-9);
+  const decades = Array.from({ length: Math.max(0, highest - lowest + 1) }, (_, index) => lowest + index);
+  const labels = decades.map((power) => number(10 ** power));
+  const ticks = { tickmode: "array", tickvals: [zero, ...decades], ticktext: ["0", ...labels] };
   return {
     unit, at: (time) => (time > 0 ? Math.log10(time / unit.factor) : zero),
     axis: () => axis(`Time [${unit.symbol}], logarithmic`, ticks),

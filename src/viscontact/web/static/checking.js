@@ -1,7 +1,7 @@
 // After each change: the text, what is wrong with it, what it would take, and the drawings.
 
 import { caseText, draft, writeText } from "./draft.js";
-import { make, place, settled, write } from "./dom.js";
+import { definitions, items, place, settled, write } from "./dom.js";
 import { draw } from "./drawings.js";
 import { clearProblems, showProblems } from "./problems.js";
 import { post } from "./server.js";
@@ -64,9 +64,9 @@ function drawCheck() {
   place("expected").hidden = count > 0;
   if (!full) return;
   const rows = [...(full.needs ?? []), ...(full.expectations ?? [])];
-  place("expected-rows").replaceChildren(...rows.flatMap(([name, value]) => [make("dt", { textContent: name }), make("dd", { textContent: value })]));
+  place("expected-rows").replaceChildren(...definitions(rows));
   const said = [...(full.warnings ?? []), ...(full.notes ?? [])];
-  place("expected-warnings").replaceChildren(...said.map((text) => make("li", { textContent: text })));
+  place("expected-warnings").replaceChildren(...items(said));
   place("warned").hidden = !full.warnings?.length;
   write(place("warned"), full.warnings?.length === 1 ? "1 warning" : `${full.warnings?.length} warnings`);
 }

@@ -14,6 +14,10 @@ export function make(tag, properties = {}, ...children) {
   return element;
 }
 
+export const items = (texts) => texts.map((text) => make("li", { textContent: text }));
+export const definitions = (pairs) =>
+  pairs.flatMap(([name, text]) => [make("dt", { textContent: name }), make("dd", { textContent: text })]);
+
 export const place = (id) => document.getElementById(id);
 
 // Sets text only where it differs: what is read aloud is not to be read twice.

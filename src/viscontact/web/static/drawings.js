@@ -10,9 +10,13 @@ const KINDS = {
   material: { tab: "Material", about: "Creep compliance and relaxation modulus of the half-space", section: "material" },
   load: { tab: "Load", about: "The load over time", section: "load" },
 };
+const BEFORE = "As it was before the last change: what is written now cannot be drawn.";
 const narrow = window.matchMedia("(max-width: 860px)");
 const boxes = {};
 let request = null;
+let shown = "indenter";
+// What is not seen is drawn when it is looked at.
+const outdated = new Set();
 
 export function setUpDrawings() {
   const tabs = Object.entries(KINDS).map(([kind, { tab }]) => make("button", {
@@ -20,14 +24,17 @@ export function setUpDrawings() {
     onclick: () => showDrawing(kind), onkeydown: (event) => walk(event, kind),
   }));
   place("drawing-tabs").append(...tabs);
-  for (const [kind, { about }] of Object.entries(KINDS))
-    boxes[kind] = make("figure", { class: "drawing", id: `drawing-${kind}`, role: "tabpanel", "aria-labelledby": `tab-${kind}` },
+  for (const [kind, { about }] of Object.entries(KINDS)) {
+    const names = { id: `drawing-${kind}`, role: "tabpanel", "aria-labelledby": `tab-${kind}` };
+    boxes[kind] = make("figure", { class: "drawing", ...names },
       make("div", { class: "scroll" }, make("img", { alt: about })), make("p", { class: "told" }));
+  }
   narrow.addEventListener("change", placeDrawings);
   place("form").addEventListener("focusin", (event) => {
     const section = event.target.closest("[data-section]")?.dataset.section;
     if (KINDS[section]) showDrawing(section);
   });
+  narrow.addEventListener("change", () => draw());
   showDrawing("indenter");
   placeDrawings();
 }
@@ -40,13 +47,15 @@ export function placeDrawings() {
   }
 }
 
-export function showDrawing(kind) {
+function showDrawing(kind) {
   for (const each of Object.keys(KINDS)) {
     const tab = place(`tab-${each}`), chosen = each === kind;
     tab.setAttribute("aria-selected", String(chosen));
     tab.tabIndex = chosen ? 0 : -1;
     boxes[each].classList.toggle("chosen", chosen);
   }
+  shown = kind;
+  if (outdated.has(kind)) drawOne(kind, request?.signal);
 }
 
 function walk(event, kind) {
@@ -61,23 +70,34 @@ export async function draw() {
   request?.abort();
   request = new AbortController();
   const { signal } = request;
-  await Promise.all(Object.keys(KINDS).map((kind) => drawOne(kind, signal)));
+  for (const kind of Object.keys(KINDS)) outdated.add(kind);
+  const seen = narrow.matches ? Object.keys(KINDS) : [shown];
+  await Promise.all(seen.map((kind) => drawOne(kind, signal)));
 }
 
 async function drawOne(kind, signal) {
   const image = boxes[kind].querySelector("img"), note = boxes[kind].querySelector(".told");
   boxes[kind].setAttribute("aria-busy", "true");
+  outdated.delete(kind);
   try {
     const address = await postForImage("/api/drawing", { yaml: caseText(), what: kind, dark: isDark() }, signal);
     const before = image.src;
     image.src = address;
+    // Letters about as large as those of the page, whatever the drawing's own size.
+    image.onload = () => {
+      image.style.maxWidth = `${Math.round(1.12 * image.naturalWidth)}px`;
+      image.style.minWidth = `${Math.round(0.72 * image.naturalWidth)}px`;
+    };
     if (before.startsWith("blob:")) URL.revokeObjectURL(before);
     boxes[kind].classList.remove("stale");
     note.textContent = "";
   } catch (error) {
-    if (error.name === "AbortError") return;
+    if (error.name === "AbortError") {
+      outdated.add(kind);
+      return;
+    }
     boxes[kind].classList.add("stale");
-    note.textContent = image.src ? "As it was before the last change: what is written now cannot be drawn." : missing(kind);
+    note.textContent = image.src ? BEFORE : missing(kind);
   }
   boxes[kind].removeAttribute("aria-busy");
 }

@@ -59,7 +59,7 @@ export function entry(path, node, { label = null, required = true, example = nod
   const id = idOf(path), key = path.at(-1);
   const input = make("input", {
     id, type: "text", autocomplete: "off", spellcheck: false, autocapitalize: "off",
-    value: asText(valueAt(path)), placeholder: [required ? "" : "optional", asText(example) && `e.g. ${asText(example)}`].filter(Boolean).join(", "),
+    value: asText(valueAt(path)), placeholder: placeholder(required, asText(example)),
     "aria-label": label, "aria-describedby": label ? null : `${id}-told ${id}-problems`,
     "data-path": label ? dotted(path) : null, inputMode: node.kind === "number" ? "decimal" : "text",
     oninput: () => setValue(path, asValue(input.value, node)),
@@ -69,6 +69,9 @@ export function entry(path, node, { label = null, required = true, example = nod
   else if (node.words?.length) suggest(input, node.words);
   return input;
 }
+
+const placeholder = (required, example) =>
+  [required ? "" : "optional", example && `e.g. ${example}`].filter(Boolean).join(", ");
 
 function asText(value) {
   if (value === undefined || value === null) return "";
@@ -107,10 +110,10 @@ function suggestUnits(input, node) {
 
 function choice(path, node, required) {
   const value = valueAt(path), usual = node.default ?? "";
-  const options = node.options.map((each) =>
-    make("option", { value: each, textContent: titleOf(each), selected: each === (value ?? usual) }));
-  const none = !required && !node.options.includes(usual) && make("option", { value: "", textContent: "—", selected: value === undefined });
-  const strange = value !== undefined && !node.options.includes(value) && make("option", { value, textContent: String(value), selected: true });
+  const option = (each, text, selected) => make("option", { value: each, textContent: text, selected });
+  const options = node.options.map((each) => option(each, titleOf(each), each === (value ?? usual)));
+  const none = !required && !node.options.includes(usual) && option("", "—", value === undefined);
+  const strange = value !== undefined && !node.options.includes(value) && option(value, String(value), true);
   const select = make("select", {
     id: idOf(path), "aria-describedby": `${idOf(path)}-told ${idOf(path)}-problems`,
     onchange: () => setValue(path, select.value === usual && !required ? undefined : select.value),
@@ -150,11 +153,14 @@ function lines(path) {
 
 function mapping(path) {
   const given = valueAt(path) ?? {};
+  const read = (text) => {
+    const found = text.split("\n").map((line) => line.match(/^\s*([^:]+):\s*(.*)$/)).filter(Boolean);
+    return Object.fromEntries(found.map(([, key, value]) => [key.trim(), value.trim() || null]));
+  };
   const area = make("textarea", {
     id: idOf(path), rows: 2, spellcheck: false, placeholder: "name: value",
     value: Object.entries(given).map(([key, value]) => `${key}: ${value ?? ""}`).join("\n"),
-    oninput: () => setValue(path, Object.fromEntries(area.value.split("\n")
-      .map((line) => line.match(/^\s*([^:]+):\s*(.*)$/)).filter(Boolean).map(([, key, value]) => [key.trim(), value.trim() || null]))),
+    oninput: () => setValue(path, read(area.value)),
   });
   return area;
 }

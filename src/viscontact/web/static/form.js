@@ -39,10 +39,11 @@ function section({ key, node, required }) {
 }
 
 function foldedSection({ key, node, required }) {
-  const told = make("small", { textContent: node.description });
+  const told = isSection(node) && make("small", { textContent: node.description });
   const inside = isSection(node) ? body([key], node, required) : part([key], { key, node, required });
   return fold(key, caseValues()[key] !== undefined, "part", [make("h2", {}, titleOf(key), told)], [
-    make("div", { "data-path": isSection(node) ? key : null, "data-section": key }, inside, make("ul", { class: "problems" })),
+    make("div", { "data-path": isSection(node) ? key : null, "data-section": key },
+      inside, make("ul", { class: "problems" })),
   ]);
 }
 
@@ -66,8 +67,9 @@ function part(path, { node, required }) {
 }
 
 function nested(path, node, required) {
-  return make("div", { class: "nested", role: "group", "aria-label": titleOf(path.at(-1)), "data-path": dotted(path), "data-key": path.at(-1) },
-    node.kind === "group" && make("span", { class: "label", textContent: titleOf(path.at(-1)) }),
+  const key = path.at(-1), names = { "aria-label": titleOf(key), "data-path": dotted(path), "data-key": key };
+  return make("div", { class: "nested", role: "group", ...names },
+    node.kind === "group" && make("span", { class: "label", textContent: titleOf(key) }),
     node.kind === "group" && node.description && make("p", { class: "told", textContent: node.description }),
     body(path, node, required), make("ul", { class: "problems" }));
 }
@@ -75,19 +77,22 @@ function nested(path, node, required) {
 // The keys of a group: lists that go together as one table, later ones folded unless they are set.
 function group(path, node) {
   const keys = keysOf(node), given = valueAt(path) ?? {};
-  const together = keys.filter(({ node: each, required }) => required && each.kind === "list" && each.item.kind !== "tuple");
+  const isPlainList = (each) => each.kind === "list" && each.item.kind !== "tuple";
+  const together = keys.filter(({ node: each, required }) => required && isPlainList(each));
   const tabled = together.length > 1 ? together : [];
   const shown = keys.filter((each) => !tabled.includes(each));
-  const later = shown.filter(({ key, required }) => !required && path.length > 0 && LATER.has(key) && given[key] === undefined);
+  const later = shown.filter(({ key, required }) => !required && LATER.has(key) && given[key] === undefined);
   const first = shown.filter((each) => !later.includes(each));
   const draw = (each) => part([...path, each.key], each);
-  const ahead = first.filter((each) => each.required && each.node.kind !== "choice"), behind = first.filter((each) => !ahead.includes(each));
+  const ahead = first.filter((each) => each.required && each.node.kind !== "choice");
+  const behind = first.filter((each) => !ahead.includes(each));
+  const names = later.map(({ key }) => titleOf(key).toLowerCase()).join(", ");
   return make("div", { class: "group" },
     ahead.map(draw),
     tabled.length > 0 && terms(path, tabled),
     behind.map(draw),
     later.length > 0 && fold(`${dotted(path)} more`, false, "more",
-      [make("span", { textContent: `More: ${later.map(({ key }) => titleOf(key).toLowerCase()).join(", ")}` })], later.map(draw)));
+      [make("span", { textContent: `More: ${names}` })], later.map(draw)));
 }
 
 // One shape or, with others laid over it, a sum of shapes.
@@ -108,32 +113,42 @@ function sum(path, node) {
     const at = several ? [...path, index] : path;
     return make("div", { class: several ? "summand" : "", "data-path": several ? dotted(at) : null },
       variants(at, node, true, several ? `, ${index + 1} of ${count}` : ""), several && make("ul", { class: "problems" }),
-      several && make("button", { type: "button", class: "add", textContent: "Remove this shape", onclick: drop(index) }));
+      several && adder("Remove this shape", drop(index)));
   });
-  return [...parts, make("button", { type: "button", class: "add", textContent: "Add a shape to the sum", onclick: add })];
+  return [...parts, adder("Add a shape to the sum", add)];
 }
+
+const adder = (text, act) => make("button", { type: "button", class: "add", textContent: text, onclick: act });
 
 // A choice between groups of keys, and names that stand for whole groups.
 function variants(path, node, required, which = "") {
   // A variant by its name alone: its keys have to have a place.
   if (keysOf(node.options.get(valueAt(path)) ?? { properties: {} }).length) rewrite(path, { [node.tag]: valueAt(path) });
-  const value = valueAt(path), written = value !== null && typeof value === "object";
-  const chosen = written ? value[node.tag] : value;
-  const option = (name, text = titleOf(name)) => make("option", { value: name, textContent: text, selected: name === chosen });
-  const named = node.named.map((name) => option(name, materials.get(name)?.title ?? titleOf(name)));
-  const tagged = [...node.options.keys()].map((name) => option(name));
-  const strange = chosen !== undefined && ![...node.named, ...node.options.keys()].includes(chosen) && option(chosen, String(chosen));
-  const none = !required && make("option", { value: "", textContent: "left out", selected: chosen === undefined });
-  const empty = required && chosen === undefined && make("option", { value: "", textContent: "choose…", selected: true });
-  const select = make("select", { id: idOf([...path, node.tag]), onchange: () => choose(path, node, select.value) }, none, empty, strange,
-    named.length ? [make("optgroup", { label: "Library" }, named), make("optgroup", { label: "By its numbers" }, tagged)] : tagged);
-  const asked = node.options.get(chosen);
+  const value = valueAt(path), chosen = value !== null && typeof value === "object" ? value[node.tag] : value;
+  const select = make("select", {
+    id: idOf([...path, node.tag]), onchange: () => choose(path, node, select.value),
+  }, variantOptions(node, chosen, required));
+  const asked = node.options.get(chosen), told = asked?.description ?? toldOf(chosen) ?? node.description;
   const label = path.length > 1 && typeof path.at(-1) === "string" ? titleOf(path.at(-1)) : titleOf(node.tag) + which;
   return [
     make("div", { class: "field variant", "data-path": dotted([...path, node.tag]), "data-key": node.tag },
       make("label", { htmlFor: select.id, textContent: label }), make("div", { class: "control" }, select),
-      make("p", { class: "told", textContent: asked?.description ?? toldOf(chosen) ?? node.description }), make("ul", { class: "problems" })),
+      make("p", { class: "told", textContent: told }), make("ul", { class: "problems" })),
     asked && group(path, asked),
+  ];
+}
+
+function variantOptions(node, chosen, required) {
+  const option = (name, text) => make("option", { value: name, textContent: text, selected: name === (chosen ?? "") });
+  const named = node.named.map((name) => option(name, materials.get(name)?.title ?? titleOf(name)));
+  const tagged = [...node.options.keys()].map((name) => option(name, titleOf(name)));
+  const known = chosen === undefined || node.named.includes(chosen) || node.options.has(chosen);
+  const grouped = (label, options) => make("optgroup", { label }, options);
+  return [
+    !required && option("", "left out"),
+    required && chosen === undefined && option("", "choose…"),
+    !known && option(chosen, String(chosen)),
+    named.length ? [grouped("Library", named), grouped("By its numbers", tagged)] : tagged,
   ];
 }
 

@@ -39,9 +39,8 @@ function drawPanel(Plotly, name, label, shown, reference, scale) {
 
 function panelBox(name) {
   const found = place("histories").querySelector(`[data-panel="${name}"]`);
-  if (found) return found;
-  const box = make("div", { class: "panel", "data-panel": name }, make("h4"), make("div", { class: "plot" }));
-  place("histories").append(box);
+  const box = found ?? make("div", { class: "panel", "data-panel": name }, make("h4"), make("div", { class: "plot" }));
+  place("histories").append(box); // in the order of this run
   return box;
 }
 
@@ -49,9 +48,13 @@ const scaled = (values, unit) => values.map((value) => (value === null ? null : 
 
 function line(data, scalar, unit, scale, ink, dash) {
   const y = scaled(scalar.value, unit);
+  const said = (value, index) => {
+    const number = told(value, scalar.error[index], scalar.unit, scalar.mesh);
+    return `t = ${instant(data.time[index], scale.unit)}: ${number}`;
+  };
   return {
-    x: data.time.map(scale.at), y, mode: y.length < 2 ? "markers" : "lines", line: { color: ink, width: 2, dash }, marker: { color: ink },
-    text: scalar.value.map((value, index) => `t = ${instant(data.time[index], scale.unit)}: ${told(value, scalar.error[index], scalar.unit, scalar.mesh)}`),
+    x: data.time.map(scale.at), y, mode: y.length < 2 ? "markers" : "lines",
+    line: { color: ink, width: 2, dash }, marker: { color: ink }, text: scalar.value.map(said),
     hovertemplate: "%{text}<extra></extra>",
   };
 }
@@ -80,7 +83,7 @@ function range(scalars, unit) {
   if (!given.length) return [0, 1];
   const low = Math.min(...given), high = Math.max(...given), size = Math.max(Math.abs(low), Math.abs(high));
   if (high - low <= 1e-6 * size) return [Math.min(0, 1.15 * low), Math.max(0, 1.15 * high) || 1];
-  const bars = scalars[0].value.map((value, i) => (value === null ? null : [value, scalars[0].error[i] ?? 0])).filter(Boolean);
+  const bars = scalars[0].value.map((value, i) => [value, scalars[0].error[i] ?? 0]).filter(([value]) => value !== null);
   const room = Math.max(high - low, 0.5 * size);
   const least = Math.max(Math.min(low, ...bars.map(([value, error]) => (value - error) / unit.factor)), low - room);
   const most = Math.min(Math.max(high, ...bars.map(([value, error]) => (value + error) / unit.factor)), high + room);

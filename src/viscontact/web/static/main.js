@@ -165,7 +165,8 @@ function setUpConnection() {
 
 async function open() {
   setUpConnection();
-  const [schema, shipped, materials] = await Promise.all([get("/api/schema"), get("/api/examples"), get("/api/materials")]);
+  const asked = ["schema", "examples", "materials"].map((name) => get(`/api/${name}`));
+  const [schema, shipped, materials] = await Promise.all(asked);
   examples = shipped;
   useSchema(schema);
   useMaterials(materials);

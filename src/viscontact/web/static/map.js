@@ -5,7 +5,10 @@ import { make, place } from "./dom.js";
 import { colour } from "./theme.js";
 import { digits, unitFor } from "./units.js";
 
-const COLOURS = [[0, "#f1f8c9"], [0.2, "#c7e9b4"], [0.4, "#7fcdbb"], [0.6, "#41b6c4"], [0.8, "#1d91c0"], [0.9, "#225ea8"], [1, "#0c2c84"]];
+const COLOURS = [
+  [0, "#f1f8c9"], [0.2, "#c7e9b4"], [0.4, "#7fcdbb"], [0.6, "#41b6c4"],
+  [0.8, "#1d91c0"], [0.9, "#225ea8"], [1, "#0c2c84"],
+];
 let picture = null;
 let clock = null;
 
@@ -38,7 +41,8 @@ function unpacked(index) {
   if (kept.has(index)) return kept.get(index);
   const bytes = Uint8Array.from(atob(map.parts[index]), (letter) => letter.charCodeAt(0));
   const parts = new DataView(bytes.buffer), width = map.x.length;
-  const rows = map.y.map((_, j) => map.x.map((_, i) => parts.getUint16(2 * (j * width + i), true) * map.peak * map.pressureFactor / map.steps || null));
+  const step = map.peak * map.pressureFactor / map.steps;
+  const rows = map.y.map((_, j) => map.x.map((_, i) => parts.getUint16(2 * (j * width + i), true) * step || null));
   kept.set(index, rows);
   return rows;
 }
@@ -50,15 +54,16 @@ function showInstant(index) {
   const label = `t = ${instant(map.times[index], time)}`;
   place("instant").value = label;
   place("instant-slider").setAttribute("aria-valuetext", label);
-  place("map-told").textContent = peak > 0
-    ? `Largest pressure ${digits(peak / pressure.factor)} ${pressure.symbol}.${map.stretch === 1 ? "" : ` y is drawn ${digits(map.stretch, 0)} times as long as x.`}`
-    : "No contact.";
+  const stretch = map.stretch === 1 ? "" : ` y is drawn ${digits(map.stretch, 0)} times as long as x.`;
+  const largest = `Largest pressure ${digits(peak / pressure.factor)} ${pressure.symbol}.`;
+  place("map-told").textContent = peak > 0 ? largest + stretch : "No contact.";
   drawPlane();
   for (const section of map.sections) drawSection(section);
 }
 
 const rim = (source, index, unit) => {
-  const factor = source.lengthFactor / unit.factor, times = (values) => values.map((value) => (value === null ? null : value * factor));
+  const factor = source.lengthFactor / unit.factor;
+  const times = (values) => values.map((value) => (value === null ? null : value * factor));
   return { x: times(source.rims[index].x), y: times(source.rims[index].y), mode: "lines", hoverinfo: "skip" };
 };
 
@@ -70,24 +75,33 @@ function nearest(times, time) {
 function drawPlane() {
   const { map, reference, index, length, pressure, Plotly } = picture, box = place("map");
   const factor = map.lengthFactor / length.factor, scaled = (values) => values.map((value) => value * factor);
+  const z = unpacked(index).map((row) => row.map((value) => (value === null ? null : value / pressure.factor)));
+  const at = `x %{x:.4g} ${length.symbol}, y %{y:.4g} ${length.symbol}`;
   const heat = {
-    type: "heatmap", x: scaled(map.x), y: scaled(map.y), z: unpacked(index).map((row) => row.map((value) => value === null ? null : value / pressure.factor)),
-    zmin: 0, zmax: map.peak * map.pressureFactor / pressure.factor, colorscale: COLOURS, hoverongaps: false, zsmooth: false,
-    hovertemplate: `x %{x:.4g} ${length.symbol}, y %{y:.4g} ${length.symbol}<br>%{z:.4g} ${pressure.symbol}<extra></extra>`,
+    type: "heatmap", x: scaled(map.x), y: scaled(map.y), z, zmin: 0,
+    zmax: map.peak * map.pressureFactor / pressure.factor, colorscale: COLOURS, hoverongaps: false, zsmooth: false,
+    hovertemplate: `${at}<br>%{z:.4g} ${pressure.symbol}<extra></extra>`,
     colorbar: {
-      orientation: "h", thickness: 10, len: 0.9, x: 0.5, y: 1, yanchor: "bottom", outlinewidth: 0, tickfont: { size: 11, color: colour("ink") },
+      orientation: "h", thickness: 10, len: 0.9, x: 0.5, y: 1, yanchor: "bottom", outlinewidth: 0,
+      tickfont: { size: 11, color: colour("ink") },
       title: { text: `Pressure [${pressure.symbol}]`, side: "top", font: { size: 12, color: colour("ink") } },
     },
   };
   const traces = [heat, { ...rim(map, index, length), line: { color: colour("ink"), width: 1 } }];
-  if (reference) traces.push({ ...rim(reference, nearest(reference.times, map.times[index]), length), line: { color: colour("warm"), width: 1.6, dash: "dash" } });
+  if (reference) {
+    const then = nearest(reference.times, map.times[index]);
+    traces.push({ ...rim(reference, then, length), line: { color: colour("warm"), width: 1.6, dash: "dash" } });
+  }
   const xRange = scaled(map.xRange), yRange = scaled(map.yRange), constrain = map.periodic ? "domain" : "range";
   const ratio = map.stretch * (yRange[1] - yRange[0]) / (xRange[1] - xRange[0]);
-  box.style.height = `${Math.round(Math.min(Math.max((box.clientWidth - 76) * ratio + 112, 160), 560))}px`;
+  box.style.height = `${Math.round(Math.min(Math.max((box.clientWidth - 76) * ratio + 128, 190), 560))}px`;
+  // The colour bar makes its own room above the map.
   const plane = layout({
-    margin: { l: 56, r: 20, t: 60, b: 50 },
+    margin: { l: 56, r: 20, t: 0, b: 50 },
     xaxis: axis(`x [${length.symbol}]`, { range: xRange, constrain, showgrid: false }),
-    yaxis: axis(`y [${length.symbol}]`, { range: yRange, constrain, showgrid: false, scaleanchor: "x", scaleratio: map.stretch }),
+    yaxis: axis(`y [${length.symbol}]`, {
+      range: yRange, constrain, showgrid: false, scaleanchor: "x", scaleratio: map.stretch,
+    }),
   });
   plane.xaxis.title.standoff = 18; // beside a horizontal colour bar the tick labels' room is not counted
   Plotly.react(box, traces, plane, config());
@@ -98,19 +112,22 @@ function drawSection(section) {
   const across = (source, part, at, look) => ({
     x: part.position.map((value) => value * source.lengthFactor / length.factor), mode: "lines", line: look,
     y: part.pressure[at].map((value) => value * source.pressureFactor / pressure.factor),
-    hovertemplate: `${section.along} %{x:.4g} ${length.symbol}: %{y:.4g} ${pressure.symbol}<extra>t = ${instant(source.times[at], time)}</extra>`,
+    hovertemplate: `${section.along} %{x:.4g} ${length.symbol}: %{y:.4g} ${pressure.symbol}`
+      + `<extra>t = ${instant(source.times[at], time)}</extra>`,
   });
   const traces = map.times.map((_, each) => across(map, section, each, { color: colour("line"), width: 1 }));
   if (reference) {
     const part = reference.sections.find((each) => each.along === section.along);
-    traces.push(across(reference, part, nearest(reference.times, map.times[index]), { color: colour("warm"), width: 2, dash: "dash" }));
+    const then = nearest(reference.times, map.times[index]);
+    traces.push(across(reference, part, then, { color: colour("warm"), width: 2, dash: "dash" }));
   }
   traces.push(across(map, section, index, { color: colour("blue"), width: 2.4 }));
   const box = place(`section-${section.along}`), other = section.along === "x" ? 1 : 0;
   const through = `${"xy"[other]} = ${digits(map.crossing[other] / length.factor, 0)} ${length.symbol}`;
   box.previousElementSibling.replaceChildren(`Along ${section.along} `, make("span", { textContent: `at ${through}` }));
   Plotly.react(box, traces, layout({
-    xaxis: axis(`${section.along} [${length.symbol}]`), yaxis: axis(`Pressure [${pressure.symbol}]`, { rangemode: "tozero" }),
+    xaxis: axis(`${section.along} [${length.symbol}]`),
+    yaxis: axis(`Pressure [${pressure.symbol}]`, { rangemode: "tozero" }),
   }), quiet());
 }
 

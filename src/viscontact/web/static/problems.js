@@ -9,6 +9,7 @@ export function clearProblems(form) {
   for (const control of marked) control.removeAttribute("aria-invalid");
   marked = [];
   place("other-problems").replaceChildren();
+  place("text-problems").replaceChildren();
 }
 
 // Shows each problem where its key is, or where the nearest key above it is.
@@ -16,14 +17,18 @@ export function showProblems(form, problems) {
   clearProblems(form);
   for (const problem of problems) {
     const found = nearest(form, problem.path);
-    const list = found?.box.querySelector(":scope > .problems") ?? found?.box.closest(":has(> .problems)")?.querySelector(":scope > .problems");
+    const list = found && roomIn(found.box.closest(":has(> .problems)"));
     const rest = found ? problem.path.slice(found.path.length).replace(/^\./, "") : problem.path;
     const which = rest || (list && !found.box.contains(list) ? problem.path.split(".").pop() : "");
-    const said = [problem.line && !found ? `line ${problem.line}` : "", which, problem.message].filter(Boolean).join(": ");
-    (list ?? place("other-problems")).append(make("li", { textContent: said }));
+    const line = problem.line ? `line ${problem.line}` : "";
+    (list ?? place("other-problems")).append(said(found ? "" : line, which, problem.message));
+    place("text-problems").append(said(line, problem.path, problem.message));
     if (found) mark(found, rest);
   }
 }
+
+const roomIn = (box) => box?.querySelector(":scope > .problems");
+const said = (...parts) => make("li", { textContent: parts.filter(Boolean).join(": ") });
 
 function nearest(form, path) {
   for (let rest = path; rest; rest = rest.replace(/(\.?[^.[\]]+|\[\d+\])$/, "")) {
@@ -44,7 +49,7 @@ function mark({ box }, rest) {
 // Brings the first problem into sight, and the focus to it.
 export function goToProblem(form) {
   const control = form.querySelector("[aria-invalid]");
-  const place = control ?? form.querySelector(".problems li") ?? document.querySelector("#other-problems li");
-  place?.scrollIntoView({ block: "center", behavior: "smooth" });
+  const first = control ?? form.querySelector(".problems li") ?? place("other-problems").firstChild;
+  first?.scrollIntoView({ block: "center", behavior: "smooth" });
   control?.focus({ preventScroll: true });
 }

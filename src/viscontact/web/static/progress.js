@@ -6,7 +6,6 @@ import { get } from "./server.js";
 import { replaceText } from "./draft.js";
 import { lasting } from "./units.js";
 
-const STATES = { waiting: "waiting", running: "running", done: "done", cancelled: "cancelled", interrupted: "interrupted", failed: "failed" };
 const NOW = { contact_area: "contact area", approach: "approach", peak_pressure: "peak pressure" };
 let spoken = "";
 
@@ -21,7 +20,8 @@ export function drawProgress() {
   box.hidden = !status || status.state === "done";
   if (!status) return;
   box.dataset.state = state.lost ? "lost" : status.state;
-  write(place("progress-title"), `${status.quality === "coarse" ? "Coarse answer" : "Full run"}: ${status.title || "untitled"}`);
+  const quality = status.quality === "coarse" ? "Coarse answer" : "Full run";
+  write(place("progress-title"), `${quality}: ${status.title || "untitled"}`);
   const bar = place("progress-bar");
   if (status.part > 0 || status.over) bar.value = status.over ? 1 : status.part;
   else bar.removeAttribute("value");
@@ -39,10 +39,16 @@ export function drawProgress() {
 
 function told(status) {
   if (status.over || status.stage === "waiting") return status.message;
-  const parts = [status.stage === "errors" ? "error bars" : status.step ? `step ${status.step}${status.steps ? ` of ${status.steps}` : ""}` : "starting"];
+  const parts = [stage(status)], left = status.seconds_left;
   if (status.time) parts.push(`t = ${status.time}`);
-  if (status.seconds_left !== null) parts.push(status.seconds_left < 1 ? "less than a second left" : `about ${lasting(status.seconds_left)} left`);
+  if (left !== null) parts.push(left < 1 ? "less than a second left" : `about ${lasting(left)} left`);
   return parts.join(" · ");
+}
+
+function stage({ stage: now, step, steps }) {
+  if (now === "errors") return "error bars";
+  if (!step) return "starting";
+  return steps ? `step ${step} of ${steps}` : `step ${step}`;
 }
 
 const now = (scalars) => Object.entries(NOW).filter(([name]) => scalars[name])
@@ -54,17 +60,21 @@ function speak(status) {
   const news = `${status.state} ${status.id}`;
   if (news !== spoken) {
     spoken = news;
-    write(place("spoken"), status.state === "done" ? "The answer is there." : status.over ? status.message : "The run has begun.");
+    const over = status.state === "done" ? "The answer is there." : status.message;
+    write(place("spoken"), status.over ? over : "The run has begun.");
   } else if (!status.over && document.hasFocus()) speakSoon(told(status));
 }
+
+const caseOf = async (run) => replaceText((await get(`/api/runs/${run.id}/given`)).yaml);
+const isReference = (run) => state.reference?.id === run.id;
 
 const buttonsFor = (run, complain) => [
   run.figures.length > 0 && act("Show", "Show this answer", () => show(run.id), complain),
   !run.over && act("Follow", "Follow this run", () => watch(run.id), complain),
   run.resumable && act("Go on", "Go on with this run", () => resume(run.id), complain),
-  run.figures.length > 0 && act(state.reference?.id === run.id ? "Not the reference" : "Reference", "Compare with this answer",
-    () => refer(state.reference?.id === run.id ? null : run.id), complain),
-  act("Its case", "Write this run’s case into the form", async () => replaceText((await get(`/api/runs/${run.id}/given`)).yaml), complain),
+  run.figures.length > 0 && act(isReference(run) ? "Not the reference" : "Reference", "Compare with this answer",
+    () => refer(isReference(run) ? null : run.id), complain),
+  act("Its case", "Write this run’s case into the form", () => caseOf(run), complain),
   act("Delete", "Delete this run and its files", () => forget(run.id), complain),
 ];
 
@@ -72,16 +82,21 @@ const act = (text, about, doIt, complain) => make("button", {
   type: "button", class: "small", textContent: text, title: about, onclick: () => doIt().catch(complain),
 });
 
-// All runs that the server knows, those of other tabs too.
+// All runs that the server knows, those of other tabs too; at first the last few.
+const FEW = 6;
+let all = false;
 export function drawList(complain) {
-  const rows = state.listed.map((run) => make("li", { class: run.id === state.shown?.id ? "current" : "" },
+  const shown = all ? state.listed : state.listed.slice(0, FEW), more = state.listed.length - shown.length;
+  const rows = shown.map((run) => make("li", { class: run.id === state.shown?.id ? "current" : "" },
     make("div", { class: "run-name" }, make("b", { textContent: run.title || "untitled" }),
       make("span", { class: `chip ${run.quality}`, textContent: run.quality }),
       run.id === state.shown?.id && make("span", { class: "chip", textContent: "shown" }),
-      run.id === state.reference?.id && make("span", { class: "chip warm", textContent: "reference" }),
-      make("span", { class: "faint", textContent: `${STATES[run.state] ?? run.state} · ${when(run.created)}` })),
+      isReference(run) && make("span", { class: "chip warm", textContent: "reference" }),
+      make("span", { class: "faint", textContent: `${run.state} · ${when(run.created)}` })),
     make("div", { class: "run-acts" }, buttonsFor(run, complain))));
-  place("runs").replaceChildren(...rows);
+  const showAll = () => { all = true; drawList(complain); };
+  const button = make("button", { type: "button", class: "small", textContent: `Show ${more} more`, onclick: showAll });
+  place("runs").replaceChildren(...rows, ...(more > 0 ? [make("li", {}, button)] : []));
   place("runs-chapter").hidden = rows.length === 0;
 }
 

@@ -8,13 +8,15 @@ import { startOf } from "./schema.js";
 
 // Lists that belong together, term by term: all required lists of single values in a group.
 export function terms(path, keys) {
-  const columns = keys.map(({ key, node }) => ({ path: [...path, key], node: node.item, title: titleOf(key), told: node.description, key }));
+  const columns = keys.map(({ key, node }) => (
+    { path: [...path, key], node: node.item, title: titleOf(key), told: node.description }));
   const count = Math.max(1, ...columns.map((column) => lengthOf(column.path)));
-  const cells = (row) => columns.map((column) => ({ path: [...column.path, row], node: column.node, label: `${column.title}, term ${row + 1}` }));
+  const cells = (row) => columns.map(({ path: at, node, title }) => (
+    { path: [...at, row], node, label: `${title}, term ${row + 1}` }));
   return table(path, columns, count, cells, {
     name: "term",
     add: () => columns.forEach((column) => setValue([...column.path, count], last(column))),
-    drop: (row) => columns.forEach((column) => setValue(column.path, (valueAt(column.path) ?? []).filter((_, index) => index !== row))),
+    drop: (row) => columns.forEach((column) => setValue(column.path, without(row, column.path))),
   });
 }
 
@@ -30,7 +32,7 @@ export function list(path, node) {
   const box = table(path, columns, count, cells, {
     name: tuple ? "row" : "value",
     add: () => setValue([...path, count], before() ?? startOf(node.item)),
-    drop: (row) => setValue(path, (valueAt(path) ?? []).filter((_, index) => index !== row)),
+    drop: (row) => setValue(path, without(row, path)),
   });
   return make("div", { class: "field list", "data-path": dotted(path), "data-key": path.at(-1) },
     make("span", { class: "label", textContent: titleOf(path.at(-1)) }), box,
@@ -38,8 +40,9 @@ export function list(path, node) {
     make("ul", { class: "problems" }));
 }
 
-const lengthOf = (path) => [valueAt(path) ?? []].flat(1).length && (Array.isArray(valueAt(path)) ? valueAt(path).length : 1);
-const columnName = (item, path) => (item.dimension ? titleOf([item.dimension].flat().join(" or ")) : titleOf(path.at(-1)));
+const lengthOf = (path) => (Array.isArray(valueAt(path)) ? valueAt(path).length : 0);
+const without = (row, path) => (valueAt(path) ?? []).filter((_, index) => index !== row);
+const columnName = (item, path) => titleOf(item.dimension ? [item.dimension].flat().join(" or ") : path.at(-1));
 const last = (column) => (valueAt(column.path) ?? []).at(-1) ?? startOf(column.node);
 
 function table(path, columns, count, cells, { name, add, drop }) {
@@ -58,9 +61,10 @@ function table(path, columns, count, cells, { name, add, drop }) {
     });
     return make("tr", {}, inputs, make("td", {}, button));
   });
+  const more = { type: "button", class: "add", "data-add": dotted(path), onclick: act(add) };
   return make("div", { class: "rows" },
     count > 0 && make("table", {}, make("thead", {}, head), make("tbody", {}, rows)),
-    make("button", { type: "button", class: "add", textContent: `Add a ${name}`, "data-add": dotted(path), onclick: act(add) }));
+    make("button", more, `Add a ${name}`));
 }
 
 // A block copied from a spreadsheet fills the rows from here on; numbers without a unit get that

@@ -118,7 +118,8 @@ connection.addEventListener("back", async () => {
     await watch(active.id);
   } catch {
     const message = "The server no longer knows this run; start it again.";
-    state.active = { ...active, status: { ...active.status, over: true, state: "failed", message, problems: [], figures: [] } };
+    const gone = { over: true, state: "failed", message, problems: [], figures: [] };
+    state.active = { ...active, status: { ...active.status, ...gone } };
     state.lost = false;
     tell("active");
   }

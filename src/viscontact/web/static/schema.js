@@ -31,7 +31,7 @@ const about = (part) => ({
 
 // The kind of a part: constant, choice, switch, number, text, group, mapping, tuple, list,
 // variants, lines; or text, which reads anything.
-export function understand(given) {
+function understand(given) {
   const part = resolved(given);
   const all = alternatives(part);
   const some = all.filter((each) => each.type !== "null");

@@ -1,6 +1,6 @@
 // What the server is asked. Every refusal carries its problems in the words of the command line.
 
-export class Refused extends Error {
+class Refused extends Error {
   constructor(status, problems) {
     super(problems.map((problem) => problem.message).join("\n"));
     this.status = status;
@@ -39,7 +39,7 @@ function found() {
 }
 
 // Somebody saw the connection break: ask whether the server is still there.
-export const doubt = () => look();
+const doubt = () => look();
 
 async function ask(path, options) {
   let answer;

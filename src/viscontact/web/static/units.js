@@ -8,20 +8,25 @@ const LADDERS = {
   m2: [["m²", 1], ["mm²", 1e-6], ["µm²", 1e-12], ["nm²", 1e-18]],
   Pa: prefixed("Pa"), N: prefixed("N"), J: prefixed("J"), rad: [["rad", 1], ["mrad", 1e-3], ["µrad", 1e-6]], s: TIMES,
 };
+// Of every kind the unit to use; mrad and s suit all but SI.
+const system = (name, units) => ({ name, units: { rad: ["mrad", 1e-3], s: ["s", 1], ...units } });
+const METRIC = { m: ["mm", 1e-3], m2: ["mm²", 1e-6], Pa: ["MPa", 1e6] };
+const TINY = { m: ["µm", 1e-6], m2: ["µm²", 1e-12], Pa: ["kPa", 1e3], N: ["mN", 1e-3], J: ["µJ", 1e-6] };
+const IMPERIAL = { m: ["in", 0.0254], m2: ["in²", 0.00064516], Pa: ["psi", 6894.757293168], N: ["lbf", 4.4482216152605] };
 export const SYSTEMS = {
   auto: { name: "readable units", units: {} },
-  mm: { name: "mm, N, MPa", units: { m: ["mm", 1e-3], m2: ["mm²", 1e-6], Pa: ["MPa", 1e6], N: ["N", 1], J: ["mJ", 1e-3], rad: ["mrad", 1e-3], s: ["s", 1] } },
-  kn: { name: "mm, kN, MPa", units: { m: ["mm", 1e-3], m2: ["mm²", 1e-6], Pa: ["MPa", 1e6], N: ["kN", 1e3], J: ["J", 1], rad: ["mrad", 1e-3], s: ["s", 1] } },
-  um: { name: "µm, mN, kPa", units: { m: ["µm", 1e-6], m2: ["µm²", 1e-12], Pa: ["kPa", 1e3], N: ["mN", 1e-3], J: ["µJ", 1e-6], rad: ["mrad", 1e-3], s: ["s", 1] } },
-  us: { name: "in, lbf, psi", units: { m: ["in", 0.0254], m2: ["in²", 0.00064516], Pa: ["psi", 6894.757293168], N: ["lbf", 4.4482216152605], J: ["J", 1], rad: ["mrad", 1e-3], s: ["s", 1] } },
-  si: { name: "SI: m, N, Pa", units: { m: ["m", 1], m2: ["m²", 1], Pa: ["Pa", 1], N: ["N", 1], J: ["J", 1], rad: ["rad", 1], s: ["s", 1] } },
+  mm: system("mm, N, MPa", { ...METRIC, N: ["N", 1], J: ["mJ", 1e-3] }),
+  kn: system("mm, kN, MPa", { ...METRIC, N: ["kN", 1e3], J: ["J", 1] }),
+  um: system("µm, mN, kPa", TINY),
+  us: system("in, lbf, psi", IMPERIAL),
+  si: system("SI: m, N, Pa", { m: ["m", 1], m2: ["m²", 1], Pa: ["Pa", 1], N: ["N", 1], J: ["J", 1], rad: ["rad", 1] }),
 };
-let system = "auto";
-export const useSystem = (name) => { system = name in SYSTEMS ? name : "auto"; };
+let chosen = "auto";
+export const useSystem = (name) => { chosen = name in SYSTEMS ? name : "auto"; };
 
 // The unit for these values [SI], with its factor to SI.
 export function unitFor(si, ...values) {
-  const fixed = SYSTEMS[system].units[si];
+  const fixed = SYSTEMS[chosen].units[si];
   if (fixed) return { symbol: fixed[0], factor: fixed[1] };
   const largest = Math.max(0, ...values.flat().filter(Number.isFinite).map(Math.abs));
   const ladder = LADDERS[si] ?? [[si === "1" ? "" : si, 1]];

@@ -1,0 +1,65 @@
+// The numbers of a run as a table with their errors, beside those of the reference.
+
+import { instant } from "./charts.js";
+import { make } from "./dom.js";
+import { titleOf } from "./hints.js";
+import { bar, digits, unitFor } from "./units.js";
+
+const number = (text, style = "") => make("td", { class: `number ${style}`, textContent: text });
+
+export function numbersTable(data, reference) {
+  const stated = data.told.some((name) => isStated(data.scalars[name]));
+  const rows = data.told.map((name) => row(name, data, reference, stated));
+  return make("table", { class: reference ? "compared" : "" },
+    make("thead", {}, head(data, reference, stated)), make("tbody", {}, rows));
+}
+
+const isStated = (scalar) => scalar.mesh || scalar.error.some((error) => error !== null);
+
+function head(data, reference, stated) {
+  const time = unitFor("s", data.time), at = (index) => `t = ${instant(data.time.at(index), time)}`;
+  const column = (text, style = "") => make("th", { scope: "col", class: `number ${style}`, textContent: text });
+  return make("tr", {}, make("th", { scope: "col", textContent: "Quantity" }),
+    column(at(0), "first"), column(at(-1)), column("largest", "largest"), stated && column("error at most"),
+    reference && [column("reference, end"), column("change")]);
+}
+
+function row(name, data, reference, stated) {
+  const scalar = data.scalars[name], other = reference?.data.scalars[name];
+  // What is rounding there is nothing to compare with.
+  const before = reference?.data.told.includes(name) ? other.value.at(-1) : null;
+  const unit = unitFor(scalar.unit, scalar.value);
+  const at = largestAt(scalar.value), largest = scalar.value[at] ?? null;
+  const cell = (value, error, style) => number(told(value, error, unit, scalar.mesh), style);
+  return make("tr", {},
+    make("th", { scope: "row" }, titleOf(name), make("small", { textContent: ` [${unit.symbol}]` })),
+    cell(scalar.value[0], scalar.error[0], "first"),
+    cell(scalar.value.at(-1), scalar.error.at(-1)),
+    cell(largest, scalar.error[at] ?? null, "largest"),
+    stated && number(errorTold(scalar, largest, unit)),
+    reference && [cell(before, other?.error.at(-1) ?? null), number(change(scalar.value.at(-1), before))]);
+}
+
+const largestAt = (values) =>
+  values.reduce((best, value, index) => (Math.abs(value) > Math.abs(values[best] ?? 0) ? index : best), 0);
+
+function told(value, error, unit, mesh) {
+  if (value === null || value === undefined) return "–";
+  return (mesh ? "> " : "") + digits(value / unit.factor, error === null ? null : error / unit.factor);
+}
+
+function errorTold(scalar, largest, unit) {
+  if (scalar.mesh) return "depends on the mesh";
+  const known = scalar.error.filter((error) => error !== null), worst = Math.max(...known);
+  if (!known.length) return "not known";
+  if (!(worst > 0)) return "0";
+  const part = largest ? Math.abs(worst / largest) : 0;
+  return `${bar(worst / unit.factor)} (${part < 1e-5 ? "< 0.001" : Number((100 * part).toPrecision(2))} %)`;
+}
+
+function change(value, before) {
+  if (!before || value === null) return "–";
+  const part = Number((100 * (value / before - 1)).toPrecision(3));
+  const sign = part < 0 ? "\u2212" : "+";
+  return `${Math.abs(part) < 1e-3 ? 0 : sign + Math.abs(part)}\u00a0%`;
+}
