@@ -244,7 +244,7 @@ def judge(mode: str, folder: Path, seed: int, *, growing: bool) -> None:
     if growing:
         preparation.prepare_run = outgrown
         KILLS, STEP = KILLS // 3, 3 * STEP  # what else there is to it has been seen without
-    os.fsync = lambda descriptor: None  # type: ignore[assignment]  # nothing here cuts the power
+    os.fsync = lambda descriptor: None  # nothing here cuts the power
     process(nothing, "-o", "whole", "-q")
     with xr.open_dataset("whole/result.nc") as ds:
         campaign = Campaign(ds.load(), lines_of(Path("whole")))

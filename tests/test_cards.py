@@ -458,7 +458,7 @@ def test_what_is_no_series_is_refused_with_a_remedy() -> None:
     with pytest.raises(ValueError, match="a fluid has no long-term moduli"):
         write_abaqus(fluid, **IN_MPA, moduli="long term")
     with pytest.raises(ValueError, match="moduli: must be"):
-        write_abaqus(fluid, **IN_MPA, moduli="short")  # type: ignore[arg-type]
+        write_abaqus(fluid, **IN_MPA, moduli="short")
     with pytest.raises(ValueError, match="1 to 80 plain characters"):
         write_abaqus(Card("x\n*STEP", fluid.material), **IN_MPA)
     with pytest.raises(ValueError, match="whole and positive"):

@@ -328,7 +328,7 @@ def test_adaptive_run_has_its_fields_at_the_very_instants_asked_for(tmp_path: Pa
         output={"fields": ["0 s", "0.3 s", "7 s"]},
     )
     arguments = (case.indenter, case.material, case.load, case.grid, case.times)
-    ds = vc.simulate(*arguments, fields=case.fields)  # type: ignore[arg-type]
+    ds = vc.simulate(*arguments, fields=case.fields)
     np.testing.assert_allclose(ds.field_time, [0.0, 0.3, 7.0], rtol=1e-12)
     assert ds.time[-1] == 10.0
     late = problem(tmp_path, time=adaptive, output={"fields": ["11 s"]})

@@ -484,8 +484,8 @@ def test_failed_step_stands_at_the_end_of_the_result(
 
     def failing(problem: Any, *arguments: Any, **options: Any) -> Any:
         solution = solve(problem, *arguments, **options)
-        failing.count = getattr(failing, "count", 0) + 1  # type: ignore[attr-defined]
-        done = failing.count < 4  # type: ignore[attr-defined]
+        failing.count = getattr(failing, "count", 0) + 1
+        done = failing.count < 4
         return solution if done else type(solution)(**{**vars(solution), "converged": False})
 
     with monkeypatch.context() as patched:

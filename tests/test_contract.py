@@ -176,7 +176,7 @@ def test_map_shows_its_peaks_first_and_sums_are_not_zeroed_again() -> None:
 def test_nouns_are_frozen() -> None:
     for noun in (BALL, vc.Elastic(1.0), RUBBER, GRID, LOAD):
         with pytest.raises(AttributeError):
-            noun.radius = 1.0  # type: ignore[union-attr]
+            noun.radius = 1.0
 
 
 # --- laws and materials -------------------------------------------------------------------------
@@ -509,7 +509,7 @@ def test_march_yields_the_dataset_state_by_state_and_reports_progress(ds: xr.Dat
 
 def test_march_refuses_bad_input_before_it_is_iterated() -> None:
     with pytest.raises(ValueError, match="indenter must be"):
-        vc.march("ball", RUBBER, LOAD)  # type: ignore[arg-type]
+        vc.march("ball", RUBBER, LOAD)
 
 
 def test_indenter_of_the_same_material_doubles_the_compliance(ds: xr.Dataset) -> None:

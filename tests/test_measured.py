@@ -22,7 +22,7 @@ PLAIN = "time [s], creep_compliance [1/MPa]\n1, 0.5\n10, 0.75\n"
 def table(folder: Path, content: str | bytes, name: str = "data.csv", **options: object) -> Table:
     path = folder / name
     path.write_bytes(content.encode() if isinstance(content, str) else content)
-    return read_table(path, **options)  # type: ignore[arg-type]
+    return read_table(path, **options)
 
 
 def test_dma_export_of_two_header_rows_is_read_in_si(tmp_path: Path) -> None:

@@ -333,7 +333,7 @@ def test_parabolic_section_is_hertzs_and_has_no_outline() -> None:
 )
 def test_nonsense_is_refused(arguments: dict[str, object], message: str) -> None:
     with pytest.raises(ValueError, match=message):
-        vc.Roller(R, L, **arguments)  # type: ignore[arg-type]
+        vc.Roller(R, L, **arguments)
 
 
 def test_arguments_of_a_profile_need_its_name() -> None:
@@ -360,5 +360,5 @@ def test_arguments_of_a_profile_need_its_name() -> None:
 )
 def test_bad_length_is_refused_with_its_value(make: object, bad: object) -> None:
     with pytest.raises(ValueError, match="must") as refusal:
-        make(bad)  # type: ignore[operator]
+        make(bad)
     assert repr(bad) in str(refusal.value)

@@ -182,4 +182,4 @@ def test_turned_problem_gives_turned_stresses() -> None:
 def test_what_makes_no_section_is_refused(wrong: dict[str, object], words: str) -> None:
     arguments: dict[str, object] = {"depths": [0.1], "poisson_ratio": 0.3, **wrong}
     with pytest.raises(ValueError, match=words):
-        stress_on_section(np.ones((4, 4)), Grid((4, 4), (1.0, 1.0)), **arguments)  # type: ignore[arg-type]
+        stress_on_section(np.ones((4, 4)), Grid((4, 4), (1.0, 1.0)), **arguments)

@@ -167,7 +167,7 @@ def test_array_is_read_with_the_units_that_are_told(tmp_path: Path) -> None:
     assert surface.spacing == (1e-6, 2e-6)
     for told, key in (({"spacing": 1e-6}, "height_unit"), ({"height_unit": "um"}, "spacing")):
         with pytest.raises(ValueError, match=f"{key} is missing: map.npy does not tell"):
-            vc.read_surface(tmp_path / "map.npy", **told)  # type: ignore[arg-type]
+            vc.read_surface(tmp_path / "map.npy", **told)
     with pytest.raises(ValueError, match=r"height_unit: .*'MPa'"):
         vc.read_surface(tmp_path / "map.npy", spacing=1e-6, height_unit="MPa")
 
@@ -264,7 +264,7 @@ def test_text_that_is_no_map_is_refused_at_its_line(tmp_path: Path, text: str, s
     (tmp_path / "map.csv").write_text(text)
     told = {} if text.startswith("x") else {"spacing": 1e-6, "height_unit": "nm"}
     with pytest.raises(ValueError, match=said):
-        vc.read_surface(tmp_path / "map.csv", **told)  # type: ignore[arg-type]
+        vc.read_surface(tmp_path / "map.csv", **told)
 
 
 # -- case files ----------------------------------------------------------------------------------

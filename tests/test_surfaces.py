@@ -27,7 +27,7 @@ from viscontact.surfaces.resampling import ALPHA
 def rough(
     shape: tuple[int, int] = (24, 18), spacing: object = (2e-6, 3e-6), seed: int = 0
 ) -> Surface:
-    return Surface(1e-7 * np.random.default_rng(seed).standard_normal(shape), spacing)  # type: ignore[arg-type]
+    return Surface(1e-7 * np.random.default_rng(seed).standard_normal(shape), spacing)
 
 
 def with_missing(surface: Surface, share: float = 0.2, seed: int = 1) -> Surface:
@@ -77,7 +77,7 @@ def test_slope_and_height_of_a_wave_are_those_of_its_formula() -> None:
 )
 def test_what_is_no_surface_is_refused(heights: object, spacing: object, said: str) -> None:
     with pytest.raises(ValueError, match=said):
-        Surface(heights, spacing)  # type: ignore[arg-type]
+        Surface(heights, spacing)
 
 
 # -- levelling ---------------------------------------------------------------------------------
@@ -94,14 +94,14 @@ FORMS = {
 def test_levelling_takes_off_exactly_what_was_laid_over(level: str, share: float) -> None:
     surface = with_missing(rough(), share)
     bent = surface.with_heights(surface.heights + polynomial(surface, *FORMS[level]))
-    flat = levelled(surface, level)  # type: ignore[arg-type]
+    flat = levelled(surface, level)
     np.testing.assert_allclose(
-        levelled(bent, level).heights,  # type: ignore[arg-type]
+        levelled(bent, level).heights,
         flat.heights,
         atol=1e-18,  # rounding of the 3e-6 m laid over
     )
     # Once level, there is nothing left to take off.
-    again = levelled(flat, level)  # type: ignore[arg-type]
+    again = levelled(flat, level)
     np.testing.assert_allclose(again.heights, flat.heights, atol=1e-20)
 
 
@@ -230,7 +230,7 @@ def test_gaussian_passes_of_a_wave_what_the_standard_says(wavelength: float) -> 
 def test_a_plane_passes_a_filter_unchanged_away_from_the_border(filter: str) -> None:
     surface = rough((60, 60), 1e-6)
     plane = surface.with_heights(polynomial(surface, 1e-6, 0.03, -0.02))
-    coarse = resampled(plane, 2e-6, filter)  # type: ignore[arg-type]
+    coarse = resampled(plane, 2e-6, filter)
     expected = polynomial(coarse, 1e-6, 0.03, -0.02)
     inner = (slice(10, -10), slice(10, -10))
     np.testing.assert_allclose(coarse.heights[inner], expected[inner], atol=1e-15)
@@ -273,7 +273,7 @@ def test_resampling_that_makes_no_sense_is_refused(
     cell: float, filter: str, cutoff: float | None, said: str
 ) -> None:
     with pytest.raises(ValueError, match=said):
-        resampled(rough(), cell, filter, cutoff=cutoff)  # type: ignore[arg-type]
+        resampled(rough(), cell, filter, cutoff=cutoff)
 
 
 def test_periodic_map_keeps_its_period_or_is_refused() -> None:

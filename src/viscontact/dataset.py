@@ -148,8 +148,7 @@ def simulate(
     except (ConvergenceError, DomainError) as stop:
         if states:
             bars = unknown_bars(len(states)) if errors else None
-            wall_time = clock.perf_counter() - started
-            stop.partial = to_dataset(run, states, fields, wall_time, bars)
+            stop.partial = to_dataset(run, states, fields, clock.perf_counter() - started, bars)
         raise
     bars = _bars(run, states) if errors else None
     return to_dataset(run, states, fields, clock.perf_counter() - started, bars)

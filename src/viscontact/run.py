@@ -159,11 +159,9 @@ def prepare_run(
     compliance = _of_both(material, indenter_material)
     adaptive = times if isinstance(times, AdaptiveTimes) else None
     instants = run_instants(times, fields, load, compliance)
-    end = float(instants[-1])
     field_instants(fields, instants)
-    check_magnitudes(compliance, load, grid if isinstance(grid, Grid) else None, end)
-    check_creep(compliance, instants)
-    check_jumps(compliance, load, end)
+    _check_course(compliance, load, grid if isinstance(grid, Grid) else None, instants)
+    end = float(instants[-1])
     automatic = mesh = None
     if not isinstance(grid, Grid):
         automatic = grid or AutomaticGrid()
@@ -195,6 +193,19 @@ def _of_both(material: Material, indenter_material: Material | None) -> ContactC
     if indenter_material is None:
         return compliance
     return compliance + indenter_material.contact_compliance()
+
+
+def _check_course(
+    compliance: ContactCompliance,
+    load: LoadHistory,
+    grid: Grid | None,
+    instants: NDArray[np.float64],
+) -> None:
+    """Refuse loads and laws that make no sense over the run's time, on whatever grid."""
+    end = float(instants[-1])
+    check_magnitudes(compliance, load, grid, end)
+    check_creep(compliance, instants)
+    check_jumps(compliance, load, end)
 
 
 def _checked_gap(

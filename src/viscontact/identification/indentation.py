@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from warnings import warn
 
 import numpy as np
@@ -15,7 +16,7 @@ from viscontact.errors import AccuracyWarning
 from viscontact.identification.candidates import Candidate, candidate
 from viscontact.identification.indentation_fit import IndentationFit, compared
 from viscontact.identification.record import IndentationRecord
-from viscontact.laws import Elastic, Law
+from viscontact.laws import Elastic
 from viscontact.material import Material
 
 Array = NDArray[np.float64]
@@ -97,10 +98,7 @@ def fit_indentation(
     2e+06 Pa
     """
     _require_options(terms, given, confidence)
-
-    def material(one: Law) -> Material:
-        return Material(one, poisson_ratio, bulk_modulus=bulk_modulus)
-
+    material = partial(Material, poisson_ratio=poisson_ratio, bulk_modulus=bulk_modulus)
     modulus = _apparent_modulus(record, poisson_ratio)
     material(Elastic(modulus))  # refuses what is wrong with the body's volume
     shape = _candidate(law, int(terms), modulus, record.times)
