@@ -121,3 +121,35 @@ def test_a_line_of_a_shell_is_run_or_has_its_reason() -> None:
                 program = command.split()[0]
                 known = why_not_run(command) or program in ("viscontact", "./go", "python")
                 assert known, f"{page.name}: {command}"
+
+
+LIES = {
+    "option": "```sh\nviscontact material pmma-paper --colour red\n```",
+    "exit code": "```sh\nviscontact check nothing.yaml\n```",
+    "refusal": "```sh\nviscontact material pmma-paper  # refused: not so\n```",
+    "output": "```sh\nviscontact material pmma-paper\n```\n\n```text\nsource  Hertz, 1882\n```",
+    "comment": "```python\nprint(2 + 2)  # 5\n```",
+    "later block": "```python\nx = 1\n```\n\n```python\nassert x == 2\n```",
+    "file": "```{code-block} yaml\n:caption: a.yaml\n\nload: 1\n```\n"
+    "```sh\nviscontact check a.yaml\n```",
+    "other program": "```sh\nrm a.yaml\n```",
+}
+
+
+@pytest.mark.parametrize("page", LIES.values(), ids=LIES.keys())
+def test_page_that_is_wrong_is_found_out(
+    page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(AssertionError):
+        Reader().follow(page)
+
+
+def test_page_that_is_right_is_followed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Reader().follow(
+        "```{code-block} text\n:caption: a.txt\n\none two\n```\n"
+        "```python\nwords = open('a.txt').read().split()\n```\n"
+        "```python\nprint(len(words))  # 2 words\n```\n\n```text\n2.01\n```\n"
+        "```sh\nviscontact check nothing.yaml  # refused: it is not there\ncd elsewhere\n```\n"
+    )

@@ -9,7 +9,6 @@ import pytest
 
 import viscontact as vc
 from viscontact.case import read_case
-from viscontact.cli import main
 
 ROOT = Path(__file__).parent.parent
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -41,11 +40,3 @@ def test_the_case_is_read_and_runs(tmp_path: Path) -> None:
     assert ds.outcome.values[-1] == vc.Outcome.NO_CONTACT
     # A creeping body does not give back all the work.
     assert ds.work.values[-1] > 0.1 * float(ds.work.max())
-
-
-def test_every_command_it_names_exists() -> None:
-    blocks = re.findall(r"```\n(.*?)```", README, re.DOTALL)
-    named = set(re.findall(r"^viscontact (\w+)", "".join(blocks), re.MULTILINE))
-    assert len(named) >= 4
-    for command in named:
-        assert main([command, "--help"]) == 0
