@@ -174,17 +174,19 @@ def _value(value: Schema) -> str:
     options = value.get("anyOf") or value.get("oneOf")
     if options:
         if any(True for _ in _references(value)):
-            return _link_below(options)
+            return _link_below(value, options)
         told = [_value(each) for each in options if each.get("type") != "null"]
         joined = ", or ".join(dict.fromkeys(told)) + _bounds(value)
         return joined if "e.g." in joined else joined + _example(value)
     if "$ref" in value:
-        return "keys below"
+        return "its keys (below)"
     return _simple(value)
 
 
-def _link_below(options: list[Schema]) -> str:
+def _link_below(value: Schema, options: list[Schema]) -> str:
     """What is told in sections of their own."""
+    if len(set(_references(value))) == 1:
+        return "its keys (below)"
     names = any("enum" in each for each in options)
     lists = any(each.get("type") == "array" for each in options)
     said = "a name, or a kind with its keys (below)" if names else "a kind with its keys (below)"

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from typing import Any
 
 import typer
 
 from viscontact.cli.shell import app
+
+#: What is typed, in what is told: an option, or what stands in quotation marks.
+_TYPED = re.compile(r"(?<!\S)(--[a-z][\w-]*)|(?<!\w)'([^']+)'(?!\w)")
 
 
 def command_line_reference() -> str:
@@ -43,7 +47,7 @@ def _section(name: str, command: Any) -> Iterator[str]:
         yield f"| {_spelt(each)} | {_told(each)} |"
     example = (command.epilog or "").removeprefix("Example:").strip()
     if example:
-        yield from ("", "```text", example, "```")
+        yield from ("", "For example:", "", "```text", example, "```")
 
 
 def _prose(text: str) -> str:
@@ -75,7 +79,7 @@ def _spelt(option: Any) -> str:
 
 
 def _told(parameter: Any) -> str:
-    said = _cell(parameter.help or "")
+    said = _TYPED.sub(r"`\1\2`", _cell(parameter.help or ""))
     notes = []
     if getattr(parameter, "multiple", False) and "repeated" not in said:
         notes.append("May be given several times.")
