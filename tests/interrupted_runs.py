@@ -13,7 +13,8 @@ import xarray as xr
 import viscontact as vc
 from viscontact.cli import execution, main
 
-CASE = """\
+#: The bodies of a case; load, time and grid are up to who uses them.
+BODIES = """\
 title: Zener sphere
 indenter: {shape: sphere, radius: 10 mm}
 material:
@@ -22,11 +23,16 @@ material:
   delayed_modulus: 10 MPa
   viscosity: 10 MPa s
   poisson_ratio: 0.5
+"""
+CASE = (
+    BODIES
+    + """\
 load: {kind: ramp, force: 4 N, duration: 1 s}  # then held
 time: {end: 5 s, steps: 10}
 grid: {shape: [24, 24], size: [3 mm, 3 mm]}
 output: {fields: [0 s, 2 s, 5 s]}
 """
+)
 COUNT = 11  # instants
 
 

@@ -19,6 +19,7 @@ import pytest
 import xarray as xr
 
 import viscontact as vc
+from interrupted_runs import BODIES
 from viscontact import many_runs
 from viscontact.cli import jobs, main
 from viscontact.cli.variations import variations
@@ -27,20 +28,15 @@ from viscontact.processes.request import RunRequest
 from viscontact.recording.lock import DirectoryInUse, locked
 
 PAGE = (Path(__file__).parent.parent / "docs" / "many-runs.md").read_text(encoding="utf-8")
-CASE = """\
-title: Zener sphere
-indenter: {shape: sphere, radius: 10 mm}
-material:
-  law: zener
-  shear_modulus: 10 MPa
-  delayed_modulus: 10 MPa
-  viscosity: 10 MPa s
-  poisson_ratio: 0.5
+CASE = (
+    BODIES
+    + """\
 load: {kind: step, force: 4 N}
 time: {end: 5 s, steps: 4}
 grid: {shape: [24, 24], size: [4 mm, 4 mm]}
 output: {fields: [0 s, 5 s]}
 """
+)
 RUBBER = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
 
 
