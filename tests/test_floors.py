@@ -260,6 +260,7 @@ NEIGHBOURS = {
     ("plot", "cross_section"),
     ("report", "plot"),  # has drawings of it
     ("report", "markup"),
+    ("report", "notebook"),  # has drawings for phones
     ("report", "particulars"),
     ("report", "told"),
     ("report", "units"),

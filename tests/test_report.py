@@ -17,7 +17,7 @@ import pytest
 import xarray as xr
 from ruamel.yaml import YAML
 
-import viscontact
+import viscontact as vc
 from synthetic_results import maxwell_pressure, maxwell_sphere, roller
 from viscontact.cli import main
 from viscontact.markup import as_script
@@ -29,6 +29,7 @@ from viscontact.report.limits import notices
 from viscontact.report.map_data import map_data, section_csv, strides_of
 from viscontact.report.run_data import run_data
 from viscontact.report.shown_fields import shown_fields
+from viscontact.report.surface import recorded_surface
 from viscontact.told import headline
 
 TIMES = (0.0, 1.0, 10.0, 100.0, 300.0)
@@ -174,7 +175,7 @@ def test_a_peak_that_depends_on_the_mesh_is_marked() -> None:
     ds["peak_pressure_error"][:] = np.inf
     [panel] = [each for each in answer_panels(ds) if each["name"] == "peak_pressure"]
     assert (set(panel["half"]), panel["mesh"]) == ({None}, True)
-    assert re.search(r"the peak pressure [\d.]+ MPa, depends on the mesh\.", headline(ds))
+    assert re.search(r"the peak pressure [\d.]+ MPa \(depends on the mesh\)\.", headline(ds))
     assert "smaller cells give more" in dict(accuracy_lines(ds))["Depends on the mesh"]
 
 
@@ -229,6 +230,27 @@ def test_what_is_prescribed_is_the_load_and_the_rest_is_the_answer() -> None:
     assert ("mean", "2 µm") in [(each.name, each.value) for each in inputs(moved)]
 
 
+@pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")  # few cells and steps
+def test_a_measured_surface_is_drawn_from_the_fields() -> None:
+    axis = np.linspace(-60e-6, 60e-6, 66)  # 66² heights: more than a result keeps
+    bumps = 3e-7 * np.cos(axis[:, None] * 1.5e5) * np.sin(axis * 1e5 + 1)
+    body = vc.Sphere(2e-3) + vc.HeightMap(axis, axis, bumps)
+    material = vc.Material(vc.Zener(1e9, 1e9, 1e9), 0.4)
+    load = vc.step(force=0.02, eccentricity_x=2e-6)
+    grid = vc.Grid((40, 40), (100e-6, 100e-6))
+    ds = vc.simulate(body, material, load, grid, [0.0, 1.0], errors=False)
+    exact = body.gap(grid.x[:, None], grid.y)
+    surface = recorded_surface(ds)
+    # To the tolerance of the gaps, 1e-6 of the largest displacement, some 0.4 µm.
+    found = surface.gap(grid.x[:, None], grid.y)
+    np.testing.assert_allclose(found, exact - exact.min(), rtol=0, atol=1e-12)
+    page = _Page(report_page(ds))
+    assert "Not drawn" not in page.text
+    assert "as the grid of this run saw it" in page.text
+    told = _Page(report_page(ds.drop_vars(["gap", "displacement"]))).text
+    assert "Not drawn: the surface is a measured one" in told
+
+
 def test_a_long_run_stays_below_15_megabytes(page: _Page) -> None:
     times = np.linspace(0.0, 300.0, 60)
     ds = _told(roller(times=(0.0, 300.0), shape=(512, 256)))
@@ -256,7 +278,7 @@ def test_report_writes_a_page_beside_the_result(
 ) -> None:
     run = tmp_path / "run"
     run.mkdir()
-    viscontact.save(_run(), run / "result.nc")
+    vc.save(_run(), run / "result.nc")
     assert main(["report", str(run)]) == 0
     assert capsys.readouterr().out.strip() == str(run / "report.html")
     assert (run / "report.html").read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
@@ -281,7 +303,7 @@ def test_what_cannot_be_reported_is_refused_in_a_line(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    viscontact.save(_run(times=(0.0, 1.0), fields=False), tmp_path / "run.nc")
+    vc.save(_run(times=(0.0, 1.0), fields=False), tmp_path / "run.nc")
     assert main(["report", *words]) == 2
     error = capsys.readouterr().err
     assert error.startswith(said)

@@ -15,7 +15,8 @@ from typing import Any
 
 import pytest
 
-from test_report import _run
+from synthetic_results import roller
+from test_report import _run, _told
 from viscontact.report import report_page
 
 _BROWSERS = ("chromium", "chromium-browser", "google-chrome", "chrome")
@@ -58,6 +59,7 @@ _TRY = """<script>
       drawn: document.querySelectorAll(".plot .main-svg").length > 0,
       empty: [...document.querySelectorAll(".plot")]
         .filter((box) => !box.querySelector("svg")).length,
+      small: [...document.querySelectorAll(".narrow svg")].filter((s) => s.clientWidth > 0).length,
       wide: document.documentElement.scrollWidth - document.documentElement.clientWidth,
     });
     document.body.append(probe);
@@ -108,3 +110,24 @@ def test_a_page_without_fields_is_drawn_too_and_fits_a_narrow_window(tmp_path: P
     seen = _tried(report_page(_run(fields=False)), tmp_path, width=500)
     assert (seen["faults"], seen["empty"]) == ([], 0)
     assert seen["wide"] <= 0
+    assert seen["small"] == 3  # the sphere's section, creep and relaxation
+
+
+@pytest.mark.slow
+def test_a_page_is_drawn_within_three_seconds_of_the_processor(tmp_path: Path) -> None:
+    playwright = pytest.importorskip("playwright.sync_api")
+    # As large as the demo's: fields of five instants on a long grid.
+    file = tmp_path / "page.html"
+    file.write_text(report_page(_told(roller(shape=(512, 128)))), encoding="utf-8")
+    with playwright.sync_playwright() as started:
+        browser = started.chromium.launch(executable_path=_BROWSER, args=["--no-sandbox"])
+        page = browser.new_page()
+        watch = page.context.new_cdp_session(page)
+        # The time of the page's thread, not of the clock: other programs may run beside it.
+        watch.send("Performance.enable", {"timeDomain": "threadTicks"})
+        page.goto(file.as_uri())
+        page.wait_for_function("document.documentElement.dataset.drawn === 'yes'")
+        metrics = watch.send("Performance.getMetrics")["metrics"]
+        browser.close()
+    [taken] = [each["value"] for each in metrics if each["name"] == "TaskDuration"]
+    assert 0.05 < taken < 3.0

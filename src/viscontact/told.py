@@ -37,13 +37,13 @@ def told(value: float, error: float, units: str) -> str:
     Examples
     --------
     >>> told(57.634e-6, 0.149e-6, "m2"), told(152.2e6, math.inf, "Pa")
-    ('57.63 ± 0.15 mm²', '152.2 MPa, depends on the mesh')
+    ('57.63 ± 0.15 mm²', '152.2 MPa (depends on the mesh)')
     """
     unit = readable_unit(value, units)
     number = in_supported_digits(value / unit.factor, error / unit.factor, _DIGITS)
     if not error > _NEGLIGIBLE * abs(value) or math.isinf(error):
         number = in_words(value, units)
-        return f"{number}, depends on the mesh" if math.isinf(error) else number
+        return f"{number} (depends on the mesh)" if math.isinf(error) else number
     bar = in_error_digits(error / unit.factor).replace("±", "± ")
     return f"{number} {bar} {unit.symbol}".rstrip()
 

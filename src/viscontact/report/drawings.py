@@ -11,11 +11,15 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
+from viscontact.indenters import Indenter
 from viscontact.markup import element
+from viscontact.notebook.curves import law_drawings
+from viscontact.notebook.shapes import indenter_drawings
 from viscontact.plot import creep_curve, draw_indenter
 from viscontact.plot.recorded import recorded_noun
 from viscontact.plot.saving import as_svg
 from viscontact.report.inputs import case_of
+from viscontact.report.surface import is_left_out, recorded_surface
 
 #: A law is drawn from so much earlier than the end on [-]: how it comes to where the run begins.
 _BACK = 1e-4
@@ -30,7 +34,19 @@ def geometry(ds: xr.Dataset) -> Element:
     ds : xarray.Dataset
         A result.
     """
-    return _drawn(partial(_indenter, ds), "Sections through the indenter, and its plan")
+    wide = _drawn(partial(_indenter, ds), "Sections through the indenter, and its plan")
+    return _both(wide, partial(_small_sections, ds))
+
+
+def is_drawn_from_fields(ds: xr.Dataset) -> bool:
+    """Tell whether the geometry is what the grid saw of it: maps are not kept with results.
+
+    Parameters
+    ----------
+    ds : xarray.Dataset
+        A result.
+    """
+    return is_left_out(case_of(ds).get("indenter"))
 
 
 def materials(ds: xr.Dataset) -> Iterator[tuple[str, Element]]:
@@ -45,19 +61,47 @@ def materials(ds: xr.Dataset) -> Iterator[tuple[str, Element]]:
     for part, title in bodies.items():
         if case_of(ds).get(part) is not None or part == "material":
             about = f"Creep compliance and relaxation modulus: {title.lower()}"
-            yield title, _drawn(partial(_curves, ds, part), about)
+            wide = _drawn(partial(_curves, ds, part), about)
+            yield title, _both(wide, partial(_small_curves, ds, part))
 
 
 def _indenter(ds: xr.Dataset) -> Figure:
-    indenter = recorded_noun(ds, "indenter", "geometry")
-    x, y = ds["x"].values, ds["y"].values
-    size = float(x[1] - x[0]) * x.size, float(y[1] - y[0]) * y.size
+    indenter, x, y = _body(ds), ds["x"].values, ds["y"].values
+    # What fields tell is known at the cells' centres, and not beyond.
+    cells = (x.size - 1, y.size - 1) if is_drawn_from_fields(ds) else (x.size, y.size)
+    size = float(x[1] - x[0]) * cells[0], float(y[1] - y[0]) * cells[1]
     length, width = (float(ds[name].max()) for name in ("contact_length", "contact_width"))
     contact = None
     if length > 0 and width > 0:
         middle = _middle(ds)
         contact = (*middle, length, width)
     return draw_indenter(indenter, size, contact=contact, shaded="largest contact")
+
+
+def _body(ds: xr.Dataset) -> Indenter:
+    if is_drawn_from_fields(ds):
+        return recorded_surface(ds)
+    body: Indenter = recorded_noun(ds, "indenter", "geometry")
+    return body
+
+
+def _small_sections(ds: xr.Dataset) -> list[Element]:
+    return indenter_drawings(_body(ds))
+
+
+def _small_curves(ds: xr.Dataset, part: str) -> list[Element]:
+    return law_drawings(recorded_noun(ds, part, "creep").law)
+
+
+def _both(wide: Element, small: Callable[[], list[Element]]) -> Element:
+    """A drawing, and the smaller ones that take its place on a phone."""
+    if wide.tag == "p":  # which says why there is none
+        return wide
+    drawings = small()
+    if not drawings:
+        return wide
+    wide.set("class", "scroll wide")
+    return element("div", wide, element("div", *drawings, class_="narrow"))
 
 
 def _middle(ds: xr.Dataset) -> tuple[float, float]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 from collections.abc import Iterator
 from typing import Any, Literal
 from urllib.parse import quote
@@ -47,7 +48,7 @@ def opening(ds: xr.Dataset, chapters: dict[str, str]) -> Element:
     return element(
         "header",
         element("h1", title_of(ds)),
-        element("p", headline(ds), class_="headline"),
+        element("p", _unbroken(headline(ds)), class_="headline"),
         *(element("p", text, class_="notice") for text in notices(ds)),
         _facts(ds),
         element("nav", *links, aria_label="Chapters"),
@@ -72,8 +73,12 @@ def pressure_chapter(ds: xr.Dataset, fields: ShownFields | None) -> Iterator[Ele
     yield element("div", *(_section(fields, *way) for way in _WAYS), class_="pair")
     yield element(
         "p",
-        "Bold: the instant of the slider. Drag over a figure to enlarge a part of it, double-click "
-        "to go back.",
+        "Bold: the instant of the slider.",
+        element(
+            "span",
+            " Drag over a figure to enlarge a part of it, double-click to go back.",
+            id="zoom-hint",
+        ),
         class_="faint",
     )
     yield element("h3", "Outline of the contact")
@@ -120,11 +125,20 @@ def _facts(ds: xr.Dataset) -> Element:
     return element(
         "dl",
         *(
-            element("div", element("dt", name + when), element("dd", told_at(ds, scalar, last)))
+            element(
+                "div",
+                element("dt", _unbroken(name + when)),
+                element("dd", _unbroken(told_at(ds, scalar, last))),
+            )
             for scalar, name in _FACTS.items()
         ),
         class_="facts",
     )
+
+
+def _unbroken(text: str) -> str:
+    """Keep numbers together with their units when a line ends there, and ± with the error."""
+    return re.sub(r"(?<=[±=]) (?=\d)|(?<=\d) (?=[a-zA-Zµ²]{1,4}\b)", "\N{NO-BREAK SPACE}", text)
 
 
 def _without_fields(ds: xr.Dataset) -> str:

@@ -50,6 +50,14 @@ def geometry_chapter(ds: xr.Dataset) -> Iterator[Element]:
         A result.
     """
     yield element("figure", drawings.geometry(ds))
+    if drawings.is_drawn_from_fields(ds):
+        yield element(
+            "p",
+            "A result does not keep a measured surface. Drawn is the body as the grid of this run "
+            "saw it, told from the stored gap, displacement and approach; its lowest point is at "
+            "zero.",
+            class_="faint",
+        )
 
 
 def material_chapter(ds: xr.Dataset) -> Iterator[Element]:
@@ -155,11 +163,15 @@ def _table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> Element:
         element(
             "tr",
             element("th", row[0], scope="row"),
-            *(element("td", text, class_="number") for text in row[1:]),
+            *(
+                element("td", text, class_="number", data_head=head)
+                for head, text in zip(heads[1:], row[1:], strict=True)
+            ),
         )
         for row in rows
     )
-    return _scrolled(element("table", element("thead", head), element("tbody", *body)))
+    table = element("table", element("thead", head), element("tbody", *body), class_="stacked")
+    return _scrolled(table)
 
 
 def _account(lines: Iterable[tuple[str, str]]) -> Element:

@@ -10,6 +10,7 @@
     doubleClick: "reset", modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"],
     toImageButtonOptions: { format: "svg" },
   };
+  if (byFinger) place("zoom-hint")?.remove();
   const quiet = { ...config, displayModeBar: false };
   const axis = (title, more = {}) => ({
     title: { text: title, standoff: 8, font: { size: 12 } }, color: ink, tickfont: { size: 11 },
@@ -103,9 +104,9 @@
     yaxis: axis(`y [${map.unit}]`, { range: map.yRange, constrain, showgrid: false, scaleanchor: "x", scaleratio: map.stretch }),
   });
   // As high as the true (or stated) shape asks for at this width.
-  function planeHeight(box, around) {
+  function planeHeight(box, around, most) {
     const ratio = map.stretch * (map.yRange[1] - map.yRange[0]) / (map.xRange[1] - map.xRange[0]);
-    return Math.round(Math.min(Math.max((box.clientWidth - 80) * ratio + around, around + 60), 640));
+    return Math.round(Math.min(Math.max((box.clientWidth - 80) * ratio + around, around + 60), most));
   }
 
   function drawMap() {
@@ -118,10 +119,10 @@
       colorbar: { orientation: "h", thickness: 10, len: 0.9, x: 0.5, y: 1.0, yanchor: "bottom", outlinewidth: 0, tickfont: { size: 11 }, title: { text: `Pressure [${map.pressureUnit}]`, side: "top", font: { size: 12 } } },
     };
     const rim = { ...map.rims[shown], mode: "lines", line: { color: ink, width: 1 }, hoverinfo: "skip" };
-    box.style.height = `${planeHeight(box, 130)}px`;
-    const plane = layout({ ...planeAxes(), margin: { l: 56, r: 24, t: 60, b: 54 } });
+    box.style.height = `${planeHeight(box, 130, 600)}px`;
+    const plane = layout({ ...planeAxes(), margin: { l: 56, r: 24, t: 60, b: 58 } });
     // Beside a horizontal colour bar the room of the tick labels is not counted.
-    plane.xaxis.title.standoff = 22;
+    plane.xaxis.title.standoff = 28;
     return Plotly.react(box, [heat, rim], plane, config);
   }
 
@@ -130,7 +131,7 @@
       ...map.rims[index], mode: "lines", name: map.labels[index], line: { color: map.colours[index], width: 2 },
       hovertemplate: `x %{x:.4g} ${map.unit}, y %{y:.4g} ${map.unit}<extra>${map.labels[index]}</extra>`,
     }));
-    box.style.height = `${planeHeight(box, 120)}px`;
+    box.style.height = `${planeHeight(box, 120, 440)}px`;
     return Plotly.newPlot(box, lines, layout({
       ...planeAxes(), showlegend: true, margin: { l: 56, r: 24, t: 44, b: 46 },
       legend: { orientation: "h", x: 0, y: 1.0, yanchor: "bottom", font: { size: 12 } },

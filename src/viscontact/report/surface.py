@@ -1,0 +1,63 @@
+"""The surface that a run was pressed with, as its grid saw it."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from viscontact.indenters import HeightMap
+
+
+def is_left_out(described: Any) -> bool:
+    """Tell whether a part of a noun is not kept with the result: a large map has its name only.
+
+    Parameters
+    ----------
+    described : object
+        The noun as the case of a result describes it.
+    """
+    return '"sha256"' in json.dumps(described)
+
+
+def recorded_surface(ds: xr.Dataset) -> HeightMap:
+    """Return the indenter on the grid of a run, from the fields that are stored.
+
+    Parameters
+    ----------
+    ds : xarray.Dataset
+        A result.
+
+    Returns
+    -------
+    HeightMap
+        The initial gap at the cells' centres, its lowest value at zero.
+
+    Raises
+    ------
+    ValueError
+        If no instant has gap and displacement all over the grid.
+
+    Notes
+    -----
+    From gap = initial gap + displacement - approach - tilt_x x - tilt_y y (eq. 1), at the last
+    stored instant: the grid is the whole one by then.
+    """
+    missing = {"gap", "displacement"} - set(ds.variables)
+    if missing or not ds["gap"].size:
+        raise ValueError(
+            "the surface is a measured one, which a result does not keep, and there are no fields "
+            "to tell it from; store some (output.fields)"
+        )
+    over = str(ds["gap"].dims[0])
+    last = ds[["gap", "displacement"]].isel({over: -1}).transpose("x", "y")
+    motion = ds[["approach", "tilt_x", "tilt_y"]].sel(time=float(ds[over][-1]), method="nearest")
+    x, y = ds["x"].values, ds["y"].values
+    rigid = motion["approach"].item() + motion["tilt_x"].item() * x[:, None]
+    gap = last["gap"].values - last["displacement"].values + rigid + motion["tilt_y"].item() * y
+    known = np.where(np.isfinite(gap), gap, np.nan)
+    if not np.isfinite(known).any():
+        raise ValueError("the surface is a measured one, and no gap of it is stored")
+    return HeightMap(x, y, -known, holes=True)
