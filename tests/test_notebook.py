@@ -8,6 +8,7 @@ import re
 import subprocess
 import sys
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -270,6 +271,25 @@ def test_a_result_that_is_none_is_told_so() -> None:
     lost = maxwell_sphere(fields=False)
     lost["contact_area"][:] = 0.0
     assert "do not touch" in str(lost.viscontact)
+
+
+def test_a_long_table_stays_small() -> None:
+    times = np.geomspace(1e-3, 1e6, 20_000)
+    assert len(vc.TabulatedCreep(times, 1e-9 * (1 + times**0.2))._repr_html_()) < 30_000
+
+
+def test_a_body_that_cannot_be_drawn_is_told_in_words() -> None:
+    @dataclass(frozen=True)
+    class Narrow(vc.Indenter):
+        radius: float
+
+        def gap(self, x: Any, y: Any) -> NDArray[Any]:
+            if np.abs(x).max() > 1e-3:
+                raise ValueError("too far out")
+            return np.asarray(x) ** 2 / (2 * self.radius) + 0 * np.asarray(y)
+
+    root = _parsed(Narrow(radius=0.01))
+    assert (_text(root), list(root.iter("svg"))) == ("Narrow radius 10 mm", [])
 
 
 def test_it_works_by_itself_and_without_plotting_libraries() -> None:

@@ -27,6 +27,8 @@ _HELD = 0.25
 _BEFORE = 0.05
 #: Beyond this ratio of last to first compliance its axis is logarithmic.
 _DECADES = 20.0
+#: Of a long table so many rows are drawn as points.
+_MOST_DOTS = 40
 #: Names of arguments that are times.
 _TIMES = ("times", "time", "reference_time")
 _PHI, _G = ("creep compliance Φ", "1/Pa"), ("relaxation modulus G", "Pa")
@@ -141,7 +143,8 @@ def _curve(
     good = values[np.isfinite(values)]
     marks = [Mark(times, values)]
     if rows is not None:
-        marks.append(Mark(np.array(rows[0]), np.array(rows[1]), "dots", ORANGE))
+        some = slice(None, None, math.ceil(len(rows[0]) / _MOST_DOTS))
+        marks.append(Mark(np.array(rows[0][some]), np.array(rows[1][some]), "dots", ORANGE))
     x = logarithmic("time", "s", *span, each_with_unit=True)
     return panel(quantity, x, _upward(quantity.split()[-1], unit, good), marks)
 

@@ -104,6 +104,13 @@ def _following(noun: Shown) -> Iterator[tuple[str, str]]:
 
 
 def _drawings(noun: Shown) -> list[Element]:
+    try:
+        return _drawn(noun)
+    except ValueError:  # of a user's own noun, say, where it is not defined: the table is left
+        return []
+
+
+def _drawn(noun: Shown) -> list[Element]:
     if isinstance(noun, Indenter):
         return indenter_drawings(noun)
     if isinstance(noun, Law | Material):

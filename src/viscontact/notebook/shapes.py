@@ -49,7 +49,7 @@ def indenter_drawings(indenter: Indenter) -> list[Element]:
     first = cut(indenter, along, at_y, 0, _POINTS)
     second = cut(indenter, across, at_x, 1, _POINTS)
     if _alike(first, second):
-        return [_section(first, "x", "along x and along y")]
+        return [_section(first, "x", "along x and y")]
     return [_section(first, "x", "along x"), _section(second, "y", "along y")]
 
 
@@ -104,7 +104,7 @@ def grid_drawings(grid: Grid) -> list[Element]:
         + [f"M7,{22 + y:.1f}h{width:.1f}" for y in rows]
     )
     shown = " × ".join(str(each) for each in every)
-    head = "the cells" if max(every) == 1 else f"each mesh: {shown} cells"
+    head = "the cells" if max(every) == 1 else f"lines every {shown} cells"
     border = {"stroke_dasharray": "5 3"} if grid.periodic else {}
     frame = element(
         "rect",
