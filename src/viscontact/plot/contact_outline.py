@@ -11,6 +11,7 @@ from matplotlib.patches import PathPatch
 from numpy.typing import ArrayLike
 
 from viscontact.plot import style
+from viscontact.plot.page import Width, page_width
 from viscontact.plot.readable import time_labels
 from viscontact.plot.rim_polygons import rim_path, rim_polygons
 from viscontact.plot.snapshots import take_snapshots
@@ -20,7 +21,11 @@ _NAME = "contact-outline"
 
 
 def contact_outline(
-    results: xr.Dataset, *, times: ArrayLike | None = None, axes: Axes | None = None
+    results: xr.Dataset,
+    *,
+    times: ArrayLike | None = None,
+    axes: Axes | None = None,
+    width: Width | None = None,
 ) -> Figure:
     """Draw the outline of the contact at several instants.
 
@@ -33,6 +38,8 @@ def contact_outline(
         first in contact to the last.
     axes : matplotlib.axes.Axes, optional
         Where to draw; by default in a new figure.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
 
     Returns
     -------
@@ -47,7 +54,7 @@ def contact_outline(
     """
     snapshots = take_snapshots(results, times, _NAME)
     window = window_around(snapshots)
-    axes = _new_axes(window) if axes is None else axes
+    axes = _new_axes(window, width) if axes is None else axes
     colours = style.time_colours(len(snapshots))
     for snapshot, colour in zip(snapshots, colours, strict=True):
         if snapshot.touching:
@@ -70,7 +77,8 @@ def contact_outline(
     return style.figure_of(axes)
 
 
-def _new_axes(window: Window) -> Axes:
-    width = style.TWO_COLUMNS if window.height_to_width < 0.6 else style.ONE_COLUMN
+def _new_axes(window: Window, wanted: Width | None) -> Axes:
+    usual = style.TWO_COLUMNS if window.height_to_width < 0.6 else style.ONE_COLUMN
+    width = page_width(wanted, usual)
     height = (width - 1.6) * window.height_to_width + 0.6
     return style.new_figure(width, height, fixed_aspect=True).add_subplot()

@@ -10,13 +10,16 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.laws import Law
 from viscontact.plot import style
+from viscontact.plot.page import NARROW, Width, page_width
 from viscontact.plot.readable import display_unit
 from viscontact.plot.recorded import recorded_noun
 
 _NAME = "creep"
 
 
-def creep(results: xr.Dataset, *, times: ArrayLike | None = None) -> Figure:
+def creep(
+    results: xr.Dataset, *, times: ArrayLike | None = None, width: Width | None = None
+) -> Figure:
     """Draw the creep compliance and relaxation modulus of the half-space of a run.
 
     Parameters
@@ -26,6 +29,8 @@ def creep(results: xr.Dataset, *, times: ArrayLike | None = None) -> Figure:
     times : array_like, optional
         Draw the span between the least and the largest of these instants [s]; by default
         the time simulated.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
 
     Returns
     -------
@@ -44,10 +49,10 @@ def creep(results: xr.Dataset, *, times: ArrayLike | None = None) -> Figure:
         raise ValueError(f"{_NAME}: times must be finite with one above 0 s, got {times!r}")
     # Four decades show how the law gets to where the run begins.
     first = min(float(positive.min()), float(positive.max()) / 1e4)
-    return creep_curve(law, np.geomspace(first, positive.max(), 300))
+    return creep_curve(law, np.geomspace(first, positive.max(), 300), width=width)
 
 
-def creep_curve(law: Law, times: ArrayLike) -> Figure:
+def creep_curve(law: Law, times: ArrayLike, *, width: Width | None = None) -> Figure:
     """Draw creep compliance and relaxation modulus of a law against time.
 
     Parameters
@@ -56,6 +61,8 @@ def creep_curve(law: Law, times: ArrayLike) -> Figure:
         A creep law.
     times : array_like
         Instants to evaluate the law at, above 0 and increasing [s].
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
 
     Returns
     -------
@@ -85,8 +92,11 @@ def creep_curve(law: Law, times: ArrayLike) -> Figure:
     instant_compliance = float(law(0.0))
     stiff_at_once = instant_compliance > 0
     count = 2 if stiff_at_once else 1
-    figure = style.new_figure(style.TWO_COLUMNS if count == 2 else style.ONE_COLUMN, 2.7)
-    panels = list(figure.subplots(1, count, squeeze=False).flat)
+    wide = page_width(width, style.TWO_COLUMNS if count == 2 else style.ONE_COLUMN)
+    columns = 1 if wide <= NARROW else count
+    rows = count // columns
+    figure = style.new_figure(wide, 2.7 if rows == 1 else 2.1 * rows)
+    panels = list(figure.subplots(rows, columns, squeeze=False).flat)
     _draw(panels[0], "Creep compliance Φ", "1/Pa", instants, law(instants), instant_compliance)
     if stiff_at_once:
         at_once = float(law.relaxation(0.0))

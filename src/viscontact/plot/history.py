@@ -22,6 +22,7 @@ from viscontact.plot.error_band import (
     keep_curves_in_sight,
     peak_note,
 )
+from viscontact.plot.page import NARROW, Width, page_width
 from viscontact.plot.readable import DisplayUnit, display_unit
 from viscontact.plot.span import within_span
 from viscontact.stated_errors import stated_error
@@ -38,7 +39,7 @@ _ROUNDING = 1e-6
 
 
 @dataclass(frozen=True)
-class _Quantity:
+class Quantity:
     """A variable of the dataset as it is drawn, and whether to leave it out when idle."""
 
     name: str
@@ -47,17 +48,19 @@ class _Quantity:
     only_if_varied: bool = False
 
 
-_QUANTITIES = (
-    _Quantity("force", "Force", "N", only_if_varied=True),
-    _Quantity("contact_area", "Contact area", "m2"),
-    _Quantity("approach", "Approach", "m"),
-    _Quantity("tilt_x", "Tilt along x", "rad", only_if_varied=True),
-    _Quantity("tilt_y", "Tilt along y", "rad", only_if_varied=True),
-    _Quantity("peak_pressure", "Peak pressure", "Pa"),
+QUANTITIES = (
+    Quantity("force", "Force", "N", only_if_varied=True),
+    Quantity("contact_area", "Contact area", "m2"),
+    Quantity("approach", "Approach", "m"),
+    Quantity("tilt_x", "Tilt along x", "rad", only_if_varied=True),
+    Quantity("tilt_y", "Tilt along y", "rad", only_if_varied=True),
+    Quantity("peak_pressure", "Peak pressure", "Pa"),
 )
 
 
-def history(results: xr.Dataset, *, times: ArrayLike | None = None) -> Figure:
+def history(
+    results: xr.Dataset, *, times: ArrayLike | None = None, width: Width | None = None
+) -> Figure:
     """Draw contact area, approach, tilts and peak pressure against time.
 
     Parameters
@@ -67,6 +70,8 @@ def history(results: xr.Dataset, *, times: ArrayLike | None = None) -> Figure:
     times : array_like, optional
         Draw only the span between the least and the largest of these instants [s]; by
         default all of it.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
 
     Returns
     -------
@@ -81,10 +86,12 @@ def history(results: xr.Dataset, *, times: ArrayLike | None = None) -> Figure:
     ValueError
         If fewer than two steps lie in the span.
     """
-    return compare_histories({"": results}, times=times)
+    return compare_histories({"": results}, times=times, width=width)
 
 
-def compare_histories(runs: Mapping[str, xr.Dataset], *, times: ArrayLike | None = None) -> Figure:
+def compare_histories(
+    runs: Mapping[str, xr.Dataset], *, times: ArrayLike | None = None, width: Width | None = None
+) -> Figure:
     """Overlay the histories of several runs.
 
     Parameters
@@ -93,6 +100,8 @@ def compare_histories(runs: Mapping[str, xr.Dataset], *, times: ArrayLike | None
         Results by the name to print.
     times : array_like, optional
         Draw only the span between the least and the largest of these instants [s].
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
 
     Returns
     -------
@@ -107,23 +116,51 @@ def compare_histories(runs: Mapping[str, xr.Dataset], *, times: ArrayLike | None
     if not runs:
         raise ValueError(f"{_NAME}: needs at least one run to compare, got none")
     shown = {name: within_span(run, _drawn(run), times, _NAME, name) for name, run in runs.items()}
-    quantities = [quantity for quantity in _QUANTITIES if _worth_a_panel(quantity, shown)]
-    figure, panels = _panels(len(quantities))
-    time_unit = display_unit("s", *(run["time"].values for run in shown.values()))
-    for axes, quantity in zip(panels, quantities, strict=True):
-        _draw(axes, quantity, shown, time_unit)
-    _scale_time(panels, shown, time_unit)
+    quantities = worthwhile_quantities(shown)
+    figure, panels = _panels(len(quantities), page_width(width, style.TWO_COLUMNS))
+    draw_quantities(panels, quantities, shown)
     _add_key(figure, panels, list(shown))
     return figure
 
 
+def worthwhile_quantities(runs: Mapping[str, xr.Dataset]) -> list[Quantity]:
+    """Return what is drawn of runs: not a force or a tilt that never changes."""
+    return [quantity for quantity in QUANTITIES if _worth_a_panel(quantity, runs)]
+
+
+def draw_quantities(
+    panels: list[Axes], quantities: list[Quantity], runs: Mapping[str, xr.Dataset]
+) -> DisplayUnit:
+    """Draw quantities over time, one in each panel.
+
+    Parameters
+    ----------
+    panels : list of matplotlib.axes.Axes
+        As many as quantities.
+    quantities : list of Quantity
+        From `worthwhile_quantities`.
+    runs : mapping of str to xarray.Dataset
+        Results by name.
+
+    Returns
+    -------
+    DisplayUnit
+        Of the time axis.
+    """
+    time_unit = display_unit("s", *(run["time"].values for run in runs.values()))
+    for axes, quantity in zip(panels, quantities, strict=True):
+        _draw(axes, quantity, runs, time_unit)
+    _scale_time(panels, runs, time_unit)
+    return time_unit
+
+
 def _drawn(run: xr.Dataset) -> list[str]:
-    names = [quantity.name for quantity in _QUANTITIES]
+    names = [quantity.name for quantity in QUANTITIES]
     errors = [error_name(name) for name in names if error_name(name) in run]
     return [*names, *errors, "contact_length"]
 
 
-def _worth_a_panel(quantity: _Quantity, runs: Mapping[str, xr.Dataset]) -> bool:
+def _worth_a_panel(quantity: Quantity, runs: Mapping[str, xr.Dataset]) -> bool:
     if not quantity.only_if_varied:
         return True
     values = [run[quantity.name].values for run in runs.values()]
@@ -135,10 +172,11 @@ def _worth_a_panel(quantity: _Quantity, runs: Mapping[str, xr.Dataset]) -> bool:
     )
 
 
-def _panels(count: int) -> tuple[Figure, list[Axes]]:
-    columns = 2 if count in (2, 4) else 3
+def _panels(count: int, width: float) -> tuple[Figure, list[Axes]]:
+    columns = 1 if width <= NARROW else 2 if count in (2, 4) else 3
     rows = -(-count // columns)
-    figure = style.new_figure(style.TWO_COLUMNS, (2.3 if columns == 2 else 2.0) * rows + 0.2)
+    height = {1: 1.5, 2: 2.3, 3: 2.0}[columns] * rows + 0.2
+    figure = style.new_figure(width, height)
     grid = figure.subplots(rows, columns, sharex=True, squeeze=False)
     panels = list(grid.flat)
     for unused in panels[count:]:
@@ -152,7 +190,7 @@ def _panels(count: int) -> tuple[Figure, list[Axes]]:
 
 
 def _draw(
-    axes: Axes, quantity: _Quantity, runs: Mapping[str, xr.Dataset], time_unit: DisplayUnit
+    axes: Axes, quantity: Quantity, runs: Mapping[str, xr.Dataset], time_unit: DisplayUnit
 ) -> None:
     unit = display_unit(quantity.si_unit, *(run[quantity.name].values for run in runs.values()))
     for (name, run), look in zip(runs.items(), style.run_styles(len(runs)), strict=True):
@@ -251,7 +289,7 @@ def _add_key(figure: Figure, panels: list[Axes], names: list[str]) -> None:
     figure.legend(
         *zip(*entries, strict=True),
         loc="outside upper center" if len(names) > 1 else "outside upper right",
-        ncols=min(len(entries), 4),
+        ncols=min(len(entries), 4 if figure.get_figwidth() > NARROW else 2),
         frameon=False,
         fontsize=style.TICK_SIZE,
         labelcolor=style.INK,

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.plot import style
 from viscontact.plot.error_band import band_key, draw_band, has_bands
+from viscontact.plot.page import Width, page_width
 from viscontact.plot.readable import display_unit
 from viscontact.plot.span import within_span
 from viscontact.stated_errors import stated_error
@@ -26,7 +27,9 @@ _NAME = "hysteresis"
 _ARROWS = (0.15, 0.4, 0.65, 0.9)
 
 
-def hysteresis(results: xr.Dataset, *, times: ArrayLike | None = None) -> Figure:
+def hysteresis(
+    results: xr.Dataset, *, times: ArrayLike | None = None, width: Width | None = None
+) -> Figure:
     """Draw the force against the approach, with arrows that go with time.
 
     Parameters
@@ -36,6 +39,8 @@ def hysteresis(results: xr.Dataset, *, times: ArrayLike | None = None) -> Figure
     times : array_like, optional
         Draw only the span between the least and the largest of these instants [s]; by
         default all of it.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
 
     Returns
     -------
@@ -48,13 +53,15 @@ def hysteresis(results: xr.Dataset, *, times: ArrayLike | None = None) -> Figure
     ValueError
         If fewer than two steps lie in the span.
     """
-    figure = compare_hysteresis({"": results}, times=times)
+    figure = compare_hysteresis({"": results}, times=times, width=width)
     if loss := _last_loss(results, times):
         style.add_heading(figure.axes[0], loss, aside=True)
     return figure
 
 
-def compare_hysteresis(runs: Mapping[str, xr.Dataset], *, times: ArrayLike | None = None) -> Figure:
+def compare_hysteresis(
+    runs: Mapping[str, xr.Dataset], *, times: ArrayLike | None = None, width: Width | None = None
+) -> Figure:
     """Overlay force against approach of several runs.
 
     Parameters
@@ -63,6 +70,8 @@ def compare_hysteresis(runs: Mapping[str, xr.Dataset], *, times: ArrayLike | Non
         Results by the name to print.
     times : array_like, optional
         Draw only the span between the least and the largest of these instants [s].
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
 
     Returns
     -------
@@ -77,7 +86,8 @@ def compare_hysteresis(runs: Mapping[str, xr.Dataset], *, times: ArrayLike | Non
     if not runs:
         raise ValueError(f"{_NAME}: needs at least one run to compare, got none")
     shown = {name: within_span(run, _drawn(run), times, _NAME, name) for name, run in runs.items()}
-    figure = style.new_figure(style.ONE_COLUMN, 3.3)
+    wide = page_width(width, style.ONE_COLUMN)
+    figure = style.new_figure(wide, min(3.3, 0.8 * wide))
     axes = figure.subplots()
     style.dress(axes)
     x_unit = display_unit("m", *(run["approach"].values for run in shown.values()))

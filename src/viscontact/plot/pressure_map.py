@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.plot import style
 from viscontact.plot.error_band import peak_note
+from viscontact.plot.page import Width, page_width
 from viscontact.plot.readable import DisplayUnit, display_number, display_unit, time_labels
 from viscontact.plot.rim_polygons import beyond_period, rim_path, rim_polygons
 from viscontact.plot.snapshots import Snapshot, take_snapshots
@@ -32,12 +33,14 @@ _LABEL_SIZE = 6.5
 _APART = 4.0
 # Percentiles of pressure over the contact between which contours have room for labels.
 _LABELLED = (20.0, 97.0)
-# Where the largest pressure depends on the mesh, levels go up to what so much of the contact has;
-# up to the edge's they would crowd there, and show little of the rest.
-_ORDINARY = 0.85
+#: Where the largest pressure depends on the mesh, levels go up to what so much of the contact has;
+#: up to the edge's they would crowd there, and show little of the rest.
+ORDINARY = 0.85
 
 
-def pressure_map(results: xr.Dataset, *, times: ArrayLike | None = None) -> Figure:
+def pressure_map(
+    results: xr.Dataset, *, times: ArrayLike | None = None, width: Width | None = None
+) -> Figure:
     """Draw iso-contours of pressure, one panel an instant, with the outline of the contact.
 
     Parameters
@@ -47,6 +50,8 @@ def pressure_map(results: xr.Dataset, *, times: ArrayLike | None = None) -> Figu
     times : array_like, optional
         Instants [s]; the nearest stored ones are drawn and named. By default four, from the
         first in contact to the last.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
 
     Returns
     -------
@@ -63,16 +68,18 @@ def pressure_map(results: xr.Dataset, *, times: ArrayLike | None = None) -> Figu
     snapshots = take_snapshots(results, times, _NAME, count=4)
     window = window_around(snapshots)
     note = peak_note([results], [snapshot.time for snapshot in snapshots])
-    levels, unit = _levels(snapshots, _ORDINARY if note else 1.0)
-    figure, panels = _panels(len(snapshots), window)
+    pressed = (s.pressure[s.pressure > 0] for s in snapshots if s.touching)
+    part = ORDINARY if note else 1.0
+    levels, unit = pressure_levels(max(float(np.quantile(each, part)) for each in pressed))
+    figure, panels = _panels(len(snapshots), window, width)
     lines = [
-        _draw_contours(axes, snapshot, levels, window)
+        draw_contours(axes, snapshot, levels, window)
         for axes, snapshot in zip(panels, snapshots, strict=True)
     ]
     for axes, label in zip(panels, time_labels(s.time for s in snapshots), strict=True):
         style.add_heading(axes, f"t = {label}")
     style.add_heading(panels[0], "; ".join(filter(None, (window.note, note))), aside=True)
-    _add_colour_bar(figure, panels, levels, unit, "max" if note else "neither")
+    add_colour_bar(figure, panels, levels, unit, "max" if note else "neither")
     figure.draw_without_rendering()  # Only now the room for labels is known.
     for axes, snapshot, contours in zip(panels, snapshots, lines, strict=True):
         if contours is not None:
@@ -80,20 +87,38 @@ def pressure_map(results: xr.Dataset, *, times: ArrayLike | None = None) -> Figu
     return figure
 
 
-def _levels(snapshots: list[Snapshot], part: float) -> tuple[NDArray[np.float64], DisplayUnit]:
-    """Round pressure levels from 0 to above that of so much of the contact [Pa], and their unit."""
-    pressed = (each.pressure[each.pressure > 0] for each in snapshots if each.touching)
-    peak = max(float(np.quantile(pressure, part)) for pressure in pressed)
-    unit = display_unit("Pa", peak)
-    levels = MaxNLocator(nbins=10, steps=[1, 2, 2.5, 5, 10]).tick_values(0.0, peak / unit.factor)
+def pressure_levels(highest: float) -> tuple[NDArray[np.float64], DisplayUnit]:
+    """Choose round levels of pressure.
+
+    Parameters
+    ----------
+    highest : float
+        What they go beyond [Pa].
+
+    Returns
+    -------
+    levels : ndarray
+        From 0 [Pa].
+    unit : DisplayUnit
+        In which they are round.
+
+    Examples
+    --------
+    >>> levels, unit = pressure_levels(152e6)
+    >>> unit(levels).tolist()
+    [0.0, 20.0, 40.0, 60.0, 80.0, 100.0, 120.0, 140.0, 160.0]
+    """
+    unit = display_unit("Pa", highest)
+    levels = MaxNLocator(nbins=10, steps=[1, 2, 2.5, 5, 10]).tick_values(0.0, highest / unit.factor)
     return np.asarray(levels) * unit.factor, unit
 
 
-def _panels(count: int, window: Window) -> tuple[Figure, list[Axes]]:
+def _panels(count: int, window: Window, wanted: Width | None) -> tuple[Figure, list[Axes]]:
     long = window.height_to_width < 0.6
     columns = 1 if long else min(count, 2)
     rows = -(-count // columns)
-    width = style.TWO_COLUMNS if columns == 2 or long else style.ONE_COLUMN
+    usual = style.TWO_COLUMNS if columns == 2 or long else style.ONE_COLUMN
+    width = page_width(wanted, usual)
     panel_width = (width - 1.3) / columns
     height = rows * (panel_width * window.height_to_width + 0.22) + 0.45
     figure = style.new_figure(width, height, fixed_aspect=True)
@@ -111,9 +136,27 @@ def _panels(count: int, window: Window) -> tuple[Figure, list[Axes]]:
     return figure, panels[:count]
 
 
-def _draw_contours(
+def draw_contours(
     axes: Axes, snapshot: Snapshot, levels: NDArray[np.float64], window: Window
 ) -> QuadContourSet | None:
+    """Draw contours of pressure, and the outline of the contact.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+        Where to.
+    snapshot : Snapshot
+        Pressure and gap.
+    levels : ndarray
+        From 0, ascending [Pa].
+    window : Window
+        What the axes show.
+
+    Returns
+    -------
+    QuadContourSet or None
+        The lines between the levels; None without contact, where nothing is drawn.
+    """
     if not snapshot.touching:
         return None
     outline = rim_path(window.unit(polygon) for polygon in rim_polygons(snapshot))
@@ -182,9 +225,10 @@ def _pressed(snapshot: Snapshot, points: NDArray[np.float64]) -> NDArray[np.bool
     return np.asarray(snapshot.pressure[i, j] > 0, dtype=np.bool_)
 
 
-def _add_colour_bar(
+def add_colour_bar(
     figure: Figure, panels: list[Axes], levels: NDArray[np.float64], unit: DisplayUnit, extend: str
 ) -> None:
+    """Add a colour bar for levels of pressure [Pa], in a unit, beside panels."""
     colours = style.pressure_colours(len(levels) - 1)
     shown = ScalarMappable(BoundaryNorm(unit(levels), colours.N), colours)
     bar = figure.colorbar(shown, ax=panels, shrink=0.9, aspect=25, pad=0.02, extend=extend)

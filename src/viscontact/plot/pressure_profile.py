@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.plot import style
 from viscontact.plot.error_band import peak_note
+from viscontact.plot.page import Width, page_width
 from viscontact.plot.readable import DisplayUnit, display_unit, time_labels
 from viscontact.plot.snapshots import Snapshot, take_snapshots
 
@@ -26,6 +27,7 @@ def pressure_profile(
     along: Literal["x", "y"] = "x",
     at: float = 0.0,
     axes: Axes | None = None,
+    width: Width | None = None,
 ) -> Figure:
     """Draw the pressure on a line through the contact at several instants.
 
@@ -43,6 +45,8 @@ def pressure_profile(
         interpolated.
     axes : matplotlib.axes.Axes, optional
         Where to draw; by default in a new figure.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
 
     Returns
     -------
@@ -56,7 +60,9 @@ def pressure_profile(
         misses the grid.
     """
     snapshots = take_snapshots(results, times, _NAME)
-    axes = style.new_figure(style.TWO_COLUMNS * 0.8, 3.0).add_subplot() if axes is None else axes
+    if axes is None:
+        wide = page_width(width, style.TWO_COLUMNS * 0.8)
+        axes = style.new_figure(wide, min(3.0, 0.75 * wide)).add_subplot()
     length, pressure = _units(snapshots, along)
     labels = time_labels(s.time for s in snapshots)
     lines = []
@@ -78,6 +84,7 @@ def compare_pressure_profiles(
     times: ArrayLike | None = None,
     along: Literal["x", "y"] = "x",
     at: float = 0.0,
+    width: Width | None = None,
 ) -> Figure:
     """Overlay the pressure sections of several runs, one panel an instant.
 
@@ -90,6 +97,8 @@ def compare_pressure_profiles(
         contact and the last of the first run.
     along, at
         Where the line runs, as for `pressure_profile`.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
 
     Returns
     -------
@@ -105,7 +114,7 @@ def compare_pressure_profiles(
         raise ValueError(f"{_NAME}: needs at least one run to compare, got none")
     first = take_snapshots(next(iter(runs.values())), times, _NAME, count=2)
     instants = [snapshot.time for snapshot in first]
-    figure = style.new_figure(style.TWO_COLUMNS, 2.2 * len(instants) + 0.4)
+    figure = style.new_figure(page_width(width, style.TWO_COLUMNS), 2.2 * len(instants) + 0.4)
     panels = list(figure.subplots(len(instants), sharex=True, sharey=True, squeeze=False).flat)
     drawn = {
         name: [take_snapshots(run, instant, _NAME)[0] for instant in instants]

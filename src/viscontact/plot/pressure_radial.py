@@ -17,6 +17,7 @@ from viscontact.indenters import Indenter, Sphere
 from viscontact.plot import style
 from viscontact.plot.error_band import peak_note
 from viscontact.plot.exact_sphere import exact_sphere
+from viscontact.plot.page import Width, page_width
 from viscontact.plot.readable import DisplayUnit, display_unit, time_labels
 from viscontact.plot.recorded import recorded_noun
 from viscontact.plot.snapshots import Snapshot, take_snapshots
@@ -27,7 +28,9 @@ _MARKERS_AT_MOST = 26
 _EXACT_POINTS = 160
 
 
-def pressure_radial(results: xr.Dataset, *, times: ArrayLike | None = None) -> Figure:
+def pressure_radial(
+    results: xr.Dataset, *, times: ArrayLike | None = None, width: Width | None = None
+) -> Figure:
     """Draw pressure against distance from the axis of a round contact.
 
     Parameters
@@ -38,6 +41,8 @@ def pressure_radial(results: xr.Dataset, *, times: ArrayLike | None = None) -> F
     times : array_like, optional
         Instants [s]; the nearest stored ones are drawn and named. By default five, from the
         first in contact to the last.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
 
     Returns
     -------
@@ -61,7 +66,9 @@ def pressure_radial(results: xr.Dataset, *, times: ArrayLike | None = None) -> F
     snapshots = take_snapshots(results, times, _NAME)
     _require_round(results, snapshots)
     exact = exact_sphere(results, _NAME)
-    figure, axes, below = _panels(with_difference=exact is not None)
+    figure, axes, below = _panels(
+        page_width(width, style.TWO_COLUMNS * 0.8), with_difference=exact is not None
+    )
     length = display_unit("m", max(s.extent()[1] for s in snapshots if s.touching))
     pressure = display_unit("Pa", *(snapshot.pressure for snapshot in snapshots))
     colours = style.time_colours(len(snapshots))
@@ -114,8 +121,8 @@ def _near_x_axis(snapshot: Snapshot) -> tuple[NDArray[np.float64], NDArray[np.fl
     return r, snapshot.pressure[chosen, row]
 
 
-def _panels(*, with_difference: bool) -> tuple[Figure, Axes, Axes | None]:
-    figure = style.new_figure(style.TWO_COLUMNS * 0.8, 4.2 if with_difference else 3.1)
+def _panels(width: float, *, with_difference: bool) -> tuple[Figure, Axes, Axes | None]:
+    figure = style.new_figure(width, 4.2 if with_difference else 3.1)
     if not with_difference:
         axes = figure.add_subplot()
         style.dress(axes)

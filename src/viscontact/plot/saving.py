@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import io
 import threading
+from collections.abc import Sequence
 from os import PathLike
 from pathlib import Path
 
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
-_FORMATS = (".png", ".pdf", ".svg")
-_DOTS_PER_INCH = 200
+#: Formats of figures.
+FIGURE_SUFFIXES = (".png", ".pdf", ".svg")
+# What journals ask of pictures in grey and colour.
+_DOTS_PER_INCH = 300
 
 # matplotlib knows how to embed fonts only as a global setting.
 _SAVING = threading.Lock()
@@ -34,13 +37,41 @@ def save_figure(figure: Figure, path: str | PathLike[str]) -> None:
     OSError
         If the file cannot be written.
     """
+    _write(figure, path, require_suffix(path, FIGURE_SUFFIXES)[1:])
+
+
+def require_suffix(path: str | PathLike[str], suffixes: Sequence[str]) -> str:
+    """Return the suffix of a file that says its format.
+
+    Parameters
+    ----------
+    path : path-like
+        The file.
+    suffixes : sequence of str
+        Those there are, such as `FIGURE_SUFFIXES`.
+
+    Returns
+    -------
+    str
+        One of them.
+
+    Raises
+    ------
+    ValueError
+        If the file has another one.
+
+    Examples
+    --------
+    >>> require_suffix("map.PDF", FIGURE_SUFFIXES)
+    '.pdf'
+    """
     suffix = Path(path).suffix.lower()
-    if suffix not in _FORMATS:
+    if suffix not in suffixes:
+        allowed = " or ".join([", ".join(suffixes[:-1]), suffixes[-1]])
         raise ValueError(
-            f"path must end in {', '.join(_FORMATS[:-1])} or {_FORMATS[-1]}, got {str(path)!r}; "
-            "choose one of these formats"
+            f"path must end in {allowed}, got {str(path)!r}; choose one of these formats"
         )
-    _write(figure, path, suffix[1:])
+    return suffix
 
 
 def as_svg(figure: Figure) -> bytes:

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact.grid import Grid
 from viscontact.plot import style
 from viscontact.plot.error_band import peak_note
+from viscontact.plot.page import Width, page_width
 from viscontact.plot.readable import DisplayUnit, display_unit, time_labels
 from viscontact.plot.snapshots import Snapshot, field_times, take_snapshots
 from viscontact.stresses import recorded_grid, recorded_poisson_ratio
@@ -70,7 +71,9 @@ class Section:
         return float(self.stress.max()), depth, float(self.across[column])
 
 
-def stress_section(results: xr.Dataset, *, times: ArrayLike | None = None) -> Figure:
+def stress_section(
+    results: xr.Dataset, *, times: ArrayLike | None = None, width: Width | None = None
+) -> Figure:
     """Draw contours of von Mises stress below the contact, one panel an instant.
 
     Parameters
@@ -80,6 +83,8 @@ def stress_section(results: xr.Dataset, *, times: ArrayLike | None = None) -> Fi
     times : array_like, optional
         Instants [s]; the nearest stored ones are drawn. By default the first in contact and the
         last.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
 
     Returns
     -------
@@ -98,7 +103,10 @@ def stress_section(results: xr.Dataset, *, times: ArrayLike | None = None) -> Fi
     length = display_unit("m", *(section.half_width * _ASIDE for section in sections))
     stress = display_unit("Pa", max(section.largest[0] for section in sections))
     levels = _levels(sections, stress)
-    figure = style.new_figure(style.ONE_COLUMN, 0.45 + 2.1 * len(sections), fixed_aspect=True)
+    wide = page_width(width, style.ONE_COLUMN)
+    # A section is twice as wide as it is deep, beside a colour bar.
+    height = 0.45 + (0.5 * (wide - 1.3) + 0.45) * len(sections)
+    figure = style.new_figure(wide, height, fixed_aspect=True)
     panels = figure.subplots(len(sections), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
     labels = time_labels(section.time for section in sections)
     for axes, section, label in zip(panels, sections, labels, strict=True):
@@ -115,7 +123,9 @@ def stress_section(results: xr.Dataset, *, times: ArrayLike | None = None) -> Fi
     return figure
 
 
-def von_mises_history(results: xr.Dataset, *, times: ArrayLike | None = None) -> Figure:
+def von_mises_history(
+    results: xr.Dataset, *, times: ArrayLike | None = None, width: Width | None = None
+) -> Figure:
     """Draw the largest von Mises stress and its depth over time.
 
     Parameters
@@ -124,6 +134,8 @@ def von_mises_history(results: xr.Dataset, *, times: ArrayLike | None = None) ->
         What ``simulate`` or ``open_results`` returned, with fields stored.
     times : array_like, optional
         Instants [s]; by default all that are stored.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
 
     Returns
     -------
@@ -143,7 +155,7 @@ def von_mises_history(results: xr.Dataset, *, times: ArrayLike | None = None) ->
     instants = np.array([section.time for section in sections])
     largest, depths, _ = np.array([section.largest for section in sections]).T
     time = display_unit("s", instants)
-    figure = style.new_figure(style.ONE_COLUMN, 3.6)
+    figure = style.new_figure(page_width(width, style.ONE_COLUMN), 3.6)
     panels = figure.subplots(2, 1, sharex=True)
     curves = ((largest, "Pa", "Von Mises stress"), (depths, "m", "Its depth"))
     for axes, (values, si_unit, name) in zip(panels, curves, strict=True):
