@@ -283,7 +283,7 @@ OTHERS = {
     "xarray": 5, "netCDF4": 5, "filelock": 5,
     "pint": 6, "pydantic": 6, "pydantic_core": 6, "ruamel": 6,
     "SurfaceTopography": 6,
-    "matplotlib": 6, "mpl_toolkits": 6, "contourpy": 6, "plotly": 6,
+    "matplotlib": 6, "mpl_toolkits": 6, "PIL": 6, "imageio_ffmpeg": 6, "contourpy": 6, "plotly": 6,
     "typer": 7, "click": 7, "rich": 7,
     "fastapi": 7, "starlette": 7, "uvicorn": 7,
 }  # fmt: skip

@@ -11,11 +11,34 @@ from viscontact.cli.showing import RunDirectory
 
 Picture = Annotated[
     Path | None,
-    typer.Option("-o", "--output", metavar="FIG.png", help="Where to: .png, .pdf or .svg."),
+    typer.Option(
+        "-o",
+        "--output",
+        metavar="FIG.png",
+        help="Where to: .png, .pdf or .svg; an animation: .gif or .mp4.",
+    ),
 ]
 Instants = Annotated[
     list[str] | None,
     typer.Option("--time", metavar="T", help="An instant such as '240 s'; may be repeated."),
+]
+
+
+Width = Annotated[
+    str | None,
+    typer.Option(
+        "--width",
+        metavar="WIDTH",
+        help="A column of a journal, single (89 mm) or double (183 mm), or a width as '120 mm'.",
+    ),
+]
+Along = Annotated[
+    str | None,
+    typer.Option("--along", metavar="x|y", help="Direction of a pressure-profile's line."),
+]
+At = Annotated[
+    str | None,
+    typer.Option("--at", metavar="PLACE", help="Where it crosses the other axis, such as '2 mm'."),
 ]
 
 
@@ -25,17 +48,25 @@ def plot(
         str,
         typer.Argument(
             metavar="FIGURE",
-            help="pressure-map, pressure-profile, pressure-radial, contact-outline, history, "
-            "hysteresis, or creep.",
+            help="pressure-map, pressure-3d, pressure-profile, pressure-radial, surface-3d, "
+            "contact-outline, history, hysteresis, creep, stress-section, von-mises, or animation.",
         ),
     ],
     times: Instants = None,
     output: Picture = None,
+    width: Width = None,
+    along: Along = None,
+    at: At = None,
+    seconds: Annotated[
+        float | None, typer.Option("--seconds", help="How long an animation lasts; 8 s.")
+    ] = None,
+    fps: Annotated[float | None, typer.Option("--fps", help="Its frames a second; 15.")] = None,
 ) -> None:
-    """Draw a figure of a run."""
+    """Draw a figure of a run, or a film of it."""
     from viscontact.cli.figures import draw
 
-    draw(directory, figure, times or [], output)
+    options = {"width": width, "along": along, "at": at, "seconds": seconds, "fps": fps}
+    draw(directory, figure, times or [], output, options)
 
 
 def compare(
@@ -43,12 +74,17 @@ def compare(
         list[Path], typer.Argument(metavar="DIR...", help="Runs, or their .nc files.")
     ],
     figure: Annotated[
-        str, typer.Option("--figure", help="history, hysteresis or pressure-profile.")
+        str,
+        typer.Option("--figure", help="history, hysteresis, pressure-profile, pressure-3d, ..."),
     ] = "history",
     times: Instants = None,
     output: Picture = None,
+    width: Width = None,
+    along: Along = None,
+    at: At = None,
 ) -> None:
     """Overlay several runs in one figure."""
     from viscontact.cli.figures import draw_comparison
 
-    draw_comparison(directories, figure, times or [], output)
+    options = {"width": width, "along": along, "at": at}
+    draw_comparison(directories, figure, times or [], output, options)

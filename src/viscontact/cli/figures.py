@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import ExitStack
+from inspect import signature
 from pathlib import Path
 from typing import Any
 
@@ -12,13 +13,12 @@ import numpy as np
 import xarray as xr
 
 from viscontact.cli.messages import refuse, say
+from viscontact.cli.progress import frames_shown
 from viscontact.cli.stored import early_end, opened
 from viscontact.units import in_words, parse_quantity
 
-#: Promised, not built yet.
-_LATER = ("animation",)
-
-
+#: The figure that moves; it is written by its own means.
+ANIMATION = "animation"
 #: Figures of the fields at single instants; the others take times as a span.
 _OF_INSTANTS = (
     *("pressure-map", "pressure-profile", "pressure-radial", "contact-outline"),
@@ -26,7 +26,13 @@ _OF_INSTANTS = (
 )
 
 
-def draw(directory: Path, figure: str, times: Sequence[str], output: Path | None) -> Path:
+def draw(
+    directory: Path,
+    figure: str,
+    times: Sequence[str],
+    output: Path | None,
+    options: Mapping[str, str | float | None] | None = None,
+) -> Path:
     """Draw a figure of one run.
 
     Parameters
@@ -38,7 +44,9 @@ def draw(directory: Path, figure: str, times: Sequence[str], output: Path | None
     times : sequence of str
         Instants in words; empty for the figure's own choice.
     output : Path or None
-        The file; None for FIGURE.png in the run's directory.
+        The file; None for FIGURE.png in the run's directory, or animation.gif.
+    options : mapping of str to str or float or None, optional
+        What else was typed: width, along, at, seconds, fps; None for the figure's own choice.
 
     Returns
     -------
@@ -46,20 +54,29 @@ def draw(directory: Path, figure: str, times: Sequence[str], output: Path | None
         The file.
     """
     plot = plot_package()
-    draw_it = _named(figure, plot.FIGURES)
-    instants = _instants(times)
+    draw_it = _named(figure, {**plot.FIGURES, ANIMATION: plot.animation})
+    instants, chosen = _instants(times), _chosen(options or {}, figure, draw_it)
     folder = directory if directory.is_dir() else directory.parent
-    file = output or folder / f"{figure}.png"
+    moves = figure == ANIMATION
+    file = output or folder / f"{figure}{'.gif' if moves else '.png'}"
+    _require_suffix(plot, file, plot.FILM_SUFFIXES if moves else plot.FIGURE_SUFFIXES)
     with opened(directory) as ds:
         if figure != "creep":  # the law goes on after the run
             _refuse_outside(instants, ds, directory)
         _note(early_end(ds), _snapped(instants, ds, figure))
-        save(plot, file, draw_it, ds, times=instants)
+        if moves:
+            save_film(plot, file, ds, times=instants, **chosen)
+        else:
+            save(plot, file, draw_it, ds, times=instants, **chosen)
     return file
 
 
 def draw_comparison(
-    directories: Sequence[Path], figure: str, times: Sequence[str], output: Path | None
+    directories: Sequence[Path],
+    figure: str,
+    times: Sequence[str],
+    output: Path | None,
+    options: Mapping[str, str | float | None] | None = None,
 ) -> Path:
     """Draw a figure of several runs.
 
@@ -73,6 +90,8 @@ def draw_comparison(
         Instants in words; empty for the figure's own choice.
     output : Path or None
         The file; None for compare-FIGURE.png here.
+    options : mapping of str to str or float or None, optional
+        What else was typed: width, along, at, seconds, fps; None for the figure's own choice.
 
     Returns
     -------
@@ -81,10 +100,11 @@ def draw_comparison(
     """
     plot = plot_package()
     draw_it = _named(figure, plot.COMPARISONS)
-    instants = _instants(times)
+    instants, chosen = _instants(times), _chosen(options or {}, figure, draw_it)
     if len(directories) < 2:
         refuse("compare needs two runs or more")
     file = output or Path(f"compare-{figure}.png")
+    _require_suffix(plot, file, plot.FIGURE_SUFFIXES)
     with ExitStack() as stack:
         runs = [stack.enter_context(opened(directory)) for directory in directories]
         labelled = dict(zip(_labels(directories), runs, strict=True))
@@ -92,7 +112,7 @@ def draw_comparison(
             _refuse_outside(instants, ds, directory)
             notes = (early_end(ds), _snapped(instants, ds, figure))
             _note(*(f"{label}: {note}" for note in notes if note))
-        save(plot, file, draw_it, labelled, times=instants)
+        save(plot, file, draw_it, labelled, times=instants, **chosen)
     return file
 
 
@@ -108,8 +128,6 @@ def plot_package() -> Any:
 
 
 def _named(figure: str, figures: dict[str, Any]) -> Any:
-    if figure in _LATER:
-        refuse(f"the figure {figure} is not built yet; built: {', '.join(figures)}")
     if figure not in figures:
         near = difflib.get_close_matches(figure, figures, n=1)
         hint = f"; did you mean {near[0]}?" if near else "."
@@ -122,6 +140,33 @@ def _instants(times: Iterable[str]) -> list[float] | None:
         return [parse_quantity(text, "time") for text in times] or None
     except ValueError as error:
         refuse(f"--time: {error}")
+
+
+def _chosen(
+    options: Mapping[str, str | float | None], figure: str, draw_it: Any
+) -> dict[str, str | float]:
+    """What was typed, read, and refused where the figure has no use for it."""
+    given = {name: value for name, value in options.items() if value is not None}
+    for name in given:
+        if name not in signature(draw_it).parameters:
+            refuse(f"--{name}: the figure {figure} has no such choice")
+    read: dict[str, str | float] = {}
+    for name, value in given.items():
+        is_length = name == "at" or (name == "width" and value not in ("single", "double"))
+        try:
+            read[name] = parse_quantity(str(value), "length") if is_length else value
+        except ValueError as error:
+            words = "; or say single (89 mm) or double (183 mm)" if name == "width" else ""
+            refuse(f"--{name}: {error}{words}")
+    return read
+
+
+def _require_suffix(plot: Any, file: Path, suffixes: Sequence[str]) -> None:
+    """Refuse a file of another format before any work is done for it."""
+    try:
+        plot.require_suffix(file, suffixes)
+    except ValueError as error:
+        refuse(f"{file}: {error}")
 
 
 def _refuse_outside(instants: list[float] | None, ds: xr.Dataset, directory: Path) -> None:
@@ -158,6 +203,23 @@ def _labels(directories: Sequence[Path]) -> list[str]:
     names = [path.resolve().name for path in directories]
     unique = len(set(names)) == len(names)
     return names if unique else [str(path) for path in directories]
+
+
+def save_film(plot: Any, file: Path, ds: xr.Dataset, **options: Any) -> None:
+    """Draw and write a film, or say in one line why not; print the file's name."""
+    try:
+        film = plot.animation(ds, **options)
+        stored = len(set(film.instants.tolist()))
+        if stored < film.instants.size / 4:
+            say(
+                f"{film.instants.size} frames show {stored} stored instants; for a smooth film run "
+                "again with --set output.fields=all"
+            )
+        with frames_shown(film.instants.size) as progress:
+            plot.save_film(film, file, progress)
+    except (ValueError, OSError) as error:
+        refuse(f"{file}: {error}")
+    print(file)
 
 
 def save(plot: Any, file: Path, draw_it: Any, results: Any, **options: Any) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 import time as clock
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 
 from rich.console import Console
@@ -53,6 +53,38 @@ def shown_progress(total: int | None, done: int = 0, *, quiet: bool) -> Iterator
                 bar.stop()
     else:
         yield _PlainLines(done, guessed=total is None)
+
+
+@contextmanager
+def frames_shown(total: int) -> Iterator[Callable[[int, int], None]]:
+    """Show on a terminal how a film is drawn; elsewhere, where it takes a while, say nothing.
+
+    Parameters
+    ----------
+    total : int
+        Frames.
+
+    Yields
+    ------
+    callable
+        To be called with (frames done, frames).
+    """
+    if not sys.stderr.isatty():
+        yield lambda done, total: None
+        return
+    bar = Progress(
+        *(TextColumn("frame"), MofNCompleteColumn(), BarColumn(bar_width=16)),
+        *(TimeRemainingColumn(), TextColumn("left")),
+        console=Console(stderr=True),
+        transient=True,
+    )
+    task = bar.add_task("", total=total)
+    bar.start()
+    try:
+        yield lambda done, total: bar.update(task, completed=done, total=total)
+    finally:
+        with suppress(OSError):  # a terminal that is gone
+            bar.stop()
 
 
 def _bar() -> Progress:

@@ -18,6 +18,8 @@ except ModuleNotFoundError as error:
 from viscontact.plot.contact_outline import contact_outline
 from viscontact.plot.creep import creep, creep_curve
 from viscontact.plot.deformed_surface import deformed_surface
+from viscontact.plot.film import Film, animation
+from viscontact.plot.film_saving import FILM_SUFFIXES, save_film
 from viscontact.plot.history import compare_histories, history
 from viscontact.plot.hysteresis import compare_hysteresis, hysteresis
 from viscontact.plot.identified import fitted_indentation, fitted_series, master_curve
@@ -28,7 +30,7 @@ from viscontact.plot.pressure_map import pressure_map
 from viscontact.plot.pressure_profile import compare_pressure_profiles, pressure_profile
 from viscontact.plot.pressure_radial import pressure_radial
 from viscontact.plot.pressure_surface import compare_pressure_surfaces, pressure_surface
-from viscontact.plot.saving import save_figure
+from viscontact.plot.saving import FIGURE_SUFFIXES, require_suffix, save_figure
 from viscontact.plot.stress_section import stress_section, von_mises_history
 
 FIGURES: dict[str, Callable[..., Figure]] = {
@@ -57,6 +59,10 @@ COMPARISONS: dict[str, Callable[..., Figure]] = {
 __all__ = [
     "COMPARISONS",
     "FIGURES",
+    "FIGURE_SUFFIXES",
+    "FILM_SUFFIXES",
+    "Film",
+    "animation",
     "compare_histories",
     "compare_hysteresis",
     "compare_pressure_profiles",
@@ -77,7 +83,9 @@ __all__ = [
     "pressure_profile",
     "pressure_radial",
     "pressure_surface",
+    "require_suffix",
     "save_figure",
+    "save_film",
     "stress_section",
     "von_mises_history",
 ]

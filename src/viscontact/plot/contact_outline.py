@@ -54,7 +54,7 @@ def contact_outline(
     """
     snapshots = take_snapshots(results, times, _NAME)
     window = window_around(snapshots)
-    axes = _new_axes(window, width) if axes is None else axes
+    axes = _new_axes(window, len(snapshots), width) if axes is None else axes
     colours = style.time_colours(len(snapshots))
     for snapshot, colour in zip(snapshots, colours, strict=True):
         if snapshot.touching:
@@ -77,8 +77,9 @@ def contact_outline(
     return style.figure_of(axes)
 
 
-def _new_axes(window: Window, wanted: Width | None) -> Axes:
+def _new_axes(window: Window, count: int, wanted: Width | None) -> Axes:
     usual = style.TWO_COLUMNS if window.height_to_width < 0.6 else style.ONE_COLUMN
     width = page_width(wanted, usual)
-    height = (width - 1.6) * window.height_to_width + 0.6
+    # As high as the legend at least.
+    height = max((width - 1.6) * window.height_to_width + 0.6, 0.2 * count + 0.3)
     return style.new_figure(width, height, fixed_aspect=True).add_subplot()

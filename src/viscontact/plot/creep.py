@@ -95,7 +95,7 @@ def creep_curve(law: Law, times: ArrayLike, *, width: Width | None = None) -> Fi
     wide = page_width(width, style.TWO_COLUMNS if count == 2 else style.ONE_COLUMN)
     columns = 1 if wide <= NARROW else count
     rows = count // columns
-    figure = style.new_figure(wide, 2.7 if rows == 1 else 2.1 * rows)
+    figure = style.new_figure(wide, 2.7 if rows == 1 else 2.4 * rows)
     panels = list(figure.subplots(rows, columns, squeeze=False).flat)
     _draw(panels[0], "Creep compliance Φ", "1/Pa", instants, law(instants), instant_compliance)
     if stiff_at_once:

@@ -34,6 +34,8 @@ _NAME = "history"
 #: A change by less than this part is rounding; a load that is held from this part of the time on
 #: leaves the rest to creep, which is even in log time.
 _STEADY, _SOON = 1e-5, 0.05
+#: Length of a logarithmic time axis before the first step, against the rest of it.
+BEFORE_FIRST = 0.2
 #: What changes by less than this part, its error included, is rounding, not to fill an axis.
 _ROUNDING = 1e-6
 
@@ -227,7 +229,7 @@ def _scale_time(panels: list[Axes], runs: Mapping[str, xr.Dataset], time_unit: D
 def _set_log_time(axes: Axes, first: float, end: float) -> None:
     # Linear up to the first step, so that the instant of loading is on the axis too, over a
     # fifth of its length, so that the tick labels there keep apart.
-    share = 0.2 * math.log10(end / first)
+    share = BEFORE_FIRST * math.log10(end / first)
     axes.set_xscale("symlog", linthresh=first, linscale=share)
     decades = 10.0 ** np.arange(math.floor(math.log10(first)), math.ceil(math.log10(end)) + 1)
     between = np.outer(decades, range(2, 10)).ravel()

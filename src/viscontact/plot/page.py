@@ -47,6 +47,7 @@ def page_width(width: Width | None, usual: float) -> float:
     metres = COLUMNS.get(width, math.nan) if isinstance(width, str) else float(width)
     if not _LEAST <= metres <= _MOST:
         raise ValueError(
-            f"width must be 'single', 'double' or from {_LEAST:g} to {_MOST:g} m, got {width!r}"
+            f"width must be 'single', 'double' or from {_LEAST * 1e3:g} mm to {_MOST:g} m, got "
+            f"{width!r}"
         )
     return metres / _INCH

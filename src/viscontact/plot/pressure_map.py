@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
+from matplotlib.colorbar import Colorbar
 from matplotlib.colors import BoundaryNorm
 from matplotlib.contour import QuadContourSet
 from matplotlib.figure import Figure
@@ -79,7 +80,7 @@ def pressure_map(
     for axes, label in zip(panels, time_labels(s.time for s in snapshots), strict=True):
         style.add_heading(axes, f"t = {label}")
     style.add_heading(panels[0], "; ".join(filter(None, (window.note, note))), aside=True)
-    add_colour_bar(figure, panels, levels, unit, "max" if note else "neither")
+    _add_colour_bar(figure, panels, levels, unit, "max" if note else "neither")
     figure.draw_without_rendering()  # Only now the room for labels is known.
     for axes, snapshot, contours in zip(panels, snapshots, lines, strict=True):
         if contours is not None:
@@ -225,13 +226,40 @@ def _pressed(snapshot: Snapshot, points: NDArray[np.float64]) -> NDArray[np.bool
     return np.asarray(snapshot.pressure[i, j] > 0, dtype=np.bool_)
 
 
-def add_colour_bar(
+def _add_colour_bar(
     figure: Figure, panels: list[Axes], levels: NDArray[np.float64], unit: DisplayUnit, extend: str
 ) -> None:
-    """Add a colour bar for levels of pressure [Pa], in a unit, beside panels."""
-    colours = style.pressure_colours(len(levels) - 1)
-    shown = ScalarMappable(BoundaryNorm(unit(levels), colours.N), colours)
+    shown = _level_colours(levels, unit)
     bar = figure.colorbar(shown, ax=panels, shrink=0.9, aspect=25, pad=0.02, extend=extend)
+    _dress_colour_bar(bar, unit)
+
+
+def fill_colour_bar(
+    axes: Axes, levels: NDArray[np.float64], unit: DisplayUnit, extend: str
+) -> None:
+    """Draw a colour bar for levels of pressure into axes of its own.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+        To be filled.
+    levels : ndarray
+        From 0, ascending [Pa].
+    unit : DisplayUnit
+        Of its ticks.
+    extend : str
+        At which end pressures go beyond, as matplotlib says it.
+    """
+    figure = style.figure_of(axes)
+    _dress_colour_bar(figure.colorbar(_level_colours(levels, unit), cax=axes, extend=extend), unit)
+
+
+def _level_colours(levels: NDArray[np.float64], unit: DisplayUnit) -> ScalarMappable:
+    colours = style.pressure_colours(len(levels) - 1)
+    return ScalarMappable(BoundaryNorm(unit(levels), colours.N), colours)
+
+
+def _dress_colour_bar(bar: Colorbar, unit: DisplayUnit) -> None:
     bar.set_label(unit.label("Pressure"), size=style.LABEL_SIZE, color=style.INK)
     bar.ax.tick_params(labelsize=style.TICK_SIZE, width=style.THIN_LINE, length=2.5)
     bar.outline.set(linewidth=style.THIN_LINE, edgecolor=style.INK)

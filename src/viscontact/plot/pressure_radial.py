@@ -17,7 +17,7 @@ from viscontact.indenters import Indenter, Sphere
 from viscontact.plot import style
 from viscontact.plot.error_band import peak_note
 from viscontact.plot.exact_sphere import exact_sphere
-from viscontact.plot.page import Width, page_width
+from viscontact.plot.page import NARROW, Width, page_width
 from viscontact.plot.readable import DisplayUnit, display_unit, time_labels
 from viscontact.plot.recorded import recorded_noun
 from viscontact.plot.snapshots import Snapshot, take_snapshots
@@ -204,4 +204,8 @@ def _add_key(
             Line2D([], [], color=style.FAINT, linewidth=style.LINE_WIDTH),
         ]
         labels += ["computed", exact_label]
-    style.add_legend(axes, handles, labels)
+    figure = style.figure_of(axes)
+    if figure.get_figwidth() > NARROW:
+        style.add_legend(axes, handles, labels)
+    else:
+        style.add_legend_below(figure, handles, labels)

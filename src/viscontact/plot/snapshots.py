@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -216,10 +216,8 @@ def take_snapshots(
         chosen = _spread(stored, _in_contact(results, stored), count)
     else:
         chosen = _nearest(stored, times, figure)
-    body_end, periodic = _body_end(results), recorded_grid(results).periodic
-    snapshots = [
-        replace(_snapshot(results, index), body_end=body_end, periodic=periodic) for index in chosen
-    ]
+    snapshot_of = snapshot_reader(results)
+    snapshots = [snapshot_of(index) for index in chosen]
     if not any(snapshot.touching for snapshot in snapshots):
         raise ValueError(
             f"{figure}: the bodies do not touch at t = "
@@ -227,6 +225,27 @@ def take_snapshots(
             "choose other times"
         )
     return snapshots
+
+
+def snapshot_reader(results: xr.Dataset) -> Callable[[int], Snapshot]:
+    """Prepare to read fields one stored instant at a time.
+
+    Parameters
+    ----------
+    results : xarray.Dataset
+        What ``simulate`` or ``open_results`` returned, with fields stored.
+
+    Returns
+    -------
+    callable
+        From the number of a stored instant to the fields at it.
+    """
+    body_end, periodic = _body_end(results), recorded_grid(results).periodic
+
+    def read(index: int) -> Snapshot:
+        return replace(_snapshot(results, index), body_end=body_end, periodic=periodic)
+
+    return read
 
 
 def field_at(results: xr.Dataset, name: str, time: float, figure: str) -> NDArray[np.float64]:

@@ -69,6 +69,21 @@ def add_legend(axes: Axes, handles: Sequence[Artist], labels: Sequence[str], **h
     legend.get_title().set_color(INK)
 
 
+def add_legend_below(figure: Figure, handles: Sequence[Artist], labels: Sequence[str]) -> None:
+    """Add the same legend below all panels, for a figure that has no room beside them."""
+    figure.legend(
+        handles,
+        labels,
+        loc="outside lower center",
+        ncols=3,
+        fontsize=TICK_SIZE,
+        frameon=False,
+        handlelength=1.6,
+        columnspacing=1.2,
+        labelcolor=INK,
+    )
+
+
 def add_heading(axes: Axes, text: str, *, aside: bool = False) -> None:
     """Name a panel above its left corner, or say something aside above its right one."""
     axes.set_title(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from matplotlib.axes import Axes
@@ -16,6 +16,10 @@ _MARGIN = 0.07
 _TRUE_ASPECT = 3.0
 _PANEL_SHAPE = 4.5
 _STRETCHES = (2, 3, 4, 5, 6, 8, *(10 * n for n in (1, 1.5, 2, 3, 4, 5, 6, 8)), 100, 200, 500)
+
+
+#: Limits (x_min, x_max, y_min, y_max) [m].
+Box = tuple[float, float, float, float]
 
 
 @dataclass(frozen=True)
@@ -78,11 +82,39 @@ def window_around(snapshots: Iterable[Snapshot], *, slender: float = _PANEL_SHAP
     """
     snapshots = list(snapshots)
     boxes = [snapshot.extent() for snapshot in snapshots if snapshot.touching]
+    borders = snapshots[0].borders() if snapshots[0].periodic else None
+    return window_over(boxes, borders, slender=slender)
+
+
+def window_over(
+    boxes: Sequence[Box], borders: Box | None = None, *, slender: float = _PANEL_SHAPE
+) -> Window:
+    """Find the window that holds boxes, with a margin.
+
+    Parameters
+    ----------
+    boxes : sequence of tuple
+        At least one (x_min, x_max, y_min, y_max) [m].
+    borders : tuple, optional
+        The period's, beyond which the window does not go [m].
+    slender : float, optional
+        Length against width that is left at least when the window is stretched.
+
+    Returns
+    -------
+    Window
+        As `window_around` says.
+
+    Examples
+    --------
+    >>> window_over([(-1.0, 1.0, -0.5, 0.5), (-2.0, 0.0, -0.5, 0.5)]).x
+    (-2.21, 1.21)
+    """
     lows = min(box[0] for box in boxes), min(box[2] for box in boxes)
     highs = max(box[1] for box in boxes), max(box[3] for box in boxes)
     x, y = (_widened(low, high) for low, high in zip(lows, highs, strict=True))
-    if snapshots[0].periodic:
-        x_low, x_high, y_low, y_high = snapshots[0].borders()
+    if borders is not None:
+        x_low, x_high, y_low, y_high = borders
         x = max(x[0], x_low), min(x[1], x_high)
         y = max(y[0], y_low), min(y[1], y_high)
     return Window(x, y, _stretch((x[1] - x[0]) / (y[1] - y[0]), slender))
