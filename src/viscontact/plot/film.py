@@ -209,7 +209,9 @@ def _place_on_axis(instants: Array, run: xr.Dataset) -> Array:
     times = run["time"].values
     first = float(times[times > 0][0])
     decades = np.log10(np.maximum(instants, first) / first)
-    return np.asarray(np.minimum(instants / first, 1.0) * BEFORE_FIRST * decades[-1] + decades)
+    # matplotlib's linear part is as long as so many decades of base 10 and what lies below 1.
+    before = BEFORE_FIRST * np.log10(times[-1] / first) / (1 - 1 / 10)
+    return np.asarray(np.minimum(instants / first, 1.0) * before + decades)
 
 
 def _stage(
