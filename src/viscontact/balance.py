@@ -136,14 +136,15 @@ class RigidPlane:
         self._x, self._y = x, y
         self._mirrored = mirrored
         # In units of cells, so that "no extent along x" means the same on every grid.
-        self._unit = np.array([1.0, 1 / cell_size[0], 1 / cell_size[1]])
-        self._column, self._row = x * self._unit[1], y * self._unit[2]
+        unit = np.array([1.0, 1 / cell_size[0], 1 / cell_size[1]])
+        self._column, self._row = x * unit[1], y * unit[2]
+        self._units = np.outer(unit, unit)
 
     def field(self, coefficients: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The plane c0 + c1 x + c2 y on every cell, not to be written to."""
+        """The plane c0 + c1 x + c2 y on the cells: a column for all of them if level along y."""
         along_x = coefficients[0] + coefficients[1] * self._x
         if coefficients[2] == 0:
-            return np.broadcast_to(along_x[:, None], (len(self._x), len(self._y)))
+            return np.asarray(along_x[:, None])
         return np.asarray(np.add.outer(along_x, coefficients[2] * self._y))
 
     def sums(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -173,7 +174,7 @@ class RigidPlane:
             only some coefficients (one cell, or a line of cells) the others are of least norm
             about the cells' centre.
         """
-        return _inverse(self._moments(weight), free) * np.outer(self._unit, self._unit)
+        return _inverse(self._moments(weight), free) * self._units
 
     def _moments(self, weight: NDArray[np.float64]) -> tuple[float, ...]:
         """Sums of weight times 1, x, y, x², xy, y², in units of cells; no squares if mirrored."""

@@ -132,11 +132,9 @@ def _solve_from(
         convolutions += search.convolutions + 1
         # Certify what is returned, by a fresh convolution: not what the recurrence believes.
         pressure = patch.embed(search.now.pressure, half_space.shape)
-        start = replace(
-            search.now, pressure=pressure, deflection=half_space.convolution.apply(pressure)
-        )
+        start = Guess(pressure, half_space.convolution.apply(pressure), search.now.motion)
         checked = measure(problem, half_space.whole, start)
-        start = replace(start, motion=checked.motion)
+        start = Guess(start.pressure, start.deflection, checked.motion)
         converged = checked.error <= tolerance and _is_balanced(
             problem, half_space, pressure, tolerance
         )

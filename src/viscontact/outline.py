@@ -52,8 +52,9 @@ def trace_outline(indenter: Indenter, grid: Grid) -> Outline:
     >>> round(float(outline.along_x[5, 4]), 6)  # rim at x = sqrt(1 - 0.25²), centre at 0.75
     0.436492
     """
-    x, y = np.broadcast_arrays(grid.x[:, None], grid.y[None, :])
+    x, y = grid.x[:, None], grid.y[None, :]
     inside = np.isfinite(indenter.gap(x, y))
+    x, y = np.broadcast_arrays(x, y)
     return Outline(
         _outline_crossings(indenter, inside, x, y),
         _outline_crossings(indenter, inside.T, x.T, y.T).T,
@@ -68,6 +69,8 @@ def _outline_crossings(
 ) -> NDArray[np.float64]:
     crossings = np.full((inside.shape[0] - 1, inside.shape[1]), np.nan)
     i, j = np.nonzero(inside[:-1] != inside[1:])
+    if not len(i):
+        return crossings
     # From the centre inside the body towards the one outside.
     inner, outer = np.where(inside[i, j], i, i + 1), np.where(inside[i, j], i + 1, i)
     low, high = np.zeros(len(i)), np.ones(len(i))

@@ -9,6 +9,7 @@ iterations a step, and the memory provides the way back.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -76,7 +77,7 @@ def predict(past: Sequence[Twin], time: float, drive: float) -> Twin | None:
     term = np.empty_like(fields)
     for weight, twin in zip(weights[1:], known[1:], strict=True):
         fields += np.multiply(weight, twin.fields, out=term)
-    motion = np.tensordot(weights, [twin.motion for twin in known], axes=1)
+    motion = np.asarray(weights) @ np.array([twin.motion for twin in known])
     return Twin(time, drive, fields, motion)
 
 
@@ -110,6 +111,6 @@ def lagrange_weights(nodes: Sequence[float], at: float) -> list[float]:
     [-1.0, 2.0]
     """
     return [
-        float(np.prod([(at - other) / (node - other) for other in nodes if other != node]))
+        math.prod((at - other) / (node - other) for other in nodes if other != node)
         for node in nodes
     ]

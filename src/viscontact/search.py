@@ -14,7 +14,7 @@ together. Each pass
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -109,7 +109,8 @@ class Search:
     def __init__(self, problem: ContactProblem, patch: Patch, start: Guess) -> None:
         self.problem, self.patch = problem, patch
         self.iterations = self.convolutions = 0
-        self.now = replace(start, motion=problem.support.with_prescribed(start.motion))
+        motion = problem.support.with_prescribed(start.motion)
+        self.now = Guess(start.pressure, start.deflection, motion)
         self._active = np.zeros(0, dtype=bool)
         self._residual = self._direction = np.zeros(0)
         self._slope = 0.0
@@ -128,7 +129,7 @@ class Search:
         best, since_best = np.inf, 0
         while not self.gave_up:
             checked = measure(self.problem, self.patch, self.now)
-            self.now = replace(self.now, motion=checked.motion)
+            self.now = Guess(self.now.pressure, self.now.deflection, checked.motion)
             if checked.error <= tolerance:
                 return
             since_best = 0 if checked.error < best else since_best + 1
@@ -198,7 +199,7 @@ class Search:
         moved = _moved(before, length * part, self._direction, change)
         # Exactly none: with a trifle that rounding left them no later step would get anywhere.
         pressure = np.where(room == part, 0.0, np.maximum(moved.pressure, 0.0))
-        self.now = replace(moved, pressure=pressure)
+        self.now = Guess(pressure, moved.deflection, moved.motion)
 
     def _is_admissible(self) -> bool:
         sums = self.patch.plane.sums(self.now.pressure) * self.patch.cell_area
@@ -215,7 +216,7 @@ class Search:
         if restored is None:
             return False
         change = patch.convolution.apply(restored - self.now.pressure)
-        self.now = replace(self.now, pressure=restored, deflection=self.now.deflection + change)
+        self.now = Guess(restored, self.now.deflection + change, self.now.motion)
         self.convolutions += 1
         return True
 
@@ -223,11 +224,7 @@ class Search:
 def _moved(
     now: Guess, length: float, direction: NDArray[np.float64], change: NDArray[np.float64]
 ) -> Guess:
-    return replace(
-        now,
-        pressure=now.pressure + length * direction,
-        deflection=now.deflection + length * change,
-    )
+    return Guess(now.pressure + length * direction, now.deflection + length * change, now.motion)
 
 
 def _inner(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:

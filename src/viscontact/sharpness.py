@@ -34,6 +34,8 @@ def touches_end(open_gap: NDArray[np.float64], contact: NDArray[np.bool_]) -> bo
     False
     """
     outside = np.isinf(open_gap)
+    if not outside.any():
+        return False
     return bool(
         (contact[1:] & outside[:-1]).any()
         or (contact[:-1] & outside[1:]).any()

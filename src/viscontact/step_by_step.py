@@ -157,8 +157,10 @@ class March:
 
     def _outgrows(self, step: Step, trial: Trial) -> bool:
         """Whether a contact has come near the rim of a grid that may grow, and now has grown."""
+        if not self._run.grows:
+            return False
         over = overrun(self._half_space.unfold(trial.solution.found.pressure), FREE)
-        if not (self._run.grows and any(over)):
+        if not any(over):
             return False
         larger = next_grid(self._run.grid, *over)
         if larger is None:

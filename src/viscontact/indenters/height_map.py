@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -68,11 +69,18 @@ class HeightMap(Indenter):
         i, along_x, within_x = _locate(self.x, x)
         j, along_y, within_y = _locate(self.y, y)
         # Depths are not negative and neither are the weights, so neither is the gap.
-        depth = np.nanmax(self.height) - self.height
-        near = _between(depth[i, j], depth[i, j + 1], along_y)
-        far = _between(depth[i + 1, j], depth[i + 1, j + 1], along_y)
+        near = _between(self._depth(i, j), self._depth(i, j + 1), along_y)
+        far = _between(self._depth(i + 1, j), self._depth(i + 1, j + 1), along_y)
         gap = _between(near, far, along_x)
         return np.where(within_x & within_y & ~np.isnan(gap), gap, np.inf)
+
+    @cached_property
+    def _highest(self) -> float:
+        return float(np.nanmax(self.height))
+
+    def _depth(self, i: NDArray[np.intp], j: NDArray[np.intp]) -> NDArray[np.float64]:
+        """How far the heights at some mesh points lie below the highest [m]."""
+        return self._highest - self.height[i, j]
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, HeightMap):
@@ -81,7 +89,7 @@ class HeightMap(Indenter):
         return all(np.array_equal(mine, theirs, equal_nan=True) for mine, theirs in pairs)
 
     def __hash__(self) -> int:
-        return hash((self.height.shape, float(np.nanmax(self.height))))
+        return hash((self.height.shape, self._highest))
 
 
 def _between(

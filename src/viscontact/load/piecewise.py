@@ -114,9 +114,9 @@ class PiecewiseHistory(LoadHistory):
         self, values: float | NDArray[np.float64], times: NDArray[np.float64], side: str
     ) -> NDArray[np.float64]:
         """Values at `times`, held before the first and after the last point."""
-        reached = np.searchsorted(self.times, times, side=points.side_of_jump(side))
         if isinstance(values, float):
             return np.full(times.shape, values)
+        reached = np.searchsorted(self.times, times, side=points.side_of_jump(side))
         i, j = np.maximum(reached - 1, 0), np.minimum(reached, self.times.size - 1)
         span = self.times[j] - self.times[i]
         part = np.divide(times - self.times[i], span, out=np.zeros(times.shape), where=span > 0)
