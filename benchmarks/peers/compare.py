@@ -4,8 +4,9 @@ Each program climbs a ladder of tolerances in an environment of its own (see bui
 of a pressure is its relative L2 distance from the solution at tolerance 1e-12: this package's in
 free space, where all programs have the same influence coefficients (and agree to 1e-11), each
 program's own on a period. The CPU time at an error is read off the ladder between its rungs
-(log-log). For creep the pressures at five of 120 instants are taken together; the distances from
-a run in 16 times as many steps and from Lee and Radok's exact solution are printed beside.
+(log-log), and set beside the package's at the same error: the ratio says how many times as long a
+program takes. For creep the pressures at five of 120 instants are taken together; the distances
+from a run in 16 times as many steps and from Lee and Radok's exact solution are printed beside.
 
     python benchmarks/peers/compare.py [PROBLEM ...] [--programs NAME ...] [--points]
 """
@@ -22,6 +23,7 @@ from pathlib import Path
 
 import numpy as np
 from build import PACKAGES, python_of
+from climbing import Climb, Reading, Rungs, distance, in_columns, readings, verdict
 from problems import PROBLEMS, RECORDED, STEPS, SharedProblem
 
 import viscontact as vc
@@ -29,10 +31,23 @@ import viscontact as vc
 HERE = Path(__file__).resolve().parent
 TARGETS = (1e-6, 1e-8)
 LADDER = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10)
-#: Of programs that take minutes: what is between is interpolated.
-SHORT_LADDER = (1e-5, 1e-7, 1e-9)
+#: Of programs that take minutes: what is between is interpolated. Where a rung takes minutes, one
+#: has to do, and the times are compared at its error.
+SHORT_LADDER, ONE_RUNG = (1e-5, 1e-7, 1e-9), (1e-7,)
+#: Cells, times steps, from which that is so.
+MANY = 2**20
 TIGHTEST = 1e-12
-FULL = ("sphere512", "sphere1024", "roller", "rough-free", "rough-periodic", "zener256", "zener512")
+OURS = "viscontact"
+FULL = (
+    "sphere512",
+    "sphere1024",
+    "roller",
+    "rough-free",
+    "rough-ball",
+    "rough-periodic",
+    "zener256",
+    "zener512",
+)
 
 #: One thread each, whatever a program brings along.
 ONE_THREAD = {f"{name}_NUM_THREADS": "1" for name in ("OMP", "OPENBLAS", "MKL", "NUMBA")}
@@ -55,41 +70,28 @@ class Program:
             return "-"
         if not self.any_cells and not problem.square_cells:
             return "only square grids of square cells"
-        if self.name == "viscontact" and problem.name.startswith("free rough"):
+        if self.name == OURS and problem.name.startswith("free rough"):
             return "-"  # it refuses contact at the rim; its solver is in the row below
         return ""
 
+    def ladder_for(self, problem: SharedProblem) -> tuple[float, ...]:
+        """The tolerances that it is asked for."""
+        cells = problem.shape[0] * problem.shape[1] * (STEPS if problem.creeps else 1)
+        return ONE_RUNG if self.ladder is SHORT_LADDER and cells >= MANY else self.ladder
+
     @property
     def python(self) -> Path:
-        return Path(sys.executable) if self.driver == "viscontact" else python_of(self.driver)
+        return Path(sys.executable) if self.driver == OURS else python_of(self.driver)
 
 
 PROGRAMS = (
-    Program("viscontact", "viscontact", ("{problem}",)),
-    Program("viscontact, solver", "viscontact", creep=False),
+    Program(OURS, OURS, ("{problem}",)),
+    Program(f"{OURS}, solver", OURS, creep=False),
     Program("ASPHER", "aspher", any_cells=False),
     Program("tamaas", "tamaas", ladder=SHORT_LADDER),
     Program("tamaas, Maxwell", "tamaas", ("maxwell",), creep=True, ladder=(1e-5,)),
     Program("ContactMechanics", "contactmechanics", creep=False, ladder=SHORT_LADDER),
 )
-
-
-@dataclass(frozen=True, eq=False)
-class Climb:
-    """What a program reached: a pressure and CPU and wall time [s] for each tolerance."""
-
-    version: str
-    tolerances: np.ndarray
-    pressures: np.ndarray
-    cpu: np.ndarray
-    wall: np.ndarray
-
-    def errors(self, truth: np.ndarray) -> np.ndarray:
-        return np.array([distance(pressure, truth) for pressure in self.pressures])
-
-
-def distance(pressure: np.ndarray, truth: np.ndarray) -> float:
-    return float(np.linalg.norm(pressure - truth) / np.linalg.norm(truth))
 
 
 def climb(
@@ -107,7 +109,7 @@ def climb(
         arguments = [argument.format(problem=name) for argument in program.arguments]
         command = [str(program.python), str(driver), str(given), str(found), *arguments]
         environment = os.environ | ONE_THREAD
-        if program.driver != "viscontact":
+        if program.driver != OURS:
             environment.pop("PYTHONPATH", None)
         try:
             done = subprocess.run(
@@ -128,17 +130,6 @@ def _displacement(problem: SharedProblem) -> float:
     """About the largest displacement [m], for a program that wants its tolerance as a length."""
     force, (along, across) = problem.force, problem.size
     return force / max(along, across)  # u = F/(pi E* r), a contact's width from the force
-
-
-def at_error(climbed: Climb, errors: np.ndarray, target: float) -> str:
-    """CPU time at an error, between the rungs of the ladder."""
-    known = errors > 0
-    order = np.argsort(errors[known])
-    error, cpu = errors[known][order], np.maximum.accumulate(climbed.cpu[known][order][::-1])[::-1]
-    if target < error[0]:
-        return "not reached"
-    seconds = float(np.exp(np.interp(np.log(target), np.log(error), np.log(cpu))))
-    return f"{'<' if target > error[-1] else ''}{seconds:.3g}"
 
 
 def truth_of(name: str, problem: SharedProblem, limit: float) -> np.ndarray | None:
@@ -179,40 +170,56 @@ def exact(problem: SharedProblem) -> np.ndarray:
     return np.stack([np.interp(r, radii, contact.pressure(radii, float(t))) for t in RECORDED])
 
 
-def compare(name: str, programs: list[Program], limit: float, *, points: bool) -> None:
+def compare(name: str, programs: list[Program], limit: float, *, points: bool) -> str:
+    """Print a problem's table, line by line; what came of it, in a line."""
     problem = PROBLEMS[name]()
     print(f"\n{problem.name}", flush=True)
     truth = truth_of(name, problem, limit)
     far = (in_more_steps(problem), exact(problem)) if problem.creeps else ()
-    heading = f"{'':20} {'CPU s at 1e-6':>14} {'at 1e-8':>12}"
-    print(heading + ("   from 16 x steps  from exact" if far else ""))
+    heading = "".join(f"{f'CPU s at {target:g}':>17} {'ratio':>7} " for target in TARGETS)
+    print(f"{'':18}{heading}" + ("    from 16 x steps  from exact" if far else ""))
+    ours: Rungs | None = None
+    peers: dict[str, list[Reading]] = {}
     for program in programs:
-        why = program.takes(problem)
-        if why == "-":
+        found = reached(program, name, problem, limit, own=problem.periodic or truth is None)
+        if found is None:
             continue
-        if not why and not program.python.exists():
-            why = "not built: ./go bench build-peers"
-        own = problem.periodic or truth is None
-        ladder = (*program.ladder, TIGHTEST) if own else program.ladder
-        found = why or climb(program, name, problem, ladder, limit)
         if isinstance(found, str):
             print(f"{program.name:20} {found}", flush=True)
             continue
-        errors = found.errors(found.pressures[-1] if own else truth)
-        line = f"{program.name:20} " + " ".join(
-            f"{at_error(found, errors, target):>{width}}"
-            for target, width in zip(TARGETS, (14, 12), strict=True)
-        )
-        best = found.pressures[-1]
-        line += "".join(f" {distance(best, other):15.2e}" for other in far)
-        print(f"{line}   {found.version}", flush=True)
+        rungs = found.against(found.pressures[-1] if problem.periodic or truth is None else truth)
+        ours = ours or rungs
+        read = readings(rungs, ours, TARGETS)
+        if program.driver != OURS:
+            peers[program.name] = read
+        line = f"{program.name:20} {in_columns(read, TARGETS)}"
+        line += "".join(f" {distance(found.pressures[-1], other):10.2e}" for other in far)
+        print(f"{line} {found.version}", flush=True)
         if points:
-            rungs = zip(found.tolerances, errors, found.cpu, found.wall, strict=True)
-            for tolerance, error, cpu, wall in rungs:
-                print(
-                    f"{'':20} tolerance {tolerance:7g}: error {error:8.1e}, CPU {cpu:.3f} s"
-                    f" (wall {wall:.3f} s)"
-                )
+            print_points(rungs)
+    said = verdict(OURS, peers) or "nothing to compare with"
+    print(said, flush=True)
+    return f"{problem.name:24} {said}"
+
+
+def reached(
+    program: Program, name: str, problem: SharedProblem, limit: float, *, own: bool
+) -> Climb | str | None:
+    """What a program reached, or why it did not; None where it is not meant to be asked."""
+    why = program.takes(problem)
+    if why == "-":
+        return None
+    if why:
+        return why
+    if not program.python.exists():
+        return "not built: ./go bench build-peers"
+    ladder = program.ladder_for(problem)
+    return climb(program, name, problem, (*ladder, TIGHTEST) if own else ladder, limit)
+
+
+def print_points(rungs: Rungs) -> None:
+    for error, cpu in zip(rungs.errors[::-1], rungs.cpu[::-1], strict=True):
+        print(f"{'':20} error {error:8.1e}: {cpu:.3f} s")
 
 
 def main() -> None:
@@ -224,8 +231,10 @@ def main() -> None:
     options = parser.parse_args()
     wanted = [p for p in PROGRAMS if not options.programs or p.name in options.programs]
     print(f"one thread; peers that can be built: {', '.join(PACKAGES)}")
-    for name in options.problems:
-        compare(name, wanted, options.limit, points=options.points)
+    said = [
+        compare(name, wanted, options.limit, points=options.points) for name in options.problems
+    ]
+    print("\nall of them\n" + "\n".join(said))
 
 
 if __name__ == "__main__":

@@ -15,12 +15,12 @@ from ladder import Problem, climb
 MOST_ITERATIONS = 20000
 
 
-def made(problem: Problem, modulus: float) -> tm.Model:
-    """A model of that E* (Poisson's ratio 0)."""
+def made(problem: Problem, modulus: float, poisson_ratio: float = 0.0) -> tm.Model:
+    """A model of that Young's modulus, which without lateral contraction is E*."""
     model = tm.ModelFactory.createModel(
         tm.model_type.basic_2d, problem["size"].tolist(), list(problem["gap"].shape)
     )
-    model.E, model.nu = modulus, 0.0
+    model.E, model.nu = modulus, poisson_ratio  # before operators are made, which keep them
     if not problem["periodic"]:
         tm.ModelFactory.registerNonPeriodic(model, "dcfft")
     return model
@@ -69,28 +69,32 @@ def creep(problem: Problem, tolerance: float) -> np.ndarray:
 
 
 def maxwell(problem: Problem, tolerance: float) -> np.ndarray:
-    """Its own generalized Maxwell body (relaxation), by backward Euler in equal steps."""
+    """Its own generalized Maxwell body (relaxation), by backward Euler in equal steps.
+
+    In units of the equilibrium shear modulus, which it takes for 1 wherever it weighs displacements
+    (2.9.0: a surface held in full contact relaxes by E* exp(-t/tau) then, and not otherwise). The
+    first instant, at which all is elastic, is a step of next to no time.
+    """
+    unit = float(problem["equilibrium_modulus"]) / 4  # E* = 4 G of an incompressible body
+    model = made(problem, 3.0, 0.5)
     steps = np.diff(problem["times"])
-    # E* = 4 G of an incompressible body: moduli of the branches are given as shear moduli.
-    shear = problem["moduli"] / 4
-    model = made(problem, 1.0)
-    model.nu = 0.5
-    model.E = 3 * float(problem["equilibrium_modulus"]) / 4
     solver = tm.MaxwellViscoelastic(
         model,
         -problem["gap"],
         tolerance,
-        time_step=float(steps[0]),
-        shear_moduli=shear.tolist(),
+        time_step=1e-9 * float(steps[0]),
+        shear_moduli=(problem["moduli"] / 4 / unit).tolist(),
         characteristic_times=problem["maxwell_times"].tolist(),
     )
     solver.setIntegralOperator("dcfft")
-    solver.max_iter = 300  # it goes on to the last at every step once it stagnates
+    solver.max_iter = MOST_ITERATIONS
     recorded = []
-    for step in range(1, len(steps) + 1):
-        solver.solve(mean_pressure(problem))  # takes the step into its memory, too
+    for step, duration in enumerate([0.0, *steps.tolist()]):
+        if step:
+            solver.time_step = duration
+        solver.solve(mean_pressure(problem) / unit)  # takes the step into its memory, too
         if step in problem["recorded"]:
-            recorded.append(np.array(model.traction))
+            recorded.append(unit * np.array(model.traction))
     return np.stack(recorded)
 
 

@@ -7,7 +7,7 @@ is not free of scale would show it.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -118,6 +118,18 @@ def rough(cells: int, *, periodic: bool) -> SharedProblem:
     )
 
 
+def rough_ball(cells: int) -> SharedProblem:
+    """The same roughness on a paraboloid, as far as its contact stays within the grid.
+
+    Smooth, it would touch over 0.3 m, under the mean pressure of the plane above.
+    """
+    plane, radius = rough(cells, periodic=False), 0.3
+    pressure = plane.force / (plane.size[0] * plane.size[1])
+    ball = vc.Paraboloid(*[4 * radius / (3 * np.pi * pressure)] * 2)  # p = 4/(3 pi) E* a/R
+    force = pressure * np.pi * radius**2
+    return replace(plane, name=f"rough ball {cells}²", indenter=ball + plane.indenter, force=force)
+
+
 def self_affine(cells: int, wavelengths: tuple[int, int], seed: int) -> np.ndarray:
     """Heights of root mean square 1e-3 over a period of 1, between two wave numbers."""
     wave = np.fft.fftfreq(cells, 1 / cells)
@@ -140,6 +152,7 @@ PROBLEMS: dict[str, Callable[[], SharedProblem]] = {
     "sphere1024": partial(sphere, 1024),
     "roller": roller,
     "rough-free": partial(rough, 1024, periodic=False),
+    "rough-ball": partial(rough_ball, 1024),
     "rough-periodic": partial(rough, 1024, periodic=True),
     "zener256": partial(sphere, 256, creeps=True),
     "zener512": partial(sphere, 512, creeps=True),
@@ -147,6 +160,7 @@ PROBLEMS: dict[str, Callable[[], SharedProblem]] = {
     "sphere128": partial(sphere, 128),
     "roller-small": partial(roller, 256, 64),
     "rough128": partial(rough, 128, periodic=False),
+    "rough128-ball": partial(rough_ball, 128),
     "rough128-periodic": partial(rough, 128, periodic=True),
     "zener64": partial(sphere, 64, creeps=True),
 }
