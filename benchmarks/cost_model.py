@@ -1,9 +1,11 @@
 """Where the time of the roller's run goes: by part of the step, and counted.
 
 The parts are timed exclusively (what a part calls is not its own), in CPU time, by clocks around
-functions of the package; the clocks themselves cost about 1 us a call. Memory is counted as page
-faults: 4 KiB each that the operating system had to hand out anew, because an array was allocated
-that no freed one made room for.
+functions of the package; the clocks themselves cost about 1 us a call. In a further run what each
+part reads and writes is counted (passes.py) in fields: all cells that are worked with, in double
+precision, so that an addition of two into a third moves 3; and how many arrays of at least an
+eighth of such a field are made. Page faults tell what of these the operating system had to hand out
+anew.
 
     python benchmarks/cost_model.py [--tolerance 1e-5 1e-6 1e-8] [--cells 256 256] [--steps 120]
 """
@@ -25,12 +27,15 @@ from typing import Any
 import numpy as np
 import scipy
 from cases import Case, roller
+from passes import counted
 from run import reference_convolution, seconds_of
 
 import viscontact as vc
 from viscontact import bedding, contact, convolution, half_space, past, search, waves
+from viscontact.marching import march_run
 from viscontact.memory.recursion import RecursiveMemory
 from viscontact.observation import Observer
+from viscontact.run import prepare_run
 
 #: Part of a step, and the functions that make it up: where they are looked up, and their names.
 PARTS: tuple[tuple[str, tuple[tuple[Any, str], ...]], ...] = (
@@ -58,6 +63,9 @@ class Clocks:
 
     seconds: Counter[str] = field(default_factory=Counter)
     calls: Counter[str] = field(default_factory=Counter)
+    moved: Counter[str] = field(default_factory=Counter)
+    made: Counter[str] = field(default_factory=Counter)
+    counts_from: float = np.inf
     _running: list[str] = field(default_factory=lambda: ["the rest"])
     _since: float = 0.0
 
@@ -72,6 +80,11 @@ class Clocks:
     def leave(self) -> None:
         self._charge()
         self._running.pop()
+
+    def hear(self, moved: int, made: int) -> None:
+        """Bytes that were read or written now, and those of a new array."""
+        self.moved[self._running[-1]] += moved
+        self.made[self._running[-1]] += made >= self.counts_from
 
     def _charge(self) -> None:
         now = time.process_time()
@@ -143,21 +156,45 @@ def costs_of(case: Case, tolerance: float) -> Costs:
     return Costs(clocks.seconds, clocks.calls, iterations, steps, new)
 
 
-def table(costs: Costs, case: Case, reference: float) -> str:
+@dataclass(frozen=True)
+class Counts:
+    """By part: fields of the cells that are worked with, moved, and arrays made; both a step."""
+
+    moved: dict[str, float]
+    made: dict[str, float]
+
+
+def counts_of(case: Case, tolerance: float) -> Counts:
+    """Take the run again, and count what its parts do with memory."""
+    given = (case.indenter, case.material, case.load, case.grid, case.times)
+    run = prepare_run(*given, tolerance=tolerance)
+    cell_count = np.prod(case.grid.shape) / 2 ** sum(run.mirrored)
+    clocks = Clocks(counts_from=cell_count)  # bytes: an eighth of a field of doubles
+    with clocks_around_parts(clocks), counted(clocks.hear):
+        steps = sum(1 for _ in march_run(run))
+    return Counts(
+        {part: moved / (8 * cell_count * steps) for part, moved in clocks.moved.items()},
+        {part: made / steps for part, made in clocks.made.items()},
+    )
+
+
+def table(costs: Costs, counts: Counts, case: Case, reference: float) -> str:
     per_step = 1e3 / costs.steps
-    lines = [f"{'':44} calls/step  ms/step  of the run"]
+    lines = [f"{'':44} calls/step  ms/step  of the run  fields moved  arrays made"]
     for part, seconds in costs.seconds.most_common():
         if seconds < 0.004 * costs.total:
             continue
         lines.append(
             f"{part:44} {costs.calls[part] / costs.steps:10.2f} {seconds * per_step:8.3f}"
             f" {seconds / costs.total:10.1%}"
+            f" {counts.moved.get(part, 0):13.1f} {counts.made.get(part, 0):12.1f}"
         )
     fields = costs.new_memory / costs.steps / (8 * np.prod(case.grid.shape))
     lines.append(
-        f"{'all':44} {'':10} {costs.total * per_step:8.3f}"
-        f"   {costs.total:.2f} s, {costs.total / reference:.0f} reference convolutions,"
-        f" {costs.iterations / costs.steps:.2f} iterations a step,"
+        f"{'all':44} {'':10} {costs.total * per_step:8.3f} {'':10}"
+        f" {sum(counts.moved.values()):13.1f} {sum(counts.made.values()):12.1f}\n"
+        f"{costs.total:.2f} s, {costs.total / reference:.0f} reference convolutions,"
+        f" {costs.iterations / costs.steps:.2f} iterations a step;"
         f" new memory a step: {fields:.1f} fields of the whole grid"
     )
     return "\n".join(lines)
@@ -191,7 +228,7 @@ def main() -> None:
                 runs = [costs_of(case, tolerance) for _ in range(options.repeat)]
                 best = min(runs, key=lambda costs: costs.total)
                 print(f"\ncrown {crown:g} mm, e/L = {eccentricity:g}, tolerance {tolerance:g}")
-                print(table(best, case, reference), flush=True)
+                print(table(best, counts_of(case, tolerance), case, reference), flush=True)
 
 
 if __name__ == "__main__":

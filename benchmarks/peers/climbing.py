@@ -92,6 +92,9 @@ def verdict(ours: str, peers: dict[str, list[Reading]]) -> str:
         ratios = [reading.ratio for reading in column]
         least = int(np.argmin(ratios))
         ahead = ahead and ratios[least] > 1
-        parts.append(f"{names[least]} takes {ratios[least]:.2f} times as long")
-    said = parts[0] if len(set(parts)) == 1 else ", ".join(parts)
+        parts.append((names[least], f"{ratios[least]:.2f}"))
+    if len({name for name, _ in parts}) == 1:
+        said = f"{parts[0][0]} takes {' and '.join(ratio for _, ratio in parts)} times as long"
+    else:
+        said = ", ".join(f"{name} takes {ratio} times as long" for name, ratio in parts)
     return f"{ours} is {'' if ahead else 'NOT '}the fastest: {said}"
