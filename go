@@ -108,6 +108,7 @@ BENCHMARKS = {
     "published": "published.py",
     "build-peers": "peers/build.py",
     "peers": "peers/compare.py",
+    "memory": "memory.py",
     "long-runs": "long_runs.py",
     "start-up": "start_up.py",
 }
