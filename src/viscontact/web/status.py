@@ -17,7 +17,7 @@ from viscontact.results import RESULT_NAME, open_results
 from viscontact.summary import summary_rows
 from viscontact.units import in_words
 from viscontact.variables import SCALARS
-from viscontact.web.problems import lines_of, problem_of
+from viscontact.web.problems import Problem, lines_of, problem_of
 from viscontact.web.work import Work
 
 _STAGES = {"waiting": "waiting", "running": "steps"}
@@ -110,11 +110,12 @@ def _stage(work: Work) -> str:
     return "starting" if work.is_at_work and not work.course.instants else _STAGES[work.asked.state]
 
 
-def _problems(work: Work) -> list[Any]:
+def _problems(work: Work) -> list[Problem]:
     if work.asked.state != "failed":
         return []
     said = [line for line in work.asked.said if not line.startswith(_COMMANDS)]
-    return [problem_of(line, work.given) for line in said]
+    told = (line.replace(str(work.directory), "the run") for line in said)
+    return [problem_of(line, work.given) for line in told]
 
 
 def _message(work: Work, problems: Sequence[str]) -> str:

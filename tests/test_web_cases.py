@@ -1,0 +1,222 @@
+"""The calculator page tells of a case what the command line tells, word for word."""
+
+from __future__ import annotations
+
+import json
+import xml.etree.ElementTree as ElementTree
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from fastapi.testclient import TestClient
+
+import viscontact as vc
+from calculator_page import CASE, as_printed, asking
+from viscontact.cli import main
+
+
+@pytest.fixture(scope="module")
+def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
+    with asking(tmp_path_factory.mktemp("page")) as client:
+        yield client
+
+
+Typed = Callable[[str], tuple[int, str, str]]
+
+
+@pytest.fixture
+def typed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> Typed:
+    """Return a function that types `check` of a case, and returns code, output and messages."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "500")
+
+    def type_it(text: str) -> tuple[int, str, str]:
+        Path("case.yaml").write_text(text, encoding="utf-8")
+        code = main(["check", "case.yaml"])
+        said = capsys.readouterr()
+        return code, said.out, said.err
+
+    return type_it
+
+
+BAD = {
+    "dimension": CASE.replace("4 N", "10 MPa"),
+    "several": CASE.replace("4 N", "4").replace("0.5", "1.5").replace("10 mm", "-1 mm"),
+    "misspelt": CASE.replace("radius", "radus").replace("sphere,", "ball,"),
+    "missing": CASE.replace("  force: 4 N\n", ""),
+    "no yaml": CASE.replace("load:", "load: ["),
+    "twice": CASE + "title: again\n",
+    "no mapping": "- 1\n- 2\n",
+    "empty": "# nothing\n",
+    "blank": " ",
+    "in a list": CASE.replace("  law: zener", "  law: creep-series\n  times: [1 s, 2 N]"),
+    "refused by the run": CASE.replace("  force: 4 N", "  force: 4 N\n  eccentricity_x: 1 m"),
+    "no contact": CASE.replace("4 N", "0.1 kN").replace("[24, 24]", "[2000000, 2000000]"),
+    "no such file": CASE.replace("  law: zener", "  law: table\n  file: none.csv"),
+}
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_a_bad_case_is_refused_in_the_words_of_the_command_line(
+    client: TestClient, typed: Typed, name: str
+) -> None:
+    code, _, said = typed(BAD[name])
+    assert code == 2
+    for path in ("/api/check", "/api/runs"):
+        answer = client.post(path, json={"yaml": BAD[name], "quality": "full"})
+        assert answer.status_code == 422
+        # How much memory is free differs from one moment to the next.
+        told = [
+            [line.split(" GB")[0] for line in lines]
+            for lines in (as_printed(answer), said.splitlines())
+        ]
+        assert told[0] == told[1]
+    assert client.get("/api/runs").json() == []
+
+
+def test_a_check_tells_what_the_command_line_tells(client: TestClient, typed: Typed) -> None:
+    text = CASE.replace("steps: 4", "steps: 4, spacing: log")
+    _, printed, _ = typed(text)
+    told = client.post("/api/check", json={"yaml": text}).json()
+    words = [line.split() for line in printed.splitlines()]
+    ours = [
+        line.replace(": ", " ", 1).split() if n else line.split()
+        for n, line in enumerate(told["lines"])
+    ]
+    free = [n for n, line in enumerate(words) if line[0] in ("memory", "time")]
+    assert [line for n, line in enumerate(words) if n not in free] == [
+        line for n, line in enumerate(ours) if n not in free
+    ]
+    assert told["cells"] == [24, 24]
+    assert told["steps"] == 4
+    assert told["warnings"] == []
+    assert told["memory"] > 1e8
+
+
+def test_doubts_of_a_check_are_those_of_the_command_line(client: TestClient, typed: Typed) -> None:
+    text = CASE.replace("[24, 24]", "[8, 8]")
+    _, printed, _ = typed(text)
+    told = client.post("/api/check", json={"yaml": text}).json()
+    warned = [line.removeprefix("warning: ") for line in printed.splitlines() if "warning" in line]
+    assert told["warnings"] == warned != []
+
+
+def test_a_coarse_case_has_fewer_cells_and_steps_and_the_same_size(client: TestClient) -> None:
+    examples = {each["name"]: each["yaml"] for each in client.get("/api/examples").json()}
+    for name in ("roller-dogbone-e05", "sphere-load-unload", "wavy-creep", "punch-harmonic"):
+        full, coarse = (
+            client.post("/api/check", json={"yaml": examples[name], "quality": quality}).json()
+            for quality in ("full", "coarse")
+        )
+        assert coarse["seconds"] < 3, name  # an answer in seconds, where nothing else goes on
+        assert coarse["cells"] <= full["cells"]
+        if full["steps"] is not None:
+            assert coarse["steps"] <= full["steps"]
+        sizes = [told["needs"][0][1].partition(" on ")[2] for told in (full, coarse)]
+        assert sizes[0] == sizes[1]
+        assert coarse["warnings"] == full["warnings"]
+
+
+def test_a_case_reads_no_file_that_was_not_given_to_the_page(
+    client: TestClient, tmp_path: Path
+) -> None:
+    secret = tmp_path / "secret.csv"
+    secret.write_text("time [s], creep_compliance [1/MPa]\n0, 1\n1, 2\n", encoding="utf-8")
+    table = CASE.replace(
+        "law: zener", "law: table\n  file: NAME\n  data: shear\n  quantity: creep_compliance"
+    )
+    load = CASE.replace("kind: step\n  force: 4 N", "kind: history\n  file: NAME")
+    surface = CASE.replace("shape: sphere, radius: 10 mm", "shape: height-map, file: NAME")
+    profile = CASE.replace(
+        "shape: sphere, radius: 10 mm",
+        "shape: roller, radius: 5 mm, half_length: 9 mm, profile: {kind: table, file: NAME}",
+    )
+    for text in (table, load, surface, profile):
+        for name in (str(secret), f"../{secret.name}", "/dev/zero", '"a\\\\b.csv"', ".netrc"):
+            answer = client.post("/api/check", json={"yaml": text.replace("NAME", name)})
+            told = answer.json()["problems"]
+            (about_file,) = [each for each in told if each["path"].endswith("file")]
+            assert "is not the plain name of a file" in about_file["message"]
+            assert about_file["line"] == text.split("NAME")[0].count("\n") + 1
+
+
+def test_a_file_that_was_given_is_read(client: TestClient) -> None:
+    text = "time [s], force [N]\n0, 0\n1, 4\n"
+    answer = client.post("/api/files?name=my%20load.csv", content=text.encode())
+    assert answer.status_code == 201
+    assert answer.json() == {"name": "my load.csv", "size": len(text)}
+    assert answer.json() in client.get("/api/files").json()
+    case = CASE.replace("kind: step\n  force: 4 N", "kind: history\n  file: my load.csv")
+    assert client.post("/api/check", json={"yaml": case}).status_code == 200
+    assert client.delete("/api/files/my%20load.csv").status_code == 204
+    answer = client.post("/api/check", json={"yaml": case})
+    (problem,) = answer.json()["problems"]
+    assert problem["message"] == "no such file my load.csv"  # and not where the page keeps it
+    assert client.delete("/api/files/my%20load.csv").status_code == 404
+
+
+def test_every_example_is_there_and_can_be_run(client: TestClient) -> None:
+    shipped = {path.stem for path in (Path(vc.__file__).parent / "examples").glob("*.yaml")}
+    examples = client.get("/api/examples").json()
+    assert {each["name"] for each in examples} == shipped
+    for each in examples:
+        answer = client.post("/api/case", json={"yaml": each["yaml"]})
+        assert answer.json()["case"] == each["case"]
+    # One reads a measured surface, which is there without being given.
+    rough = next(each for each in examples if "file:" in each["yaml"])
+    assert client.post("/api/check", json={"yaml": rough["yaml"]}).status_code == 200
+
+
+def test_values_and_text_of_a_case_are_the_same(client: TestClient) -> None:
+    values = client.post("/api/case", json={"yaml": CASE}).json()["case"]
+    written = client.post("/api/yaml", json={"case": values}).json()["yaml"]
+    assert client.post("/api/case", json={"yaml": written}).json()["case"] == values
+    # What a form leaves empty is not written.
+    empty = values | {"indenter_material": {"law": ""}, "tolerance": None, "title": ""}
+    written = client.post("/api/yaml", json={"case": empty}).json()["yaml"]
+    assert client.post("/api/case", json={"yaml": written}).json()["case"] == {
+        name: value for name, value in values.items() if name != "title"
+    }
+
+
+def test_text_that_is_changed_in_a_form_keeps_its_comments(client: TestClient) -> None:
+    text = "# mine\nload:  # soon more\n  kind: step\n  force: 4 N  # much\ntitle: a\n"
+    values = {"load": {"kind": "step", "force": "5 N"}, "title": "a", "tolerance": 1e-5}
+    answer = client.post("/api/yaml", json={"case": values, "yaml": text})
+    assert answer.json()["yaml"] == (
+        "# mine\nload:  # soon more\n  kind: step\n  force: 5 N  # much\n"
+        "title: a\ntolerance: 1e-05\n"
+    )
+    broken = client.post("/api/yaml", json={"case": values, "yaml": "load: ["}).json()["yaml"]
+    assert client.post("/api/case", json={"yaml": broken}).json()["case"] == values
+
+
+def test_schema_is_that_of_the_command_line(
+    client: TestClient, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["schema"]) == 0
+    assert client.get("/api/schema").json() == json.loads(capsys.readouterr().out)
+
+
+def drawing(client: TestClient, what: str, *, dark: bool = False) -> str:
+    wish = {"yaml": CASE, "what": what, "dark": dark}
+    answer = client.post("/api/drawing", json=wish)
+    assert answer.headers["content-type"] == "image/svg+xml"
+    assert ElementTree.fromstring(answer.text).tag.endswith("svg")
+    return answer.text
+
+
+def test_drawings_come_in_ink_for_light_and_for_dark_ground(client: TestClient) -> None:
+    assert "#262626" in drawing(client, "load")
+    assert "#262626" not in drawing(client, "load", dark=True)
+    answer = client.post("/api/drawing", json={"yaml": CASE, "what": "indenter_material"})
+    assert answer.status_code == 422
+    assert "rigid" in answer.json()["problems"][0]["message"]
+
+
+@pytest.mark.slow
+def test_every_part_of_a_case_is_drawn(client: TestClient) -> None:
+    drawn = [drawing(client, what) for what in ("indenter", "material", "load")]
+    assert len(set(drawn)) == 3

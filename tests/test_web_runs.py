@@ -1,0 +1,306 @@
+"""Runs of the calculator page: the same numbers as the command line's, followed and stopped."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+import xarray as xr
+from fastapi.testclient import TestClient
+
+from calculator_page import CASE, LONG_CASE, asking, begun, followed, status, until
+from viscontact.cli import main
+
+
+@pytest.fixture
+def client(tmp_path: Path) -> Iterator[TestClient]:
+    with asking(tmp_path / "page") as client:
+        yield client
+
+
+def numbers(result: Path | bytes) -> dict[str, bytes]:
+    """Return all numbers of a result to the last bit."""
+    with xr.open_dataset(io.BytesIO(result) if isinstance(result, bytes) else result) as ds:
+        return {str(name): ds[name].values.tobytes() for name in ds.variables}
+
+
+def by_command_line(text: str, folder: Path) -> Path:
+    """Run a case as anybody could type it, and return its result."""
+    case = folder / "typed.yaml"
+    case.write_text(text, encoding="utf-8")
+    assert main(["run", str(case), "-q"]) == 0
+    return folder / "typed" / "result.nc"
+
+
+def strict(text: str) -> Any:
+    """Read JSON as browsers do, who know no NaN."""
+
+    def refuse(word: str) -> None:
+        raise ValueError(f"{word} is no JSON")
+
+    return json.loads(text, parse_constant=refuse)
+
+
+def test_a_run_ends_in_the_numbers_of_the_command_line(client: TestClient, tmp_path: Path) -> None:
+    run = begun(client)
+    events = followed(client, run)
+    states = list(dict.fromkeys(event["state"] for event in events))
+    assert states[-2:] == ["running", "done"]
+    parts = [event["part"] for event in events]
+    assert parts == sorted(parts)
+    assert parts[-1] == 1
+    last = events[-1]
+    assert (last["step"], last["steps"], last["time"]) == (4, 4, "5 s")
+    assert last["stage"] == "over"
+    assert last["field_times_text"] == ["0 s", "5 s"]
+
+    there = client.get(f"/api/runs/{run}/result.nc")
+    assert re.search(r'filename="?zener-sphere\.nc', there.headers["content-disposition"])
+    (tmp_path / "ours.nc").write_bytes(there.content)
+    typed = by_command_line(CASE, tmp_path)
+    assert numbers(tmp_path / "ours.nc") == numbers(typed)
+
+    with xr.open_dataset(typed) as ds:
+        rows = list(csv.DictReader(io.StringIO(client.get(f"/api/runs/{run}/history.csv").text)))
+        pressures = [float(row["peak_pressure [Pa]"]) for row in rows]
+        assert pressures == ds["peak_pressure"].values.tolist()
+        found = {row["name"]: row for row in last["table"]}
+        peak = found["peak_pressure"]
+        assert float(peak["end"]) == pytest.approx(float(ds["peak_pressure"][-1]) / 1e6, rel=1e-2)
+        assert peak["unit"] == "MPa"
+        assert peak["error"] != ""
+        area = last["scalars"]["contact_area"]
+        assert area["value"] == float(ds["contact_area"][-1])
+        assert "eccentricity_x" not in last["scalars"]  # 0 but for rounding
+
+    case = client.get(f"/api/runs/{run}/case.yaml").text
+    assert case == CASE
+    assert client.get(f"/api/runs/{run}/given").json() == {"yaml": CASE, "quality": "full"}
+    told = strict(client.get(f"/api/runs/{run}/data").text)
+    assert told["scalars"]["peak_pressure"]["value"] == pytest.approx(pressures, rel=1e-8)
+    strict(client.get(f"/api/runs/{run}").text)
+
+    assert client.delete(f"/api/runs/{run}").status_code == 204
+    assert client.get(f"/api/runs/{run}").status_code == 404
+    assert client.get("/api/runs").json() == []
+    assert list((tmp_path / "page" / "runs").iterdir()) == []
+
+
+def test_a_run_is_cancelled_and_goes_on_to_the_same_numbers(
+    client: TestClient, tmp_path: Path
+) -> None:
+    text = LONG_CASE.replace("4000", "400")
+    run = begun(client, text)
+    until(lambda: status(client, run)["step"] > 3)
+    assert client.get(f"/api/runs/{run}/result.nc").status_code == 409  # it is being written
+    client.post(f"/api/runs/{run}/cancel")
+    told = followed(client, run)[-1]
+    assert told["state"] == "cancelled"
+    assert told["resumable"]
+    assert 3 < told["step"] < 400
+    assert told["message"].startswith(f"cancelled; {told['step'] + 1} of 401 instants")
+    kept = client.get(f"/api/runs/{run}/history.csv").text
+    assert len(kept.splitlines()) == told["step"] + 2
+
+    assert client.post(f"/api/runs/{run}/resume").json()["state"] in ("waiting", "running")
+    assert client.post(f"/api/runs/{run}/resume").status_code == 409  # once is enough
+    assert followed(client, run)[-1]["state"] == "done"
+    (tmp_path / "ours.nc").write_bytes(client.get(f"/api/runs/{run}/result.nc").content)
+    assert numbers(tmp_path / "ours.nc") == numbers(by_command_line(text, tmp_path))
+
+
+def test_no_more_runs_than_allowed_are_at_work_and_coarse_ones_come_first(tmp_path: Path) -> None:
+    with asking(tmp_path / "page", at_once=1) as client:
+        first = begun(client, LONG_CASE)
+        full, coarse = begun(client, LONG_CASE), begun(client, CASE, "coarse")
+        states = [status(client, run)["state"] for run in (first, full, coarse)]
+        assert states == ["running", "waiting", "waiting"]
+        newest_first = [each["id"] for each in client.get("/api/runs").json()]
+        assert newest_first == [coarse, full, first]
+        client.post(f"/api/runs/{first}/cancel")
+        until(lambda: status(client, first)["over"])
+        until(lambda: status(client, coarse)["state"] == "running")
+        assert status(client, full)["state"] == "waiting"
+        client.delete(f"/api/runs/{full}")  # one that waits is forgotten at once
+        assert client.get(f"/api/runs/{full}").status_code == 404
+        client.delete(f"/api/runs/{coarse}")  # one at work is stopped first
+        until(lambda: [path.name for path in (tmp_path / "page" / "runs").iterdir()] == [first])
+
+
+def test_a_run_that_stops_says_why_in_the_words_of_the_command_line(
+    client: TestClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = CASE.replace("[4 mm, 4 mm]", "[1 mm, 1 mm]")  # the contact overruns the grid
+    told = followed(client, begun(client, text))[-1]
+    assert told["state"] == "failed"
+    assert not told["resumable"]
+    case = tmp_path / "typed.yaml"
+    case.write_text(text, encoding="utf-8")
+    assert main(["run", str(case), "-q"]) == 1
+    first = capsys.readouterr().err.splitlines()[0]
+    (problem, *_) = told["problems"]
+    assert first == f"{case}:{problem['line']}: {problem['path']}: {problem['message']}"
+    assert told["message"].endswith(problem["message"])
+    assert not any("viscontact run" in each["message"] for each in told["problems"])
+
+
+def test_nothing_is_shown_of_a_run_before_its_first_step(tmp_path: Path) -> None:
+    with asking(tmp_path / "page", at_once=1) as client:
+        first, waiting = begun(client, LONG_CASE), begun(client)
+        told = status(client, waiting)
+        assert (told["state"], told["table"], told["figures"]) == ("waiting", [], [])
+        for name in ("figure/history.svg", "report.html", "history.csv", "data", "result.nc"):
+            answer = client.get(f"/api/runs/{waiting}/{name}")
+            assert answer.status_code == 409, name
+            assert answer.json()["problems"][0]["message"]
+        client.delete(f"/api/runs/{waiting}")
+        client.delete(f"/api/runs/{first}")
+
+
+@pytest.mark.slow
+def test_figures_and_reports_of_a_run_can_be_had(client: TestClient) -> None:
+    run, other = begun(client), begun(client, CASE.replace("4 N", "2 N"), "coarse")
+    for each in (run, other):
+        followed(client, each)
+    for figure in status(client, run)["figures"]:
+        answer = client.get(f"/api/runs/{run}/figure/{figure}.png")
+        # A figure that says nothing of this run, such as hysteresis under one step, says so.
+        assert answer.status_code in (200, 422), answer.text
+        expected = b"\x89PNG" if answer.status_code == 200 else b'{"problems"'
+        assert answer.content.startswith(expected)
+    answer = client.get(f"/api/runs/{run}/figure/pressure-map.pdf", params={"time": "5 s"})
+    assert answer.content.startswith(b"%PDF")
+    for time, why in (("9 s", "lies outside the run"), ("5 N", "cannot read '5 N' as a time")):
+        answer = client.get(f"/api/runs/{run}/figure/pressure-map.svg", params={"time": time})
+        assert answer.status_code == 422
+        assert why in answer.json()["problems"][0]["message"]
+    assert client.get(f"/api/runs/{run}/figure/no-such.svg").status_code == 404
+    both = client.get("/api/compare.svg", params={"runs": f"{run},{other}"})
+    assert both.headers["content-type"] == "image/svg+xml"
+    assert client.get("/api/compare.svg", params={"runs": run}).status_code == 422
+    saved = client.get(f"/api/runs/{run}/report.html")
+    assert saved.headers["content-disposition"].startswith("attachment")
+    shown = client.get(f"/api/runs/{run}/report.html", params={"view": True})
+    assert shown.content == saved.content
+    assert "content-disposition" not in shown.headers
+    assert shown.headers["content-security-policy"].startswith("sandbox ")
+
+
+# --- the process ------------------------------------------------------------------------------
+
+
+class Served:
+    """`viscontact serve`, as anybody could type it."""
+
+    def __init__(self, folder: Path) -> None:
+        command = [sys.executable, "-m", "viscontact", "serve", "--no-open", "--port", "0"]
+        self.process = subprocess.Popen(
+            [*command, "--dir", str(folder)],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        assert self.process.stdout is not None
+        address = self.process.stdout.readline().split()[0]
+        self.client = httpx.Client(base_url=address, timeout=60)
+
+    def end(self, number: int) -> tuple[int, str]:
+        """Send it a signal, and return its exit code and what it said."""
+        self.process.send_signal(number)
+        _, said = self.process.communicate(timeout=60)
+        self.client.close()
+        return self.process.returncode, said
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(os.name == "nt", reason="there, only the console asks processes to stop")
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
+def test_a_server_stopped_in_mid_run_shows_the_run_again_and_goes_on_with_it(
+    tmp_path: Path, number: int
+) -> None:
+    text = LONG_CASE.replace("4000", "600")
+    first = Served(tmp_path / "page")
+    run = begun(first.client, text)
+    waiting = [begun(first.client, text) for _ in range(2)][-1]
+    until(lambda: status(first.client, run)["step"] > 3)
+    code, _ = first.end(number)
+    assert code == (-number if number == signal.SIGKILL else 0)
+
+    second = Served(tmp_path / "page")
+    # One whose server was killed finishes its step by itself.
+    until(lambda: all(each["over"] for each in second.client.get("/api/runs").json()))
+    told = status(second.client, run)
+    assert told["state"] == "interrupted"
+    assert told["resumable"]
+    assert 3 < told["step"] < 600
+    assert status(second.client, waiting)["state"] == "interrupted"
+    for each in (run, waiting):
+        second.client.post(f"/api/runs/{each}/resume")
+    results = []
+    for each in (run, waiting):
+        assert followed(second.client, each)[-1]["state"] == "done"
+        results.append(tmp_path / f"{each}.nc")
+        results[-1].write_bytes(second.client.get(f"/api/runs/{each}/result.nc").content)
+    whole = numbers(by_command_line(text, tmp_path))
+    assert [numbers(result) for result in results] == [whole, whole]
+    assert second.end(signal.SIGINT)[0] == 0
+
+
+def test_a_server_answers_until_it_is_asked_to_end_and_its_runs_have_saved(tmp_path: Path) -> None:
+    server = Served(tmp_path / "page")
+    assert server.client.base_url.host == "127.0.0.1"
+    run = begun(server.client, LONG_CASE)
+    until(lambda: status(server.client, run)["step"] > 3)
+    # A second one may not write to the same folder.
+    again = [sys.executable, "-m", "viscontact", "serve", "--no-open", "--port", "0"]
+    refused = subprocess.run(
+        [*again, "--dir", str(tmp_path / "page")], capture_output=True, text=True, check=False
+    )
+    assert refused.returncode == 2
+    assert refused.stderr.count("\n") == 1
+    assert "another viscontact serves from there" in refused.stderr
+    code, said = server.end(signal.SIGINT)
+    assert code == 0
+    assert said.splitlines() == ["stopping after this step; once more to stop now", "ended"]
+    (asked,) = (tmp_path / "page" / "runs").glob("*/asked.json")
+    assert json.loads(asked.read_text(encoding="utf-8"))["state"] == "interrupted"
+    assert (asked.parent / "run" / "state.npz").is_file()
+
+
+def test_a_port_that_is_taken_is_refused_in_a_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    import socket
+
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        port = taken.getsockname()[1]
+        words = ["serve", "--no-open", "--port", str(port), "--dir", str(tmp_path)]
+        assert main(words) == 2
+    said = capsys.readouterr().err
+    assert said.startswith(f"--port {port}: cannot be used: ")
+    assert said.count("\n") == 1
+
+
+def test_without_the_extra_a_line_names_it(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name in [name for name in sys.modules if name.startswith("viscontact.web")]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, "uvicorn", None)  # what an import of it meets
+    assert main(["serve", "--no-open"]) == 2
+    assert capsys.readouterr().err == (
+        "the calculator page needs uvicorn: pip install 'viscontact[web]'\n"
+    )
