@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
+from colorsys import hls_to_rgb, rgb_to_hls
 from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,7 +13,6 @@ from typing import Any, Literal
 import xarray as xr
 from matplotlib.figure import Figure
 
-from viscontact.plot import style
 from viscontact.plot.saving import written
 from viscontact.results import open_results
 from viscontact.units import in_words, parse_quantity
@@ -23,8 +23,10 @@ MEDIA_TYPES: dict[str, str] = {
     **{"svg": "image/svg+xml", "png": "image/png", "pdf": "application/pdf"},
 }
 
-#: What the colours of a light drawing become on a dark ground.
-_DARK = {style.INK: "#e4e4e4", style.FAINT: "#9a9a9a", style.LINE: "#56b4e9", "#ffffff": "#1c1f24"}
+#: Colours in a drawing, and no names of its parts.
+_COLOUR = re.compile(rb"""(?<=[:\s"'])#([0-9a-fA-F]{6})(?=[;\s"'])""")
+#: White becomes so light [-]: nearly black.
+_WHITE = 0.12
 
 
 @dataclass(frozen=True)
@@ -132,18 +134,28 @@ def picture(figure: Figure, wish: Wish) -> bytes:
 
 
 def on_dark(drawing: bytes) -> bytes:
-    """Return a drawing in colours for a dark ground.
+    """Return a drawing in colours for a dark ground: what was light is dark, in the same hue.
 
     Parameters
     ----------
     drawing : bytes
         SVG as matplotlib writes it.
+
+    Examples
+    --------
+    >>> on_dark(b'<svg ><path style="fill: #ffffff; stroke: #000000"/></svg>')
+    b'<svg fill="#ffffff" ><path style="fill: #1f1f1f; stroke: #ffffff"/></svg>'
     """
-    dark = {light.lower().encode(): colour.encode() for light, colour in _DARK.items()}
-    pattern = re.compile(b"|".join(map(re.escape, dark)), re.IGNORECASE)
-    recoloured = pattern.sub(lambda found: dark[found[0].lower()], drawing)
-    # Text as outlines has no colour of its own unless it was given one.
-    return recoloured.replace(b"<svg ", b'<svg fill="#e4e4e4" ', 1)
+    recoloured = _COLOUR.sub(lambda found: _opposite(found[1].decode()).encode(), drawing)
+    # What has no colour of its own is black.
+    return recoloured.replace(b"<svg ", f'<svg fill="{_opposite("000000")}" '.encode(), 1)
+
+
+def _opposite(colour: str) -> str:
+    red, green, blue = (int(colour[i : i + 2], 16) / 255 for i in (0, 2, 4))
+    hue, lightness, saturation = rgb_to_hls(red, green, blue)
+    turned = hls_to_rgb(hue, 1 - (1 - _WHITE) * lightness, saturation)
+    return "#" + "".join(f"{round(255 * part):02x}" for part in turned)
 
 
 def opened(directory: Path) -> xr.Dataset:
