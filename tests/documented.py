@@ -60,7 +60,7 @@ _FENCE = re.compile(
 )
 _OPTION = re.compile(r"\A:(\w+):[ ]*(.*)\n")
 _SHELLS = ("sh", "bash", "shell", "console")
-_COMMAND = re.compile(r"^(\$ )?(viscontact|\./go|\.venv/bin/viscontact)( |$)")
+_COMMAND = re.compile(r"^(\$ )?(viscontact|\./go|\.venv/bin/viscontact)( |$)", re.MULTILINE)
 _NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 
 
@@ -113,10 +113,10 @@ def _options(text: str) -> tuple[dict[str, str], str]:
 def _kind(language: str, text: str, options: dict[str, str], follows: bool) -> tuple[str, str]:
     if "name" in options:
         return "file", text
-    if language in _SHELLS or (not language and _COMMAND.match(text)):
-        return "commands", text
     if language == "text" and follows:
         return "output", text
+    if language in _SHELLS or (not language and _COMMAND.search(text)):
+        return "commands", text
     return ("python" if language == "python" else "other"), text
 
 

@@ -17,17 +17,26 @@ from viscontact.cli.shell import app
 
 COMMANDS = typer.main.get_group(app).commands
 
-#: What lies in the reader's directory before a page begins, made as other pages say.
-GIVEN = {
-    "docs/many-runs.md": """
-```sh
-viscontact example sphere-zener -o zener.yaml
-viscontact example sphere-maxwell -o maxwell.yaml
+SMALL = """
+```{code-block} yaml
+:caption: %s.yaml
+
+indenter: {shape: paraboloid, radius_x: 10 mm, radius_y: 10 mm}
+material: {law: %s, shear_modulus: 10 MPa, viscosity: 10 MPa s%s, poisson_ratio: 0.5}
+load: {kind: step, force: 4 N}
+time: {end: 3 s, steps: 20}
+grid: {shape: [48, 48], size: [4 mm, 4 mm]}
 ```
-""",
-    "docs/report.md": """
+"""
+ZENER = SMALL % ("zener", "zener", ", delayed_modulus: 10 MPa")
+
+#: What lies in the reader's directory before a page begins.
+GIVEN = {
+    "docs/many-runs.md": ZENER + SMALL % ("maxwell", "maxwell", ""),
+    "docs/report.md": ZENER
+    + """
 ```sh
-viscontact demo
+viscontact run zener.yaml -o viscontact-demo
 ```
 ```python
 import shutil
@@ -36,10 +45,10 @@ shutil.copy("viscontact-demo/result.nc", "result.nc")
 ds = vc.open_results("result.nc").load()
 ```
 """,
-    "docs/accuracy.md": """
+    "docs/accuracy.md": ZENER
+    + """
 ```sh
-viscontact example afm-indentation -o my.yaml
-viscontact run my.yaml
+viscontact run zener.yaml -o my
 ```
 """,
 }

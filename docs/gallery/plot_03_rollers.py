@@ -7,6 +7,8 @@ the end of its straight part, and at that end. Shape, load and creep law are tho
 Cerlinca (2018), the crown is rounder (75 mm, of which their figures look).
 """
 
+# sphinx_gallery_thumbnail_number = 2
+
 # %%
 # Three runs
 # ----------

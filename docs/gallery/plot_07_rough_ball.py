@@ -6,6 +6,8 @@ A ball with a rough surface is pressed on PMMA for a quarter of an hour. It touc
 peaks are. As the PMMA creeps, the spots grow and join.
 """
 
+# sphinx_gallery_thumbnail_number = 2
+
 # %%
 # From the file to the body
 # -------------------------
