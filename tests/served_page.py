@@ -48,6 +48,15 @@ class Server:
         assert found, told + self.process.stdout.read()
         self.port = int(found[1])
 
+    def kill(self) -> None:
+        """End it as a crash or a power cut does: nobody is told."""
+        assert self.process
+        self.process.kill()
+        self.process.wait()
+        assert self.process.stdout
+        self.process.stdout.close()
+        self.process = None
+
     def stop(self) -> None:
         if self.process is None:
             return

@@ -201,7 +201,7 @@ def test_a_reload_in_mid_run_finds_the_run_and_it_can_be_cancelled(
 
 
 @pytest.mark.slow
-def test_a_server_that_is_stopped_in_mid_run_is_missed_and_gone_on_with(
+def test_a_server_that_dies_in_mid_run_is_missed_and_gone_on_with(
     browser: Any, tmp_path: Path
 ) -> None:
     with seen.served(tmp_path) as server:
@@ -209,15 +209,16 @@ def test_a_server_that_is_stopped_in_mid_run_is_missed_and_gone_on_with(
         seen.visit(page, server, LONG.replace("[768, 768]", "[512, 512]").replace("60", "20"))
         page.click("#refine")
         seen.until_at_work(page)
-        server.stop()
+        server.kill()
         page.wait_for_selector("#offline", state="visible")
         assert page.input_value('[id="field-load.force"]') == "100 N"
         server.start()
         page.wait_for_selector("#offline", state="hidden")
         page.wait_for_selector("#resume", state="visible")
         page.click("#resume")
-        page.wait_for_selector("#results .chip.full", timeout=90_000)
-        assert "±" in seen.fact(page, "Approach")
+        # What had been computed is shown at once; error bars come when the run is whole.
+        page.locator("#facts", has_text="±").wait_for(timeout=90_000)
+        assert page.is_hidden("#progress")
         page.context.close()
     broken = [fault for fault in watched.faults if "ERR_" not in fault]
     assert _said_by_the_network(broken), broken
@@ -332,7 +333,7 @@ def test_everything_fits_and_has_a_name(width: int, browser: Any, server: seen.S
         nameless = page.evaluate(
             """[...document.querySelectorAll("input, select, textarea, button")].filter((each) =>
               each.offsetParent && !each.labels?.length && !each.getAttribute("aria-label") &&
-              !each.textContent.trim()).map((each) => each.outerHTML)"""
+              !/[a-z]/i.test(each.textContent)).map((each) => each.outerHTML)"""
         )
         assert nameless == []
         beyond = page.evaluate(

@@ -106,8 +106,12 @@ class Waviness(Shape):
 
     shape: Literal["waviness"]
     amplitude: Length = Field(description="half the height of the waves", examples=["1 um"])
-    wavelength_x: Length | None = Field(default=None, description="from crest to crest along x")
-    wavelength_y: Length | None = Field(default=None, description="from crest to crest along y")
+    wavelength_x: Length | None = Field(
+        default=None, description="from crest to crest along x", examples=["1 mm"]
+    )
+    wavelength_y: Length | None = Field(
+        default=None, description="from crest to crest along y", examples=["1 mm"]
+    )
     phase_x: Angle = Field(default=0.0, description="at the origin; a crest when zero")
     phase_y: Angle = Field(default=0.0, description="at the origin; a crest when zero")
 
@@ -137,7 +141,11 @@ class Dimples(Shape):
 class _Drawn(Shape):
     """A shape by points of a line, from a file or written out."""
 
-    points: Points | None = Field(default=None, description="position and drop, in pairs")
+    points: Points | None = Field(
+        default=None,
+        description="position and drop, in pairs",
+        examples=[[["0 mm", "0 um"], ["2 mm", "200 um"], ["4 mm", "800 um"]]],
+    )
     interpolation: Literal["smooth", "linear"] = Field(
         default="smooth", description="between the points: cubics without overshoot, or straight"
     )

@@ -38,7 +38,7 @@ class RelaxationSeries(Medium):
     """Relaxation modulus G_inf + sum G_i exp(-t/tau_i), a Prony series."""
 
     law: Literal["relaxation-series"]
-    equilibrium: ModulusOrZero = Field(description="G_inf")
+    equilibrium: ModulusOrZero = Field(description="G_inf", examples=["100 MPa"])
     moduli: list[ModulusOrZero] = Field(description="G_i")
     times: list[Duration] = Field(description="relaxation times tau_i")
     data: Literal["shear", "uniaxial"] = Field(description="moduli are shear (G) or uniaxial (E)")

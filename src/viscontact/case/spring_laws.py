@@ -110,7 +110,8 @@ class FractionalZener(Springs):
 
     law: Literal["fractional-zener"]
     equilibrium_modulus: ModulusOrZero = Field(
-        description="left after all relaxation, as shear or Young's modulus like the other"
+        examples=["100 MPa"],
+        description="left after all relaxation, as shear or Young's modulus like the other",
     )
     time: Duration = Field(description="relaxation time")
     exponent: Exponent = Field(description="of the spring-pot: 0 is a spring, 1 a dashpot")

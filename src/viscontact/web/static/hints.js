@@ -22,7 +22,14 @@ export const LATER = new Set([
 ]);
 
 // Another key could stand for each of these, so the schema does not require them; one is needed.
-export const FILLED = { shear_modulus: null, force: null, poisson_ratio: 0.35, mean: "20 kN" };
+export const FILLED = {
+  shear_modulus: null, force: null, poisson_ratio: 0.35, mean: "20 kN", points: null, wavelength_x: null,
+};
+// What stands for it instead.
+export const INSTEAD = {
+  force: ["approach", "mean_pressure"], mean: ["approach"], shear_modulus: ["youngs_modulus"],
+  poisson_ratio: ["bulk_modulus"], points: ["file", "sentences", "mean_pressure"], wavelength_x: ["wavelength_y"],
+};
 
 // Paths of files, which may be uploaded.
 export const FILES = new Set(["file"]);

@@ -1,6 +1,6 @@
 // What a part of the JSON Schema asks for, as one of a few kinds that the form can draw.
 
-import { FILLED, FIRST } from "./hints.js";
+import { FILLED, FIRST, INSTEAD } from "./hints.js";
 
 let root = { properties: {}, $defs: {} };
 
@@ -129,16 +129,14 @@ function startOfGroup(node, before) {
     const old = before[key];
     if (old !== undefined && fits(asked, old)) values[key] = old;
     else if (required) values[key] = startOf(asked);
-    else if (key in FILLED && !stoodFor(key, values, before)) values[key] = FILLED[key] ?? startOf(asked);
+    else if (key in FILLED && !stoodFor(key, node, before)) values[key] = FILLED[key] ?? startOf(asked);
   }
   return values;
 }
 
 // A force is not filled in beside an approach.
-const stoodFor = (key, values, before) =>
-  (["force", "mean"].includes(key) && ("approach" in before || "mean_pressure" in before || "approach" in values)) ||
-  (key === "shear_modulus" && "youngs_modulus" in before) ||
-  (key === "poisson_ratio" && "bulk_modulus" in before);
+const stoodFor = (key, node, before) =>
+  (INSTEAD[key] ?? []).some((other) => other in before && other in node.properties);
 
 function fits(node, value) {
   if (node.kind === "choice") return node.options.includes(value);
