@@ -71,7 +71,7 @@ const isReference = (run) => state.reference?.id === run.id;
 const buttonsFor = (run, complain) => [
   run.figures.length > 0 && act("Show", "Show this answer", () => show(run.id), complain),
   !run.over && act("Follow", "Follow this run", () => watch(run.id), complain),
-  run.resumable && act("Go on", "Go on with this run", () => resume(run.id), complain),
+  run.resumable && act("Resume", "Go on with this run", () => resume(run.id), complain),
   run.figures.length > 0 && act(isReference(run) ? "Not the reference" : "Reference", "Compare with this answer",
     () => refer(isReference(run) ? null : run.id), complain),
   act("Its case", "Write this run’s case into the form", () => caseOf(run), complain),
