@@ -42,6 +42,12 @@ myst_dmath_double_inline = True
 
 # --- the API ------------------------------------------------------------------------------------
 
+default_role = "autolink"  # names in docstrings, linked where they are public
+# What docstrings point to by a name that is not its public one, and what is none of ours.
+nitpick_ignore_regex = [
+    ("py:obj", r"viscontact\.(tables|identification|subsurface)\b.*|functools\..*"),
+    ("py:obj", r"fit_\w+|build_master_curve"),
+]
 autosummary_generate = True
 autodoc_typehints = "none"  # numpydoc's sections say it
 numpydoc_show_class_members = False
