@@ -65,6 +65,7 @@ sphinx_gallery_conf = {
     "download_all_examples": False,
     "remove_config_comments": True,
     "show_memory": False,
+    "capture_repr": (),  # what a block prints is shown, not what its last line happens to return
     "show_signature": False,
     "write_computation_times": False,
     "within_subsection_order": "FileNameSortKey",

@@ -42,12 +42,8 @@ if __name__ == "__main__":
     axes.set(xlabel="force [N]", ylabel="approach [mm]")
     axes.legend(frameon=False)
 
-    # %%
-    # The check
-    # ---------
-    #
-    # The approach of a ball grows with the power 2/3 of the force (Hertz), at every instant.
-
+    # The check: the approach of a ball grows with the power 2/3 of the force (Hertz), at every
+    # instant.
     approach = [float(ds.approach[-1]) for ds in runs]
     exponent = np.polyfit(np.log(forces), np.log(approach), 1)[0]
     print(f"exponent after 200 s: {exponent:.4f}, Hertz 0.6667")
