@@ -154,6 +154,19 @@ def test_bad_input_is_told_beside_its_field_in_the_words_of_the_command_line(
     seen.type_into(page, "material.poisson_ratio", "0.4")
     page.wait_for_selector("#to-problem", state="hidden")
     assert page.locator("[aria-invalid]").count() == 0
+    # Text that is no YAML: the form waits, and a page that is opened with it shows the text.
+    page.click("#as-text")
+    page.fill("#yaml", "title: [")
+    page.locator("#text-problems li").wait_for()
+    page.click("#as-form")
+    (tmp_path / "bad.yaml").write_text("title: [", encoding="utf-8")
+    assert main(["check", str(tmp_path / "bad.yaml")]) == 2
+    told_line = capsys.readouterr().err.strip().split("bad.yaml:")[1]
+    assert page.inner_text("#text-problems") == f"line {told_line}"
+    assert page.is_hidden("#form")
+    page.reload()
+    seen.until_ready(page)
+    assert page.input_value("#yaml") == "title: ["
     page.context.close()
     assert _said_by_the_network(watched.faults)
 
@@ -323,7 +336,7 @@ def test_results_change_units_and_stand_beside_a_reference(page: Any, server: se
 def test_everything_fits_and_has_a_name(width: int, browser: Any, server: seen.Server) -> None:
     page, watched = seen.new_page(browser, server)
     page.set_viewport_size({"width": width, "height": 844})
-    for name in ("rough-ball", "roller-sentences", "roller-logarithmic"):
+    for name in ("rough-ball", "roller-sentences", "roller-dogbone"):
         seen.visit(page, server)
         with page.expect_response("**/api/check"):
             page.select_option("#examples", name)

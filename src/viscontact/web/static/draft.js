@@ -6,12 +6,15 @@ export const draft = new EventTarget();
 let values = {};
 let text = "";
 let asked = 0;
+// Whether the values are those of the text; not while that cannot be read.
+let read = false;
 
 // A tab keeps its own case over a reload; a new tab begins with the one written last.
 const KEY = "viscontact.case";
 
 export const caseValues = () => values;
 export const caseText = () => text;
+export const isRead = () => read;
 
 // Keys and positions as people write them: material.times[1].
 export const dotted = (path) =>
@@ -48,11 +51,13 @@ function put(part, [key, ...rest], value) {
 export async function replaceText(yaml) {
   const turn = ++asked;
   text = yaml;
+  read = false;
   keep();
   draft.dispatchEvent(new Event("text"));
-  const read = await post("/api/case", { yaml });
+  const found = await post("/api/case", { yaml });
   if (turn !== asked) return;
-  values = read.case;
+  values = found.case;
+  read = true;
   draft.dispatchEvent(new Event("replaced"));
 }
 

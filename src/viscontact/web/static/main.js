@@ -1,7 +1,7 @@
 // The page: what there is, and what follows from what.
 
 import { check, checked, look, refuse, setUpChecking } from "./checking.js";
-import { caseText, draft, keptText, replaceText } from "./draft.js";
+import { caseText, draft, isRead, keptText, replaceText } from "./draft.js";
 import { make, place, settled } from "./dom.js";
 import { draw, placeDrawings, setUpDrawings } from "./drawings.js";
 import { drawForm, useMaterials } from "./form.js";
@@ -111,6 +111,10 @@ function setUpCase() {
 }
 
 function choose(mode) {
+  if (mode === "form" && !isRead()) {
+    notify("The form follows when the YAML can be read.");
+    return;
+  }
   for (const each of ["form", "text"]) place(`as-${each}`).setAttribute("aria-pressed", String(each === mode));
   place("form").hidden = mode !== "form";
   place("text").hidden = mode !== "text";
@@ -182,6 +186,7 @@ async function open() {
   draft.addEventListener("structure", redrawForm);
   const first = examples.find(({ name }) => name === START) ?? examples[0];
   await Promise.all([write(keptText() ?? first.yaml), findAgain()]);
+  if (!isRead()) choose("text");
   document.documentElement.dataset.ready = "yes";
 }
 

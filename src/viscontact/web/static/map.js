@@ -94,9 +94,10 @@ function drawPlane() {
   }
   const xRange = scaled(map.xRange), yRange = scaled(map.yRange), constrain = map.periodic ? "domain" : "range";
   const ratio = map.stretch * (yRange[1] - yRange[0]) / (xRange[1] - xRange[0]);
-  box.style.height = `${Math.round(Math.min(Math.max((box.clientWidth - 76) * ratio + 128, 190), 560))}px`;
+  const height = Math.round(Math.min(Math.max((box.clientWidth - 76) * ratio + 128, 190), 560));
   // The colour bar makes its own room above the map.
   const plane = layout({
+    height,
     margin: { l: 56, r: 20, t: 0, b: 50 },
     xaxis: axis(`x [${length.symbol}]`, { range: xRange, constrain, showgrid: false }),
     yaxis: axis(`y [${length.symbol}]`, {

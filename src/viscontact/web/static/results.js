@@ -68,7 +68,7 @@ function drawFacts(data) {
     const [number, half] = told(value[index], error[index], unit, mesh).split(" ± ");
     return make("div", {}, make("dt", { textContent: label }),
       make("dd", {}, half ? `${number} ${half.split(" ").at(-1)}` : number,
-        half && make("small", { textContent: ` ± ${half}` })));
+        half && make("small", { textContent: `± ${half}` })));
   }));
 }
 

@@ -1,6 +1,7 @@
 // Results in units: SI numbers become numbers that people read.
 
-const PREFIXED = [["G", 1e9], ["M", 1e6], ["k", 1e3], ["", 1], ["m", 1e-3], ["µ", 1e-6], ["n", 1e-9]];
+const PREFIXED = [["G", 1e9], ["M", 1e6], ["k", 1e3], ["", 1], ["m", 1e-3], ["µ", 1e-6], ["n", 1e-9],
+  ["p", 1e-12], ["f", 1e-15], ["a", 1e-18]];
 const TIMES = [["s", 1], ["ms", 1e-3], ["µs", 1e-6]];
 const prefixed = (unit) => PREFIXED.map(([prefix, factor]) => [prefix + unit, factor]);
 const LADDERS = {
