@@ -72,6 +72,12 @@ function nearest(times, time) {
   return times.reduce((best, each, index) => (Math.abs(each - time) < Math.abs(times[best] - time) ? index : best), 0);
 }
 
+// An axis's title, which beside a horizontal colour bar may come to stand among the tick labels.
+const below = (text) => ({
+  text, showarrow: false, xref: "paper", yref: "paper", x: 0.5, y: 0, yanchor: "top", yshift: -20,
+  font: { size: 12, color: colour("ink") },
+});
+
 function drawPlane() {
   const { map, reference, index, length, pressure, Plotly } = picture, box = place("map");
   const factor = map.lengthFactor / length.factor, scaled = (values) => values.map((value) => value * factor);
@@ -99,12 +105,12 @@ function drawPlane() {
   const plane = layout({
     height,
     margin: { l: 56, r: 20, t: 0, b: 50 },
-    xaxis: axis(`x [${length.symbol}]`, { range: xRange, constrain, showgrid: false }),
+    annotations: [below(`x [${length.symbol}]`)],
+    xaxis: axis("", { range: xRange, constrain, showgrid: false }),
     yaxis: axis(`y [${length.symbol}]`, {
       range: yRange, constrain, showgrid: false, scaleanchor: "x", scaleratio: map.stretch,
     }),
   });
-  plane.xaxis.title.standoff = 18; // beside a horizontal colour bar the tick labels' room is not counted
   Plotly.react(box, traces, plane, config());
 }
 
