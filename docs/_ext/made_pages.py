@@ -40,8 +40,13 @@ def _citation() -> str:
 
 def _variables(kind: dict[str, Variable]) -> str:
     lines = ["| name | unit | what it is |", "|---|---|---|"]
-    lines += [f"| `{name}` | {each.units} | {each.long_name} |" for name, each in kind.items()]
+    lines += [f"| `{name}` | {_unit(each)} | {each.long_name} |" for name, each in kind.items()]
     return "\n".join(lines)
+
+
+def _unit(variable: Variable) -> str:
+    """A unit as people write it, where CF has no raised figures."""
+    return {"m2": "m²", "1": "–"}.get(variable.units, variable.units)
 
 
 def _library() -> str:
