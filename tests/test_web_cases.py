@@ -76,6 +76,16 @@ def test_a_bad_case_is_refused_in_the_words_of_the_command_line(
     assert client.get("/api/runs").json() == []
 
 
+def test_a_problem_tells_its_key_and_its_line(client: TestClient) -> None:
+    text = CASE.replace("4 N", "10 MPa").replace("viscosity: 10 MPa s", "viscosity: 10")
+    told = client.post("/api/check", json={"yaml": text}).json()["problems"]
+    assert [(each["path"], each["line"]) for each in told] == [
+        ("material.viscosity", 7),
+        ("load.force", 11),
+    ]
+    assert told[1]["message"].startswith("cannot read '10 MPa' as a force")
+
+
 def test_a_check_tells_what_the_command_line_tells(client: TestClient, typed: Typed) -> None:
     text = CASE.replace("steps: 4", "steps: 4, spacing: log")
     _, printed, _ = typed(text)
@@ -101,6 +111,8 @@ def test_doubts_of_a_check_are_those_of_the_command_line(client: TestClient, typ
     told = client.post("/api/check", json={"yaml": text}).json()
     warned = [line.removeprefix("warning: ") for line in printed.splitlines() if "warning" in line]
     assert told["warnings"] == warned != []
+    printed_so = [line for line in told["lines"] if line.startswith("warning: ")]
+    assert printed_so == [f"warning: {line}" for line in warned]
 
 
 def test_a_coarse_case_has_fewer_cells_and_steps_and_the_same_size(client: TestClient) -> None:
@@ -117,6 +129,9 @@ def test_a_coarse_case_has_fewer_cells_and_steps_and_the_same_size(client: TestC
         sizes = [told["needs"][0][1].partition(" on ")[2] for told in (full, coarse)]
         assert sizes[0] == sizes[1]
         assert coarse["warnings"] == full["warnings"]
+        if name == "roller-dogbone-e05":  # of 512 x 128 cells, 120 steps, and four fields' instants
+            assert 3000 < coarse["cells"][0] * coarse["cells"][1] < 8000
+            assert 24 <= coarse["steps"] <= 28
 
 
 def test_a_case_reads_no_file_that_was_not_given_to_the_page(
@@ -164,8 +179,8 @@ def test_every_example_is_there_and_can_be_run(client: TestClient) -> None:
     for each in examples:
         answer = client.post("/api/case", json={"yaml": each["yaml"]})
         assert answer.json()["case"] == each["case"]
-    # One reads a measured surface, which is there without being given.
-    rough = next(each for each in examples if "file:" in each["yaml"])
+    # It reads a measured surface, which is there without being given.
+    rough = next(each for each in examples if each["name"] == "rough-ball")
     assert client.post("/api/check", json={"yaml": rough["yaml"]}).status_code == 200
 
 

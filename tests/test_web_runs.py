@@ -116,7 +116,12 @@ def test_a_run_is_cancelled_and_goes_on_to_the_same_numbers(
 
     assert client.post(f"/api/runs/{run}/resume").json()["state"] in ("waiting", "running")
     assert client.post(f"/api/runs/{run}/resume").status_code == 409  # once is enough
-    assert followed(client, run)[-1]["state"] == "done"
+    events = followed(client, run)
+    assert events[-1]["state"] == "done"
+    stages = list(dict.fromkeys(event["stage"] for event in events))
+    assert stages[-3:] == ["steps", "errors", "over"]
+    parts = [event["part"] for event in events]
+    assert parts == sorted(parts)
     (tmp_path / "ours.nc").write_bytes(client.get(f"/api/runs/{run}/result.nc").content)
     assert numbers(tmp_path / "ours.nc") == numbers(by_command_line(text, tmp_path))
 
@@ -168,6 +173,23 @@ def test_nothing_is_shown_of_a_run_before_its_first_step(tmp_path: Path) -> None
             assert answer.json()["problems"][0]["message"]
         client.delete(f"/api/runs/{waiting}")
         client.delete(f"/api/runs/{first}")
+
+
+@pytest.mark.slow
+def test_a_coarse_run_hands_out_the_case_that_gives_its_numbers(
+    client: TestClient, tmp_path: Path
+) -> None:
+    run = begun(
+        client, CASE.replace("[24, 24]", "[96, 96]").replace("steps: 4", "steps: 90"), "coarse"
+    )
+    told = followed(client, run)[-1]
+    assert told["state"] == "done"
+    assert told["steps"] == 24
+    assert all(row["error"] == "" for row in told["table"])
+    text = client.get(f"/api/runs/{run}/case.yaml").text
+    assert "errors: false" in text
+    (tmp_path / "ours.nc").write_bytes(client.get(f"/api/runs/{run}/result.nc").content)
+    assert numbers(tmp_path / "ours.nc") == numbers(by_command_line(text, tmp_path))
 
 
 @pytest.mark.slow

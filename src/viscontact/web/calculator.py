@@ -11,6 +11,7 @@ from typing import Any, TypeVar
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
 
+from viscontact import __version__
 from viscontact.web.desk import Desk
 from viscontact.web.folder import Folder
 from viscontact.web.problems import RequestError
@@ -55,7 +56,7 @@ class Calculator:
         self.workshop = Workshop(folder, at_once)
         self.is_to_end = False
         self._turn = asyncio.Lock()
-        self._found: dict[tuple[str, str], dict[str, Any]] = {}
+        self._found: dict[str, tuple[str, dict[str, Any]]] = {}
 
     async def do(self, work: Callable[[], T], request: Request | None = None) -> T:
         """Do heavy work in a thread, one piece after the other: HDF5 knows no threads.
@@ -87,11 +88,21 @@ class Calculator:
         """
         if not work.is_over:
             return status_of(work, {})
-        key = work.name, f"{work.asked.state} {work.course.instants}"
-        if key not in self._found:
-            with suppress(OSError, ValueError, KeyError):  # somebody has damaged it
-                self._found[key] = await self.do(lambda: found_by(work.directory))
-        return status_of(work, self._found.get(key, {}))
+        key = f"{work.asked.state} {work.course.instants} {__version__}"
+        if self._found.get(work.name, ("",))[0] != key:
+            self._found[work.name] = key, await self._found_by(work, key)
+        return status_of(work, self._found[work.name][1])
+
+    async def _found_by(self, work: Work, key: str) -> dict[str, Any]:
+        """What the result of a run that is over says, read once."""
+        kept = self.folder.found(work.name, key)
+        if kept is not None:
+            return kept
+        found: dict[str, Any] = {}
+        with suppress(OSError, ValueError, KeyError):  # somebody has damaged it
+            found = await self.do(lambda: found_by(work.directory))
+            self.folder.keep_found(work.name, key, found)
+        return found
 
     async def events(self, work: Work) -> AsyncIterator[str]:
         """Yield how a run stands, at once and whenever that changes, until it is over.

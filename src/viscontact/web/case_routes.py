@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import cache
 from importlib.resources import files
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -77,6 +78,11 @@ def schema() -> dict[str, Any]:
 @router.get("/examples")
 def examples() -> list[dict[str, Any]]:
     """Tell the shipped cases."""
+    return _examples()
+
+
+@cache
+def _examples() -> list[dict[str, Any]]:
     shipped = {Path(entry.name): entry for entry in files("viscontact.examples").iterdir()}
     texts = {
         path.stem: shipped[path].read_text(encoding="utf-8")

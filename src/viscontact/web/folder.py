@@ -19,7 +19,8 @@ from viscontact.case.data_file import is_plain_name
 from viscontact.recording.exchange import replace
 from viscontact.web.problems import RequestError
 
-_FILES, _RUNS, _ASKED, _GIVEN, _RUN = "files", "runs", "asked.json", "given", "run"
+_FILES, _RUNS, _GIVEN, _RUN = "files", "runs", "given", "run"
+_ASKED, _FOUND = "asked.json", "found.json"
 
 #: What a case is called here; no file that it names may have this name.
 CASE_NAME = "case.yaml"
@@ -187,6 +188,37 @@ class Folder:
                 told = json.loads(path.read_text(encoding="utf-8"))
                 asked = Asked(**{name: _frozen(told[name]) for name in told if name in known})
                 yield path.parent.name, asked
+
+    def keep_found(self, name: str, key: str, found: dict[str, Any]) -> None:
+        """Keep what the result of a run says, so that it need not be read again.
+
+        Parameters
+        ----------
+        name : str
+            The run.
+        key : str
+            What tells this result from one that it has later.
+        found : dict
+            What it says.
+        """
+        told = json.dumps({"key": key, "found": found}, allow_nan=False)
+        _write(self.path / _RUNS / name / _FOUND, told.encode())
+
+    def found(self, name: str, key: str) -> dict[str, Any] | None:
+        """Return what the result of a run was found to say; None if that is not kept.
+
+        Parameters
+        ----------
+        name : str
+            The run.
+        key : str
+            As it was kept.
+        """
+        try:
+            kept = json.loads((self.path / _RUNS / name / _FOUND).read_text(encoding="utf-8"))
+            return dict(kept["found"]) if kept["key"] == key else None
+        except (OSError, ValueError, TypeError, LookupError):
+            return None
 
     def remove_run(self, name: str) -> None:
         """Remove a run and all that is kept of it.

@@ -55,7 +55,7 @@ class Work:
         self._wish = ""
         self._pace: tuple[float, float] | None = None
         self._marched: float | None = None
-        self._since = 0.0
+        self._since, self._before = 0.0, 0
         self.course = Course(self._job(Standing.STOPPED))
 
     @property
@@ -67,6 +67,11 @@ class Work:
     def is_at_work(self) -> bool:
         """Whether it is being computed."""
         return self.asked.state == "running"
+
+    @property
+    def is_beginning(self) -> bool:
+        """Whether its process has begun, and has not taken a step yet."""
+        return self._child is not None and self.course.instants == self._before
 
     @property
     def can_go_on(self) -> bool:
@@ -88,6 +93,7 @@ class Work:
             self.stand("failed", f"the run cannot be started: {error}")
             return
         self.course = self._child.course
+        self._before = self.course.instants
         self.stand("running")
 
     def look(self) -> None:

@@ -163,5 +163,9 @@ class Workshop:
             return None
         chosen = min(waiting, key=lambda work: work.asked.quality != "coarse")
         # None has been admitted that does not fit alone.
-        fits = not active or chosen.asked.memory <= available_memory()
-        return chosen if fits else None
+        if not active:
+            return chosen
+        # What those hold that have taken steps is not free any more.
+        beginning = [work for work in self._works.values() if work.is_beginning]
+        promised = sum(work.asked.memory for work in beginning)
+        return chosen if chosen.asked.memory + promised <= available_memory() else None
