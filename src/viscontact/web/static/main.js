@@ -143,7 +143,7 @@ function setUpRuns() {
   document.addEventListener("keydown", (event) => {
     if (event.key === "Enter" && (event.ctrlKey || event.metaKey)) begin(event.shiftKey ? "full" : "coarse");
   });
-  const redraw = () => { drawStale(); drawList(complain); return drawResults(); };
+  const redraw = () => { drawStale(); drawList({ load, complain }); return drawResults(); };
   runs.addEventListener("active", drawProgress);
   runs.addEventListener("shown", () => {
     newRunShown();
@@ -152,7 +152,7 @@ function setUpRuns() {
     arriving = false;
   });
   runs.addEventListener("reference", redraw);
-  runs.addEventListener("listed", () => drawList(complain));
+  runs.addEventListener("listed", () => drawList({ load, complain }));
   checked.addEventListener("change", drawButtons);
   window.addEventListener("focus", () => list());
   onTheme(() => { draw(); drawResults(); });

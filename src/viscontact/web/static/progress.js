@@ -1,9 +1,8 @@
 // The run that is going on: how far it is, how to stop it, and what became of it.
 
-import { make, place, settled, write } from "./dom.js";
+import { items, make, place, settled, write } from "./dom.js";
 import { cancel, forget, refer, resume, show, start, state, watch } from "./runs.js";
 import { get } from "./server.js";
-import { replaceText } from "./draft.js";
 import { lasting } from "./units.js";
 
 const NOW = { contact_area: "contact area", approach: "approach", peak_pressure: "peak pressure" };
@@ -31,9 +30,8 @@ export function drawProgress() {
   place("cancel").hidden = status.over || state.lost;
   place("resume").hidden = !(status.over && status.resumable);
   place("again").hidden = !status.over || status.state === "done" || status.resumable;
-  const problems = status.problems ?? [];
-  place("progress-problems").replaceChildren(...problems.filter(({ message }) => message !== status.message)
-    .map(({ path, message }) => make("li", { textContent: [path, message].filter(Boolean).join(": ") })));
+  const problems = (status.problems ?? []).map(({ path, message }) => [path, message].filter(Boolean).join(": "));
+  place("progress-problems").replaceChildren(...items(problems.filter((text) => text !== status.message)));
   speak(status);
 }
 
@@ -65,16 +63,17 @@ function speak(status) {
   } else if (!status.over && document.hasFocus()) speakSoon(told(status));
 }
 
-const caseOf = async (run) => replaceText((await get(`/api/runs/${run.id}/given`)).yaml);
 const isReference = (run) => state.reference?.id === run.id;
 
-const buttonsFor = (run, complain) => [
+// `load` writes a case into the form; `complain` tells of what is refused.
+const buttonsFor = (run, { load, complain }) => [
   run.figures.length > 0 && act("Show", "Show this answer", () => show(run.id), complain),
   !run.over && act("Follow", "Follow this run", () => watch(run.id), complain),
   run.resumable && act("Resume", "Go on with this run", () => resume(run.id), complain),
   run.figures.length > 0 && act(isReference(run) ? "Not the reference" : "Reference", "Compare with this answer",
     () => refer(isReference(run) ? null : run.id), complain),
-  act("Its case", "Write this run’s case into the form", () => caseOf(run), complain),
+  act("Its case", "Write this run’s case into the form",
+    async () => load((await get(`/api/runs/${run.id}/given`)).yaml, run.title), complain),
   act("Delete", "Delete this run and its files", () => forget(run.id), complain),
 ];
 
@@ -85,7 +84,7 @@ const act = (text, about, doIt, complain) => make("button", {
 // All runs that the server knows, those of other tabs too; at first the last few.
 const FEW = 6;
 let all = false;
-export function drawList(complain) {
+export function drawList(acts) {
   const shown = all ? state.listed : state.listed.slice(0, FEW), more = state.listed.length - shown.length;
   const rows = shown.map((run) => make("li", { class: run.id === state.shown?.id ? "current" : "" },
     make("div", { class: "run-name" }, make("b", { textContent: run.title || "untitled" }),
@@ -93,8 +92,8 @@ export function drawList(complain) {
       run.id === state.shown?.id && make("span", { class: "chip", textContent: "shown" }),
       isReference(run) && make("span", { class: "chip warm", textContent: "reference" }),
       make("span", { class: "faint", textContent: `${run.state} · ${when(run.created)}` })),
-    make("div", { class: "run-acts" }, buttonsFor(run, complain))));
-  const showAll = () => { all = true; drawList(complain); };
+    make("div", { class: "run-acts" }, buttonsFor(run, acts))));
+  const showAll = () => { all = true; drawList(acts); };
   const button = make("button", { type: "button", class: "small", textContent: `Show ${more} more`, onclick: showAll });
   place("runs").replaceChildren(...rows, ...(more > 0 ? [make("li", {}, button)] : []));
   place("runs-chapter").hidden = rows.length === 0;
