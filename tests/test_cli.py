@@ -591,7 +591,7 @@ def test_plot_draws_a_figure_into_the_run_or_where_it_is_told(
     ("words", "said"),
     [
         (["presure-map"], "did you mean pressure-map?"),
-        (["animation"], "animation is not built yet; built: pressure-map"),
+        (["animation", "-o", "film.png"], "must end in .gif or .mp4"),
         (["history", "--time", "3"], "--time: 3 has no unit"),
         (["pressure-map", "--time", "6 s"], "--time: 6 s lies outside the run"),
         (["history", "--time", "0 s", "--time", "-1 s"], "which goes from 0 s to 5 s"),
@@ -704,14 +704,6 @@ def test_second_demo_replaces_the_first(folder: Path, monkeypatch: pytest.Monkey
     monkeypatch.setattr(execution, "execute", coarse)
     monkeypatch.setattr("viscontact.cli.cases.DEMO_FIGURES", ())
     assert [main(["demo", "-q"]), main(["demo", "-q"])] == [0, 0]
-
-
-def test_what_is_not_built_is_refused_by_name(
-    folder: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert main(["plot", "case", "animation"]) == 2
-    assert "animation is not built yet" in capsys.readouterr().err
-    assert [path.name for path in folder.iterdir()] == ["case.yaml"]
 
 
 @pytest.mark.parametrize("words", [["rnu"], ["run"], ["run", "case.yaml", "--threads", "0"]])

@@ -56,8 +56,8 @@ def test_every_figure_of_a_roller_draws(name: str, long_contact: xr.Dataset) -> 
     FIGURES[name](long_contact, times=[0.0, 1000.0]).draw_without_rendering()
 
 
-#: Comparisons that put runs side by side, and do not lay their lines over one another.
-SIDE_BY_SIDE = {"pressure-3d"}
+#: Comparisons that put runs side by side or draw outlines, and hold no lines.
+SIDE_BY_SIDE = {"pressure-3d", "pressure-map", "contact-outline"}
 
 
 @pytest.mark.parametrize("name", sorted(set(COMPARISONS) - SIDE_BY_SIDE))
@@ -111,7 +111,7 @@ def test_fields_stored_at_chosen_instants_are_found_by_field_time(sphere: xr.Dat
     "name",
     [
         *("pressure-map", "pressure-profile", "pressure-radial", "contact-outline"),
-        *("pressure-3d", "surface-3d"),
+        *("pressure-3d", "surface-3d", "contact-area"),
     ],
 )
 def test_figures_of_fields_refuse_a_result_without_them(name: str) -> None:

@@ -9,7 +9,7 @@ __version__ = "0.1.0"
 
 __getattr__, __dir__, __all__ = _lazy.attach(
     __name__,
-    submodules=["notebook", "reference", "surfaces", "verify"],
+    submodules=["notebook", "plot", "reference", "surfaces", "verify"],
     submod_attrs={
         "errors": ["AccuracyWarning", "ConvergenceError", "DomainError"],
         "grid": ["AutomaticGrid", "Grid"],

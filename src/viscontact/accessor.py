@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import xarray as xr
 
-from viscontact.shown import Shown
+from viscontact.shown import Shown, result_plots
 
 
 @xr.register_dataset_accessor("viscontact")
@@ -31,6 +33,11 @@ class ResultAccessor(Shown):
 
     def __init__(self, result: xr.Dataset) -> None:
         self.result = result
+
+    @property
+    def plot(self) -> Any:
+        """Its figures: ``plot.pressure_map()`` and the like, each of which returns axes."""
+        return result_plots(self.result)
 
     def __repr__(self) -> str:
         return str(self)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from typing import Any
 
 import viscontact
 
@@ -29,6 +30,11 @@ class Shown:
 
     def __str__(self) -> str:
         return str(viscontact.notebook.noun_text(self))
+
+
+def result_plots(result: object) -> Any:
+    """Return the figures of a result, `viscontact.plot.ResultPlots`, in the same late way."""
+    return viscontact.plot.ResultPlots(result)
 
 
 class ShownWhole(Shown, ABC):

@@ -49,7 +49,8 @@ def plot(
         typer.Argument(
             metavar="FIGURE",
             help="pressure-map, pressure-3d, pressure-profile, pressure-radial, surface-3d, "
-            "contact-outline, history, hysteresis, creep, stress-section, von-mises, or animation.",
+            "contact-outline, contact-area, history, hysteresis, creep, stress-section, von-mises, "
+            "indenter, or animation.",
         ),
     ],
     times: Instants = None,
@@ -75,7 +76,11 @@ def compare(
     ],
     figure: Annotated[
         str,
-        typer.Option("--figure", help="history, hysteresis, pressure-profile, pressure-3d, ..."),
+        typer.Option(
+            "--figure",
+            help="history, hysteresis, contact-outline, pressure-profile, pressure-map, or "
+            "pressure-3d.",
+        ),
     ] = "history",
     times: Instants = None,
     output: Picture = None,

@@ -22,7 +22,7 @@ ANIMATION = "animation"
 #: Figures of the fields at single instants; the others take times as a span.
 _OF_INSTANTS = (
     *("pressure-map", "pressure-profile", "pressure-radial", "contact-outline"),
-    *("pressure-3d", "surface-3d", "stress-section", "von-mises"),
+    *("pressure-3d", "surface-3d", "stress-section", "von-mises", "indenter"),
 )
 
 

@@ -15,7 +15,8 @@ except ModuleNotFoundError as error:
         name="matplotlib",
     ) from error
 
-from viscontact.plot.contact_outline import contact_outline
+from viscontact.plot.contact_area import contact_area
+from viscontact.plot.contact_outline import compare_contact_outlines, contact_outline
 from viscontact.plot.creep import creep, creep_curve
 from viscontact.plot.deformed_surface import deformed_surface
 from viscontact.plot.film import Film, animation
@@ -24,12 +25,14 @@ from viscontact.plot.history import compare_histories, history
 from viscontact.plot.hysteresis import compare_hysteresis, hysteresis
 from viscontact.plot.identified import fitted_indentation, fitted_series, master_curve
 from viscontact.plot.indenter_drawing import draw_indenter
+from viscontact.plot.indenter_figure import indenter
 from viscontact.plot.load_drawing import draw_load
 from viscontact.plot.material_curves import material_curves
-from viscontact.plot.pressure_map import pressure_map
+from viscontact.plot.pressure_map import compare_pressure_maps, pressure_map
 from viscontact.plot.pressure_profile import compare_pressure_profiles, pressure_profile
 from viscontact.plot.pressure_radial import pressure_radial
 from viscontact.plot.pressure_surface import compare_pressure_surfaces, pressure_surface
+from viscontact.plot.result_plots import ResultPlots
 from viscontact.plot.saving import FIGURE_SUFFIXES, require_suffix, save_figure
 from viscontact.plot.stress_section import stress_section, von_mises_history
 
@@ -40,11 +43,13 @@ FIGURES: dict[str, Callable[..., Figure]] = {
     "pressure-3d": pressure_surface,
     "surface-3d": deformed_surface,
     "contact-outline": contact_outline,
+    "contact-area": contact_area,
     "history": history,
     "hysteresis": hysteresis,
     "creep": creep,
     "stress-section": stress_section,
     "von-mises": von_mises_history,
+    "indenter": indenter,
 }
 """Figures of one run by name: ``FIGURES[name](results, times=None)``."""
 
@@ -52,7 +57,9 @@ COMPARISONS: dict[str, Callable[..., Figure]] = {
     "history": compare_histories,
     "hysteresis": compare_hysteresis,
     "pressure-profile": compare_pressure_profiles,
+    "pressure-map": compare_pressure_maps,
     "pressure-3d": compare_pressure_surfaces,
+    "contact-outline": compare_contact_outlines,
 }
 """Figures of several runs by name: ``COMPARISONS[name]({label: results, ...}, times=None)``."""
 
@@ -62,11 +69,15 @@ __all__ = [
     "FIGURE_SUFFIXES",
     "FILM_SUFFIXES",
     "Film",
+    "ResultPlots",
     "animation",
+    "compare_contact_outlines",
     "compare_histories",
     "compare_hysteresis",
+    "compare_pressure_maps",
     "compare_pressure_profiles",
     "compare_pressure_surfaces",
+    "contact_area",
     "contact_outline",
     "creep",
     "creep_curve",
@@ -77,6 +88,7 @@ __all__ = [
     "fitted_series",
     "history",
     "hysteresis",
+    "indenter",
     "master_curve",
     "material_curves",
     "pressure_map",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
@@ -14,7 +16,7 @@ from viscontact.plot import style
 from viscontact.plot.page import Width, page_width
 from viscontact.plot.readable import time_labels
 from viscontact.plot.rim_polygons import rim_path, rim_polygons
-from viscontact.plot.snapshots import take_snapshots
+from viscontact.plot.snapshots import snapshots_of_runs, take_snapshots
 from viscontact.plot.window import Window, window_around
 
 _NAME = "contact-outline"
@@ -77,9 +79,55 @@ def contact_outline(
     return style.figure_of(axes)
 
 
-def _new_axes(window: Window, count: int, wanted: Width | None) -> Axes:
+def compare_contact_outlines(
+    runs: Mapping[str, xr.Dataset], *, times: ArrayLike | None = None, width: Width | None = None
+) -> Figure:
+    """Overlay the outlines of the contacts of several runs.
+
+    Parameters
+    ----------
+    runs : mapping of str to xarray.Dataset
+        Results by the name to print, with fields stored.
+    times : array_like, optional
+        An instant [s]; of each run the nearest stored one is drawn. By default the last of each.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        One outline a run, named with the instant.
+
+    Raises
+    ------
+    ValueError
+        If there are no runs, one of them cannot be drawn, or several instants are asked for.
+    """
+    snapshots, labels = snapshots_of_runs(runs, times, _NAME)
+    if len(snapshots) > len(runs):
+        raise ValueError(f"{_NAME}: runs are compared at one instant, got {times!r} s")
+    window = window_around(snapshots)
+    axes = _new_axes(window, len(snapshots), width, below=True)
+    looks = style.run_styles(len(snapshots))
+    for snapshot, look in zip(snapshots, looks, strict=True):
+        path = rim_path(window.unit(polygon) for polygon in rim_polygons(snapshot))
+        how = {"edgecolor" if key == "color" else key: value for key, value in look.items()}
+        axes.add_patch(PathPatch(path, fill=False, **how))
+    axes.set(xlabel=window.unit.label("x"), ylabel=window.unit.label("y"))
+    style.dress(axes)
+    window.show(axes)
+    style.add_heading(axes, window.note, aside=True)
+    lines = [Line2D([], [], **look) for look in looks]
+    style.add_legend_below(style.figure_of(axes), lines, labels, columns=1)
+    return style.figure_of(axes)
+
+
+def _new_axes(window: Window, count: int, wanted: Width | None, *, below: bool = False) -> Axes:
+    """Axes of the window's shape, with room for a legend of so many, beside or below."""
     usual = style.TWO_COLUMNS if window.height_to_width < 0.6 else style.ONE_COLUMN
     width = page_width(wanted, usual)
-    # As high as the legend at least.
-    height = max((width - 1.6) * window.height_to_width + 0.6, 0.2 * count + 0.3)
+    if below:
+        height = (width - 0.8) * window.height_to_width + 0.75 + 0.2 * count
+    else:  # as high as the legend at least
+        height = max((width - 1.6) * window.height_to_width + 0.6, 0.2 * count + 0.3)
     return style.new_figure(width, height, fixed_aspect=True).add_subplot()

@@ -152,7 +152,7 @@ def draw_quantities(
     time_unit = display_unit("s", *(run["time"].values for run in runs.values()))
     for axes, quantity in zip(panels, quantities, strict=True):
         _draw(axes, quantity, runs, time_unit)
-    _scale_time(panels, runs, time_unit)
+    scale_time(panels, runs, time_unit)
     return time_unit
 
 
@@ -212,7 +212,8 @@ def _draw(
         style.add_heading(axes, peak_note(runs.values()), aside=True)
 
 
-def _scale_time(panels: list[Axes], runs: Mapping[str, xr.Dataset], time_unit: DisplayUnit) -> None:
+def scale_time(panels: list[Axes], runs: Mapping[str, xr.Dataset], time_unit: DisplayUnit) -> None:
+    """Scale and name the time axes of panels, logarithmic where all runs suit that."""
     instants = [time_unit(run["time"].values) for run in runs.values()]
     on_log = all(map(suits_log_time, runs.values()))
     start = min(float(instant[0]) for instant in instants)

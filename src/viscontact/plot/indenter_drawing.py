@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from viscontact.cross_section import SHOWN_PART, Section, cut, lines_through
 from viscontact.indenters import CombinedIndenter, Indenter, PlacedIndenter, Roller
 from viscontact.plot import style
+from viscontact.plot.page import NARROW, Width, page_width
 from viscontact.plot.readable import DisplayUnit, display_number, display_unit
 
 _PLAN_POINTS = 601
@@ -31,6 +32,7 @@ def draw_indenter(
     contact: tuple[float, float, float, float] | None = None,
     title: str = "",
     shaded: str = "expected contact",
+    width: Width | None = None,
 ) -> Figure:
     """Draw an indenter: sections along x and y through its deepest point, and its plan.
 
@@ -46,6 +48,8 @@ def draw_indenter(
         What stands above the facts.
     shaded : str, optional
         What the contact is called.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
 
     Returns
     -------
@@ -69,8 +73,7 @@ def draw_indenter(
     through = lines_through(indenter, x, y, gap)
     along = cut(indenter, size[0], through[1], axis=0)
     across = cut(indenter, size[1], through[0], axis=1)
-    figure = style.new_figure(style.TWO_COLUMNS, 4.8)
-    panels = figure.subplots(2, 2, width_ratios=(1.35, 1), height_ratios=(1, 1.1))
+    figure, panels = _panels(page_width(width, style.TWO_COLUMNS))
     unit = display_unit("m", *size)
     _draw_section(panels[0, 0], along, unit, "x", "y", through[1], contact)
     _draw_section(panels[0, 1], across, unit, "y", "x", through[0], contact)
@@ -79,6 +82,15 @@ def draw_indenter(
     _tell(panels[1, 1], [*filter(None, [title]), *facts])
     _tell_stretches(figure, panels, (along, across))
     return figure
+
+
+def _panels(width: float) -> tuple[Figure, NDArray[np.object_]]:
+    """Sections above, plan and facts below; all below one another on a narrow page."""
+    if width > NARROW:
+        figure = style.new_figure(width, 4.8)
+        return figure, figure.subplots(2, 2, width_ratios=(1.35, 1), height_ratios=(1, 1.1))
+    figure = style.new_figure(width, 7.6)
+    return figure, figure.subplots(4, 1, height_ratios=(1, 1, 1.1, 0.9)).reshape(2, 2)
 
 
 def _draw_section(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 import xarray as xr
@@ -24,7 +24,7 @@ from viscontact.plot.error_band import peak_note
 from viscontact.plot.page import Width, page_width
 from viscontact.plot.readable import DisplayUnit, display_number, display_unit, time_labels
 from viscontact.plot.rim_polygons import beyond_period, rim_path, rim_polygons
-from viscontact.plot.snapshots import Snapshot, take_snapshots
+from viscontact.plot.snapshots import Snapshot, snapshots_of_runs, take_snapshots
 from viscontact.plot.squared_pressure import squared_pressure
 from viscontact.plot.window import Window, window_around
 
@@ -67,8 +67,42 @@ def pressure_map(
         If no fields are stored or the bodies do not touch at these instants.
     """
     snapshots = take_snapshots(results, times, _NAME, count=4)
-    window = window_around(snapshots)
+    labels = time_labels(snapshot.time for snapshot in snapshots)
     note = peak_note([results], [snapshot.time for snapshot in snapshots])
+    return _draw(snapshots, [f"t = {label}" for label in labels], note, width)
+
+
+def compare_pressure_maps(
+    runs: Mapping[str, xr.Dataset], *, times: ArrayLike | None = None, width: Width | None = None
+) -> Figure:
+    """Draw the pressure maps of several runs beside or below one another.
+
+    Parameters
+    ----------
+    runs : mapping of str to xarray.Dataset
+        Results by the name to print, with fields stored.
+    times : array_like, optional
+        Instants [s]; of each run the nearest stored ones are drawn. By default the last of each.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Panels with common axes and pressure levels, those of a run one after the other.
+
+    Raises
+    ------
+    ValueError
+        If there are no runs, or one of them cannot be drawn.
+    """
+    snapshots, headings = snapshots_of_runs(runs, times, _NAME)
+    note = peak_note(runs.values(), [snapshot.time for snapshot in snapshots])
+    return _draw(snapshots, headings, note, width)
+
+
+def _draw(snapshots: list[Snapshot], headings: list[str], note: str, width: Width | None) -> Figure:
+    window = window_around(snapshots)
     pressed = (s.pressure[s.pressure > 0] for s in snapshots if s.touching)
     part = ORDINARY if note else 1.0
     levels, unit = pressure_levels(max(float(np.quantile(each, part)) for each in pressed))
@@ -77,8 +111,8 @@ def pressure_map(
         draw_contours(axes, snapshot, levels, window)
         for axes, snapshot in zip(panels, snapshots, strict=True)
     ]
-    for axes, label in zip(panels, time_labels(s.time for s in snapshots), strict=True):
-        style.add_heading(axes, f"t = {label}")
+    for axes, heading in zip(panels, headings, strict=True):
+        style.add_heading(axes, heading)
     style.add_heading(panels[0], "; ".join(filter(None, (window.note, note))), aside=True)
     _add_colour_bar(figure, panels, levels, unit, "max" if note else "neither")
     figure.draw_without_rendering()  # Only now the room for labels is known.

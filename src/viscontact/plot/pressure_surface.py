@@ -25,7 +25,7 @@ from viscontact.plot.relief import (
     solid_panels,
 )
 from viscontact.plot.rim_polygons import rim_polygons
-from viscontact.plot.snapshots import Snapshot, take_snapshots
+from viscontact.plot.snapshots import Snapshot, snapshots_of_runs, take_snapshots
 from viscontact.plot.window import Window, window_around
 
 _NAME = "pressure-3d"
@@ -92,14 +92,7 @@ def compare_pressure_surfaces(
     ValueError
         If there are no runs, or one of them cannot be drawn.
     """
-    if not runs:
-        raise ValueError(f"{_NAME}: needs at least one run to compare, got none")
-    snapshots, labels = [], []
-    for name, run in runs.items():
-        wanted = float(run["time"][-1]) if times is None else times
-        taken = take_snapshots(run, wanted, _NAME)
-        snapshots += taken
-        labels += [f"{name}, t = {label}" for label in time_labels(s.time for s in taken)]
+    snapshots, labels = snapshots_of_runs(runs, times, _NAME)
     note = peak_note(runs.values(), [snapshot.time for snapshot in snapshots])
     return _draw(snapshots, labels, note, width)
 

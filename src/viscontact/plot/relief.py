@@ -272,7 +272,9 @@ def add_side_bar(
     width = figure.get_figwidth()
     height = min(0.6, 2.4 / figure.get_figheight())
     place = ((width - 0.72) / width, 0.5 - height / 2, 0.12 / width, height)
-    bar = figure.colorbar(ScalarMappable(norm, colours), cax=figure.add_axes(place))
+    bar = figure.colorbar(
+        ScalarMappable(norm, colours), cax=figure.add_axes(place, label="<colorbar>")
+    )
     bar.set_label(label, size=style.LABEL_SIZE, color=style.INK)
     if downwards:
         bar.ax.invert_yaxis()

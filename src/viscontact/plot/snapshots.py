@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.grid import Grid
 from viscontact.outline import Outline, trace_outline
+from viscontact.plot.readable import time_labels
 from viscontact.plot.recorded import recorded_noun
 from viscontact.stresses import recorded_grid
 
@@ -225,6 +226,44 @@ def take_snapshots(
             "choose other times"
         )
     return snapshots
+
+
+def snapshots_of_runs(
+    runs: Mapping[str, xr.Dataset], times: ArrayLike | None, figure: str
+) -> tuple[list[Snapshot], list[str]]:
+    """Fields of several runs, and what is said above each.
+
+    Parameters
+    ----------
+    runs : mapping of str to xarray.Dataset
+        Results by the name to print.
+    times : array_like or None
+        Instants asked for [s]; None for the last of each run.
+    figure : str
+        Name of the figure, for messages.
+
+    Returns
+    -------
+    snapshots : list of Snapshot
+        Run by run.
+    headings : list of str
+        The run and the instant.
+
+    Raises
+    ------
+    ValueError
+        If there are no runs, or as `take_snapshots` does.
+    """
+    if not runs:
+        raise ValueError(f"{figure}: needs at least one run to compare, got none")
+    snapshots: list[Snapshot] = []
+    headings: list[str] = []
+    for name, run in runs.items():
+        wanted = float(run["time"][-1]) if times is None else times
+        taken = take_snapshots(run, wanted, figure)
+        snapshots += taken
+        headings += [f"{name}, t = {label}" for label in time_labels(s.time for s in taken)]
+    return snapshots, headings
 
 
 def snapshot_reader(results: xr.Dataset) -> Callable[[int], Snapshot]:

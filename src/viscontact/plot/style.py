@@ -69,13 +69,15 @@ def add_legend(axes: Axes, handles: Sequence[Artist], labels: Sequence[str], **h
     legend.get_title().set_color(INK)
 
 
-def add_legend_below(figure: Figure, handles: Sequence[Artist], labels: Sequence[str]) -> None:
+def add_legend_below(
+    figure: Figure, handles: Sequence[Artist], labels: Sequence[str], *, columns: int = 3
+) -> None:
     """Add the same legend below all panels, for a figure that has no room beside them."""
     figure.legend(
         handles,
         labels,
         loc="outside lower center",
-        ncols=3,
+        ncols=columns,
         fontsize=TICK_SIZE,
         frameon=False,
         handlelength=1.6,

@@ -1,0 +1,93 @@
+"""The contact area over time: found between the cells, and by counting them."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import ArrayLike
+
+from viscontact.plot import style
+from viscontact.plot.error_band import band_key, draw_band, has_bands, keep_curves_in_sight
+from viscontact.plot.history import scale_time
+from viscontact.plot.page import Width, page_width
+from viscontact.plot.readable import display_unit
+from viscontact.plot.snapshots import Snapshot, field_times, snapshot_reader
+from viscontact.plot.span import within_span
+from viscontact.stated_errors import stated_error
+from viscontact.variables import error_name
+
+_NAME = "contact-area"
+_COUNTED = "#D55E00"
+
+
+def contact_area(
+    results: xr.Dataset,
+    *,
+    times: ArrayLike | None = None,
+    axes: Axes | None = None,
+    width: Width | None = None,
+) -> Figure:
+    """Draw the contact area over time, and what counting cells in contact would give.
+
+    Parameters
+    ----------
+    results : xarray.Dataset
+        What ``simulate`` or ``open_results`` returned, with fields stored.
+    times : array_like, optional
+        Draw only the span between the least and the largest of these instants [s]; by
+        default all of it.
+    axes : matplotlib.axes.Axes, optional
+        Where to draw; by default in a new figure.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        A line for the area found between the cells, which grows smoothly, with its error; dots
+        at the stored instants for the number of cells in contact times a cell's area, which
+        grows in jumps.
+
+    Raises
+    ------
+    ValueError
+        If no fields are stored, or fewer than two steps lie in the span.
+    """
+    stored, read = field_times(results, _NAME), snapshot_reader(results)
+    names = ["contact_area", "force", "approach"]
+    names += [error_name("contact_area")] * (error_name("contact_area") in results)
+    run = within_span(results, names, times, _NAME, "")
+    first, last = run["time"].values[[0, -1]]
+    shown = np.flatnonzero((stored >= first) & (stored <= last))
+    counted = [_counted(read(int(index))) for index in shown]
+    if axes is None:
+        wide = page_width(width, style.ONE_COLUMN)
+        axes = style.new_figure(wide, min(3.2, 0.75 * wide)).add_subplot()
+    style.dress(axes)
+    area = run["contact_area"].values
+    unit, time_unit = display_unit("m2", area, counted), display_unit("s", run["time"].values)
+    instants, error = time_unit(run["time"].values), stated_error(run, "contact_area")
+    smooth = axes.plot(instants, unit(area), color=style.LINE, linewidth=style.LINE_WIDTH)[0]
+    dots = axes.plot(time_unit(stored[shown]), unit(counted), "o", color=_COUNTED, markersize=3.5)[
+        0
+    ]
+    draw_band(axes, instants, unit(area), None if error is None else unit(error), style.LINE)
+    handles: list[Artist] = [smooth, dots]
+    labels = ["between the cells", "cells counted"]
+    if has_bands(axes):
+        keep_curves_in_sight(axes, unit(area), unit(counted))
+        band, words = band_key(style.LINE)
+        handles, labels = [*handles, band], [*labels, words]
+    axes.set_ylabel(unit.label("Contact area"))
+    scale_time([axes], {"": run}, time_unit)
+    style.add_legend(axes, handles, labels, loc="best")
+    return style.figure_of(axes)
+
+
+def _counted(snapshot: Snapshot) -> float:
+    """Area of the cells in contact [m²]."""
+    dx, dy = snapshot.cell_size
+    return int((snapshot.pressure > 0).sum()) * dx * dy

@@ -1,0 +1,58 @@
+"""The indenter of a run: sections and plan, with the contact found."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
+from numpy.typing import ArrayLike
+
+from viscontact.plot.indenter_drawing import draw_indenter
+from viscontact.plot.page import Width
+from viscontact.plot.readable import time_labels
+from viscontact.plot.recorded import recorded_noun
+from viscontact.plot.snapshots import take_snapshots
+from viscontact.stresses import recorded_grid
+
+_NAME = "indenter"
+
+
+def indenter(
+    results: xr.Dataset, *, times: ArrayLike | None = None, width: Width | None = None
+) -> Figure:
+    """Draw the indenter of a run: sections along x and y, and its plan.
+
+    Parameters
+    ----------
+    results : xarray.Dataset
+        What ``simulate`` or ``open_results`` returned.
+    times : array_like, optional
+        An instant [s], the contact at which is shaded, if fields are stored; by default the last
+        that is stored in contact.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        As `draw_indenter` draws it, on the part of the surface that the grid covers: the gap
+        before anything is pressed.
+
+    Raises
+    ------
+    ValueError
+        If the result carries no case, or the indenter is a measured map, which is not kept with
+        it; or `times` are no finite numbers.
+    """
+    body = recorded_noun(results, "indenter", _NAME)
+    if times is not None and not np.isfinite(np.atleast_1d(np.asarray(times, float))).all():
+        raise ValueError(f"{_NAME}: times must be finite numbers of seconds, got {times!r}")
+    contact, shaded = None, ""
+    if "pressure" in results and bool((results["contact_area"] > 0).any()):
+        snapshot = take_snapshots(results, times, _NAME)[-1]
+        x_low, x_high, y_low, y_high = snapshot.extent()
+        middle = ((x_low + x_high) / 2, (y_low + y_high) / 2)
+        contact = (*middle, x_high - x_low, y_high - y_low)
+        shaded = f"contact at {time_labels([snapshot.time])[0]}"
+    size = recorded_grid(results).size
+    return draw_indenter(body, size, contact=contact, shaded=shaded, width=width)

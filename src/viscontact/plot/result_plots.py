@@ -1,0 +1,132 @@
+"""The figures of a result as methods that return axes: `ds.viscontact.plot`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, cast
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from viscontact.plot.contact_area import contact_area
+from viscontact.plot.contact_outline import contact_outline
+from viscontact.plot.creep import creep
+from viscontact.plot.deformed_surface import deformed_surface
+from viscontact.plot.film import Film, animation
+from viscontact.plot.history import history
+from viscontact.plot.hysteresis import hysteresis
+from viscontact.plot.indenter_figure import indenter
+from viscontact.plot.pressure_map import pressure_map
+from viscontact.plot.pressure_profile import pressure_profile
+from viscontact.plot.pressure_radial import pressure_radial
+from viscontact.plot.pressure_surface import pressure_surface
+from viscontact.plot.stress_section import stress_section, von_mises_history
+
+#: One panel, or those of a figure in reading order.
+Panels = Axes | NDArray[np.object_]
+
+
+@dataclass(frozen=True, eq=False)
+class ResultPlots:
+    """Figures of a result, for notebooks and scripts.
+
+    Each method draws the figure of its name in `viscontact.plot`, takes the same keywords, and
+    returns its axes: one `Axes`, or an array of them where there are several panels. pyplot knows
+    the figure, as it knows those of pandas and xarray, so that a notebook shows it and
+    ``pyplot.show()`` opens it; ``axes.figure`` is the figure.
+
+    Parameters
+    ----------
+    result : xarray.Dataset
+        What ``simulate`` or ``open_results`` returned.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> material = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((32, 32), (4e-3, 4e-3))
+    >>> ds = vc.simulate(vc.Sphere(0.01), material, vc.step(force=0.1), grid, [0.0, 1.0])
+    >>> ds.viscontact.plot.pressure_profile(along="y").get_xlabel()
+    'y [mm]'
+    """
+
+    result: xr.Dataset
+
+    def pressure_map(self, **how: Any) -> Panels:
+        """Draw contours of pressure, one panel an instant."""
+        return self._panels(pressure_map, how)
+
+    def pressure_3d(self, **how: Any) -> Panels:
+        """Draw the pressure as a surface in space, one panel an instant."""
+        return self._panels(pressure_surface, how)
+
+    def surface_3d(self, **how: Any) -> Panels:
+        """Draw the deformed surface in space, with the indenter on it, one panel an instant."""
+        return self._panels(deformed_surface, how)
+
+    def pressure_profile(self, **how: Any) -> Panels:
+        """Draw sections through the pressure; ``along=`` and ``at=`` say where."""
+        return self._panels(pressure_profile, how)
+
+    def pressure_radial(self, **how: Any) -> Panels:
+        """Draw pressure against distance from the axis, beside the exact one if there is one."""
+        return self._panels(pressure_radial, how)
+
+    def contact_outline(self, **how: Any) -> Panels:
+        """Draw the rim of the contact at several instants."""
+        return self._panels(contact_outline, how)
+
+    def contact_area(self, **how: Any) -> Panels:
+        """Draw the contact area over time, and that of the cells counted."""
+        return self._panels(contact_area, how)
+
+    def history(self, **how: Any) -> Panels:
+        """Draw area, approach, tilts and peak pressure over time."""
+        return self._panels(history, how)
+
+    def hysteresis(self, **how: Any) -> Panels:
+        """Draw force over approach."""
+        return self._panels(hysteresis, how)
+
+    def creep(self, **how: Any) -> Panels:
+        """Draw creep compliance and relaxation modulus of the half-space."""
+        return self._panels(creep, how)
+
+    def stress_section(self, **how: Any) -> Panels:
+        """Draw von Mises stress below the contact."""
+        return self._panels(stress_section, how)
+
+    def von_mises(self, **how: Any) -> Panels:
+        """Draw the largest von Mises stress and its depth over time."""
+        return self._panels(von_mises_history, how)
+
+    def indenter(self, **how: Any) -> Panels:
+        """Draw sections and plan of the indenter."""
+        return self._panels(indenter, how)
+
+    def animation(self, **how: Any) -> Film:
+        """Make a film, which `viscontact.plot.save_film` writes."""
+        return animation(self.result, **how)
+
+    def _panels(self, draw: Callable[..., Figure], how: dict[str, Any]) -> Panels:
+        figure = draw(self.result, **how)
+        if how.get("axes") is not None:  # a figure of the user's
+            return cast(Axes, how["axes"])
+        _show_to_pyplot(figure)
+        panels = [axes for axes in figure.axes if axes.get_label() != "<colorbar>"]
+        return panels[0] if len(panels) == 1 else np.array(panels, dtype=np.object_)
+
+
+def _show_to_pyplot(figure: Figure) -> None:
+    # Only here: pyplot chooses a window system when it is imported, which figures do without.
+    from matplotlib import pyplot
+
+    # pyplot is asked to make a figure, and is given this one.
+    def given(*_: Any, **__: Any) -> Figure:
+        return figure
+
+    pyplot.figure(FigureClass=cast(type[Figure], given))
