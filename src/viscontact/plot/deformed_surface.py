@@ -16,18 +16,16 @@ from scipy.interpolate import RegularGridInterpolator
 from viscontact.plot import style
 from viscontact.plot.page import Width, page_width
 from viscontact.plot.readable import DisplayUnit, display_number, display_unit, time_labels
-from viscontact.plot.relief import (
-    Relief,
+from viscontact.plot.relief import Relief, draw_relief, relief
+from viscontact.plot.rim_polygons import rim_polygons
+from viscontact.plot.snapshots import Snapshot, field_at, take_snapshots
+from viscontact.plot.solid_axes import (
     add_note,
     add_side_bar,
     add_title,
-    draw_relief,
-    relief,
     solid_panels,
     stretch_of_heights,
 )
-from viscontact.plot.rim_polygons import rim_polygons
-from viscontact.plot.snapshots import Snapshot, field_at, take_snapshots
 from viscontact.plot.window import Window, window_around
 
 _NAME = "surface-3d"

@@ -17,15 +17,10 @@ from viscontact.plot.error_band import peak_note
 from viscontact.plot.page import Width, page_width
 from viscontact.plot.pressure_relief import pressure_relief
 from viscontact.plot.readable import display_unit, time_labels
-from viscontact.plot.relief import (
-    add_note,
-    add_side_bar,
-    add_title,
-    draw_relief,
-    solid_panels,
-)
+from viscontact.plot.relief import draw_relief
 from viscontact.plot.rim_polygons import rim_polygons
 from viscontact.plot.snapshots import Snapshot, snapshots_of_runs, take_snapshots
+from viscontact.plot.solid_axes import add_note, add_side_bar, add_title, solid_panels
 from viscontact.plot.window import Window, window_around
 
 _NAME = "pressure-3d"
