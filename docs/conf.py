@@ -45,7 +45,7 @@ myst_dmath_double_inline = True
 default_role = "autolink"  # names in docstrings, linked where they are public
 # What docstrings point to by a name that is not its public one, and what is none of ours.
 nitpick_ignore_regex = [
-    ("py:obj", r"viscontact\.(tables|identification|subsurface)\b.*|functools\..*"),
+    ("py:obj", r"viscontact\.(tables|identification|subsurface|plot$)\b.*|functools\..*"),
     ("py:obj", r"fit_\w+|build_master_curve"),
 ]
 autosummary_generate = True
