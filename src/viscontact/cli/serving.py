@@ -44,8 +44,8 @@ def serve(
 ) -> None:
     """Serve the calculator page, to this machine only, until Ctrl-C.
 
-    Ctrl-C ends it with exit code 0. Runs at work finish their step and save; served from the same
-    DIR again, the page shows them and goes on with them.
+    Ctrl-C ends it with exit code 0. Runs at work finish their step and save first. When the page is
+    served from the same DIR again, they are there and can be gone on with.
     """
     with watched_interruption() as interruption:
         with interruption.postponed():
