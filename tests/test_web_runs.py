@@ -10,7 +10,9 @@ import re
 import signal
 import subprocess
 import sys
+import time as clock
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -159,7 +161,8 @@ def test_a_run_that_stops_says_why_in_the_words_of_the_command_line(
     (problem, *_) = told["problems"]
     assert first == f"{case}:{problem['line']}: {problem['path']}: {problem['message']}"
     assert told["message"].endswith(problem["message"])
-    assert not any("viscontact run" in each["message"] for each in told["problems"])
+    # Where the page has buttons, nothing is said of what to type.
+    assert not any("run it again" in each["message"] for each in told["problems"])
 
 
 def test_nothing_is_shown_of_a_run_before_its_first_step(tmp_path: Path) -> None:
@@ -296,7 +299,11 @@ def test_a_server_answers_until_it_is_asked_to_end_and_its_runs_have_saved(tmp_p
     assert refused.returncode == 2
     assert refused.stderr.count("\n") == 1
     assert "another viscontact serves from there" in refused.stderr
-    code, said = server.end(signal.SIGTERM)
+    with ThreadPoolExecutor(1) as pool:
+        seen = pool.submit(followed, server.client, run)
+        clock.sleep(0.5)
+        code, said = server.end(signal.SIGTERM)
+        assert seen.result()[-1]["state"] == "interrupted"  # whoever looks on sees the end
     assert code == 0
     assert said.splitlines() == ["stopping after this step; once more to stop now", "ended"]
     (asked,) = (tmp_path / "page" / "runs").glob("*/asked.json")
