@@ -11,7 +11,7 @@ import signal
 import subprocess
 import sys
 import time as clock
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -250,21 +250,37 @@ class Served:
         return self.process.returncode, said
 
 
+@pytest.fixture
+def serving(tmp_path: Path) -> Iterator[Callable[[], Served]]:
+    """Return a function that starts a server; none outlasts its test."""
+    servers: list[Served] = []
+
+    def start() -> Served:
+        servers.append(Served(tmp_path / "page"))
+        return servers[-1]
+
+    yield start
+    for server in servers:
+        if server.process.poll() is None:
+            server.process.kill()
+            server.process.communicate()
+
+
 @pytest.mark.slow
 @pytest.mark.skipif(os.name == "nt", reason="there, only the console asks processes to stop")
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL])
 def test_a_server_stopped_in_mid_run_shows_the_run_again_and_goes_on_with_it(
-    tmp_path: Path, number: int
+    serving: Callable[[], Served], tmp_path: Path, number: int
 ) -> None:
     text = LONG_CASE.replace("4000", "600")
-    first = Served(tmp_path / "page")
+    first = serving()
     run = begun(first.client, text)
     waiting = [begun(first.client, text) for _ in range(2)][-1]
     until(lambda: status(first.client, run)["step"] > 3)
     code, _ = first.end(number)
     assert code == (-number if number == signal.SIGKILL else 0)
 
-    second = Served(tmp_path / "page")
+    second = serving()
     # One whose server was killed finishes its step by itself.
     until(lambda: all(each["over"] for each in second.client.get("/api/runs").json()))
     told = status(second.client, run)
@@ -286,15 +302,21 @@ def test_a_server_stopped_in_mid_run_shows_the_run_again_and_goes_on_with_it(
 
 @pytest.mark.slow
 @pytest.mark.skipif(os.name == "nt", reason="there, only the console asks processes to stop")
-def test_a_server_answers_until_it_is_asked_to_end_and_its_runs_have_saved(tmp_path: Path) -> None:
-    server = Served(tmp_path / "page")
+def test_a_server_answers_until_it_is_asked_to_end_and_its_runs_have_saved(
+    serving: Callable[[], Served], tmp_path: Path
+) -> None:
+    server = serving()
     assert server.client.base_url.host == "127.0.0.1"
     run = begun(server.client, LONG_CASE)
     until(lambda: status(server.client, run)["step"] > 3)
     # A second one may not write to the same folder.
     again = [sys.executable, "-m", "viscontact", "serve", "--no-open", "--port", "0"]
     refused = subprocess.run(
-        [*again, "--dir", str(tmp_path / "page")], capture_output=True, text=True, check=False
+        [*again, "--dir", str(tmp_path / "page")],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=60,
     )
     assert refused.returncode == 2
     assert refused.stderr.count("\n") == 1
