@@ -51,7 +51,7 @@ class ResultPlots:
     >>> grid = vc.Grid((32, 32), (4e-3, 4e-3))
     >>> ds = vc.simulate(vc.Sphere(0.01), material, vc.step(force=0.1), grid, [0.0, 1.0])
     >>> ds.viscontact.plot.pressure_profile(along="y").get_xlabel()
-    'y [mm]'
+    'y [µm]'
     """
 
     result: xr.Dataset
