@@ -334,6 +334,15 @@ def test_hysteresis_arrows_go_with_time() -> None:
         assert arrow.xy[1] > arrow.xyann[1]
 
 
+def test_hysteresis_of_a_held_force_begins_at_zero_although_the_force_has_a_bar() -> None:
+    t = np.linspace(0, 1, 20)
+    run = _swinging(t, np.full_like(t, 10e3), 1e-3 + 1e-4 * t)
+    run["force_error"] = ("time", np.full_like(t, 0.03))  # three tolerances of 1e-6 [N]
+    axes = FIGURES["hysteresis"](run).axes[0]
+    assert axes.get_ylim()[0] == 0
+    assert axes.get_ylim()[1] > 10
+
+
 @pytest.mark.parametrize(
     ("hold", "scale"), [(0.0, "symlog"), (1.0, "symlog"), (30.0, "linear"), (100.0, "linear")]
 )

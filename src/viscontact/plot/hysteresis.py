@@ -165,9 +165,9 @@ def _add_arrows(
 
 
 def _frame(axes: Axes) -> None:
-    """From zero where the force is steady: rounding is not to fill the axis."""
+    """From zero where the force is steady: neither rounding nor its band is to fill the axis."""
     low, high = axes.dataLim.y0, axes.dataLim.y1
-    if high - low <= 1e-6 * abs(high):
+    if high - low <= 1e-4 * abs(high):
         axes.set_ylim(0.0, 1.15 * high or 1.0)
 
 
