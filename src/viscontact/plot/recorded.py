@@ -30,7 +30,7 @@ def recorded_noun(results: xr.Dataset, part: str, figure: str) -> Any:
     Raises
     ------
     ValueError
-        If the result carries no case.
+        If the result carries no case, or a part that is too large to be kept.
     """
     if "case" not in results.attrs:
         raise ValueError(
@@ -38,4 +38,7 @@ def recorded_noun(results: xr.Dataset, part: str, figure: str) -> Any:
             "'case'; give a result as simulate or open_results returned it"
         )
     described = json.loads(results.attrs["case"]).get(part)
-    return None if described is None else description.rebuild(described)
+    try:
+        return None if described is None else description.rebuild(described)
+    except ValueError as error:
+        raise ValueError(f"{figure}: cannot rebuild the {part}: {error}") from error
