@@ -706,6 +706,19 @@ def test_second_demo_replaces_the_first(folder: Path, monkeypatch: pytest.Monkey
     assert [main(["demo", "-q"]), main(["demo", "-q"])] == [0, 0]
 
 
+def test_demo_names_a_command_that_the_shell_finds(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """After `./go demo` the environment's commands are not on the path."""
+    monkeypatch.setattr(execution, "execute", lambda *_, **__: None)
+    monkeypatch.setattr("viscontact.cli.cases.DEMO_FIGURES", ())
+    monkeypatch.setenv("PATH", str(folder))
+    assert main(["demo"]) == 0
+    typed = capsys.readouterr().out.splitlines()[-1].partition(": ")[2]
+    assert subprocess.run(typed.split(), check=False).returncode == 0
+    assert Path("my.yaml").exists()
+
+
 @pytest.mark.parametrize("words", [["rnu"], ["run"], ["run", "case.yaml", "--threads", "0"]])
 def test_wrong_use_exits_with_2(words: list[str], folder: Path) -> None:
     assert main(words) == 2

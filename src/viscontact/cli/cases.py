@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import difflib
 import re
+import shutil
+import sys
 from importlib.resources import as_file, files
 from importlib.resources.abc import Traversable
 from pathlib import Path
@@ -54,8 +56,20 @@ def demo(
     for figure in DEMO_FIGURES:
         draw(DEMO_DIRECTORY, figure, [], None)
     if not quiet:
-        print(f"One page to look at and to send: viscontact report {DEMO_DIRECTORY}")
-        print(f"The same case to change: viscontact example {DEMO} -o my.yaml")
+        command = _typed_command()
+        print(f"One page to look at and to send: {command} report {DEMO_DIRECTORY}")
+        print(f"The same case to change: {command} example {DEMO} -o my.yaml")
+
+
+def _typed_command() -> str:
+    """Say what to type for viscontact: its path where the shell does not find its name."""
+    if shutil.which("viscontact"):
+        return "viscontact"
+    script = shutil.which("viscontact", path=str(Path(sys.executable).parent))
+    if script is None:
+        return f"{Path(sys.executable).name} -m viscontact"
+    here = Path.cwd()
+    return str(Path(script).relative_to(here) if Path(script).is_relative_to(here) else script)
 
 
 def _schema_text() -> str:
