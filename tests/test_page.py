@@ -88,6 +88,19 @@ def test_a_case_is_changed_and_answered_in_seconds(page: Any, server: seen.Serve
 
 
 @pytest.mark.slow
+def test_another_shape_can_be_run_at_once(page: Any, server: seen.Server) -> None:
+    """The page begins with a roller, on whose grid a ball's contact would not lie."""
+    seen.visit(page, server)
+    page.select_option('[id="field-indenter.shape"]', "sphere")
+    seen.type_into(page, "indenter.radius", "20 mm")
+    seen.run(page, "#coarse")
+    # Hertz with the paper's Phi = 1/(2 G) = 7e-4 / MPa in the end, E* = 2 G / (1 - nu):
+    # d = (9 F^2 / (16 R E*^2))^(1/3) = 809 um, of a paraboloid; a true ball sinks in a little more.
+    approach = seen.fact(page, "Approach")
+    assert float(approach.split()[0]) == pytest.approx(809, rel=0.03)
+
+
+@pytest.mark.slow
 def test_a_newcomer_leaves_with_case_report_and_result(
     page: Any, server: seen.Server, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -121,6 +121,11 @@ function choose(mode) {
   place("yaml").value = caseText();
 }
 
+// An automatic grid follows whatever shape is chosen next; one for a roller fits no ball.
+function withoutGrid(yaml) {
+  return yaml.replace(/^grid:.*\n(?:[ #].*\n)*/m, "");
+}
+
 function setUpUnits() {
   const select = place("units"), key = "viscontact.units";
   select.append(...Object.entries(SYSTEMS).map(([value, { name }]) => make("option", { value, textContent: name })));
@@ -185,7 +190,7 @@ async function open() {
   draft.addEventListener("replaced", redrawForm);
   draft.addEventListener("structure", redrawForm);
   const first = examples.find(({ name }) => name === START) ?? examples[0];
-  await Promise.all([write(keptText() ?? first.yaml), findAgain()]);
+  await Promise.all([write(keptText() ?? withoutGrid(first.yaml)), findAgain()]);
   if (!isRead()) choose("text");
   document.documentElement.dataset.ready = "yes";
 }
