@@ -98,6 +98,11 @@ def test_comma_within_quotation_marks_belongs_to_the_name(tmp_path: Path) -> Non
     [
         ("case.yaml", "[" * 500_000, "nested too deeply"),
         ("case.yaml", "a: [" + "0," * 400_000 + "0]", "lines and commas"),
+        ("case.yaml", "#\r" * 400_000, "lines and commas"),  # a return alone ends a line, too
+        ("case.yaml", "!" * 900_000, "too long for a tag"),
+        ("case.yaml", "a: &a {b: 1}\n" + "c: {<<: *a}\n" * 60, "merges more than 50"),
+        ("case.yaml", 'title: "\\ud800"', "half a character"),
+        ("case.yaml", '"\\udfff": 1', "half a character"),
         ("case.yaml", "a: " + "x" * 1_500_000, "larger than 1 MB"),
         ("case.toml", "a=1\n" + "b." * 300_000 + "c=1", "case.toml:2: a key of more than 64 parts"),
         ("case.toml", '"a" . ' * 1000 + "c=1", "a key of more than 64 parts"),

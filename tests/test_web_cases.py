@@ -76,6 +76,21 @@ def test_a_bad_case_is_refused_in_the_words_of_the_command_line(
     assert client.get("/api/runs").json() == []
 
 
+def test_half_a_character_is_refused_and_leaves_no_run(client: TestClient) -> None:
+    text = CASE.replace("Zener sphere", r'"\ud800"')  # JSON and UTF-8 have no such text
+    for path in ("/api/case", "/api/check", "/api/runs"):
+        answer = client.post(path, json={"yaml": text})
+        assert answer.status_code == 422, path
+        assert "half a character" in answer.json()["problems"][0]["message"]
+
+
+def test_values_nested_without_end_are_refused(client: TestClient) -> None:
+    nested = '{"case": {"a": ' + "[" * 900 + "]" * 900 + "}}"
+    answer = client.post("/api/yaml", content=nested, headers={"content-type": "application/json"})
+    assert answer.status_code == 422
+    assert "nested too deeply" in answer.json()["problems"][0]["message"]
+
+
 def test_a_problem_tells_its_key_and_its_line(client: TestClient) -> None:
     text = CASE.replace("4 N", "10 MPa").replace("viscosity: 10 MPa s", "viscosity: 10")
     told = client.post("/api/check", json={"yaml": text}).json()["problems"]

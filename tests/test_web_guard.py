@@ -76,6 +76,11 @@ def test_what_is_too_large_is_refused_before_it_is_read(client: TestClient) -> N
 def test_a_body_of_unknown_size_is_refused(client: TestClient) -> None:
     answer = client.post("/api/check", content=iter([b"{", b"}"]))
     assert answer.status_code == 411
+    # RFC 9112, section 6.3: Transfer-Encoding overrides Content-Length.
+    both = {"content-length": "2", "transfer-encoding": "chunked"}
+    assert client.post("/api/check", content=b"{}", headers=both).status_code == 411
+    huge = {"content-length": "9" * 5000}  # more digits than Python makes a number of
+    assert client.post("/api/check", content=b"{}", headers=huge).status_code == 413
 
 
 def test_every_answer_forbids_requests_to_elsewhere(client: TestClient) -> None:
@@ -111,10 +116,25 @@ def test_errors_have_one_form_whatever_they_are(client: TestClient) -> None:
         assert problem.keys() == {"message", "path", "line"}
 
 
+# Names that systems refuse or take for something else: docs of Windows on naming files, and 255
+# bytes that a name may have on most file systems.
+BY_SYSTEM = ("NUL", "con.csv", "Com1 .csv", "case.yaml.", "a.csv ", "é" * 130 + ".csv")
+
+
 def test_files_with_names_that_lead_elsewhere_are_refused(
     client: TestClient, tmp_path: Path
 ) -> None:
-    for name in ("../a.csv", "/etc/a.csv", "a/b.csv", ".a", "C:a.csv", "case.yaml", "", "a\n.csv"):
+    for name in (
+        "../a.csv",
+        "/etc/a.csv",
+        "a/b.csv",
+        ".a",
+        "C:a.csv",
+        "case.yaml",
+        "",
+        "a\n.csv",
+        *BY_SYSTEM,
+    ):
         answer = client.post("/api/files", params={"name": name}, content=b"1")
         assert answer.status_code == 400, name
     assert client.delete("/api/files/..%2f..%2fasked.json").status_code == 404

@@ -197,7 +197,8 @@ def test_a_coarse_run_hands_out_the_case_that_gives_its_numbers(
 
 @pytest.mark.slow
 def test_figures_and_reports_of_a_run_can_be_had(client: TestClient) -> None:
-    run, other = begun(client), begun(client, CASE.replace("4 N", "2 N"), "coarse")
+    named = CASE.replace("4 N", "2 N").replace("Zener sphere", r"for $4 or \bad{$5")  # no formula
+    run, other = begun(client), begun(client, named, "coarse")
     for each in (run, other):
         followed(client, each)
     for figure in status(client, run)["figures"]:
@@ -222,6 +223,44 @@ def test_figures_and_reports_of_a_run_can_be_had(client: TestClient) -> None:
     assert shown.content == saved.content
     assert "content-disposition" not in shown.headers
     assert shown.headers["content-security-policy"].startswith("sandbox ")
+
+
+@pytest.mark.skipif(os.name == "nt", reason="there, sizes of files have no such limit")
+def test_a_full_disk_is_told_and_leaves_nothing_behind(client: TestClient, tmp_path: Path) -> None:
+    import resource
+
+    usual = resource.getrlimit(resource.RLIMIT_FSIZE)
+    # What is over the limit fails as on a full disk, with an error of the system.
+    before = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (100, usual[1]))
+    try:
+        file = client.post("/api/files?name=a.csv", content=b"1" * 1000)
+        run = client.post("/api/runs", json={"yaml": CASE})
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, usual)
+        signal.signal(signal.SIGXFSZ, before)
+    assert (file.status_code, run.status_code) == (507, 500)
+    assert file.json()["problems"][0]["message"] == "a.csv cannot be kept: File too large"
+    assert "cannot be kept" in run.json()["problems"][0]["message"]
+    assert list((tmp_path / "page" / "runs").iterdir()) == []
+    assert {path.name for path in (tmp_path / "page" / "files").iterdir()} == {"rough-patch.npz"}
+
+
+def test_a_damaged_run_hides_no_other_one(tmp_path: Path) -> None:
+    asked = {
+        **{"title": "whole", "quality": "full", "created": "", "settings": [], "instants": 3},
+        **{"end": 1.0, "work": 1.0, "memory": 1.0, "errors": False, "state": "done", "said": []},
+    }
+    damages = ({}, {"title": 5}, {"instants": "x"}, {"settings": 1}, {"end": None})
+    for number, damage in enumerate(damages):
+        (tmp_path / "runs" / str(number) / "run").mkdir(parents=True)
+        told = json.dumps({**asked, **damage})
+        (tmp_path / "runs" / str(number) / "asked.json").write_text(told, encoding="utf-8")
+    (tmp_path / "runs" / "0" / "run" / "progress.jsonl").write_bytes(b"5\n[]\n")
+    with asking(tmp_path) as client:
+        answer = client.get("/api/runs")
+    assert answer.status_code == 200
+    assert [(run["title"], run["step"]) for run in answer.json()] == [("whole", 0)]
 
 
 # --- the process ------------------------------------------------------------------------------

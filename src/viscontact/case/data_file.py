@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path, PurePosixPath, PureWindowsPath
 from typing import Annotated
 
 from pydantic import AfterValidator, ValidationInfo
+
+#: What Windows takes for a device, whatever follows behind a point.
+_DEVICE = re.compile(r"(con|prn|aux|nul|com\d|lpt\d) *(\.|$)", re.IGNORECASE)
 
 
 def beside_the_case(name: str, info: ValidationInfo) -> str:
@@ -47,7 +51,12 @@ def is_plain_name(name: str) -> bool:
     """
     kinds = (PurePosixPath, PureWindowsPath)
     is_whole = bool(name) and all(kind(name).name == name for kind in kinds)
-    return is_whole and not name.startswith(".") and name.isprintable()
+    return is_whole and not name.startswith(".") and name.isprintable() and not _is_special(name)
+
+
+def _is_special(name: str) -> bool:
+    """Whether Windows takes it for a device, or for another name."""
+    return name[-1:] in (".", " ") or bool(_DEVICE.match(name))
 
 
 #: The path of a file, relative to the folder of the case file unless it is absolute.

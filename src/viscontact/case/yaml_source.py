@@ -20,6 +20,8 @@ __all__ = ["SourceError", "parse", "parse_value", "with_overrides"]
 # a time that grows with the square of the depth.
 _MOST_VALUES, _DEEPEST = 20_000, 12
 _MOST_BRACKETS = 200
+# Merging copies every key of a mapping; the time for a tag grows with the square of its length.
+_MOST_MERGED, _LONGEST_TAG = 50, 1000
 
 
 def parse(text: str) -> tuple[Any, dict[KeyPath, int]]:
@@ -202,10 +204,15 @@ def _load(text: str) -> Any:
 def _refuse_endless(text: str) -> None:
     """Refuse what would take minutes to parse, before it is tried."""
     # Whatever stands in texts and comments counts too: no case file has so many there either.
-    if text.count(",") + text.count("\n") > _MOST_VALUES:
+    returns = text.count("\r") - text.count("\r\n")  # these end lines, too
+    if text.count(",") + text.count("\n") + returns > _MOST_VALUES:
         raise SourceError(
             f"has more than {_MOST_VALUES} lines and commas; a long history belongs in a CSV file"
         )
+    if text.count("<<") > _MOST_MERGED:
+        raise SourceError(f"merges more than {_MOST_MERGED} mappings with <<; write their keys out")
+    if re.search(rf"!\S{{{_LONGEST_TAG}}}", text):
+        raise SourceError("not valid YAML: a word with ! before it is too long for a tag")
     depth = 0
     for bracket in re.findall(r"[\[\]{}]", text):
         depth = max(0, depth + (1 if bracket in "[{" else -1))
@@ -227,7 +234,7 @@ def _plain(value: Any, path: KeyPath, lines: dict[KeyPath, int]) -> Any:
             f"expands to more than {_MOST_VALUES} values; a long history belongs in a CSV file"
         )
     if isinstance(value, CommentedMap):
-        return {str(key): _entry(value, key, path, lines) for key in value}
+        return {_text(str(key)): _entry(value, key, path, lines) for key in value}
     if isinstance(value, CommentedSeq):
         return [_entry(value, index, path, lines) for index in range(len(value))]
     return _plain_scalar(value)
@@ -246,7 +253,16 @@ def _entry(container: Any, key: Any, path: KeyPath, lines: dict[KeyPath, int]) -
 
 def _plain_scalar(value: Any) -> Any:
     # bool before int, of which it is a kind
-    for kind in (bool, int, float, str):
+    for kind in (bool, int, float):
         if isinstance(value, kind):
             return kind(value)
-    return None if value is None else str(value)
+    return None if value is None else _text(str(value))
+
+
+def _text(value: str) -> str:
+    """Return a text as a plain one; escapes can make halves of characters, which no file holds."""
+    try:
+        value.encode()
+    except UnicodeEncodeError as error:
+        raise SourceError(f"{value[:40]!r} holds half a character; write the character") from error
+    return str(value)

@@ -61,12 +61,11 @@ class Course:
                 lines.seek(self._read)
                 whole, newline, _ = lines.read().rpartition(b"\n")
             if newline:
-                if not self._read:
-                    self.first = json.loads(whole.partition(b"\n")[0])
+                first = self.first if self._read else _line(whole.partition(b"\n")[0])
+                last = _line(whole.rpartition(b"\n")[2])
+                self.first, self.last, self.time = first, last, float(last["time"])
                 self._read += len(whole) + 1
                 self.instants += whole.count(b"\n") + 1
-                self.last = json.loads(whole.rpartition(b"\n")[2])
-                self.time = float(self.last["time"])
 
     def _marks(self) -> tuple[int, int, int] | None:
         """What tells one state of the file from another; None without a file."""
@@ -74,3 +73,10 @@ class Course:
             found: stat_result = self._path.stat()
             return found.st_ino, found.st_size, found.st_mtime_ns
         return None
+
+
+def _line(text: bytes) -> dict[str, Any]:
+    """A line of the run; what is none raises one of the errors that are awaited above."""
+    found: dict[str, Any] = json.loads(text)
+    float(found["time"])
+    return found

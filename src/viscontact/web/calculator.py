@@ -7,6 +7,7 @@ import json
 from collections.abc import AsyncIterator, Callable
 from contextlib import suppress
 from typing import Any, TypeVar
+from weakref import WeakKeyDictionary
 
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
@@ -56,7 +57,8 @@ class Calculator:
         self.workshop = Workshop(folder, at_once)
         self.is_to_end = False
         self._turn = asyncio.Lock()
-        self._found: dict[str, tuple[str, dict[str, Any]]] = {}
+        # Forgotten with the run.
+        self._found: WeakKeyDictionary[Work, tuple[str, dict[str, Any]]] = WeakKeyDictionary()
 
     async def do(self, work: Callable[[], T], request: Request | None = None) -> T:
         """Do heavy work in a thread, one piece after the other: HDF5 knows no threads.
@@ -89,9 +91,9 @@ class Calculator:
         if not work.is_over:
             return status_of(work, {})
         key = f"{work.asked.state} {work.course.instants} {__version__}"
-        if self._found.get(work.name, ("",))[0] != key:
-            self._found[work.name] = key, await self._found_by(work, key)
-        return status_of(work, self._found[work.name][1])
+        if self._found.get(work, ("",))[0] != key:
+            self._found[work] = key, await self._found_by(work, key)
+        return status_of(work, self._found[work][1])
 
     async def _found_by(self, work: Work, key: str) -> dict[str, Any]:
         """What the result of a run that is over says, read once."""

@@ -19,6 +19,7 @@ from viscontact.web.calculator import Calculator
 from viscontact.web.desk import filled
 from viscontact.web.drawings import drawing
 from viscontact.web.pictures import MEDIA_TYPES, Wish, picture
+from viscontact.web.problems import RequestError
 
 router = APIRouter(prefix="/api")
 
@@ -113,7 +114,10 @@ def shipped_materials() -> list[dict[str, str]]:
 @router.post("/yaml")
 def as_yaml(asked: CaseValues) -> dict[str, str]:
     """Write values as a case file."""
-    return {"yaml": rewritten(asked.yaml, filled(asked.case))}
+    try:
+        return {"yaml": rewritten(asked.yaml, filled(asked.case))}
+    except RecursionError as error:
+        raise RequestError(422, "nested too deeply for a case file") from error
 
 
 @router.post("/case")

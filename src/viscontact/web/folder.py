@@ -9,11 +9,13 @@ import shutil
 import sys
 import time as clock
 from collections.abc import Iterator, Mapping
-from contextlib import suppress
-from dataclasses import asdict, dataclass, fields
+from contextlib import ExitStack, suppress
+from dataclasses import asdict, dataclass
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
+
+from pydantic import TypeAdapter
 
 from viscontact.case.data_file import is_plain_name
 from viscontact.recording.exchange import replace
@@ -72,6 +74,9 @@ class Asked:
     said: tuple[str, ...] = ()
 
 
+_ASKED_FORM = TypeAdapter(Asked)
+
+
 class Folder:
     """Where files that cases may name, and runs, are kept.
 
@@ -119,9 +124,14 @@ class Folder:
         Raises
         ------
         RequestError
-            If that is no plain name.
+            If that is no plain name, or it cannot be written.
         """
-        _write(self._file(name), content)
+        path = self._file(name)
+        try:
+            _write(path, content)
+        except OSError as error:
+            why = f"{name} cannot be kept: {error.strerror or error}"
+            raise RequestError(507, why) from error
 
     def remove_file(self, name: str) -> None:
         """Remove a file.
@@ -160,11 +170,14 @@ class Folder:
         """
         name = f"{clock.strftime('%Y%m%d-%H%M%S', clock.gmtime())}-{secrets.token_hex(3)}"
         given = self.path / _RUNS / name / _GIVEN
-        given.mkdir(parents=True)
-        (given / CASE_NAME).write_text(text, encoding="utf-8")
-        for path, called in data.items():
-            shutil.copyfile(path, given / called)
-        self.keep(name, asked)  # last: without it there is no run
+        with ExitStack() as undoing:
+            given.mkdir(parents=True)
+            undoing.callback(self.remove_run, name)  # unless all of it is kept
+            (given / CASE_NAME).write_text(text, encoding="utf-8")
+            for path, called in data.items():
+                shutil.copyfile(path, given / called)
+            self.keep(name, asked)  # last: without it there is no run
+            undoing.pop_all()
         return name
 
     def keep(self, name: str, asked: Asked) -> None:
@@ -182,12 +195,9 @@ class Folder:
 
     def runs(self) -> Iterator[tuple[str, Asked]]:
         """Yield the runs that are kept, oldest first; what cannot be read is left alone."""
-        known = {field.name for field in fields(Asked)}
         for path in sorted((self.path / _RUNS).glob(f"*/{_ASKED}")):
-            with suppress(OSError, ValueError, TypeError, AttributeError):
-                told = json.loads(path.read_text(encoding="utf-8"))
-                asked = Asked(**{name: _frozen(told[name]) for name in told if name in known})
-                yield path.parent.name, asked
+            with suppress(OSError, ValueError):
+                yield path.parent.name, _ASKED_FORM.validate_json(path.read_bytes())
 
     def keep_found(self, name: str, key: str, found: dict[str, Any]) -> None:
         """Keep what the result of a run says, so that it need not be read again.
@@ -246,7 +256,7 @@ class Folder:
         return self.path / _RUNS / name / "report.html"
 
     def _file(self, name: str) -> Path:
-        if not is_plain_name(name) or name.lower() == CASE_NAME or len(name) > 200:
+        if not is_plain_name(name) or name.lower() == CASE_NAME or len(name.encode()) > 200:
             raise RequestError(
                 400, f"{name!r} cannot be the name of a file here; call it e.g. 'pmma.csv'"
             )
@@ -277,12 +287,12 @@ def usual_folder() -> Path:
     return base / "viscontact"
 
 
-def _frozen(value: Any) -> Any:
-    return tuple(value) if isinstance(value, list) else value
-
-
 def _write(path: Path, content: bytes) -> None:
     """Write a file so that it is there whole or not at all."""
     fresh = path.with_name(f".{secrets.token_hex(6)}.new")  # two may come at once
-    fresh.write_bytes(content)
-    replace(fresh, path)
+    try:
+        fresh.write_bytes(content)
+        replace(fresh, path)
+    finally:
+        with suppress(OSError):  # only if it could not be written or put there
+            fresh.unlink()

@@ -75,11 +75,10 @@ def _refusal(method: str, path: str, asked: dict[str, str]) -> tuple[int, str] |
     is_visit = method == "GET" and asked.get("sec-fetch-mode") == "navigate" and path == "/"
     if asked.get("sec-fetch-site", "none") not in ("none", "same-origin") and not is_visit:
         return 403, "another page may not use this server"
-    if "content-length" not in asked:
-        has_body = "transfer-encoding" in asked
-        return (411, "say in Content-Length how much you send") if has_body else None
-    most = MOST_FILE if path == "/api/files" else MOST_JSON
-    if not asked["content-length"].isdecimal() or int(asked["content-length"]) > most:
+    if "transfer-encoding" in asked:  # what Content-Length says beside it does not count
+        return 411, "say in Content-Length, and not in pieces, how much you send"
+    size, most = asked.get("content-length", "0"), MOST_FILE if path == "/api/files" else MOST_JSON
+    if not size.isdecimal() or len(size) > 20 or int(size) > most:
         return 413, f"that is too large: at most {most // 1_000_000} MB can be sent here"
     return None
 

@@ -185,7 +185,8 @@ def _report(work: Work, ours: Ours) -> bytes:
 
 def _labels(works: list[Work]) -> list[str]:
     """What runs are called in a figure: their titles, numbered where they are alike."""
-    titles = [work.asked.title for work in works]
+    # Between two of these a figure would read a formula.
+    titles = [work.asked.title.replace("$", r"\$") for work in works]
     told = [f"{title} (coarse)" if work.asked.quality == "coarse" else title
             for work, title in zip(works, titles, strict=True)]  # fmt: skip
     if len(set(told)) == len(told):
