@@ -116,8 +116,8 @@ def test_errors_have_one_form_whatever_they_are(client: TestClient) -> None:
         assert problem.keys() == {"message", "path", "line"}
 
 
-# Names that systems refuse or take for something else: docs of Windows on naming files, and 255
-# bytes that a name may have on most file systems.
+# Names that systems refuse or take for something else: Windows as it documents them, and 255 bytes
+# that a name may have on most file systems.
 BY_SYSTEM = ("NUL", "con.csv", "Com1 .csv", "case.yaml.", "a.csv ", "é" * 130 + ".csv")
 
 
