@@ -99,7 +99,9 @@ def test_pair_ends_on_the_spring_or_on_both():
     assert solid(np.inf) == pytest.approx(1 / 8)
 
 
-@pytest.mark.parametrize("kind", [TabulatedCreep, TabulatedRelaxation])
+@pytest.mark.parametrize(
+    "kind", [TabulatedCreep, pytest.param(TabulatedRelaxation, marks=pytest.mark.slow)]
+)
 def test_measured_law_beside_a_spring_is_the_table_of_the_sum(kind):
     law, spring = FractionalZener(5.0, 1.0, 3.0, 0.5), 2.0
     times = np.logspace(-5, 7, 241)

@@ -968,17 +968,3 @@ def test_exit_codes(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["run", "ball.yaml", "-q", "--overwrite"]) == 0
     assert main(["run", "ball.yaml", "--resume"]) == 0
     assert capsys.readouterr().err.count("\n") == 1
-
-
-@pytest.mark.parametrize(
-    ("words", "said"),
-    [
-        (["plot", "x", "animation"], "animation is not built yet"),
-    ],
-)
-def test_what_is_not_built_exits_2_and_names_itself(
-    words: list[str], said: str, folder: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert main(words) == 2
-    assert said in capsys.readouterr().err
-    assert [path.name for path in folder.iterdir()] == ["ball.yaml"]

@@ -174,6 +174,7 @@ def job(name: str, memory: float) -> Job:
     return Job(request, Path(name), name, Standing.NEW, 5, 1.0, 1.0, memory)
 
 
+@pytest.mark.slow  # processes begun, stopped and begun again
 @pytest.mark.skipif(os.name == "nt", reason="there, only the console asks processes to stop")
 def test_runs_are_stopped_together_and_resumed_to_the_same_bits(folder: Path) -> None:
     words = ["run", "zener.yaml", "--vary", "load.force=2N,3N,4N", "-j", "2", "-o", "f"]

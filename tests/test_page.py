@@ -68,6 +68,7 @@ def page(browser: Any, server: seen.Server) -> Iterator[Any]:
     assert watched.outside == []
 
 
+@pytest.mark.slow  # a server and a browser
 def test_a_case_is_changed_and_answered_in_seconds(page: Any, server: seen.Server) -> None:
     seen.visit(page, server, BALL)
     drawing = page.locator("#drawing-indenter img")

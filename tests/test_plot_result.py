@@ -85,6 +85,7 @@ def test_results_do_not_load_matplotlib_before_they_are_drawn() -> None:
 # --- what journals ask ------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("width", "millimetres"), [("single", 89), ("double", 183), (0.12, 120)])
 def test_a_figure_is_as_wide_as_the_column(width: str | float, millimetres: float) -> None:
     results = {"sphere": maxwell_sphere(cells=12), "roller": roller(shape=(32, 12))}

@@ -134,6 +134,7 @@ LAWS["a power in steps of its own"] = re.sub(
 )
 
 
+@pytest.mark.slow  # five runs by the real command
 @pytest.mark.parametrize(
     ("law", "cells"),
     [*product(("a series", "a power"), (64, 400)), ("a power in steps of its own", 96)],
