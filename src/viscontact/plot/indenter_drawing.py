@@ -140,36 +140,9 @@ def _draw_plan(
     contact: tuple[float, float, float, float] | None,
 ) -> None:
     style.dress(axes)
-    solid = np.isfinite(gap)
-    highest = float(np.quantile(gap[solid], SHOWN_PART)) or 1.0
-    axes.contourf(
-        unit(x), unit(y), solid.T.astype(float), levels=[0.5, 1.5], colors=[_BODY], antialiased=True
-    )
-    levels = [part * highest for part in _LEVELS]
-    axes.contour(
-        *(unit(x), unit(y), np.where(solid, gap, np.nan).T),
-        levels=levels,
-        colors=[style.FAINT],
-        linewidths=style.THIN_LINE,
-    )
-    if not solid.all():
-        axes.contour(
-            *(unit(x), unit(y), solid.T.astype(float)),
-            levels=[0.5],
-            colors=["#D55E00"],
-            linewidths=1.2,
-        )
+    _draw_body(axes, unit(x), unit(y), gap)
     if contact is not None:
-        corner = contact[0] - contact[2] / 2, contact[1] - contact[3] / 2
-        shade = Rectangle(
-            (float(unit(corner[0])), float(unit(corner[1]))),
-            float(unit(contact[2])),
-            float(unit(contact[3])),
-            color=style.LINE,
-            alpha=0.12,
-            linewidth=0,
-        )
-        axes.add_patch(shade)
+        _shade_contact(axes, unit, contact)
     axes.set(
         xlim=(float(unit(x[0])), float(unit(x[-1]))),
         ylim=(float(unit(y[0])), float(unit(y[-1]))),
@@ -179,6 +152,39 @@ def _draw_plan(
     if 1 / _TRUE_SHAPE <= x[-1] / y[-1] <= _TRUE_SHAPE:
         axes.set_aspect("equal")
     style.add_heading(axes, "plan")
+
+
+def _draw_body(
+    axes: Axes, x: NDArray[np.float64], y: NDArray[np.float64], gap: NDArray[np.float64]
+) -> None:
+    """Fill where the body is, with lines of equal gap and, where it ends, its outline."""
+    solid = np.isfinite(gap)
+    highest = float(np.quantile(gap[solid], SHOWN_PART)) or 1.0
+    there = solid.T.astype(float)
+    axes.contourf(x, y, there, levels=[0.5, 1.5], colors=[_BODY], antialiased=True)
+    axes.contour(
+        *(x, y, np.where(solid, gap, np.nan).T),
+        levels=[part * highest for part in _LEVELS],
+        colors=[style.FAINT],
+        linewidths=style.THIN_LINE,
+    )
+    if not solid.all():
+        axes.contour(x, y, there, levels=[0.5], colors=["#D55E00"], linewidths=1.2)
+
+
+def _shade_contact(
+    axes: Axes, unit: DisplayUnit, contact: tuple[float, float, float, float]
+) -> None:
+    """Shade the box of the contact, given by its centre and its extents [m]."""
+    middle_x, middle_y, length, width = contact
+    corner = float(unit(middle_x - length / 2)), float(unit(middle_y - width / 2))
+    box = Rectangle(
+        *(corner, float(unit(length)), float(unit(width))),
+        color=style.LINE,
+        alpha=0.12,
+        linewidth=0,
+    )
+    axes.add_patch(box)
 
 
 def _tell(axes: Axes, facts: list[str]) -> None:
