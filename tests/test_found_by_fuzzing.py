@@ -93,6 +93,9 @@ def test_comma_within_quotation_marks_belongs_to_the_name(tmp_path: Path) -> Non
     assert read_card(card, modulus_unit="MPa", time_unit="s").name == "a, b"
 
 
+_KEYS = "a: &a {" + ", ".join(f"k{number}: 0" for number in range(15_000)) + "}\n"
+
+
 @pytest.mark.parametrize(
     ("name", "text", "why"),
     [
@@ -101,6 +104,10 @@ def test_comma_within_quotation_marks_belongs_to_the_name(tmp_path: Path) -> Non
         ("case.yaml", "#\r" * 400_000, "lines and commas"),  # a return alone ends a line, too
         ("case.yaml", "!" * 900_000, "too long for a tag"),
         ("case.yaml", "a: &a {b: 1}\n" + "c: {<<: *a}\n" * 60, "merges more than 50"),
+        # Copies of keys: many keys a few times, in one list, by a tag in place of the sign.
+        ("case.yaml", _KEYS + "b: {<<: *a}\n" * 49, "merges too many keys"),
+        ("case.yaml", _KEYS + f"b: {{<<: [{', '.join(['*a'] * 4_000)}]}}", "merges too many keys"),
+        ("case.yaml", _KEYS + "b: {!!merge c: *a}\n" * 49, "merges too many keys"),
         ("case.yaml", 'title: "\\ud800"', "half a character"),
         ("case.yaml", '"\\udfff": 1', "half a character"),
         ("case.yaml", "a: " + "x" * 1_500_000, "larger than 1 MB"),

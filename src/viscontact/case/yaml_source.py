@@ -22,6 +22,10 @@ _MOST_VALUES, _DEEPEST = 20_000, 12
 _MOST_BRACKETS = 200
 # Merging copies every key of a mapping; the time for a tag grows with the square of its length.
 _MOST_MERGED, _LONGEST_TAG = 50, 1000
+# Aliases times values bound how many keys are copied; so many take as long as the values above.
+_MOST_COPIED = 100_000
+# Where one may stand; also within texts and comments, of which no case file has so many.
+_ALIAS = re.compile(r"(?:^|[\s,:\[{])\*[^\s*]")
 
 
 def parse(text: str) -> tuple[Any, dict[KeyPath, int]]:
@@ -205,12 +209,16 @@ def _refuse_endless(text: str) -> None:
     """Refuse what would take minutes to parse, before it is tried."""
     # Whatever stands in texts and comments counts too: no case file has so many there either.
     returns = text.count("\r") - text.count("\r\n")  # these end lines, too
-    if text.count(",") + text.count("\n") + returns > _MOST_VALUES:
+    values = text.count(",") + text.count("\n") + returns
+    if values > _MOST_VALUES:
         raise SourceError(
             f"has more than {_MOST_VALUES} lines and commas; a long history belongs in a CSV file"
         )
     if text.count("<<") > _MOST_MERGED:
         raise SourceError(f"merges more than {_MOST_MERGED} mappings with <<; write their keys out")
+    # A tag, too, makes a key one that merges.
+    if ("<<" in text or "!" in text) and values * len(_ALIAS.findall(text)) > _MOST_COPIED:
+        raise SourceError("merges too many keys with <<; write out those that are needed")
     if re.search(rf"!\S{{{_LONGEST_TAG}}}", text):
         raise SourceError("not valid YAML: a word with ! before it is too long for a tag")
     depth = 0
