@@ -7,8 +7,10 @@ from pathlib import Path
 
 import pytest
 from fastapi.testclient import TestClient
+from httpx import Response
 
 from calculator_page import CASE, HOST, asking
+from viscontact.web import case_routes
 
 
 @pytest.fixture(scope="module")
@@ -83,9 +85,27 @@ def test_a_body_of_unknown_size_is_refused(client: TestClient) -> None:
     assert client.post("/api/check", content=b"{}", headers=huge).status_code == 413
 
 
-def test_every_answer_forbids_requests_to_elsewhere(client: TestClient) -> None:
+@pytest.fixture
+def fault(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Response:
+    """What is answered where our own code is at fault."""
+
+    def broken() -> None:
+        raise ZeroDivisionError("division by zero")
+
+    monkeypatch.setattr(case_routes, "case_schema", broken)
+    with asking(tmp_path) as client:
+        patient = TestClient(client.app, base_url=HOST, raise_server_exceptions=False)
+        return patient.get("/api/schema")
+
+
+def test_a_fault_of_ours_is_told_as_such(fault: Response) -> None:
+    assert fault.status_code == 500
+    assert "please report it" in fault.json()["problems"][0]["message"]
+
+
+def test_every_answer_forbids_requests_to_elsewhere(client: TestClient, fault: Response) -> None:
     refused = client.get("/api/version", headers={"host": "evil.example"})
-    for answer in (client.get("/api/version"), client.get("/api/nothing"), refused):
+    for answer in (client.get("/api/version"), client.get("/api/nothing"), refused, fault):
         policy = dict(part.split(" ", 1) for part in _policy(answer.headers))
         assert policy["default-src"] == "'none'"
         sources = " ".join(policy[name] for name in policy if name.endswith("-src"))

@@ -13,6 +13,7 @@ from fastapi.exceptions import RequestValidationError
 from fastapi.responses import FileResponse, JSONResponse
 from starlette.concurrency import run_in_threadpool
 from starlette.exceptions import HTTPException
+from starlette.types import ASGIApp
 
 from viscontact.case.data_file import is_plain_name
 from viscontact.web import case_routes, run_routes
@@ -37,13 +38,18 @@ _MEDIA_TYPES = {
 _PLOTLY = "plotly.min.js"
 
 
-def new_app(calculator: Calculator) -> FastAPI:
+def new_app(calculator: Calculator) -> ASGIApp:
     """Return the application.
 
     Parameters
     ----------
     calculator : Calculator
         What answers.
+
+    Returns
+    -------
+    callable
+        What answers requests, by ASGI.
     """
 
     @asynccontextmanager
@@ -58,7 +64,6 @@ def new_app(calculator: Calculator) -> FastAPI:
     # Its pages of documentation would load scripts from elsewhere.
     app = FastAPI(lifespan=at_work, docs_url=None, redoc_url=None, openapi_url=None)
     app.state.calculator = calculator
-    app.add_middleware(Guard)
     app.add_exception_handler(RequestError, _refused)
     app.add_exception_handler(RequestValidationError, _misunderstood)
     app.add_exception_handler(HTTPException, _unknown)
@@ -67,7 +72,8 @@ def new_app(calculator: Calculator) -> FastAPI:
     app.include_router(run_routes.router)
     app.add_api_route("/", _page)
     app.add_api_route("/static/{name}", _static)
-    return app
+    # Around all of it: answers about faults are made outside of what is added as middleware.
+    return Guard(app)
 
 
 def _page() -> FileResponse:
