@@ -230,8 +230,8 @@ def test_schema_is_that_of_the_command_line(
     assert client.get("/api/schema").json() == json.loads(capsys.readouterr().out)
 
 
-def drawing(client: TestClient, what: str, *, dark: bool = False) -> str:
-    wish = {"yaml": CASE, "what": what, "dark": dark}
+def drawing(client: TestClient, what: str, *, dark: bool = False, narrow: bool = False) -> str:
+    wish = {"yaml": CASE, "what": what, "dark": dark, "narrow": narrow}
     answer = client.post("/api/drawing", json=wish)
     assert answer.headers["content-type"] == "image/svg+xml"
     assert ElementTree.fromstring(answer.text).tag.endswith("svg")
@@ -244,6 +244,12 @@ def test_drawings_come_in_ink_for_light_and_for_dark_ground(client: TestClient) 
     answer = client.post("/api/drawing", json={"yaml": CASE, "what": "indenter_material"})
     assert answer.status_code == 422
     assert "rigid" in answer.json()["problems"][0]["message"]
+
+
+def test_drawings_for_a_phone_stand_below_one_another(client: TestClient) -> None:
+    drawn = ElementTree.fromstring(drawing(client, "material", narrow=True))
+    width, height = (float(drawn.attrib[name].removesuffix("pt")) for name in ("width", "height"))
+    assert width / 72 * 96 < 350 < height / 72 * 96  # a phone is 360 to 430 pixels wide
 
 
 @pytest.mark.slow

@@ -112,7 +112,8 @@ def test_a_run_is_cancelled_and_goes_on_to_the_same_numbers(
     assert told["state"] == "cancelled"
     assert told["resumable"]
     assert 3 < told["step"] < 400
-    assert told["message"].startswith(f"cancelled; {told['step'] + 1} of 401 instants")
+    assert told["message"].startswith(f"cancelled after step {told['step']} of 400, at t = ")
+    assert told["message"].endswith("; it is kept")
     kept = client.get(f"/api/runs/{run}/history.csv").text
     assert len(kept.splitlines()) == told["step"] + 2
 
@@ -140,6 +141,10 @@ def test_no_more_runs_than_allowed_are_at_work_and_coarse_ones_come_first(tmp_pa
         until(lambda: status(client, first)["over"])
         until(lambda: status(client, coarse)["state"] == "running")
         assert status(client, full)["state"] == "waiting"
+        told = client.post(f"/api/runs/{full}/cancel").json()  # one that has computed nothing
+        assert told["message"] == "cancelled before its first step; there is nothing to show yet"
+        assert told["resumable"]
+        client.post(f"/api/runs/{full}/resume")
         client.delete(f"/api/runs/{full}")  # one that waits is forgotten at once
         assert client.get(f"/api/runs/{full}").status_code == 404
         client.delete(f"/api/runs/{coarse}")  # one at work is stopped first

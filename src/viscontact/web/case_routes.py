@@ -15,6 +15,7 @@ from viscontact import __version__, materials
 from viscontact.case import case_schema
 from viscontact.case.yaml_source import parse, rewritten
 from viscontact.plot import COMPARISONS, FIGURES
+from viscontact.plot.page import Width
 from viscontact.web.calculator import Calculator
 from viscontact.web.desk import filled
 from viscontact.web.drawings import drawing
@@ -56,6 +57,7 @@ class DrawingWish(BaseModel):
     yaml: str
     what: Literal["indenter", "material", "indenter_material", "load"]
     dark: bool = False
+    narrow: bool = False
 
 
 @router.get("/version")
@@ -136,8 +138,9 @@ async def check(asked: CaseText, ours: Ours, request: Request) -> dict[str, Any]
 async def draw(asked: DrawingWish, ours: Ours, request: Request) -> Response:
     """Draw a part of a case."""
     wish = Wish(asked.what, is_dark=asked.dark)
+    width: Width | None = "single" if asked.narrow else None
     drawn = await ours.do(
-        lambda: picture(drawing(ours.desk, asked.yaml, asked.what), wish), request
+        lambda: picture(drawing(ours.desk, asked.yaml, asked.what, width), wish), request
     )
     return Response(drawn, media_type=MEDIA_TYPES["svg"])
 

@@ -9,6 +9,7 @@ from viscontact.case import Case, CaseError
 from viscontact.inspection import drawn_size, foreseen
 from viscontact.material import Material
 from viscontact.plot import creep_curve, draw_indenter, draw_load
+from viscontact.plot.page import Width
 from viscontact.preparation import prepared
 from viscontact.stepping import AdaptiveTimes
 from viscontact.web.desk import Desk
@@ -18,7 +19,7 @@ from viscontact.web.problems import RequestError, case_problems
 _BACK, _POINTS = 1e-4, 300
 
 
-def drawing(desk: Desk, text: str, what: str) -> Figure:
+def drawing(desk: Desk, text: str, what: str, width: Width | None = None) -> Figure:
     """Draw a part of a case.
 
     Parameters
@@ -29,6 +30,8 @@ def drawing(desk: Desk, text: str, what: str) -> Figure:
         The case.
     what : str
         indenter, material, indenter_material or load.
+    width : {"single", "double"} or float, optional
+        As figures take it; a single column suits a phone.
 
     Returns
     -------
@@ -43,23 +46,23 @@ def drawing(desk: Desk, text: str, what: str) -> Figure:
     case = desk.case(text)
     try:
         if what == "indenter":
-            return _indenter(case)
+            return _indenter(case, width)
         if what == "load":
             return draw_load(case.load, _end(case))
-        return _curves(_material(case, what), _end(case))
+        return _curves(_material(case, what), _end(case), width)
     except CaseError as error:
         raise case_problems(error, case.document.path) from error
     except ValueError as error:
         raise RequestError(422, f"the {what} cannot be drawn: {error}") from error
 
 
-def _indenter(case: Case) -> Figure:
+def _indenter(case: Case, width: Width | None) -> Figure:
     found = prepared(case)
     estimate = foreseen(found).estimate
     contact = None
     if estimate is not None:
         contact = (estimate.centre_x, estimate.centre_y, estimate.length, estimate.width)
-    return draw_indenter(case.indenter, drawn_size(found.run), contact=contact)
+    return draw_indenter(case.indenter, drawn_size(found.run), contact=contact, width=width)
 
 
 def _material(case: Case, what: str) -> Material:
@@ -69,8 +72,8 @@ def _material(case: Case, what: str) -> Material:
     return material
 
 
-def _curves(material: Material, end: float) -> Figure:
-    return creep_curve(material.law, np.geomspace(_BACK * end, end, _POINTS))
+def _curves(material: Material, end: float, width: Width | None) -> Figure:
+    return creep_curve(material.law, np.geomspace(_BACK * end, end, _POINTS), width=width)
 
 
 def _end(case: Case) -> float:

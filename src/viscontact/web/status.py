@@ -127,13 +127,24 @@ def _message(work: Work, problems: Sequence[str]) -> str:
         "waiting": "waiting for its turn",
         "running": reached or "starting",
         "done": f"done: {made}",
-        "cancelled": f"cancelled; {reached or 'nothing'} is kept",
-        "interrupted": f"the server was stopped; {reached or 'nothing'} is kept",
+        "cancelled": f"cancelled {_kept(work)}",
+        "interrupted": f"the server was stopped {_kept(work)}",
         "failed": problems[0] if problems else "the run stopped, and did not say why",
     }
     if work.is_estimating:
         return "all steps are done; estimating errors from two coarser companions of the run"
     return told[asked.state]
+
+
+def _kept(work: Work) -> str:
+    """When a run was stopped, and what it has to go on from."""
+    asked, course = work.asked, work.course
+    if not course.instants:
+        return "before its first step; there is nothing to show yet"
+    if course.part >= 1:
+        return "after its last step; it is kept, without error bars"
+    of = "" if asked.instants is None else f" of {asked.instants - 1}"
+    return f"after step {course.instants - 1}{of}, at t = {in_words(course.time, 's')}; it is kept"
 
 
 def _scalars(line: Mapping[str, Any], names: Collection[str]) -> dict[str, Any]:

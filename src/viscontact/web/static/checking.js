@@ -60,7 +60,7 @@ function drawCheck() {
   place("to-problem").hidden = count === 0;
   write(place("to-problem"), count === 1 ? "One problem: show it" : `${count} problems: show the first`);
   write(place("estimate-text"), full ? estimate(full) : count ? "" : "Looking at the case…");
-  write(place("refine-time"), full ? lasting(full.seconds) : "");
+  write(place("refine-time"), full ? (full.seconds < 1 ? "< 1 s" : lasting(full.seconds)) : "");
   place("expected").hidden = count > 0;
   if (!full) return;
   const rows = [...(full.needs ?? []), ...(full.expectations ?? [])];

@@ -12,6 +12,8 @@ const KINDS = {
 };
 const BEFORE = "As it was before the last change: what is written now cannot be drawn.";
 const narrow = window.matchMedia("(max-width: 860px)");
+// There the panels of a drawing stand below one another.
+const phone = window.matchMedia("(max-width: 640px)");
 const boxes = {};
 let request = null;
 let shown = "indenter";
@@ -27,14 +29,14 @@ export function setUpDrawings() {
   for (const [kind, { about }] of Object.entries(KINDS)) {
     const names = { id: `drawing-${kind}`, role: "tabpanel", "aria-labelledby": `tab-${kind}` };
     boxes[kind] = make("figure", { class: "drawing", ...names },
-      make("div", { class: "scroll" }, make("img", { alt: about })), make("p", { class: "told" }));
+      make("div", { class: "scroll" }, make("img", { alt: about, hidden: true })), make("p", { class: "told" }));
   }
   narrow.addEventListener("change", placeDrawings);
   place("form").addEventListener("focusin", (event) => {
     const section = event.target.closest("[data-section]")?.dataset.section;
     if (KINDS[section]) showDrawing(section);
   });
-  narrow.addEventListener("change", () => draw());
+  for (const width of [narrow, phone]) width.addEventListener("change", () => draw());
   showDrawing("indenter");
   placeDrawings();
 }
@@ -80,9 +82,11 @@ async function drawOne(kind, signal) {
   boxes[kind].setAttribute("aria-busy", "true");
   outdated.delete(kind);
   try {
-    const address = await postForImage("/api/drawing", { yaml: caseText(), what: kind, dark: isDark() }, signal);
+    const wish = { yaml: caseText(), what: kind, dark: isDark(), narrow: phone.matches };
+    const address = await postForImage("/api/drawing", wish, signal);
     const before = image.src;
     image.src = address;
+    image.hidden = false;
     // Letters about as large as those of the page, whatever the drawing's own size.
     image.onload = () => {
       image.style.maxWidth = `${Math.round(1.12 * image.naturalWidth)}px`;

@@ -29,11 +29,15 @@ export function drawProgress() {
   place("progress-now").replaceChildren(...(status.over ? [] : now(status.scalars ?? {})));
   place("cancel").hidden = status.over || state.lost;
   place("resume").hidden = !(status.over && status.resumable);
+  write(place("resume"), onward(status));
   place("again").hidden = !status.over || status.state === "done" || status.resumable;
   const problems = (status.problems ?? []).map(({ path, message }) => [path, message].filter(Boolean).join(": "));
   place("progress-problems").replaceChildren(...items(problems.filter((text) => text !== status.message)));
   speak(status);
 }
+
+// Before its first step there is nothing to go on from.
+const onward = (status) => (status.figures.length ? "Resume" : "Start");
 
 function told(status) {
   if (status.over || status.stage === "waiting") return status.message;
@@ -69,7 +73,7 @@ const isReference = (run) => state.reference?.id === run.id;
 const buttonsFor = (run, { load, complain }) => [
   run.figures.length > 0 && act("Show", "Show this answer", () => show(run.id), complain),
   !run.over && act("Follow", "Follow this run", () => watch(run.id), complain),
-  run.resumable && act("Resume", "Go on with this run", () => resume(run.id), complain),
+  run.resumable && act(onward(run), "Go on with this run", () => resume(run.id), complain),
   run.figures.length > 0 && act(isReference(run) ? "Not the reference" : "Reference", "Compare with this answer",
     () => refer(isReference(run) ? null : run.id), complain),
   act("Its case", "Write this run’s case into the form",

@@ -46,7 +46,8 @@ export async function drawResults() {
 
 function notes(status, data) {
   const note = (text, style = "") => make("p", { class: `note ${style}`, textContent: text });
-  const said = [status.quality === "coarse" && note(COARSE), status.state !== "done" && note(status.message)];
+  // Of one that was stopped early the notices tell where it ended.
+  const said = [status.quality === "coarse" && note(COARSE), status.state === "failed" && note(status.message)];
   said.push(...data.notices.map((text) => note(text, "warm")));
   if (data.warnings.length) said.push(make("div", { class: "note warm" },
     make("p", { textContent: "This run warns:" }), make("ul", {}, items(data.warnings))));
