@@ -159,7 +159,7 @@ LINE = "case.yaml:3: "
         ({"kind": "step", "approach": 1}, "load.approach: 1 has no unit"),
         (
             {"kind": "step", "approach": "1 mm", "eccentricity_x": "1 mm"},
-            "load.eccentricity_x: goes with a force, got 0.001 m with an approach",
+            "load.eccentricity_x: goes with a force, got 1 mm with an approach",
         ),
         (
             {"kind": "step", "force": "1 N", "tilt_x": "loose"},

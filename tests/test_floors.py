@@ -21,7 +21,10 @@ PACKAGE = Path(viscontact.__file__).parent
 # The floors from the ground up. A new module gets its place here; think twice before it is high.
 FLOORS = (
     # 0 words: they do not know each other
-    ("errors", "shown", "real", "carried", "free_memory", "grid", "load", "indenters", "laws"),
+    (
+        *("errors", "shown", "real", "readable", "carried", "free_memory"),
+        *("grid", "load", "indenters", "laws"),
+    ),
     # 1 single ideas
     (
         "compliance",
@@ -132,6 +135,9 @@ NEIGHBOURS = {
     ("grid", "shown"),
     ("indenters", "real"),
     ("grid", "real"),
+    ("indenters", "readable"),  # what a refusal says
+    ("load", "readable"),
+    ("laws", "readable"),
     ("material", "compliance"),  # what contact sees of it
     ("memory", "compliance"),  # the past is weighted by it
     ("rim", "outline"),  # where the body ends inside a cell

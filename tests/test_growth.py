@@ -120,7 +120,7 @@ def test_larger_grid_has_the_same_cells_to_the_bit() -> None:
 
 def test_contact_on_a_grid_that_was_given_still_stops_at_its_rim() -> None:
     prepare, small = RUNS["sphere"]
-    with pytest.raises(vc.DomainError, match=r"enlarge grid.size, now 0\.0008 m x 0\.0008 m"):
+    with pytest.raises(vc.DomainError, match=r"enlarge grid.size, now 800 µm x 800 µm"):
         states_of(prepare(small))
 
 
@@ -129,7 +129,7 @@ def test_grid_grows_no_further_than_an_automatic_one_may_be(
 ) -> None:
     prepare, small = RUNS["sphere"]
     monkeypatch.setattr("viscontact.growth.MOST_CELLS", 1000)  # 30 x 30, but not 48 x 48
-    told = r"outgrows 0\.0012 m x 0\.0012 m at t = .*give a grid of your own"
+    told = r"outgrows 1\.2 mm x 1\.2 mm at t = .*give a grid of your own"
     with pytest.raises(vc.DomainError, match=told):
         states_of(growing(prepare(small)))
 
@@ -170,7 +170,7 @@ def test_result_holds_what_is_known_on_the_last_grid_and_tells_when_it_grew() ->
     assert np.isfinite(early.gap.values[~outside][:, ~outside]).all()
     assert (ds.pressure.sum(["x", "y"]) * large.cell_area).values == pytest.approx(ds.force.values)
     told = ds.attrs["grid_enlarged"].splitlines()
-    assert told[0].startswith("t = 0.25 s: from 20 x 20 cells on 0.0008 m x 0.0008 m to 30 x 30")
+    assert told[0].startswith("t = 250 ms: from 20 x 20 cells on 800 µm x 800 µm to 30 x 30")
     assert len(told) == len({state.grid.shape for state in states}) - 1
 
 
@@ -182,7 +182,7 @@ def test_contact_that_the_automatic_extent_has_not_foreseen_is_followed(tmp_path
     gel = vc.Material(vc.Elastic(1e6), 0.5)
     ds = vc.simulate(vc.Sphere(0.01), gel, load, AutomaticGrid(tolerance=0.1), [0.2, 1.0])
     ds = ds.sel(time=[0.2])
-    assert ds.attrs["grid_enlarged"].startswith("t = 0.2 s: from ")
+    assert ds.attrs["grid_enlarged"].startswith("t = 200 ms: from ")
     # Hertz: a³ = 3 W R / (16 G), here about the eccentricity, as the sphere is free to tilt.
     radius = (3 * 0.18 * 0.01 / 16e6) ** (1 / 3)
     assert ds.force[-1] == pytest.approx(0.18, rel=1e-6)

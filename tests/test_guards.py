@@ -268,7 +268,7 @@ GUARDS = {
     "an approach that is taken back in one step": Guard(
         vc.AccuracyWarning,
         # Not all of it: the body has crept away, and the contact is lost before.
-        "the contact is lost as the load falls by 70% of its largest in a single step of 0.2 s",
+        "the contact is lost as the load falls by 70% of its largest in a single step of 200 ms",
         met=Job(
             material=FLUID,
             load=vc.ApproachHistory([0, 6, 6.2], [1e-2, 1e-2, 3e-3]),
@@ -429,13 +429,13 @@ GUARDS = {
     ),
     "a thin half-space": Guard(
         vc.AccuracyWarning,
-        "half width is 0.2 of the body's thickness of 0.49 m",
+        "half width is 0.2 of the body's thickness of 490 mm",
         met=Job(material=vc.Material(vc.Elastic(1e6), 0.5, thickness=0.49)),
         missed=Job(material=vc.Material(vc.Elastic(1e6), 0.5, thickness=0.51)),
     ),
     "a thin indenter": Guard(
         vc.AccuracyWarning,
-        "half width is 0.21 of the body's thickness of 0.48 m",
+        "half width is 0.21 of the body's thickness of 480 mm",
         met=Job(
             material=vc.Material(vc.Elastic(2e6), 0.5, thickness=1.0),
             indenter_material=vc.Material(vc.Elastic(2e6), 0.5, thickness=0.48),

@@ -394,7 +394,7 @@ def test_flat_punch_wants_one_shape(arguments):
             [0, 1],
             [0, 2, 2],
             np.zeros((2, 3)),
-            "y must increase strictly, got 2.0 m followed by 2.0",
+            "y must increase strictly, got 2 m followed by 2 m",
         ),
         ([1, 0], [0, 1], np.zeros((2, 2)), "x must increase strictly"),
         ([0, 1], [0, 1], [["a", "b"], ["c", "d"]], "height must hold numbers"),

@@ -236,11 +236,11 @@ def test_moduli_and_viscosities_that_are_not_positive_are_refused_by_name(noun, 
         (lambda: Elastic.from_uniaxial(8.0, bulk_modulus=8.0 / 9), "bulk_modulus"),
         (
             lambda: CreepSeries.from_uniaxial(1.0, [], [], bulk_modulus=0.1),
-            r"bulk_modulus 0\.1 Pa is too small",
+            r"bulk_modulus 100 mPa is too small",
         ),
         (
             lambda: RelaxationSeries.from_uniaxial(1.0, [8.0], [1.0], bulk_modulus=0.9),
-            r"bulk_modulus 0\.9 Pa is too small",
+            r"bulk_modulus 900 mPa is too small",
         ),
         (lambda: Zener.from_uniaxial(1.0, 0.0, 1.0, poisson_ratio=0.3), r"delayed_modulus"),
     ],

@@ -86,7 +86,7 @@ def test_map_that_is_no_period_is_refused(shape, grid, why):
 
 def test_approach_that_presses_everything_flat_is_refused():
     """The waves are 1 um deep in the mean: at that approach no pressure is told by it."""
-    with pytest.raises(ValueError, match=r"load\.approach: at 1e-06 m the surfaces .* everywhere"):
+    with pytest.raises(ValueError, match=r"load\.approach: at 1 µm the surfaces .* everywhere"):
         run(load=vc.step(approach=1e-6))
     assert run(load=vc.step(approach=0.99e-6)).contact_area[0] < PERIOD.area
 

@@ -318,10 +318,10 @@ def test_parabolic_section_is_hertzs_and_has_no_outline() -> None:
         ({"profile": "iso-16281", "crown_radius": 1.0}, "crown_radius means nothing with"),
         ({"profile": vc.FullCrown(1.0), "crown_radius": 1.0}, "exclude each other"),
         ({"profile": [1.0, 2.0]}, "rows of .x, drop. in m, got"),
-        ({"profile": [(0, 0), (1e-3, 0)]}, "ends at 0.001 m from the middle, before the half"),
+        ({"profile": [(0, 0), (1e-3, 0)]}, "ends at 1 mm from the middle, before the half"),
         ({"profile": [(1e-3, 0), (1e-2, 0)]}, "must begin with 0 .half"),
-        ({"profile": [(0, 0), (2e-3, 1e-6), (1e-3, 0)]}, "positions must increase, got 0.002 m fo"),
-        ({"profile": [(0, 0), (3e-3, 0), (3e-3, 1), (6e-3, 1)]}, "drop jumps at 0.003 m"),
+        ({"profile": [(0, 0), (2e-3, 1e-6), (1e-3, 0)]}, "positions must increase, got 2 mm fo"),
+        ({"profile": [(0, 0), (3e-3, 0), (3e-3, 1), (6e-3, 1)]}, "drop jumps at 3 mm"),
         ({"profile": [(0, 0), (6e-3, math.nan)]}, "finite lengths in m, got nan at point 2"),
         ({"profile": [(0, 0)]}, "at least two positions"),
         (

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import math
+import re
 import subprocess
 import sys
 from contextlib import suppress
+from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+import viscontact
 from viscontact.units import (
     DIMENSIONS,
     in_digits,
@@ -164,3 +167,21 @@ def test_pint_is_imported_only_when_a_quantity_is_parsed() -> None:
     code = "import sys, viscontact.units as u; u.in_words(1.0, 'm'); print('pint' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "False"
+
+
+# A number that is formatted by so many digits and followed by an SI unit: "1.04e-09 m".
+RAW = re.compile(r":(?:\.\d+)?[eg]\} /?(?:m|s|N|Pa)\b")
+# What a law gives may be NaN; a file in bare numbers is read back; a film's length is asked for.
+MAY_BE_RAW = {"admission.py", "material_writing.py", "film.py", "page.py"}
+
+
+def test_messages_tell_lengths_times_forces_and_pressures_in_readable_units() -> None:
+    package = Path(viscontact.__file__).parent
+    found = [
+        f"{path.relative_to(package)}:{number}: {line.strip()}"
+        for path in sorted(package.rglob("*.py"))
+        if path.name not in MAY_BE_RAW and not {"reference", "verify"} & set(path.parts)
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1)
+        if RAW.search(line) and ">>>" not in line
+    ]
+    assert found == []

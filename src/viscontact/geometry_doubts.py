@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from viscontact.grid import Grid
 from viscontact.indenters import Indenter
+from viscontact.readable import in_words
 from viscontact.rim import Rim
 from viscontact.sampling_doubts import Sampling, sampling_doubts
 from viscontact.sharpness import is_sharp, touches_end
@@ -193,8 +194,8 @@ def body_doubts(geometry: Geometry, rim: Rim) -> dict[str, str]:
     if half_width > THIN_BODY * geometry.thickness:
         doubts["thickness"] = (
             f"the contact's half width {be} {half_width / geometry.thickness:.2g} of the body's "
-            f"thickness of {geometry.thickness:.3g} m; half-space theory is meant for less than "
-            f"{THIN_BODY:g}, beyond it what the body rests on counts"
+            f"thickness of {in_words(geometry.thickness, 'm', 3)}; half-space theory is meant for "
+            f"less than {THIN_BODY:g}, beyond it what the body rests on counts"
         )
     return doubts
 

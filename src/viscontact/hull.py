@@ -9,6 +9,7 @@ import scipy
 from numpy.typing import NDArray
 
 from viscontact.grid import Grid
+from viscontact.readable import in_words
 
 
 class Reach:
@@ -28,8 +29,8 @@ class Reach:
     >>> try:
     ...     reach.refuse_outside((0.02, None), 0.0)
     ... except ValueError as error:
-    ...     print(str(error)[:48])
-    load.eccentricity_x: the force acts at 0.02 m at
+    ...     print(str(error)[:47])
+    load.eccentricity_x: the force acts at 20 mm at
     """
 
     def __init__(self, solid: NDArray[np.bool_], grid: Grid) -> None:
@@ -58,16 +59,17 @@ class Reach:
         for name, eccentricity, (first, last) in zip("xy", where, self._spans, strict=True):
             if eccentricity is not None and not first <= eccentricity <= last:
                 raise ValueError(
-                    f"load.eccentricity_{name}: the force acts at {eccentricity:.6g} m at "
-                    f"t = {time:g} s, outside what can touch ({first:.6g} m to {last:.6g} m along "
-                    f"{name}): no pressure can balance it; move the force in, or enlarge the body "
-                    "or the grid"
+                    f"load.eccentricity_{name}: the force acts at {in_words(eccentricity, 'm', 6)} "
+                    f"at t = {in_words(time, 's', 6)}, outside what can touch "
+                    f"({in_words(first, 'm', 6)} to {in_words(last, 'm', 6)} along {name}): no "
+                    "pressure can balance it; move the force in, or enlarge the body or the grid"
                 )
         x, y = where
         if x is not None and y is not None and (x or y) and not self._holds(x, y):
             raise ValueError(
-                f"load.eccentricity_x: the force acts at ({x:.6g} m, {y:.6g} m) at t = {time:g} s, "
-                "outside the hull of what can touch: no pressure can balance it; move the force in"
+                f"load.eccentricity_x: the force acts at ({in_words(x, 'm', 6)}, "
+                f"{in_words(y, 'm', 6)}) at t = {in_words(time, 's', 6)}, outside the hull of what "
+                "can touch: no pressure can balance it; move the force in"
             )
 
     @cached_property

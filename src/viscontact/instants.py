@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.compliance import ContactCompliance
 from viscontact.load import LoadHistory
+from viscontact.readable import in_words
 from viscontact.schedule import kink_meant
 from viscontact.stepping import AdaptiveTimes, uniform_times
 
@@ -102,8 +103,8 @@ def field_instants(
     strange = ~np.isclose(times[index], wanted, rtol=1e-9, atol=0.0)
     if strange.any():
         raise ValueError(
-            f"fields: {wanted[strange][0]:g} s is not among the run's times; "
-            f"the nearest is {times[index][strange][0]:g} s"
+            f"fields: {in_words(wanted[strange][0], 's', 6)} is not among the run's times; "
+            f"the nearest is {in_words(times[index][strange][0], 's', 6)}"
         )
     return times[index]
 
@@ -123,11 +124,14 @@ def _checked_times(times: ArrayLike) -> NDArray[np.float64]:
     if instants.ndim != 1 or instants.size == 0 or not np.isfinite(instants).all():
         raise ValueError(f"times must be one or more finite instants in s, got {times!r}")
     if instants[0] < 0:
-        raise ValueError(f"times must not be before 0, got {instants[0]:g} s")
+        raise ValueError(f"times must not be before 0, got {in_words(instants[0], 's', 6)}")
     falling = np.flatnonzero(np.diff(instants) <= 0)
     if falling.size:
         before, after = instants[falling[0]], instants[falling[0] + 1]
-        raise ValueError(f"times must be strictly increasing, got {before:g} s, then {after:g} s")
+        raise ValueError(
+            f"times must be strictly increasing, got {in_words(before, 's', 6)}, then "
+            f"{in_words(after, 's', 6)}"
+        )
     return instants
 
 

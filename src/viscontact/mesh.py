@@ -22,6 +22,7 @@ from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.load import LoadHistory
 from viscontact.mesh_trial import RIM_SCATTER, Pressing
+from viscontact.readable import in_words
 from viscontact.resolution import PEAK, USUAL_ORDER, Resolution, resolve
 from viscontact.sampling_doubts import CELLS_OF_A_WAVE, map_spacing
 
@@ -155,9 +156,10 @@ def _begun(
         if had > FEWEST_ACROSS:
             remedy = f"ask for a tolerance of {reachable:.2g} or more, or give a grid"
         raise ValueError(
-            f"grid: a contact of {length:.3g} m x {width:.3g} m within {size[0]:.3g} m x "
-            f"{size[1]:.3g} m needs {float(np.prod(cells)):.2g} cells for a relative error of "
-            f"{wish.tolerance:.2g}, more than an automatic grid has; {remedy}"
+            f"grid: a contact of {in_words(length, 'm', 3)} x {in_words(width, 'm', 3)} within "
+            f"{in_words(size[0], 'm', 3)} x {in_words(size[1], 'm', 3)} needs "
+            f"{float(np.prod(cells)):.2g} cells for a relative error of {wish.tolerance:.2g}, more "
+            f"than an automatic grid has; {remedy}"
         )
     return _Choice(cells, tuple(wish.quantities), {}, {})
 

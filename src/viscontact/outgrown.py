@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.grid import Grid
+from viscontact.readable import in_words
 from viscontact.state import ContactState
 
 
@@ -54,13 +55,14 @@ def enlargement(time: float, before: Grid, after: Grid) -> str:
     --------
     >>> small = Grid((32, 16), (2e-3, 1e-3))
     >>> enlargement(1.5, small, small.widened((48, 16)))
-    't = 1.5 s: from 32 x 16 cells on 0.002 m x 0.001 m to 48 x 16 cells on 0.003 m x 0.001 m'
+    't = 1.5 s: from 32 x 16 cells on 2 mm x 1 mm to 48 x 16 cells on 3 mm x 1 mm'
     """
     old, new = (
-        f"{grid.shape[0]} x {grid.shape[1]} cells on {grid.size[0]:.4g} m x {grid.size[1]:.4g} m"
+        f"{grid.shape[0]} x {grid.shape[1]} cells on {in_words(grid.size[0], 'm')} x "
+        f"{in_words(grid.size[1], 'm')}"
         for grid in (before, after)
     )
-    return f"t = {time:.6g} s: from {old} to {new}"
+    return f"t = {in_words(time, 's', 6)}: from {old} to {new}"
 
 
 def enlargements(grid: Grid, states: Sequence[ContactState]) -> list[str]:

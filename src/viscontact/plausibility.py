@@ -8,6 +8,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.readable import in_words
+
 #: Fewer cells across the largest contact than this are doubtful, or refused.
 DOUBTFUL_CELLS, REFUSED_CELLS = 10, 4
 
@@ -46,8 +48,8 @@ def step_doubts(duration: float, change: float) -> dict[str, str]:
         return {}
     return {
         "step": (
-            f"a time step of {duration:.3g} s is long against the law's relaxation times while "
-            f"force or peak pressure change by {change:.0%}; use more steps there"
+            f"a time step of {in_words(duration, 's', 3)} is long against the law's relaxation "
+            f"times while force or peak pressure change by {change:.0%}; use more steps there"
         )
     }
 
@@ -80,7 +82,8 @@ def touch_doubts(duration: float, share: float) -> dict[str, str]:
     return {
         "touch": (
             f"the load grows from nothing to {share:.0%} of its largest in a single step of "
-            f"{duration:.3g} s; use several steps there, as the pressure starts with a root of time"
+            f"{in_words(duration, 's', 3)}; use several steps there, as the pressure starts with a "
+            "root of time"
         )
     }
 
@@ -113,7 +116,8 @@ def release_doubts(duration: float, share: float) -> dict[str, str]:
     return {
         "release": (
             f"the contact is lost as the load falls by {share:.0%} of its largest in a single step "
-            f"of {duration:.3g} s; use several steps there, as the dent that stays depends on them"
+            f"of {in_words(duration, 's', 3)}; use several steps there, as the dent that stays "
+            "depends on them"
         )
     }
 
@@ -144,9 +148,9 @@ def untold_doubts(peak: float, time: float, told: float) -> dict[str, str]:
         return {}
     return {
         "untold": (
-            f"between the instants asked for the peak pressure reaches {peak:.4g} Pa, at "
-            f"t = {time:.6g} s, and {told:.4g} Pa is the largest that the result tells; ask for "
-            "an instant there, or for more steps"
+            f"between the instants asked for the peak pressure reaches {in_words(peak, 'Pa')}, at "
+            f"t = {in_words(time, 's', 6)}, and {in_words(told, 'Pa')} is the largest that the "
+            "result tells; ask for an instant there, or for more steps"
         )
     }
 

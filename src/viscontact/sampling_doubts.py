@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from viscontact.grid import Grid
 from viscontact.indenters import CombinedIndenter, HeightMap, Indenter, PlacedIndenter
+from viscontact.readable import in_words
 from viscontact.rim import Rim
 
 #: What may stand out from one point of the grid to the next, as a slope, over the mean strain
@@ -132,9 +133,9 @@ def map_doubts(missed: float, cell: float, strain: float) -> dict[str, str]:
         return {}
     return {
         "map": (
-            f"from one of the grid's points to the next the height map stands out by {missed:.3g} "
-            "m: peaks of pressure there depend on the mesh; use smaller cells, and a map that is "
-            "smooth over several of them"
+            "from one of the grid's points to the next the height map stands out by "
+            f"{in_words(missed, 'm', 3)}: peaks of pressure there depend on the mesh; use smaller "
+            "cells, and a map that is smooth over several of them"
         )
     }
 
@@ -209,9 +210,9 @@ def texture_doubts(period: float, cell: float) -> dict[str, str]:
         return {}
     return {
         "texture": (
-            f"the body repeats itself over {period:.3g} m, which are {period / cell:.2g} of the "
-            f"grid's cells; {CELLS_OF_A_WAVE} or more are wanted, or what lies between its points "
-            "is missed: use smaller cells"
+            f"the body repeats itself over {in_words(period, 'm', 3)}, which are "
+            f"{period / cell:.2g} of the grid's cells; {CELLS_OF_A_WAVE} or more are wanted, or "
+            "what lies between its points is missed: use smaller cells"
         )
     }
 

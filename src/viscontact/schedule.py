@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from viscontact.carried import Carried
 from viscontact.load import LoadHistory
+from viscontact.readable import in_words
 
 #: An instant this close to a kink of the load, relative to it, is meant to be the kink.
 SAME = 1e-9
@@ -133,8 +134,9 @@ def _refuse_endless_span(instants: list[float]) -> None:
     shortest = float(steps.min(initial=np.inf, where=steps > 0))
     if shortest < SHORTEST_OF_END * instants[-1]:
         raise ValueError(
-            f"time: steps from {shortest:.3g} s to the end at {instants[-1]:.3g} s range over too "
-            f"many decades, at most {-math.log10(SHORTEST_OF_END):.0f}; begin later or end earlier"
+            f"time: steps from {in_words(shortest, 's', 3)} to the end at "
+            f"{in_words(instants[-1], 's', 3)} range over too many decades, at most "
+            f"{-math.log10(SHORTEST_OF_END):.0f}; begin later or end earlier"
         )
 
 
@@ -145,8 +147,9 @@ def _divisions(instants: list[float], load: LoadHistory) -> Iterator[float]:
     swings = min(instants[-1], float(load.kinks[-1])) / load.longest_step
     if swings > MOST_STEPS:
         raise ValueError(
-            f"load: takes {swings:.3g} steps of {load.longest_step:.3g} s for its swings, and "
-            f"{MOST_STEPS} at most can be taken; give fewer cycles, or end the run earlier"
+            f"load: takes {swings:.3g} steps of {in_words(load.longest_step, 's', 3)} for its "
+            f"swings, and {MOST_STEPS} at most can be taken; give fewer cycles, or end the run "
+            "earlier"
         )
     for begin, end in itertools.pairwise(instants):
         if end > load.kinks[-1]:

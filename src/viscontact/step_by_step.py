@@ -12,6 +12,7 @@ from viscontact.growth import FREE, Enlargement, next_grid, overrun
 from viscontact.half_space import HalfSpace
 from viscontact.observation import Observer
 from viscontact.past import Past, Trial
+from viscontact.readable import in_words
 from viscontact.run import Run
 from viscontact.schedule import Step
 from viscontact.solved_step import SolvedStep
@@ -109,12 +110,16 @@ class March:
             self._steps.accepts(error)
         step = self._steps.upcoming()
         if step is None or step.time != solved.time:
-            raise ValueError(f"a step to t = {solved.time:.9g} s is not the next one of this run")
+            raise ValueError(
+                f"a step to t = {in_words(solved.time, 's', 9)} is not the next one of this run"
+            )
         if solved.cells != self._run.grid.shape:
             self._enlarge(self._run.grid.widened(solved.cells))
         trial = self._past.repeat(step, solved.solution, solved.outcome)
         if not self._steps.accepts(trial.error.relative):
-            raise ValueError(f"the step to t = {solved.time:.9g} s is not one that this run takes")
+            raise ValueError(
+                f"the step to t = {in_words(solved.time, 's', 9)} is not one that this run takes"
+            )
         self._half_space.keep_patch(solved.patch)
         return self._taken(step, trial, solved)
 
@@ -197,22 +202,23 @@ def _refuse_rim(run: Run, step: Step, instant: Instant) -> None:
     if run.grid.periodic or not any(overrun(instant.pressure)):
         return
     raise DomainError(
-        f"grid: the contact reaches the grid's rim at t = {step.time:.6g} s; "
-        f"enlarge grid.size, now {run.grid.size[0]:.4g} m x {run.grid.size[1]:.4g} m"
+        f"grid: the contact reaches the grid's rim at t = {in_words(step.time, 's', 6)}; enlarge "
+        f"grid.size, now {in_words(run.grid.size[0], 'm')} x {in_words(run.grid.size[1], 'm')}"
     )
 
 
 def _too_large(run: Run, step: Step) -> str:
     return (
-        f"grid: the contact outgrows {run.grid.size[0]:.4g} m x {run.grid.size[1]:.4g} m at "
-        f"t = {step.time:.6g} s, and with cells as fine as these an automatic grid cannot be "
-        "larger; give a grid of your own, or look whether the load carries the body off"
+        f"grid: the contact outgrows {in_words(run.grid.size[0], 'm')} x "
+        f"{in_words(run.grid.size[1], 'm')} at t = {in_words(step.time, 's', 6)}, and with cells "
+        "as fine as these an automatic grid cannot be larger; give a grid of your own, or look "
+        "whether the load carries the body off"
     )
 
 
 def _not_converged(run: Run, solved: SolvedStep) -> str:
     return (
-        f"the contact solver stopped at t = {solved.time:.6g} s with residual "
+        f"the contact solver stopped at t = {in_words(solved.time, 's', 6)} with residual "
         f"{solved.solution.residual:.2g} after {solved.solution.iterations} iterations, short of "
         f"the tolerance {run.tolerance:g}; likely causes: a resultant that hardly fits under the "
         f"body, a grid too coarse for the contact, or a tolerance near rounding"

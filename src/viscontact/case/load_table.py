@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from viscontact.readable import in_words
 from viscontact.tables import Table, read_table
 
 _COLUMNS = ("time", "force", "approach", "eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y")
@@ -65,7 +66,7 @@ def _refuse_decrease(table: Table) -> None:
     for line, now in zip(table.lines.tolist(), table["time"].tolist(), strict=True):
         if now < before:
             raise ValueError(
-                f"{table.source.name}:{line}: time must not decrease, got {before:g} s followed "
-                f"by {now:g} s"
+                f"{table.source.name}:{line}: time must not decrease, got "
+                f"{in_words(before, 's', 6)} followed by {in_words(now, 's', 6)}"
             )
         before = now

@@ -28,7 +28,7 @@ from viscontact.case.quantities import (
 from viscontact.case.sentences import Sentences
 from viscontact.load import ApproachHistory, ForceHistory, LoadHistory
 from viscontact.load.history import Control
-from viscontact.units import DIMENSIONS
+from viscontact.units import DIMENSIONS, in_words
 
 #: How a mean pressure is written; a modulus' example would be a high one.
 PRESSURE_EXAMPLE = "2 MPa"
@@ -215,8 +215,9 @@ class History(Load):
         for place, level in enumerate(levels, start=1):
             if control == "force" and level.value < 0:
                 raise ValueError(
-                    f"points[{place}]: a force must be zero or more, got {level.value:g} N: a "
-                    "negative force pulls, and adhesion is not modelled"
+                    f"points[{place}]: a force must be zero or more, got "
+                    f"{in_words(level.value, 'N', 6)}: a negative force pulls, and adhesion is not "
+                    "modelled"
                 )
         return _history(control, times, [level.value for level in levels], self._tail)
 

@@ -19,6 +19,7 @@ from viscontact.case.quantities import (
     StepCount,
     TimeTolerance,
 )
+from viscontact.readable import in_words
 from viscontact.stepping import AdaptiveTimes, adaptive_times, log_times, uniform_times
 
 #: Without `first`, steps in log time begin at this part of the end.
@@ -201,7 +202,10 @@ def kept_fields(
         return _default_fields(times)
     late = [instant for instant in output.fields if instant > end * (1 + 1e-9)]
     if late:
-        raise ValueError(f"the instant {late[0]:g} s lies after the end of the run, {end:g} s")
+        raise ValueError(
+            f"the instant {in_words(late[0], 's', 6)} lies after the end of the run, "
+            f"{in_words(end, 's', 6)}"
+        )
     return tuple(sorted({min(instant, end) for instant in output.fields}))
 
 

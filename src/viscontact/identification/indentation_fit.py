@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from viscontact.identification.record import IndentationRecord
 from viscontact.laws import Law
 from viscontact.material import Material
+from viscontact.readable import in_words
 
 Array = NDArray[np.float64]
 
@@ -80,8 +81,8 @@ class IndentationFit:
     def __repr__(self) -> str:
         lines = [
             f"IndentationFit: {type(self.law).__name__} to {self.measured.size} rows over "
-            f"{np.ptp(self.record.times):.4g} s, residual {self.residual:.2e} of the largest "
-            f"{'force' if self.given == 'approach' else 'approach'}"
+            f"{in_words(np.ptp(self.record.times), 's')}, residual {self.residual:.2e} of the "
+            f"largest {'force' if self.given == 'approach' else 'approach'}"
         ]
         for (name, value), unit in zip(self.parameters.items(), self.units, strict=True):
             low, high = self.intervals[name]

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.indenters import Cone, FlatPunch, Indenter, Sphere
+from viscontact.readable import in_words
 from viscontact.reference import ConeProfile, PunchProfile, SphereProfile
 
 Array = NDArray[np.float64]
@@ -59,8 +60,9 @@ class IndentationRecord:
         if back.size:
             row = int(back[0]) + 1
             raise ValueError(
-                f"IndentationRecord: times, row {row}: must not be before the row above, "
-                f"got {columns['times'][row]:.6g} s after {columns['times'][row - 1]:.6g} s"
+                f"IndentationRecord: times, row {row}: must not be before the row above, got "
+                f"{in_words(columns['times'][row], 's', 6)} after "
+                f"{in_words(columns['times'][row - 1], 's', 6)}"
             )
         if not (columns["approach"].max() > 0 and columns["force"].max() > 0):
             raise ValueError(

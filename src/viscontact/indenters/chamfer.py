@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact.indenters.arc import arc_drop
 from viscontact.indenters.lengths import acute_angle, length_or_zero, positive_length
 from viscontact.indenters.profile import Profile
+from viscontact.readable import in_words
 
 
 @dataclass(frozen=True)
@@ -57,9 +58,9 @@ class Chamfer(Profile):
         object.__setattr__(self, "angle", acute_angle("Chamfer: angle", self.angle))
         if self._tangent * math.cos(self.angle) > self.length:
             raise ValueError(
-                f"Chamfer: corner_radius of {self.corner_radius} m leaves nothing of a chamfer of "
-                f"length {self.length} m; make it smaller than "
-                f"{self.length / math.cos(self.angle) / math.tan(self.angle / 2):.3g} m"
+                f"Chamfer: corner_radius of {in_words(self.corner_radius, 'm', 9)} leaves nothing "
+                f"of a chamfer of length {in_words(self.length, 'm', 9)}; make it smaller than "
+                f"{in_words(self.length / math.cos(self.angle) / math.tan(self.angle / 2), 'm', 3)}"
             )
 
     @property
@@ -85,6 +86,7 @@ class Chamfer(Profile):
         """Raise ValueError if the chamfers leave no straight part."""
         if self.length + self._tangent >= half_length:
             raise ValueError(
-                f"Chamfer: length of {self.length} m, with the rounding, leaves no straight part "
-                f"of a half length of {half_length} m; make the chamfer shorter"
+                f"Chamfer: length of {in_words(self.length, 'm', 9)}, with the rounding, leaves no "
+                f"straight part of a half length of {in_words(half_length, 'm', 9)}; make the "
+                "chamfer shorter"
             )

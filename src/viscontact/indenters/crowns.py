@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact.indenters.arc import arc_drop
 from viscontact.indenters.lengths import positive_length
 from viscontact.indenters.profile import Profile
+from viscontact.readable import in_words
 
 
 @dataclass(frozen=True)
@@ -176,7 +177,8 @@ class TwoRadiiCrown(Profile):
         if self.crown_length >= self.crown_radius:
             raise ValueError(
                 "TwoRadiiCrown: crown_length must be smaller than crown_radius, where the arc "
-                f"ends, got {self.crown_length} m and {self.crown_radius} m"
+                f"ends, got {in_words(self.crown_length, 'm', 9)} and "
+                f"{in_words(self.crown_radius, 'm', 9)}"
             )
         if self.end_length is not None:
             _set_lengths(self, "end_length")
@@ -214,5 +216,5 @@ def _require_beyond(noun: str, name: str, end: float | None, half_length: float)
     if end is not None and end < half_length:
         raise ValueError(
             f"{noun}: {name} must be at least the half length of the straight part, "
-            f"{half_length} m, got {end} m"
+            f"{in_words(half_length, 'm', 9)}, got {in_words(end, 'm', 9)}"
         )

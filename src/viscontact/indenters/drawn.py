@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact.indenters.indenter import Indenter
 from viscontact.indenters.lengths import positions, positive_length
 from viscontact.indenters.table_line import TableLine, mirrored, numbers
+from viscontact.readable import in_words
 
 
 @dataclass(frozen=True, init=False)
@@ -49,7 +50,9 @@ class Revolved(Indenter):
         object.__setattr__(self, "drops", numbers("Revolved: drops", drops))
         object.__setattr__(self, "interpolation", interpolation)
         if self.r and self.r[0] < 0:
-            raise ValueError(f"Revolved: r must not be negative, got {self.r[0]} m first")
+            raise ValueError(
+                f"Revolved: r must not be negative, got {in_words(self.r[0], 'm', 9)} first"
+            )
         TableLine("Revolved", self.r, self.drops, interpolation)
 
     @cached_property
@@ -112,7 +115,7 @@ class Swept(Indenter):
         if self.y and self.y[0] > 0:
             raise ValueError(
                 "Swept: y must begin with 0 (half a symmetric section) or below it (the whole), "
-                f"got {self.y[0]} m first"
+                f"got {in_words(self.y[0], 'm', 9)} first"
             )
         TableLine("Swept", self.y, self.drops, interpolation)
 

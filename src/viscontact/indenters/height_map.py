@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.indenters.indenter import Indenter
 from viscontact.indenters.lengths import positions
+from viscontact.readable import in_words
 
 #: Squares of gaps are still numbers that the solver can compare [m].
 _HIGHEST = 1e30
@@ -126,8 +127,9 @@ def _mesh_lines(name: str, values: ArrayLike) -> NDArray[np.float64]:
     if falls.size:
         i = int(falls[0])
         raise ValueError(
-            f"HeightMap: {name} must increase strictly, got {lines[i]} m followed by "
-            f"{lines[i + 1]} m at index {i + 1}; sort the coordinates, and height with them"
+            f"HeightMap: {name} must increase strictly, got {in_words(lines[i], 'm', 9)} followed "
+            f"by {in_words(lines[i + 1], 'm', 9)} at index {i + 1}; sort the coordinates, and "
+            "height with them"
         )
     return lines
 
@@ -146,8 +148,8 @@ def _heights(values: ArrayLike, shape: tuple[int, int], holes: bool) -> NDArray[
     _require_finite("height", known)
     if np.abs(known).max() > _HIGHEST:
         raise ValueError(
-            f"HeightMap: height must be within {_HIGHEST:g} m of its reference, got "
-            f"{known.flat[np.abs(known).argmax()]:g} m; is it in metres?"
+            f"HeightMap: height must be within {in_words(_HIGHEST, 'm', 6)} of its reference, got "
+            f"{in_words(known.flat[np.abs(known).argmax()], 'm', 6)}; is it in metres?"
         )
     return height
 

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.indenters.profile import Profile
 from viscontact.indenters.table_line import TableLine, mirrored, numbers
+from viscontact.readable import in_words
 
 
 @dataclass(frozen=True, init=False)
@@ -53,7 +54,7 @@ class TabulatedProfile(Profile):
         if self.x and self.x[0] > 0:
             raise ValueError(
                 "TabulatedProfile: x must begin with 0 (half a symmetric profile) or below it "
-                f"(the whole), got {self.x[0]} m first"
+                f"(the whole), got {in_words(self.x[0], 'm', 9)} first"
             )
         # Refused now and as given, not mirrored and when it is first used.
         TableLine("TabulatedProfile", self.x, self.drops, interpolation)
@@ -87,8 +88,9 @@ class TabulatedProfile(Profile):
         for reach in (-self._line.position[0], self._line.position[-1]):
             if reach < half_length * (1 - 1e-9):
                 raise ValueError(
-                    f"TabulatedProfile: x ends at {reach} m from the middle, before the half "
-                    f"length of {half_length} m; give points up to there, or a shorter roller"
+                    f"TabulatedProfile: x ends at {in_words(reach, 'm', 9)} from the middle, "
+                    f"before the half length of {in_words(half_length, 'm', 9)}; give points up to "
+                    "there, or a shorter roller"
                 )
 
     def _ends(self, half_length: float) -> tuple[float, float]:

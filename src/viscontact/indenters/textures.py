@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.indenters.indenter import Indenter
 from viscontact.indenters.lengths import positions, positive_length, real_number
+from viscontact.readable import in_words
 
 PATTERNS = ("square", "hexagonal")
 
@@ -131,13 +132,14 @@ class Dimples(Indenter):
             object.__setattr__(self, name, length)
         if self.depth > self.radius:
             raise ValueError(
-                f"Dimples: depth must be at most the radius {self.radius} m, half a sphere, got "
-                f"{self.depth} m"
+                f"Dimples: depth must be at most the radius {in_words(self.radius, 'm', 9)}, half "
+                f"a sphere, got {in_words(self.depth, 'm', 9)}"
             )
         if self.spacing < 2 * self.radius:
             raise ValueError(
-                f"Dimples: spacing must be at least two radii, {2 * self.radius} m, or dimples "
-                f"overlap, got {self.spacing} m"
+                "Dimples: spacing must be at least two radii, "
+                f"{in_words(2 * self.radius, 'm', 9)}, or dimples overlap, got "
+                f"{in_words(self.spacing, 'm', 9)}"
             )
         if self.pattern not in PATTERNS:
             raise ValueError(

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from viscontact.laws import arguments
+from viscontact.readable import in_words
 
 
 def measured(
@@ -47,8 +48,9 @@ def check_left(owner: str, compliance: Sequence[float], volumetric: float) -> No
     for row, value in enumerate(compliance):
         if volumetric > 0 and value <= volumetric:
             raise ValueError(
-                f"{owner}.compliance, row {row}: bulk_modulus {1 / (9 * volumetric):.6g} Pa is too "
-                f"small for a tensile compliance of {value:.6g} /Pa: it must be above 1/(9 D)"
+                f"{owner}.compliance, row {row}: bulk_modulus "
+                f"{in_words(1 / (9 * volumetric), 'Pa', 6)} is too small for a tensile compliance "
+                f"of {in_words(value, '1/Pa', 6)}: it must be above 1/(9 D)"
             )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from viscontact.laws.arguments import compressibility, positive
+from viscontact.readable import in_words
 
 
 class Uniaxial(NamedTuple):
@@ -21,10 +22,11 @@ class Uniaxial(NamedTuple):
     def instant(self, owner: str, compliance: float) -> float:
         """Return Phi(0) [1/Pa] from D(0) [1/Pa]."""
         if compliance < self.volumetric:
+            most = f" = {in_words(1 / (9 * compliance), 'Pa', 6)}" if compliance else ""
             raise ValueError(
-                f"{owner}: bulk_modulus {1 / (9 * self.volumetric):.6g} Pa is too small: an "
-                f"instant tensile compliance of {compliance:.6g} /Pa needs a bulk modulus of at "
-                f"least 1/(9 D(0)){f' = {1 / (9 * compliance):.6g} Pa' if compliance else ''}"
+                f"{owner}: bulk_modulus {in_words(1 / (9 * self.volumetric), 'Pa', 6)} is too "
+                f"small: an instant tensile compliance of {in_words(compliance, '1/Pa', 6)} needs "
+                f"a bulk modulus of at least 1/(9 D(0)){most}"
             )
         return self.factor * (compliance - self.volumetric)
 
@@ -34,7 +36,7 @@ class Uniaxial(NamedTuple):
         if compliance == 0:
             raise ValueError(
                 f"{owner}: bulk_modulus leaves no instant shear compliance: it must be above "
-                f"{name}/9 = {modulus / 9:.6g} Pa"
+                f"{name}/9 = {in_words(modulus / 9, 'Pa', 6)}"
             )
         return 0.5 / compliance
 

@@ -11,6 +11,7 @@ from viscontact.load.force import ForceHistory
 from viscontact.load.harmonic import HarmonicHistory
 from viscontact.load.history import Control
 from viscontact.load.points import finite_number
+from viscontact.readable import in_words
 
 #: A harmonic load of more cycles than this is a mistake: each takes dozens of steps.
 MOST_CYCLES = 100_000
@@ -206,8 +207,9 @@ def harmonic(
     swing = finite_number("harmonic: amplitude", amplitude, unit)
     if control == "force" and abs(swing) > middle:
         raise ValueError(
-            f"harmonic: the force must never be negative, but swings between {middle - swing} N "
-            f"and {middle + swing} N; give a mean of at least the amplitude"
+            "harmonic: the force must never be negative, but swings between "
+            f"{in_words(middle - swing, 'N', 9)} and {in_words(middle + swing, 'N', 9)}; give a "
+            "mean of at least the amplitude"
         )
     turns = finite_number("harmonic: cycles", cycles, "whole cycles")
     if not (turns.is_integer() and 1 <= turns <= MOST_CYCLES):
@@ -264,8 +266,8 @@ def _refuse_eccentric_approach(eccentricity_x: float, eccentricity_y: float) -> 
     for name, value in (("eccentricity_x", eccentricity_x), ("eccentricity_y", eccentricity_y)):
         if value:
             raise ValueError(
-                f"{name} goes with a force, got {value!r} m with an approach: no force is "
-                "prescribed that could act there; leave it out, or prescribe the tilt"
+                f"{name} goes with a force, got {in_words(value, 'm', 9)} with an approach: no "
+                "force is prescribed that could act there; leave it out, or prescribe the tilt"
             )
 
 

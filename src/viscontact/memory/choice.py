@@ -13,6 +13,7 @@ from viscontact.memory.exponentials import as_exponentials
 from viscontact.memory.recursion import RecursiveMemory
 from viscontact.memory.response import Memory
 from viscontact.memory.superposition import SuperposedMemory
+from viscontact.readable import in_words
 
 #: Increments of the fields are kept and summed as long as they take no more than this [bytes].
 ROOM = 256 * 2**20
@@ -110,6 +111,6 @@ def plan_memory(
         return MemoryPlan(compliance, instants, steps, method, 0.0, series)
     method = (
         f"sum of {len(series.times)} exponentials, within {error:.1e} of the law's creep "
-        f"compliance from {first:.3g} s to {last:.3g} s"
+        f"compliance from {in_words(first, 's', 3)} to {in_words(last, 's', 3)}"
     )
     return MemoryPlan(series, instants, steps, method, error, series)

@@ -34,6 +34,7 @@ from viscontact.plot.readable import DisplayUnit, time_labels
 from viscontact.plot.snapshots import Snapshot, field_times, snapshot_reader
 from viscontact.plot.span import within_span
 from viscontact.plot.window import Window, window_over
+from viscontact.readable import in_words
 from viscontact.variables import error_name
 
 _NAME = "animation"
@@ -136,8 +137,8 @@ def animation(
     shown = stored[(stored >= first) & (stored <= last)]
     if shown.size < 2:
         raise ValueError(
-            f"{_NAME}: needs fields stored at two instants or more between {first:.4g} and "
-            f"{last:.4g} s, got {shown.size}; run again with 'output: fields: all'"
+            f"{_NAME}: needs fields stored at two instants or more between {in_words(first, 's')} "
+            f"and {in_words(last, 's')}, got {shown.size}; run again with 'output: fields: all'"
         )
     scene = _scene(results, stored, shown)
     wide = page_width(width, style.TWO_COLUMNS)
@@ -179,8 +180,8 @@ def _scene(results: xr.Dataset, stored: Array, shown: Array) -> _Scene:
             highest = max(highest, float(np.quantile(pressed, part)))
     if not boxes:
         raise ValueError(
-            f"{_NAME}: the bodies do not touch at any stored instant from {shown[0]:.4g} to "
-            f"{shown[-1]:.4g} s; choose other times"
+            f"{_NAME}: the bodies do not touch at any stored instant from "
+            f"{in_words(shown[0], 's')} to {in_words(shown[-1], 's')}; choose other times"
         )
     window = window_over(boxes, snapshot.borders() if snapshot.periodic else None)
     levels, unit = pressure_levels(highest)

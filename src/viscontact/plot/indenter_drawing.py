@@ -16,6 +16,7 @@ from viscontact.indenters import CombinedIndenter, Indenter, PlacedIndenter, Rol
 from viscontact.plot import style
 from viscontact.plot.page import NARROW, Width, page_width
 from viscontact.plot.readable import DisplayUnit, display_number, display_unit
+from viscontact.readable import in_words
 
 _PLAN_POINTS = 601
 _BODY, _BODY_EDGE = "#dfe5ea", style.INK
@@ -67,8 +68,8 @@ def draw_indenter(
     gap = indenter.gap(x[:, None], y)
     if not np.isfinite(gap).any():
         raise ValueError(
-            f"nothing of the body lies within {size[0]:.3g} m x {size[1]:.3g} m around the origin; "
-            "draw a larger part"
+            f"nothing of the body lies within {in_words(size[0], 'm', 3)} x "
+            f"{in_words(size[1], 'm', 3)} around the origin; draw a larger part"
         )
     through = lines_through(indenter, x, y, gap)
     along = cut(indenter, size[0], through[1], axis=0)

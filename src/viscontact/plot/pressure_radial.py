@@ -21,6 +21,7 @@ from viscontact.plot.page import NARROW, Width, page_width
 from viscontact.plot.readable import DisplayUnit, display_unit, time_labels
 from viscontact.plot.recorded import recorded_noun
 from viscontact.plot.snapshots import Snapshot, take_snapshots
+from viscontact.readable import in_words
 from viscontact.reference import LeeRadokContact
 
 _NAME = "pressure-radial"
@@ -101,8 +102,8 @@ def _require_round(results: xr.Dataset, snapshots: list[Snapshot]) -> None:
     offset = np.hypot(results["eccentricity_x"].values, results["eccentricity_y"].values)
     if np.nanmax(offset / np.maximum(results["contact_length"].values, 1e-300)) > 1e-3:
         raise ValueError(
-            f"{_NAME}: needs a load on the axis, got one up to {np.nanmax(offset):.4g} m off it; "
-            "draw pressure-profile instead"
+            f"{_NAME}: needs a load on the axis, got one up to {in_words(np.nanmax(offset), 'm')} "
+            "off it; draw pressure-profile instead"
         )
 
 

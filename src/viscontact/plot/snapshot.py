@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.outline import Outline
+from viscontact.readable import in_words
 
 
 @dataclass(frozen=True)
@@ -137,8 +138,8 @@ class Snapshot:
         rows = self.pressure.T if along == "x" else self.pressure
         if not across[0] <= at <= across[-1]:
             raise ValueError(
-                f"at must lie on the grid, between {across[0]:.4g} and {across[-1]:.4g} m, "
-                f"got {at:.4g} m"
+                f"at must lie on the grid, between {in_words(across[0], 'm')} and "
+                f"{in_words(across[-1], 'm')}, got {in_words(at, 'm')}"
             )
         upper = int(np.clip(np.searchsorted(across, at), 1, across.size - 1))
         share = (at - across[upper - 1]) / (across[upper] - across[upper - 1])

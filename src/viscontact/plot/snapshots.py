@@ -14,6 +14,7 @@ from viscontact.outline import Outline, trace_outline
 from viscontact.plot.readable import time_labels
 from viscontact.plot.recorded import recorded_noun
 from viscontact.plot.snapshot import Snapshot as Snapshot
+from viscontact.readable import in_words
 from viscontact.stresses import recorded_grid
 
 
@@ -88,7 +89,7 @@ def take_snapshots(
     if not any(snapshot.touching for snapshot in snapshots):
         raise ValueError(
             f"{figure}: the bodies do not touch at t = "
-            f"{', '.join(f'{s.time:.4g}' for s in snapshots) or '(any stored instant)'} s; "
+            f"{', '.join(in_words(s.time, 's') for s in snapshots) or 'any stored instant'}; "
             "choose other times"
         )
     return snapshots

@@ -8,6 +8,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
+from viscontact.readable import in_words
+
 
 def within_span(
     run: xr.Dataset, variables: Iterable[str], times: ArrayLike | None, figure: str, name: str
@@ -48,7 +50,8 @@ def within_span(
     shown = run[list(variables)].isel(time=np.flatnonzero(inside))
     if shown.sizes["time"] < 2:
         raise ValueError(
-            f"{figure}: needs at least two steps to draw a line, got {shown.sizes['time']} "
-            f"between {span.min():.4g} and {span.max():.4g} s{f' in {name}' if name else ''}"
+            f"{figure}: needs at least two steps to draw a line, got {shown.sizes['time']} between "
+            f"{in_words(span.min(), 's')} and "
+            f"{in_words(span.max(), 's')}{f' in {name}' if name else ''}"
         )
     return shown

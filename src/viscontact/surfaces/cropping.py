@@ -56,9 +56,12 @@ def _within(surface: Surface, axis: int, part: tuple[float, float] | None) -> sl
     name, size, spacing = "xy"[axis], surface.size[axis], surface.spacing[axis]
     start, stop = (as_real(each) for each in (*part, None, None)[:2])
     if start is None or stop is None or not 0 <= start < stop <= size * (1 + 1e-9):
+        got = repr(part)
+        if start is not None and stop is not None:
+            got = f"{in_words(start, 'm', 6)} to {in_words(stop, 'm', 6)}"
         raise ValueError(
             f"crop: {name} must go from a distance to a larger one within the map's "
-            f"{in_words(size, 'm', 6)}, counted from its first corner, got {part} m"
+            f"{in_words(size, 'm', 6)}, counted from its first corner, got {got}"
         )
     first, last = round(start / spacing), round(stop / spacing)
     if last - first < 2:

@@ -129,9 +129,10 @@ def _require_wide(surface: Surface, waves: list[float]) -> None:
         number = as_real(wave)
         # Sampled more coarsely, the bell's own transmission is not the one that is told.
         if number is None or not 4 * spacing * (1 - 1e-9) <= number <= size:
+            got = f"{wave!r}" if number is None else in_words(number, "m", 6)
             raise ValueError(
-                f"cutoff must be from four times the distance of the points to the size of the "
-                f"map, {in_words(4 * spacing, 'm')} to {in_words(size, 'm')}, got {wave} m"
+                "cutoff must be from four times the distance of the points to the size of the "
+                f"map, {in_words(4 * spacing, 'm')} to {in_words(size, 'm')}, got {got}"
             )
 
 

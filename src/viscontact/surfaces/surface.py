@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from viscontact.readable import in_words
 from viscontact.real import as_real
 
 Array = NDArray[np.float64]
@@ -140,7 +141,9 @@ class Surface:
     def __repr__(self) -> str:
         nx, ny = self.shape
         lx, ly = self.size
-        return f"Surface({self.name}: {nx} x {ny} points on {lx:.4g} m x {ly:.4g} m)"
+        return (
+            f"Surface({self.name}: {nx} x {ny} points on {in_words(lx, 'm')} x {in_words(ly, 'm')})"
+        )
 
 
 def _centred(points: int, spacing: float) -> Array:
@@ -172,8 +175,9 @@ def _map_of(name: str, heights: ArrayLike) -> Array:
         raise ValueError(f"{name}: all {given.size} heights are missing")
     if np.abs(known).max() > _LARGEST:
         raise ValueError(
-            f"{name}: heights must be lengths in m, got {known[np.abs(known).argmax()]:g} m; give "
-            "points that were not measured as NaN"
+            f"{name}: heights must be lengths in m, got "
+            f"{in_words(known[np.abs(known).argmax()], 'm', 6)}; give points that were not "
+            "measured as NaN"
         )
     copy = np.array(given)
     copy.flags.writeable = False

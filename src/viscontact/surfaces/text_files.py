@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.readable import in_words
 from viscontact.surfaces.surface import Surface
 from viscontact.surfaces.units import Units
 from viscontact.tables import Row, Table, decimal_number, looks_like_number, read_rows, read_table
@@ -137,7 +138,7 @@ def _on_mesh(name: str, axis: str, position: Array) -> tuple[NDArray[np.intp], f
     if np.abs(index - np.rint(index)).max() > 50 * _CLOSE:
         worst = int(np.abs(index - np.rint(index)).argmax())
         raise ValueError(
-            f"{name}: {axis} = {position[worst]:g} m lies on no even mesh of {step:g} m steps; "
-            "bring the points to an even mesh first"
+            f"{name}: {axis} = {in_words(position[worst], 'm', 6)} lies on no even mesh of "
+            f"{in_words(step, 'm', 6)} steps; bring the points to an even mesh first"
         )
     return np.rint(index).astype(np.intp), step

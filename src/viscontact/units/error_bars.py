@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from viscontact.units.readable import in_digits
+from viscontact.readable import in_digits
 
 #: Digits of an error that are worth printing (GUM, 7.2.6), and those of any number in a table.
 _ERROR_DIGITS, _DIGITS = 2, 4
