@@ -79,6 +79,16 @@ class Geometry:
         return steepness
 
     @cached_property
+    def steepest(self) -> float:
+        """The largest of these slopes [-]."""
+        return float(self.steepness.max())
+
+    @cached_property
+    def ends(self) -> bool:
+        """Whether the body ends within the grid."""
+        return bool(np.isinf(self.open_gap).any())
+
+    @cached_property
     def _sampling(self) -> Sampling:
         return Sampling(self.indenter, self.open_gap, self.grid)
 
@@ -179,7 +189,7 @@ def body_doubts(geometry: Geometry, rim: Rim) -> dict[str, str]:
             "beside its next period it has a step, at which the peak pressure depends on the mesh; "
             "press a body that fits to itself, or not periodically"
         )
-    if touches_end(rim.cut(geometry.open_gap), rim.contact):
+    if geometry.ends and touches_end(rim.cut(geometry.open_gap), rim.contact):
         doubts["end"] = (
             f"the contact {reach} the end of the indenter's profile: pressure is singular there "
             "and the peak pressure depends on the mesh. The half-space goes on beyond it: a body "
@@ -285,8 +295,11 @@ def _around(lines: NDArray[np.intp], distance: int, grid: Grid, axis: int) -> ND
 
 
 def _steepest_slope(geometry: Geometry, rim: Rim, motion: NDArray[np.float64]) -> float:
-    """Steepest slope between cells in contact; where none around is steep, that of the block."""
-    around = float(rim.cut(geometry.steepness).max() + np.abs(motion[1:]).max())
+    """Steepest slope between cells in contact; where none around is steep, one around."""
+    tilt = float(np.abs(motion[1:]).max())
+    if geometry.steepest + tilt <= STEEP_SLOPE:
+        return geometry.steepest + tilt
+    around = float(rim.cut(geometry.steepness).max()) + tilt
     if around <= STEEP_SLOPE:
         return around
     steepest, cell_size = 0.0, geometry.grid.cell_size

@@ -123,12 +123,11 @@ class Enlargement:
     def instant(self, before: Instant) -> Instant:
         """An earlier instant as it looks on the larger grid, but for its gap out there."""
         small, large = self.small, self.large
-        pair = [small.fold(field) for field in (before.twin_pressure, before.displacement)]
-        twin_pressure, displacement = map(large.unfold, self.pairs(np.stack(pair)))
+        twin = self.pairs(before.twin)
         return replace(
             before,
             pressure=small.grid.embed(before.pressure, large.grid),
             gap=small.grid.embed(before.gap, large.grid, beyond=np.nan),
-            displacement=displacement,
-            twin_pressure=twin_pressure,
+            displacement=large.unfold(twin[1]),
+            twin=twin,
         )

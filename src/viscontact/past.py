@@ -256,12 +256,11 @@ def _whole(half_space: HalfSpace, trial: Trial, time_error: float) -> Instant:
     """The instant on the whole grid."""
     solution = trial.solution
     found = solution.found
-    twin_pressure, displacement = trial.twin.fields
     fields = {
         "pressure": half_space.unfold(found.pressure),
         "gap": half_space.unfold(solution.gap),
-        "displacement": half_space.unfold(displacement),
-        "twin_pressure": half_space.unfold(twin_pressure),
+        "displacement": half_space.unfold(trial.twin.fields[1]),
+        "twin": trial.twin.fields,
     }
     for field in fields.values():
         field.flags.writeable = False  # the run goes on from them

@@ -18,6 +18,9 @@ from numpy.typing import NDArray
 from viscontact.grid import Grid
 from viscontact.outline import Outline
 
+#: Rows and columns of some cells.
+Place = tuple[NDArray[np.intp], NDArray[np.intp]]
+
 
 @dataclass(frozen=True, eq=False)
 class Rim:
@@ -132,9 +135,9 @@ def trace_rim(
     end_x = end_y = None
     if outline is not None:
         end_x = outline.along_x[rows, columns][: len(contact) - 1]
-        end_y = outline.along_y[rows, columns][:, : contact.shape[1] - 1].T
-    along_x = _crossings(contact, gap, end_x)
-    along_y = _crossings(contact.T, gap.T, end_y).T
+        end_y = outline.along_y[rows, columns][:, : contact.shape[1] - 1]
+    along_x = _crossings(contact, gap, end_x, axis=0)
+    along_y = _crossings(contact, gap, end_y, axis=1)
     lines = (np.arange(n)[block] for n, block in zip(grid.shape, (rows, columns), strict=True))
     return Rim(grid, contact, along_x, along_y, *lines)
 
@@ -159,9 +162,9 @@ def _trace_around(
     if outline is not None:
         # The border itself is where a body ends that reaches it: the middle between two centres.
         end_x = np.pad(outline.along_x, ((0, 1), (0, 0)), constant_values=np.nan)[wide][:-1]
-        end_y = np.pad(outline.along_y, ((0, 0), (0, 1)), constant_values=np.nan)[wide][:, :-1].T
-    along_x = _crossings(contact, gap, end_x)[2:-2, 2:-2]
-    along_y = _crossings(contact.T, gap.T, end_y).T[2:-2, 2:-2]
+        end_y = np.pad(outline.along_y, ((0, 0), (0, 1)), constant_values=np.nan)[wide][:, :-1]
+    along_x = _crossings(contact, gap, end_x, axis=0)[2:-2, 2:-2]
+    along_y = _crossings(contact, gap, end_y, axis=1)[2:-2, 2:-2]
     return Rim(grid, contact[2:-2, 2:-2], along_x, along_y, rows, columns)
 
 
@@ -185,33 +188,47 @@ def _beyond(lines: NDArray[np.intp], count: int) -> NDArray[np.intp]:
 
 
 def _crossings(
-    contact: NDArray[np.bool_], gap: NDArray[np.float64], outline: NDArray[np.float64] | None
+    contact: NDArray[np.bool_],
+    gap: NDArray[np.float64],
+    outline: NDArray[np.float64] | None,
+    axis: int,
 ) -> NDArray[np.float64]:
-    """Distance from the inner centre, in cells, where contact changes along the first axis."""
-    crossings = np.full((contact.shape[0] - 1, contact.shape[1]), np.nan)
-    i, j = _places(contact[:-1] != contact[1:])
-    outward = np.where(contact[i, j], 1, -1)
-    first = np.where(contact[i, j], i + 1, i)
-    second = np.clip(first + outward, 0, contact.shape[0] - 1)
-    near, far = np.maximum(gap[first, j], 0.0), gap[second, j]
+    """Distance from the inner centre, in cells, where contact changes along an axis."""
+    changes = contact[1:] != contact[:-1] if axis == 0 else contact[:, 1:] != contact[:, :-1]
+    place = _places(changes)
+    inside = contact[place]
+    # Outwards from the crossing: the first open cell, and the second.
+    first = _shifted(place, axis, inside)
+    second = _shifted(first, axis, np.where(inside, 1, -1))
+    second[axis].clip(0, contact.shape[axis] - 1, out=second[axis])
+    opening, far = gap[first], gap[second]
+    near = np.maximum(opening, 0.0)
     # Without a second, wider gap (a groove of one cell, the body's end) take the middle.
-    known = np.isfinite(far) & (far > near) & ~contact[second, j]
-    ratio = np.divide(near, far, out=np.full(len(i), 0.5), where=known) ** (2 / 3)
+    known = np.isfinite(far) & (far > near) & ~contact[second]
+    ratio = np.divide(near, far, out=np.full(len(near), 0.5), where=known) ** (2 / 3)
     distance = np.where(known, ratio / (1 - np.where(known, ratio, 0.0)), 0.5)
     located = np.maximum(1 - distance, -0.5)
     if outline is not None:
-        end = outline[i, j]
+        end = outline[place]
         end[np.isnan(end)] = 0.5
-        located = np.where(np.isinf(gap[first, j]), end, located)
-    crossings[i, j] = located
+        located = np.where(np.isinf(opening), end, located)
+    crossings = np.full(changes.shape, np.nan)
+    crossings[place] = located
     return crossings
+
+
+def _shifted(place: Place, axis: int, by: NDArray[Any]) -> Place:
+    """Cells beside others along an axis."""
+    rows, columns = place
+    return (rows + by, columns) if axis == 0 else (rows, columns + by)
 
 
 def _enclosed_squares(rim: Rim) -> float:
     """Squares between four neighbouring centres, each counted by its enclosed part."""
     inside = rim.contact
-    count = inside[:-1, :-1].astype(np.int8) + inside[1:, :-1] + inside[1:, 1:] + inside[:-1, 1:]
-    i, j = _places((count > 0) & (count < 4))
+    pairs = inside[1:].view(np.int8) + inside[:-1].view(np.int8)
+    count = pairs[:, 1:] + pairs[:, :-1]
+    i, j = _places((count & 3) != 0)  # neither none nor all four
     # Four of each, the way round; each edge leaves the corner of its number.
     corner = np.array([inside[i, j], inside[i + 1, j], inside[i + 1, j + 1], inside[i, j + 1]])
     rim_x, rim_y = rim.along_x, rim.along_y
@@ -232,7 +249,7 @@ def _enclosed_squares(rim: Rim) -> float:
     return float(np.count_nonzero(count == 4) + triangles + cut_off + trapezia)
 
 
-def _places(where: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def _places(where: NDArray[np.bool_]) -> Place:
     """The rows and columns at which something is true; `np.nonzero` takes eight times as long."""
     return np.divmod(np.flatnonzero(where), where.shape[1])
 

@@ -29,8 +29,9 @@ class Instant:
         Pressure [Pa].
     gap, displacement : ndarray, shape (nx, ny)
         Gap and total displacement of the surface [m].
-    twin_pressure : ndarray, shape (nx, ny)
-        ∫ J dp, the pressure whose deflection the displacement is [-].
+    twin : ndarray, shape (2, mx, my)
+        ∫ J dp, the pressure whose deflection the displacement is [-], and that displacement [m], on
+        the cells that are worked with.
     motion : ndarray, shape (3,)
         Approach [m] and tilts [rad].
     energy : float
@@ -50,7 +51,7 @@ class Instant:
     pressure: NDArray[np.float64]
     gap: NDArray[np.float64]
     displacement: NDArray[np.float64]
-    twin_pressure: NDArray[np.float64]
+    twin: NDArray[np.float64]
     motion: NDArray[np.float64]
     energy: float
     residual: float
