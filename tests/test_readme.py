@@ -40,3 +40,74 @@ def test_the_case_is_read_and_runs(tmp_path: Path) -> None:
     assert ds.outcome.values[-1] == vc.Outcome.NO_CONTACT
     # A creeping body does not give back all the work.
     assert ds.work.values[-1] > 0.1 * float(ds.work.max())
+
+
+def row(text: str, *beginning: str) -> list[str]:
+    """The cells of a table's row that begins so; a cell that is left empty is the one above."""
+    above: list[str] = []
+    for line in text.splitlines():
+        if not line.startswith("|"):
+            above = []
+            continue
+        cells = [cell.strip() for cell in line.strip("|").split("|")]
+        cells = [cell or last for cell, last in zip(cells, above or cells, strict=False)]
+        above = cells
+        if cells[: len(beginning)] == list(beginning):
+            return cells
+    raise AssertionError(f"no row {beginning}")
+
+
+#: Where the README's errors are from: its row, and case, reference and quantity on the page.
+CREEPING = "ball under a sudden force, Maxwell", "Lee & Radok 1960"
+ROLLER = "eccentric roller, sudden force, PMMA", "Lee & Radok 1960, correspondence"
+ERRORS = [
+    ("sphere, 512² cells", 2, ("sphere", "Hertz 1882", "approach")),
+    ("sphere, 512² cells", 3, ("sphere", "Hertz 1882", "central pressure")),
+    ("creeping sphere, 512², 120 steps", 2, (*CREEPING, "approach")),
+    ("creeping sphere, 512², 120 steps", 3, (*CREEPING, "central pressure")),
+    ("pressed and let go", 2, ("force up and down, Maxwell", "Ting 1966", "approach")),
+    ("periodic; rough, 1024²", 2, ("straight waves, periodic", "Westergaard 1939", "approach")),
+    ("periodic; rough, 1024²", 3, ("straight waves, periodic", "Westergaard 1939", "pressure")),
+    ("the roller above, 120 steps", 2, (*ROLLER, "approach")),
+]
+
+
+@pytest.mark.parametrize(("problem", "column", "case"), ERRORS)
+def test_errors_in_the_readme_are_those_that_were_verified(
+    problem: str, column: int, case: tuple[str, ...]
+) -> None:
+    page = (ROOT / "docs/verification.md").read_text(encoding="utf-8")
+    # One digit is shown.
+    assert float(row(README, problem)[column]) == pytest.approx(float(row(page, *case)[5]), rel=0.2)
+
+
+@pytest.mark.parametrize(
+    ("problem", "beginning", "columns"),
+    [
+        ("sphere, 512² cells", ("free sphere 512²", "1e-8"), (2, 4, 5)),
+        ("creeping sphere, 512², 120 steps", ("Zener sphere 512², 120 steps", "1e-8"), (2, 4)),
+        ("periodic; rough, 1024²", ("rough plane, periodic, 1024²", "1e-8"), (2, 4)),
+    ],
+)
+def test_times_in_the_readme_are_those_that_were_measured(
+    problem: str, beginning: tuple[str, ...], columns: tuple[int, ...]
+) -> None:
+    benchmarks = (ROOT / "benchmarks/README.md").read_text(encoding="utf-8")
+    measured = [float(row(benchmarks, *beginning)[column].split()[0]) for column in columns]
+    ours = row(README, problem)
+    shown = [float(ours[4]), *(float(word) for word in re.findall(r" (\d+\.?\d*)", ours[5]))]
+    assert shown == pytest.approx(measured, rel=0.02)
+
+
+def test_the_picture_of_the_readme_is_there() -> None:
+    (picture,) = re.findall(r'<img [^>]*src="([^"]+)"', README)
+    assert (ROOT / picture).exists()
+
+
+def test_the_rollers_time_in_the_readme_is_the_one_that_was_measured() -> None:
+    benchmarks = (ROOT / "benchmarks/README.md").read_text(encoding="utf-8")
+    ours = row(README, "the roller above, 120 steps")
+    run = re.findall(r"^ +75 +0\.5 +1e-08 +\S+ +(\S+)", benchmarks, re.MULTILINE)
+    times_as_long = re.findall(r"^ +75 +1e-08 +ducc0 .* (\d+) +150$", benchmarks, re.MULTILINE)
+    assert [ours[4]] == run
+    assert re.findall(r"(\d+) times", ours[5]) == times_as_long
