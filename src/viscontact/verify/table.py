@@ -7,6 +7,7 @@ import io
 import math
 from collections.abc import Sequence
 from dataclasses import fields
+from itertools import pairwise
 from pathlib import Path
 
 from viscontact.units import in_digits, readable_unit
@@ -66,9 +67,21 @@ def as_markdown(results: Sequence[Result]) -> str:
     Returns
     -------
     str
-        Lines of Markdown.
+        Lines of Markdown; case and reference stand beside the first quantity of a case only.
+
+    Examples
+    --------
+    >>> radius = Result("cone", "Love 1939", "radius", "m", 2e-4, 2e-4, 0.0, 1e-3, 1.4, 0.1)
+    >>> approach = Result("cone", "Love 1939", "approach", "m", 2e-5, 2e-5, 0.0, 1e-3, 1.4, 0.1)
+    >>> [line[:27] for line in as_markdown([radius, approach]).splitlines()[2:]]
+    ['| cone | Love 1939 | radius', '|  |  | approach | 20.0000 ']
     """
-    lines = [HEADINGS, ("---",) * len(HEADINGS), *(row_of_words(result) for result in results)]
+    rows = [row_of_words(result) for result in results]
+    shown = [
+        row if row[:2] != before[:2] else ("", "", *row[2:])
+        for before, row in pairwise([HEADINGS, *rows])
+    ]
+    lines = [HEADINGS, ("---",) * len(HEADINGS), *shown]
     return "".join(f"| {' | '.join(word.replace('|', '/') for word in line)} |\n" for line in lines)
 
 
