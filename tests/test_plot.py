@@ -12,6 +12,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
+from matplotlib.text import Text
 
 from synthetic_results import maxwell_pressure, maxwell_sphere, roller
 from viscontact.laws import CreepSeries, Maxwell
@@ -212,6 +213,39 @@ def test_time_axis_is_logarithmic_where_the_steps_are() -> None:
     uniform = maxwell_sphere(np.linspace(0.0, 300.0, 13), cells=8)
     assert FIGURES["history"](growing).axes[0].get_xscale() == "symlog"
     assert FIGURES["history"](uniform).axes[0].get_xscale() == "linear"
+
+
+def test_von_mises_over_time_is_logarithmic_where_the_history_is(
+    long_contact: xr.Dataset,
+) -> None:
+    for name in ("history", "von-mises"):
+        scales = {axes.get_xscale() for axes in FIGURES[name](long_contact).axes}
+        assert scales == {"symlog"}, name
+
+
+def test_panels_that_do_not_fill_their_rows_are_evenly_apart(long_contact: xr.Dataset) -> None:
+    swings = np.linspace(0.5, 1, long_contact.sizes["time"])
+    run = long_contact.assign(
+        force=long_contact.force * swings, tilt_x=long_contact.force * 0 + 1e-3 * swings
+    )
+    figure = FIGURES["history"](run)
+    assert len(figure.axes) == 5
+    assert {axes.get_xlabel() for axes in figure.axes} == {"Time [s]"}
+
+
+def test_headings_of_a_stress_section_lie_within_the_page_and_apart(
+    long_contact: xr.Dataset,
+) -> None:
+    figure = FIGURES["stress-section"](long_contact, width="single")
+    figure.draw_without_rendering()
+    boxes = [
+        text.get_window_extent() for text in figure.findobj(Text) if text.get_text()[:3] == "t ="
+    ]
+    assert len(boxes) == 2
+    assert not boxes[0].overlaps(boxes[1])
+    for box in boxes:
+        assert box.x1 < figure.bbox.x1
+        assert not any(box.overlaps(axes.bbox) for axes in figure.axes)
 
 
 def test_comparison_names_its_runs(long_contact: xr.Dataset) -> None:

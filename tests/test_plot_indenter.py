@@ -21,6 +21,23 @@ ROLLER = vc.Roller(5e-3, 6e-3, profile="logarithmic", amplitude=2e-6, end_drop=3
 SIZE = (14e-3, 1e-3)
 
 
+SHAPES: dict[str, tuple[vc.Indenter, tuple[float, float]]] = {
+    "roller": (ROLLER, SIZE),
+    "crowned": (vc.Roller(5e-3, 9.565e-3, crown_radius=75e-3), (48e-3, 3e-3)),
+    "punch": (vc.FlatPunch(half_length=1e-3, half_width=5e-4), (3e-3, 3e-3)),
+    "ellipsoid": (vc.Ellipsoid(3e-3, 2e-3, 1e-3).rotated(0.5), (8e-3, 6e-3)),
+    "rough ball": (
+        vc.Sphere(5e-3) + vc.Waviness(1e-6, wavelength_x=1e-4, wavelength_y=2e-4).shifted(x=2e-5),
+        (1e-3, 1e-3),
+    ),
+}
+
+
+def told(figure: Figure) -> str:
+    """The facts beside a drawing, each in a line of its own."""
+    return texts(figure).replace("\n   ", " ")
+
+
 def texts(figure: Figure) -> str:
     return "\n".join(text.get_text() for axes in figure.axes for text in axes.texts)
 
@@ -63,9 +80,36 @@ def test_ends_are_marked_where_the_profile_ends_and_told() -> None:
     figure = draw_indenter(ROLLER, SIZE)
     dashed = [line[0, 0] for line in drawn_lines(figure, 0)[2:]]
     assert dashed == pytest.approx([-6.0, 6.0], rel=1e-12)
-    assert "ends (dashed) at x = ±6 mm" in texts(figure)
-    assert "no end along y within the drawing" in texts(figure)
-    assert "30 µm at the end" in texts(figure)
+    said = told(figure)
+    assert said.startswith("Roller, logarithmic profile, radius 5 mm, half length 6 mm, amplitude")
+    assert "dashed: ends at x = ±6 mm\n" in said
+    assert "continues beyond the drawing along y" in said
+    assert "profile drop at the ends: 30 µm" in said
+
+
+def test_drop_is_told_as_far_as_a_crown_is_drawn_and_before_it_falls_without_end() -> None:
+    crowned = vc.Roller(5e-3, 9.565e-3, crown_radius=75e-3)
+    drop = 75e-3 - math.sqrt(75e-3**2 - (20e-3 - 9.565e-3) ** 2)
+    said = told(draw_indenter(crowned, (40e-3, 3e-3)))
+    assert f"profile drop at x = ±20 mm: {1e6 * drop:.0f} µm" in said
+    endless = vc.Roller(5e-3, 6e-3, profile="logarithmic", amplitude=2e-6)
+    said = told(draw_indenter(endless, SIZE))
+    # 2 µm times the logarithm of 1/(1 - 0.9²)
+    assert f"profile drop at x = ±5.4 mm: {-2 * math.log(1 - 0.81):.2f} µm" in said
+
+
+@pytest.mark.parametrize("width", ["single", "double"])
+@pytest.mark.parametrize("name", SHAPES)
+def test_no_text_of_a_drawing_is_cut_off_or_runs_into_it(name: str, width: str | float) -> None:
+    body, size = SHAPES[name]
+    figure = draw_indenter(body, size, contact=(0.0, 0.0, *size), width=width)
+    figure.draw_without_rendering()
+    [facts] = figure.axes[3].texts
+    box = facts.get_window_extent()
+    assert figure.bbox.x0 <= box.x0 < box.x1 <= figure.bbox.x1
+    assert figure.bbox.y0 <= box.y0
+    for axes in figure.axes[:3]:
+        assert not box.overlaps(axes.get_tightbbox())
 
 
 @pytest.mark.parametrize("body", [ROLLER, vc.Sphere(5e-3)])
@@ -100,9 +144,12 @@ def test_plan_that_is_not_slender_is_drawn_in_its_true_shape() -> None:
 def test_parts_of_a_sum_are_named_and_a_contact_is_shaded() -> None:
     body = vc.Sphere(5e-3) + vc.Waviness(1e-6, wavelength_x=1e-4).shifted(x=2e-5)
     figure = draw_indenter(body, (1e-3, 1e-3), contact=(0.0, 0.0, 4e-4, 3e-4), title="Ball")
-    said = texts(figure)
-    assert said.startswith("Ball\nSphere\n+ Waviness\n+ moved by 20 µm along x")
-    assert "shaded: expected contact, 400 µm × 300 µm" in said
+    said = told(figure)
+    assert said.startswith(
+        "Ball\nSphere, radius 5 mm\n+ Waviness, amplitude 1 µm, wavelength x 100 µm\n"
+        "moved by 20 µm along x"
+    )
+    assert "shaded: extent of the expected contact, 400 µm × 300 µm" in said
     [shade] = [each for each in figure.axes[2].patches if each.get_alpha()]
     assert shade.get_bbox().bounds == pytest.approx((-0.2, -0.15, 0.4, 0.3))
 

@@ -382,6 +382,23 @@ def test_legend_names_the_band_once_where_there_is_one(
     assert legend(both) == ["one", "other", "band: error estimate"]
 
 
+@pytest.mark.parametrize(
+    ("part", "area_part", "told"),
+    [
+        (1e-6, 1e-6, "error estimate within the line's width"),
+        (1e-6, 0.1, "band: error estimate, where wider than the line"),
+        (0.1, 0.1, "band: error estimate"),
+    ],
+)
+def test_legend_tells_of_bands_only_where_they_can_be_seen(
+    part: float, area_part: float, told: str, bare: xr.Dataset
+) -> None:
+    parts = dict.fromkeys(PARTS, part) | {"force": 0.0, "contact_area": area_part}
+    errors = {name: each * np.abs(bare[name].values) for name, each in parts.items()}
+    [legend] = FIGURES["history"](with_errors(bare, **errors)).legends
+    assert [text.get_text() for text in legend.get_texts()] == [told]
+
+
 def test_figures_of_older_results_have_no_bands(bare: xr.Dataset) -> None:
     for name in ("history", "hysteresis"):
         assert not any(bands(axes) for axes in FIGURES[name](bare).axes)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import xarray as xr
 from matplotlib.artist import Artist
@@ -10,17 +12,19 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
 from viscontact.plot import style
-from viscontact.plot.error_band import band_key, draw_band, has_bands, keep_curves_in_sight
-from viscontact.plot.history import scale_time
-from viscontact.plot.page import Width, page_width
+from viscontact.plot.error_band import band_key, draw_band, keep_curves_in_sight
+from viscontact.plot.page import NARROW, Width, page_width
 from viscontact.plot.readable import display_unit
 from viscontact.plot.snapshots import Snapshot, field_times, snapshot_reader
 from viscontact.plot.span import within_span
+from viscontact.plot.time_axis import scale_time
 from viscontact.stated_errors import stated_error
 from viscontact.variables import error_name
 
 _NAME = "contact-area"
 _COUNTED = "#D55E00"
+#: More dots than this touch one another.
+_APART = 60
 
 
 def contact_area(
@@ -63,27 +67,35 @@ def contact_area(
     first, last = run["time"].values[[0, -1]]
     shown = np.flatnonzero((stored >= first) & (stored <= last))
     counted = [_counted(read(int(index))) for index in shown]
+    beside = axes is not None
     if axes is None:
         wide = page_width(width, style.ONE_COLUMN)
-        axes = style.new_figure(wide, min(3.2, 0.75 * wide)).add_subplot()
+        axes = style.new_figure(wide, min(3.4, 0.85 * wide)).add_subplot()
     style.dress(axes)
     area = run["contact_area"].values
     unit, time_unit = display_unit("m2", area, counted), display_unit("s", run["time"].values)
     instants, error = time_unit(run["time"].values), stated_error(run, "contact_area")
-    smooth = axes.plot(instants, unit(area), color=style.LINE, linewidth=style.LINE_WIDTH)[0]
-    dots = axes.plot(time_unit(stored[shown]), unit(counted), "o", color=_COUNTED, markersize=3.5)[
-        0
-    ]
-    draw_band(axes, instants, unit(area), None if error is None else unit(error), style.LINE)
+    look: dict[str, Any] = {"color": style.LINE, "linewidth": style.LINE_WIDTH}
+    # Above the dots, which are many where all instants are stored.
+    smooth = axes.plot(instants, unit(area), zorder=3, **look)[0]
+    dots = axes.plot(time_unit(stored[shown]), unit(counted), "o", color=_COUNTED)[0]
+    dots.set(markersize=3.5 if len(counted) <= _APART else 2.0)
+    bar = None if error is None else unit(error)
+    band = draw_band(axes, instants, unit(area), bar, style.LINE)
     handles: list[Artist] = [smooth, dots]
     labels = ["between the cells", "cells counted"]
-    if has_bands(axes):
+    if band is not None:
         keep_curves_in_sight(axes, unit(area), unit(counted))
-        band, words = band_key(style.LINE)
-        handles, labels = [*handles, band], [*labels, words]
     axes.set_ylabel(unit.label("Contact area"))
     scale_time([axes], {"": run}, time_unit)
-    style.add_legend(axes, handles, labels, loc="best")
+    for handle, words in band_key([band] if band else [], style.LINE):
+        handles, labels = [*handles, handle], [*labels, words]
+    if beside:
+        style.add_legend(axes, handles, labels, loc="best")
+    else:
+        figure = style.figure_of(axes)
+        columns = 2 if figure.get_figwidth() > NARROW else 1
+        style.add_legend_below(figure, handles, labels, columns=columns)
     return style.figure_of(axes)
 
 

@@ -2,25 +2,70 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.collections import PolyCollection
+from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.plot import style
 from viscontact.stated_errors import MESH_DEPENDENT, mesh_dependent
 
-#: What a legend calls a band.
+#: What a legend says of bands: all stand out, some do, none does.
 BAND = "band: error estimate"
+BAND_IN_PARTS = "band: error estimate, where wider than the line"
+NO_BAND = "error estimate within the line's width"
 
 _OPACITY = 0.25
 #: An axis goes beyond its curve by so much of the curve's own span or, if that is more, of its
 #: largest value: one wild error is not to flatten what there is to see.
 _SPAN, _SIZE = 1.0, 0.5
+#: A band is seen where it stands out so far beyond its line, to either side [points].
+_SEEN = 0.4
+
+
+@dataclass(frozen=True, eq=False)
+class Band:
+    """A curve's error, shaded.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+        Where it is drawn.
+    x, y : ndarray
+        The curve, as drawn.
+    error : ndarray
+        Half width of the band, in the unit of the axis it goes along.
+    sideways : bool
+        Along x.
+    """
+
+    axes: Axes
+    x: NDArray[np.float64]
+    y: NDArray[np.float64]
+    error: NDArray[np.float64]
+    sideways: bool
+
+    @property
+    def seen(self) -> bool:
+        """Whether it stands out beside the line, as the figure is laid out at present."""
+        dots_per_point = style.figure_of(self.axes).dpi / 72
+        to_points = self.axes.transData.transform
+        curve = to_points(np.column_stack([self.x, self.y])) / dots_per_point
+        shift = (self.error, 0 * self.error) if self.sideways else (0 * self.error, self.error)
+        reach = to_points(np.column_stack([self.x, self.y]) + np.column_stack(shift))
+        reach = reach / dots_per_point - curve
+        along = np.gradient(curve, axis=0)
+        length = np.hypot(*along.T)
+        # Across the curve: beside a steep one a high band is narrow.
+        across = np.abs(along[:, 0] * reach[:, 1] - along[:, 1] * reach[:, 0])
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return bool(np.nanmax(across / length, initial=0.0) > style.LINE_WIDTH / 2 + _SEEN)
 
 
 def draw_band(
@@ -31,7 +76,7 @@ def draw_band(
     colour: str,
     *,
     sideways: bool = False,
-) -> bool:
+) -> Band | None:
     """Shade a curve's error, where it is known and finite.
 
     Parameters
@@ -49,20 +94,20 @@ def draw_band(
 
     Returns
     -------
-    bool
-        Whether there is a band.
+    Band or None
+        None where nothing is to be shaded.
 
     Examples
     --------
     >>> axes = style.new_figure(4.0, 3.0).subplots()
-    >>> draw_band(axes, np.arange(2.0), np.ones(2), np.array([0.1, 0.2]), "black")
+    >>> draw_band(axes, np.arange(2.0), np.ones(2), np.array([0.1, 0.2]), "black").seen
     True
     >>> axes.collections[0].get_datalim(axes.transData).intervaly.round(12).tolist()
     [0.8, 1.2]
     """
     known = np.zeros(x.shape, dtype=np.bool_) if error is None else np.isfinite(error) & (error > 0)
     if error is None or not known.any():
-        return False
+        return None
     # Zero errors between others keep the band together.
     shown = np.isfinite(error)
     middle, along = (x, y) if sideways else (y, x)
@@ -70,17 +115,43 @@ def draw_band(
     low, high = middle - half_width, middle + half_width
     fill = axes.fill_betweenx if sideways else axes.fill_between
     fill(along, low, high, shown, color=colour, alpha=_OPACITY, linewidth=0.0, zorder=1.5)
-    return True
+    return Band(axes, x, y, np.where(shown, error, np.nan), sideways)
 
 
-def has_bands(axes: Axes) -> bool:
-    """Tell whether errors are shaded in axes."""
-    return any(isinstance(each, PolyCollection) for each in axes.collections)
+def band_key(bands: Sequence[Band], colour: str) -> list[tuple[Artist, str]]:
+    """Say in a legend what bands are, or that they are too narrow to be seen.
 
+    Parameters
+    ----------
+    bands : sequence of Band
+        All that are drawn in a figure.
+    colour : str
+        Of the curve, or of none if there are several.
 
-def band_key(colour: str = style.FAINT) -> tuple[Patch, str]:
-    """Return a handle for a legend, and its label."""
-    return Patch(color=colour, alpha=_OPACITY, linewidth=0.0), BAND
+    Returns
+    -------
+    list of tuple
+        A handle and its label; nothing if there are no bands.
+
+    Examples
+    --------
+    >>> axes = style.new_figure(4.0, 3.0).subplots()
+    >>> wide, narrow = (
+    ...     draw_band(axes, np.arange(2.0), np.arange(2.0), np.full(2, each), "black")
+    ...     for each in (0.1, 1e-9)
+    ... )
+    >>> [band_key(each, "black")[0][1] for each in ([wide], [wide, narrow], [narrow])]
+    ['band: error estimate', 'band: error estimate', "error estimate within the line's width"]
+    """
+    if not bands:
+        return []
+    style.figure_of(bands[0].axes).draw_without_rendering()
+    seen = {band.axes for band in bands if band.seen}
+    if not seen:
+        return [(Line2D([], [], color=colour, linewidth=style.LINE_WIDTH), NO_BAND)]
+    everywhere = all(band.axes in seen for band in bands)
+    shade = Patch(color=colour, alpha=_OPACITY, linewidth=0.0)
+    return [(shade, BAND if everywhere else BAND_IN_PARTS)]
 
 
 def keep_curves_in_sight(axes: Axes, *curves: ArrayLike) -> None:

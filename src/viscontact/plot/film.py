@@ -16,11 +16,9 @@ from viscontact.plot import style
 from viscontact.plot.error_band import peak_note
 from viscontact.plot.film_sheet import Sheet, new_sheet
 from viscontact.plot.history import (
-    BEFORE_FIRST,
     QUANTITIES,
     Quantity,
     draw_quantities,
-    suits_log_time,
     worthwhile_quantities,
 )
 from viscontact.plot.page import Width, page_width
@@ -33,6 +31,7 @@ from viscontact.plot.pressure_map import (
 from viscontact.plot.readable import DisplayUnit, time_labels
 from viscontact.plot.snapshots import Snapshot, field_times, snapshot_reader
 from viscontact.plot.span import within_span
+from viscontact.plot.time_axis import BEFORE_FIRST, suits_log_time
 from viscontact.plot.window import Window, window_over
 from viscontact.readable import in_words
 from viscontact.variables import error_name
@@ -220,7 +219,7 @@ def _stage(
 ) -> Callable[[float], None]:
     """Draw what stays, and return what draws the rest at an instant."""
     curve = _set_up_fields(sheet, scene)
-    time_unit = draw_quantities(sheet.histories, quantities, {"": run})
+    time_unit, _ = draw_quantities(sheet.histories, quantities, {"": run})
     markers = []
     for axes in sheet.histories:
         # The bar of time behind the curve, the dot on it.

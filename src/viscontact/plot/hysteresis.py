@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.plot import style
-from viscontact.plot.error_band import band_key, draw_band, has_bands
+from viscontact.plot.error_band import Band, band_key, draw_band
 from viscontact.plot.page import Width, page_width
 from viscontact.plot.readable import display_unit
 from viscontact.plot.span import within_span
@@ -92,17 +92,20 @@ def compare_hysteresis(
     style.dress(axes)
     x_unit = display_unit("m", *(run["approach"].values for run in shown.values()))
     y_unit = display_unit("N", *(run["force"].values for run in shown.values()))
+    bands: list[Band] = []
     for (name, run), look in zip(shown.items(), style.run_styles(len(shown)), strict=True):
         x, y = x_unit(run["approach"].values), y_unit(run["force"].values)
         axes.plot(x, y, label=name, **look)
         for quantity, unit in (("approach", x_unit), ("force", y_unit)):
             error = stated_error(run, quantity)
             if error is not None:
-                _draw_bands(axes, x, y, unit(error), look["color"], sideways=unit is x_unit)
+                bands += _draw_bands(
+                    axes, x, y, unit(error), look["color"], sideways=unit is x_unit
+                )
         _add_arrows(axes, x, y, look)
     axes.set(xlabel=x_unit.label("Approach"), ylabel=y_unit.label("Force"))
     _frame(axes)
-    _add_key(axes, list(shown))
+    _add_key(axes, list(shown), bands)
     return figure
 
 
@@ -119,23 +122,24 @@ def _draw_bands(
     colour: str,
     *,
     sideways: bool,
-) -> None:
+) -> list[Band]:
     """A band for each way up and each way down: one that turns back would cut holes in itself."""
+    bands = []
     along = y if sideways else x
     turns = np.flatnonzero(np.diff(np.sign(np.diff(along)))) + 1
     for part in np.split(np.arange(x.size), turns):
         # Each part begins where the one before it ends.
         way = np.append(part, part[-1] + 1)[: x.size - int(part[0])]
-        draw_band(axes, x[way], y[way], error[way], colour, sideways=sideways)
+        bands.append(draw_band(axes, x[way], y[way], error[way], colour, sideways=sideways))
+    return [band for band in bands if band is not None]
 
 
-def _add_key(axes: Axes, names: list[str]) -> None:
+def _add_key(axes: Axes, names: list[str], bands: list[Band]) -> None:
     """Name the runs if there are several, and the bands if there are any."""
     entries: list[tuple[Artist, str]] = []
     if len(names) > 1:
         entries += zip(axes.get_lines(), names, strict=True)
-    if has_bands(axes):
-        entries.append(band_key(style.FAINT if len(names) > 1 else style.LINE))
+    entries += band_key(bands, style.FAINT if len(names) > 1 else style.LINE)
     if entries:
         handles, labels = zip(*entries, strict=True)
         style.add_legend(axes, handles, labels, loc="best")

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
-import re
+from collections.abc import Iterator
+from itertools import chain
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,8 +14,9 @@ from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
 from viscontact.cross_section import SHOWN_PART, Section, cut, lines_through
-from viscontact.indenters import CombinedIndenter, Indenter, PlacedIndenter, Roller
+from viscontact.indenters import Indenter
 from viscontact.plot import style
+from viscontact.plot.indenter_facts import facts, in_lines, length
 from viscontact.plot.page import NARROW, Width, page_width
 from viscontact.plot.readable import DisplayUnit, display_number, display_unit
 from viscontact.readable import in_words
@@ -24,6 +27,8 @@ _BODY, _BODY_EDGE = "#dfe5ea", style.INK
 _TRUE_SHAPE = 3.0
 # Heights of the contour lines over that which is shown.
 _LEVELS = (0.02, 0.1, 0.25, 0.5, 1.0)
+# Parts of the page that texts have, below the drawing and beside it, and a letter's width [inch].
+_WHOLE, _BESIDE, _LETTER = 0.8, 0.36, 0.065
 
 
 def draw_indenter(
@@ -78,9 +83,9 @@ def draw_indenter(
     unit = display_unit("m", *size)
     _draw_section(panels[0, 0], along, unit, "x", "y", through[1], contact)
     _draw_section(panels[0, 1], across, unit, "y", "x", through[0], contact)
-    _draw_plan(panels[1, 0], x, y, gap, unit, contact)
-    facts = _facts(indenter, along, across, contact, shaded)
-    _tell(panels[1, 1], [*filter(None, [title]), *facts])
+    levels = _draw_plan(panels[1, 0], x, y, gap, unit, contact)
+    told = facts(indenter, (along, across), levels, contact, shaded)
+    _tell(panels[1, 1], chain([title] if title else [], told))
     _tell_stretches(figure, panels, (along, across))
     return figure
 
@@ -124,11 +129,11 @@ def _draw_section(
         xlim=(position[0], position[-1]),
         ylim=(-0.04 * top, top),
         xlabel=unit.label(along),
-        ylabel=height.label("gap"),
+        ylabel=height.label("Gap"),
     )
     # The middle of an even mesh is zero but for a rounding.
     # Three digits: the exaggeration has to find its place beside it.
-    where = _length(place, digits=3) if abs(place) > 1e-6 * section.position[-1] else "0"
+    where = length(place, digits=3) if abs(place) > 1e-6 * section.position[-1] else "0"
     style.add_heading(axes, f"along {along}, at {fixed} = {where}")
 
 
@@ -139,9 +144,10 @@ def _draw_plan(
     gap: NDArray[np.float64],
     unit: DisplayUnit,
     contact: tuple[float, float, float, float] | None,
-) -> None:
+) -> list[float]:
+    """Draw the plan, and return the gaps that lines are drawn at [m]."""
     style.dress(axes)
-    _draw_body(axes, unit(x), unit(y), gap)
+    levels = _draw_body(axes, unit(x), unit(y), gap)
     if contact is not None:
         _shade_contact(axes, unit, contact)
     axes.set(
@@ -153,24 +159,24 @@ def _draw_plan(
     if 1 / _TRUE_SHAPE <= x[-1] / y[-1] <= _TRUE_SHAPE:
         axes.set_aspect("equal")
     style.add_heading(axes, "plan")
+    return levels
 
 
 def _draw_body(
     axes: Axes, x: NDArray[np.float64], y: NDArray[np.float64], gap: NDArray[np.float64]
-) -> None:
+) -> list[float]:
     """Fill where the body is, with lines of equal gap and, where it ends, its outline."""
     solid = np.isfinite(gap)
-    highest = float(np.quantile(gap[solid], SHOWN_PART)) or 1.0
+    highest = float(np.quantile(gap[solid], SHOWN_PART))
+    levels = [part * highest for part in _LEVELS] if highest > 0 else []
     there = solid.T.astype(float)
     axes.contourf(x, y, there, levels=[0.5, 1.5], colors=[_BODY], antialiased=True)
-    axes.contour(
-        *(x, y, np.where(solid, gap, np.nan).T),
-        levels=[part * highest for part in _LEVELS],
-        colors=[style.FAINT],
-        linewidths=style.THIN_LINE,
-    )
+    if levels:
+        lines: dict[str, Any] = {"colors": [style.FAINT], "linewidths": style.THIN_LINE}
+        axes.contour(x, y, np.where(solid, gap, np.nan).T, levels=levels, **lines)
     if not solid.all():
         axes.contour(x, y, there, levels=[0.5], colors=["#D55E00"], linewidths=1.2)
+    return levels
 
 
 def _shade_contact(
@@ -188,83 +194,20 @@ def _shade_contact(
     axes.add_patch(box)
 
 
-def _tell(axes: Axes, facts: list[str]) -> None:
+def _tell(axes: Axes, told: Iterator[str]) -> None:
     """Write beside the drawing what it does not show in numbers."""
     axes.set_axis_off()
+    figure = style.figure_of(axes)
+    narrow = figure.get_figwidth() <= NARROW
+    room = figure.get_figwidth() * (_WHOLE if narrow else _BESIDE)
     axes.text(
-        *(0.0, 1.0, "\n".join(facts)),
+        *(0.0, 1.0, in_lines(told, int(room / _LETTER))),
         transform=axes.transAxes,
         verticalalignment="top",
         fontsize=style.TICK_SIZE,
         color=style.INK,
         linespacing=1.6,
     )
-
-
-def _facts(
-    indenter: Indenter,
-    along: Section,
-    across: Section,
-    contact: tuple[float, float, float, float] | None,
-    shaded: str,
-) -> list[str]:
-    facts = [*_names(indenter), _ends_told("x", along), _ends_told("y", across)]
-    facts.append("lines in the plan: equal gap")
-    for axis, curvature in zip("xy", indenter.curvatures, strict=True):
-        if curvature > 0:
-            facts.append(f"radius of curvature along {axis}: {_length(1 / curvature)}")
-    if contact is not None:
-        extents = " × ".join(_length(extent, digits=3) for extent in contact[2:])
-        facts.append(f"shaded: {shaded}, {extents}")
-    return facts
-
-
-def _names(indenter: Indenter) -> list[str]:
-    """What a body is called, part by part."""
-    if isinstance(indenter, CombinedIndenter):
-        first, *others = [_names(part) for part in indenter.parts]
-        return [*first, *(f"+ {name}" for names in others for name in names)]
-    if isinstance(indenter, PlacedIndenter):
-        told = [f"turned by {display_number(math.degrees(indenter.angle))}°"] * bool(indenter.angle)
-        moves = {"x": indenter.x, "y": indenter.y}
-        told += [f"moved by {_length(far)} along {axis}" for axis, far in moves.items() if far]
-        return [*_names(indenter.body), *told]
-    name = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", type(indenter).__name__).capitalize()
-    if isinstance(indenter, Roller):
-        line = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", type(indenter.line).__name__).lower()
-        return [f"{name}, {line}", _drop_told(indenter)]
-    return [name]
-
-
-def _drop_told(roller: Roller) -> str:
-    """How far the generating line has dropped where it ends, just before it falls without end."""
-    drop = float(roller.drop(roller.end * (1 - 1e-12)))
-    if drop == 0:
-        return "straight to the end"
-    quarter = _length(float(roller.drop(0.75 * roller.end)), digits=3)
-    told = f"drop: {quarter} at 3/4 of the way"
-    lasts = float(roller.drop(roller.end)) < math.inf and drop < roller.radius
-    return f"{told}, {_length(drop, digits=3)} at the end" if lasts else told
-
-
-def _ends_told(axis: str, section: Section) -> str:
-    if not section.ends:
-        return f"no end along {axis} within the drawing"
-    first, *_, last = (*section.ends, *section.ends)
-    if len(section.ends) == 2 and abs(first + last) <= 1e-9 * last:
-        return f"ends (dashed) at {axis} = ±{_length(last)}"
-    unit = display_unit("m", section.ends)
-    places = ", ".join(_signed(display_number(float(unit(end)), 4)) for end in section.ends)
-    return f"ends (dashed) at {axis} = {places} {unit.symbol}"
-
-
-def _length(value: float, digits: int = 4) -> str:
-    unit = display_unit("m", value)
-    return _signed(f"{display_number(float(unit(value)), digits)} {unit.symbol}")
-
-
-def _signed(number: str) -> str:
-    return number.replace("-", "\N{MINUS SIGN}")
 
 
 def _tell_stretches(

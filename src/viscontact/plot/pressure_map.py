@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 
 import numpy as np
 import xarray as xr
@@ -14,12 +14,11 @@ from matplotlib.colors import BoundaryNorm
 from matplotlib.contour import QuadContourSet
 from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
-from matplotlib.text import Text
 from matplotlib.ticker import MaxNLocator
-from matplotlib.transforms import Bbox
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.plot import style
+from viscontact.plot.contour_labels import label_contours
 from viscontact.plot.error_band import peak_note
 from viscontact.plot.page import Width, page_width
 from viscontact.plot.readable import DisplayUnit, display_number, display_unit, time_labels
@@ -29,9 +28,6 @@ from viscontact.plot.squared_pressure import squared_pressure
 from viscontact.plot.window import Window, window_around
 
 _NAME = "pressure-map"
-_LABEL_SIZE = 6.5
-# Room to be left between labels [pixels].
-_APART = 4.0
 # Percentiles of pressure over the contact between which contours have room for labels.
 _LABELLED = (20.0, 97.0)
 #: Where the largest pressure depends on the mesh, levels go up to what so much of the contact has;
@@ -221,35 +217,11 @@ def _label_contours(
         for square in lines.levels
         if lowest < square < highest
     }
-    tried = axes.clabel(lines, list(texts), fmt=texts, fontsize=_LABEL_SIZE, inline=False)
-    places = _places_with_room(axes, tried, snapshot, window)
-    for text in tried:
-        text.remove()
-    if places:
-        # Lines are interrupted only for the labels that stay.
-        axes.clabel(
-            lines, list(texts), fmt=texts, fontsize=_LABEL_SIZE, inline_spacing=2, manual=places
-        )
 
+    def fits(corners: NDArray[np.float64]) -> bool:
+        return bool(np.all(_pressed(snapshot, corners * window.unit.factor)))
 
-def _places_with_room(
-    axes: Axes, texts: Iterable[Text], snapshot: Snapshot, window: Window
-) -> list[tuple[float, float]]:
-    """Where those texts are that lie wholly in contact and in the panel and on no other."""
-    kept: list[Bbox] = []
-    places = []
-    for text in texts:
-        box = text.get_window_extent()
-        low, high = axes.bbox.min, axes.bbox.max
-        corners = axes.transData.inverted().transform(box.corners())
-        if (
-            np.all((low <= box.min) & (box.max <= high))
-            and np.all(_pressed(snapshot, corners * window.unit.factor))
-            and box.padded(_APART).count_overlaps(kept) == 0
-        ):
-            kept.append(box)
-            places.append(text.get_position())
-    return places
+    label_contours(axes, lines, texts, fits)
 
 
 def _pressed(snapshot: Snapshot, points: NDArray[np.float64]) -> NDArray[np.bool_]:

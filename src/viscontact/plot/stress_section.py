@@ -8,16 +8,19 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.contour import QuadContourSet
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.grid import Grid
 from viscontact.plot import style
+from viscontact.plot.contour_labels import label_contours
 from viscontact.plot.error_band import peak_note
 from viscontact.plot.page import Width, page_width
 from viscontact.plot.readable import DisplayUnit, display_unit, time_labels
 from viscontact.plot.snapshots import Snapshot, field_times, take_snapshots
+from viscontact.plot.time_axis import scale_time
 from viscontact.stresses import recorded_grid, recorded_poisson_ratio
 from viscontact.subsurface import stress_on_section
 from viscontact.units import in_words
@@ -27,6 +30,10 @@ _SECTION, _HISTORY = "stress-section", "von-mises"
 #: The section is drawn to so many half widths of the contact, in depth and to each side.
 _DEEP, _ASIDE = 2.0, 2.0
 _DEPTHS = 61
+#: A section that is as deep as wide, because the grid ends beside the contact, is so high [inch].
+_HIGHEST = 2.2
+#: More instants than this make a line of their markers.
+_MARKED = 40
 # Pressures within so much of each other are equal to what runs are solved to.
 _EQUAL = 1e-5
 
@@ -104,22 +111,26 @@ def stress_section(
     stress = display_unit("Pa", max(section.largest[0] for section in sections))
     levels = _levels(sections, stress)
     wide = page_width(width, style.ONE_COLUMN)
-    # A section is twice as wide as it is deep, beside a colour bar.
-    height = 0.45 + (0.5 * (wide - 1.3) + 0.45) * len(sections)
+    # Beside a colour bar, below a heading of two lines: one would not have the room.
+    shape = sections[0].depths[-1] / float(np.ptp(sections[0].across))
+    height = 0.45 + (min(shape * (wide - 1.3), _HIGHEST) + 0.42) * len(sections)
     figure = style.new_figure(wide, height, fixed_aspect=True)
     panels = figure.subplots(len(sections), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
-    labels = time_labels(section.time for section in sections)
+    labels, contours = time_labels(section.time for section in sections), []
     for axes, section, label in zip(panels, sections, labels, strict=True):
-        drawn = _draw(axes, section, levels, length, stress)
-        style.add_heading(axes, f"t = {label}")
+        drawn, lines = _draw(axes, section, levels, length, stress)
+        contours.append(lines)
         largest, depth, _ = section.largest
         said = f"largest {in_words(largest, 'Pa', 3)}, {in_words(depth, 'm', 3)} deep"
         # Below an infinite pressure the stress has no largest value either.
-        style.add_heading(axes, peak_note([results], [section.time]) or said, aside=True)
+        style.add_heading(axes, f"t = {label}\n{peak_note([results], [section.time]) or said}")
     panels[-1].set_xlabel(length.label(sections[-1].axis))
     bar = figure.colorbar(drawn, ax=panels.tolist(), shrink=0.9, aspect=25, pad=0.02)
     bar.set_label(stress.label("Von Mises stress"), size=style.LABEL_SIZE, color=style.INK)
     bar.ax.tick_params(labelsize=style.TICK_SIZE, width=style.THIN_LINE, length=2.5)
+    figure.draw_without_rendering()  # Only now the room for labels is known.
+    for axes, lines in zip(panels, contours, strict=True):
+        label_contours(axes, lines, {level: f"{level:g}" for level in lines.levels})
     return figure
 
 
@@ -157,16 +168,27 @@ def von_mises_history(
     time = display_unit("s", instants)
     figure = style.new_figure(page_width(width, style.ONE_COLUMN), 3.6)
     panels = figure.subplots(2, 1, sharex=True)
-    curves = ((largest, "Pa", "Von Mises stress"), (depths, "m", "Its depth"))
+    curves = ((largest, "Pa", "Von Mises stress"), (depths, "m", "Depth"))
+    look: dict[str, Any] = {"color": style.LINE, "linewidth": style.LINE_WIDTH}
+    if instants.size <= _MARKED:
+        look |= {"marker": "o", "markersize": 3.5}
     for axes, (values, si_unit, name) in zip(panels, curves, strict=True):
         unit = display_unit(si_unit, values)
-        axes.plot(time(instants), unit(values), "o-", color=style.LINE, markersize=3.5)
+        axes.plot(time(instants), unit(values), clip_on=False, zorder=3, **look)
         axes.set_ylabel(unit.label(name))
         axes.set_ylim(0.0, 1.1 * float(unit(values.max())) or 1.0)
         style.dress(axes)
-    panels[-1].set_xlabel(time.label("Time"))
+    panels[-1].tick_params(labelbottom=True)
+    scale_time(list(panels), {"": _scalars_at(results, instants)}, time)
+    style.add_heading(panels[0], "largest below the contact")
+    style.add_heading(panels[1], "where it is the largest")
     style.add_heading(panels[0], peak_note([results], instants), aside=True)
     return figure
+
+
+def _scalars_at(results: xr.Dataset, instants: NDArray[np.float64]) -> xr.Dataset:
+    """What chooses a time axis, at the instants that are drawn on it."""
+    return results[["force", "approach"]].sel(time=instants, method="nearest")
 
 
 def _sections(snapshots: list[Snapshot], grid: Grid, poisson_ratio: float) -> list[Section]:
@@ -225,7 +247,8 @@ def _draw(
     levels: NDArray[np.float64],
     length: DisplayUnit,
     stress: DisplayUnit,
-) -> Any:
+) -> tuple[QuadContourSet, QuadContourSet]:
+    """The filled contours and their lines."""
     across, depths = length(section.across), length(section.depths)
     colours = style.pressure_colours(len(levels) - 1)
     values = stress(section.stress)
@@ -233,9 +256,8 @@ def _draw(
     lines = axes.contour(
         across, depths, values, levels=levels[1:-1], colors=style.INK, linewidths=0.5
     )
-    axes.clabel(lines, fmt="%g", fontsize=6.5, inline_spacing=2)
     _, depth, place = section.largest
     axes.plot(length(place), length(depth), "+", color=style.INK, markersize=8)
-    axes.set(aspect="equal", ylim=(float(depths[-1]), 0.0), ylabel=length.label("depth"))
+    axes.set(aspect="equal", ylim=(float(depths[-1]), 0.0), ylabel=length.label("Depth"))
     style.dress(axes)
-    return filled
+    return filled, lines

@@ -10,8 +10,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from viscontact.plot.history import suits_log_time
 from viscontact.plot.readable import display_number, display_unit
+from viscontact.plot.time_axis import suits_log_time
 from viscontact.report.inputs import prescribes_approach
 from viscontact.report.map_data import rounded
 from viscontact.stated_errors import MESH_DEPENDENT

@@ -9,8 +9,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from viscontact.plot.history import suits_log_time
 from viscontact.plot.readable import display_unit
+from viscontact.plot.time_axis import suits_log_time
 from viscontact.report.accuracy import accuracy_lines, told_scalars
 from viscontact.report.found import title_of
 from viscontact.report.histories import panel_labels
