@@ -102,6 +102,40 @@ def test_another_shape_can_be_run_at_once(page: Any, server: seen.Server) -> Non
 
 
 @pytest.mark.slow
+def test_a_changed_case_gets_a_name_of_its_own_until_one_is_typed(
+    page: Any, server: seen.Server
+) -> None:
+    seen.visit(page, server)
+    title = page.locator('[id="field-title"]')
+    assert title.input_value() == "Crowned roller on PMMA, centred load"
+    page.select_option('[id="field-indenter.shape"]', "sphere")
+    seen.type_into(page, "indenter.radius", "20 mm")
+    seen.type_into(page, "load.force", "1 kN")
+    named = "Sphere, radius 20 mm, on creep series, 1 kN"
+    assert title.input_value() == named
+    seen.run(page, "#coarse")
+    assert page.inner_text("#result-title") == named
+    # What the name leaves out tells the next run from this one.
+    page.click("#keep")
+    seen.type_into(page, "material.poisson_ratio", "0.3")
+    seen.run(page, "#coarse")
+    assert page.inner_text("#result-title") == f"{named}, poisson ratio 0.3"
+    assert page.inner_text("#reference-told") == f"Dashed: {named}, coarse answer"
+    # As text it gets its new name when it is run, after a reload as well.
+    page.reload()
+    seen.until_ready(page)
+    seen.write_case(page, page.evaluate("sessionStorage['viscontact.case']").replace("20", "30"))
+    seen.run(page, "#coarse")
+    assert page.inner_text("#result-title") == named.replace("20", "30")
+    seen.type_into(page, "title", "Mine")
+    seen.type_into(page, "load.force", "2 kN")
+    assert title.input_value() == "Mine"
+    seen.type_into(page, "title", "")
+    title.blur()
+    page.wait_for_function("() => document.getElementById('field-title').value.includes('2 kN')")
+
+
+@pytest.mark.slow
 def test_a_newcomer_leaves_with_case_report_and_result(
     page: Any, server: seen.Server, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -219,6 +253,12 @@ def test_a_reload_in_mid_run_finds_the_run_and_it_can_be_cancelled(
     page.reload()
     seen.until_ready(page)
     page.wait_for_function("() => document.getElementById('progress-bar').value > 0")
+    # Area, approach and peak pressure grow, those of before the reload included.
+    grown = """() => [...document.querySelectorAll("#growing polyline")].map(
+      (each) => each.points.length)"""
+    page.wait_for_function(f"() => Math.min(...({grown})(), 3) > 2")
+    assert len(page.evaluate(grown)) == 3
+    assert page.locator("#growing").inner_text().count("100 s") == 3
     assert page.is_visible("#cancel")
     page.click("#cancel")
     page.wait_for_selector("#resume", state="visible")

@@ -211,6 +211,19 @@ def test_values_and_text_of_a_case_are_the_same(client: TestClient) -> None:
     }
 
 
+def test_a_case_that_nobody_has_named_is_called_by_what_it_is(client: TestClient) -> None:
+    values = client.post("/api/case", json={"yaml": CASE}).json()
+    assert values["suggested_title"] == "Sphere, radius 10 mm, on Zener 10 MPa, 4 N"
+    changed = values["case"] | {"load": {"kind": "ramp", "force": "5 N", "duration": "2 s"}}
+    asked = {"case": changed, "yaml": CASE}
+    kept = client.post("/api/yaml", json=asked).json()["yaml"]
+    assert kept.startswith("title: Zener sphere\n")
+    named = client.post("/api/yaml", json=asked | {"titled": False}).json()["yaml"]
+    assert named.startswith("title: Sphere, radius 10 mm, on Zener 10 MPa, ramp to 5 N in 2 s\n")
+    nothing = client.post("/api/yaml", json={"case": {"load": {}}, "titled": False}).json()
+    assert nothing["yaml"] == "{}\n"
+
+
 def test_text_that_is_changed_in_a_form_keeps_its_comments(client: TestClient) -> None:
     text = "# mine\nload:  # soon more\n  kind: step\n  force: 4 N  # much\ntitle: a\n"
     values = {"load": {"kind": "step", "force": "5 N"}, "title": "a", "tolerance": 1e-5}

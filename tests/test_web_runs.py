@@ -86,6 +86,18 @@ def test_a_run_ends_in_the_numbers_of_the_command_line(client: TestClient, tmp_p
         assert area["value"] == float(ds["contact_area"][-1])
         assert "eccentricity_x" not in last["scalars"]  # 0 but for rounding
 
+        # What is drawn while it is at work, in two parts.
+        whole = strict(client.get(f"/api/runs/{run}/grown").text)
+        assert whole["peak_pressure"] == pressures
+        assert whole["time"] == ds["time"].values.tolist()
+    lines = (tmp_path / "page" / "runs" / run / "run" / "progress.jsonl").read_bytes()
+    after = lines.index(b"\n") + 1
+    rest = client.get(f"/api/runs/{run}/grown", params={"after": after}).json()
+    assert (rest["begun"], rest["after"]) == (after, len(lines))
+    assert rest["time"] == whole["time"][1:]
+    again = client.get(f"/api/runs/{run}/grown", params={"after": len(lines) + 1}).json()
+    assert (again["begun"], again["time"]) == (0, whole["time"])
+
     case = client.get(f"/api/runs/{run}/case.yaml").text
     assert case == CASE
     assert client.get(f"/api/runs/{run}/given").json() == {"yaml": CASE, "quality": "full"}
@@ -149,6 +161,29 @@ def test_no_more_runs_than_allowed_are_at_work_and_coarse_ones_come_first(tmp_pa
         assert client.get(f"/api/runs/{full}").status_code == 404
         client.delete(f"/api/runs/{coarse}")  # one at work is stopped first
         until(lambda: [path.name for path in (tmp_path / "page" / "runs").iterdir()] == [first])
+
+
+def test_runs_whose_cases_have_one_title_are_told_apart(tmp_path: Path) -> None:
+    with asking(tmp_path / "page", at_once=0) as client:  # all wait
+        stronger = CASE.replace("4 N", "8.5 N")
+        other = stronger.replace("steps: 4", "steps: 5").replace("10 mm", "9 mm")
+        nameless = CASE.replace("title: Zener sphere\n", "")
+        asked = [(LONG_CASE, "full"), (CASE, "coarse"), (stronger, "full"), (stronger, "full")]
+        asked += [(other, "coarse"), (nameless, "full")]
+        runs = [begun(client, *each) for each in asked]
+        told = [status(client, run)["label"] for run in runs]
+        assert told == [
+            "Zener sphere",
+            "Zener sphere, steps 4, without errors",
+            "Zener sphere, force 8.5 N, steps 4 and 1 more",
+            "Zener sphere, force 8.5 N, steps 4 and 1 more (2)",
+            "Zener sphere, radius 9 mm, force 8.5 N and 2 more",
+            "Sphere, radius 10 mm, on Zener 10 MPa, 4 N",
+        ]
+        files = [client.get(f"/api/runs/{run}/case.yaml").headers for run in runs]
+        names = [each["content-disposition"] for each in files]
+        assert len(set(names)) == len(runs)
+        assert "zener-sphere-steps-4-without-errors-coarse.yaml" in names[1]
 
 
 @pytest.mark.slow
@@ -219,7 +254,11 @@ def test_figures_and_reports_of_a_run_can_be_had(client: TestClient) -> None:
         assert answer.status_code == 422
         assert why in answer.json()["problems"][0]["message"]
     assert client.get(f"/api/runs/{run}/figure/no-such.svg").status_code == 404
-    both = client.get("/api/compare.svg", params={"runs": f"{run},{other}"})
+    stronger = begun(client, CASE.replace("4 N", "8 N"), "coarse")
+    followed(client, stronger)
+    both = client.get("/api/compare.svg", params={"runs": f"{run},{other},{stronger}"})
+    for name in ("Zener sphere", "for $4 or", "Zener sphere, force 8 N (coarse)"):
+        assert name in both.text
     assert both.headers["content-type"] == "image/svg+xml"
     assert client.get("/api/compare.svg", params={"runs": run}).status_code == 422
     saved = client.get(f"/api/runs/{run}/report.html")

@@ -19,6 +19,7 @@ from viscontact.plot.page import Width
 from viscontact.web.calculator import Calculator
 from viscontact.web.desk import filled
 from viscontact.web.drawings import drawing
+from viscontact.web.naming import suggested_title
 from viscontact.web.pictures import MEDIA_TYPES, Wish, picture
 from viscontact.web.problems import RequestError
 
@@ -45,10 +46,11 @@ class CaseText(BaseModel):
 
 
 class CaseValues(BaseModel):
-    """The values of a case, and the text in whose manner they are to be written."""
+    """The values of a case, the text in whose manner they are to be written, and whose title."""
 
     case: dict[str, Any]
     yaml: str = ""
+    titled: bool = True
 
 
 class DrawingWish(BaseModel):
@@ -115,9 +117,14 @@ def shipped_materials() -> list[dict[str, str]]:
 
 @router.post("/yaml")
 def as_yaml(asked: CaseValues) -> dict[str, str]:
-    """Write values as a case file."""
+    """Write values as a case file; one that is not titled gets a title that tells what it is."""
     try:
-        return {"yaml": rewritten(asked.yaml, filled(asked.case))}
+        values = filled(asked.case)
+        title = suggested_title(values)
+        if not asked.titled:
+            # Where there was none, it stands first.
+            values = filled({"title": title} | values | {"title": title})
+        return {"yaml": rewritten(asked.yaml, values), "suggested_title": title}
     except RecursionError as error:
         raise RequestError(422, "nested too deeply for a case file") from error
 
@@ -125,7 +132,8 @@ def as_yaml(asked: CaseValues) -> dict[str, str]:
 @router.post("/case")
 def as_values(asked: CaseText, ours: Ours) -> dict[str, Any]:
     """Tell the values of a case file."""
-    return {"case": ours.desk.values(asked.yaml)}
+    values = ours.desk.values(asked.yaml)
+    return {"case": values, "suggested_title": suggested_title(values)}
 
 
 @router.post("/check")

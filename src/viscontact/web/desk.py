@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import time as clock
+from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -14,6 +16,7 @@ from viscontact.inspection import expectations, foreseen, needs, verdict, warnin
 from viscontact.preparation import Prepared, prepared
 from viscontact.web.coarse import coarse_settings, without_cells
 from viscontact.web.folder import Asked, Folder
+from viscontact.web.naming import label_of, suggested_title
 from viscontact.web.problems import RequestError, case_problems, without_folder
 
 
@@ -136,7 +139,9 @@ class Desk:
             **{"cells": list(run.run.grid.shape), "steps": _steps(run)},
         }
 
-    def new_run(self, text: str, quality: str) -> tuple[str, Asked]:
+    def new_run(
+        self, text: str, quality: str, others: Sequence[tuple[str, Asked]] = ()
+    ) -> tuple[str, Asked]:
         """Check a case, and keep it and all that it reads, to be run.
 
         Parameters
@@ -145,11 +150,13 @@ class Desk:
             The case.
         quality : str
             ``"full"`` or ``"coarse"``.
+        others : sequence
+            Runs that it is to be told from, the oldest first.
 
         Returns
         -------
         str
-            What the run is called.
+            Where the run is kept.
         Asked
             What was asked for.
 
@@ -160,8 +167,10 @@ class Desk:
         """
         found, settings = self.prepared(text, quality)
         run, case = found.run, found.case
+        title = case.title or suggested_title(case.document.data) or "Untitled case"
         asked = Asked(
-            title=case.title or "Untitled case",
+            title=title,
+            label=self._label(title, text, quality, others),
             quality=quality,
             created=clock.strftime("%Y-%m-%dT%H:%M:%SZ", clock.gmtime()),
             settings=settings,
@@ -176,6 +185,18 @@ class Desk:
         except OSError as error:
             raise RequestError(500, f"the run cannot be kept: {error.strerror or error}") from error
         return name, asked
+
+    def _label(
+        self, title: str, text: str, quality: str, others: Sequence[tuple[str, Asked]]
+    ) -> str:
+        """What a run is called; a coarse one and a full one of one case are told apart by that."""
+        alike = [(name, asked) for name, asked in others if asked.title == title]
+        first = None
+        with suppress(OSError, RequestError):  # somebody has removed or damaged it
+            if alike:
+                first = self.values(self.folder.given(alike[0][0]).read_text(encoding="utf-8"))
+        taken = {asked.label or asked.title for _, asked in alike if asked.quality == quality}
+        return label_of(title, self.values(text), first, taken)
 
 
 def filled(value: Any) -> Any:

@@ -59,6 +59,8 @@ class Asked:
         waiting, running, done, cancelled, interrupted or failed.
     said : tuple of str
         What it had to say for itself when it ended.
+    label : str
+        What the run is called, where others have the same title.
     """
 
     title: str
@@ -72,6 +74,7 @@ class Asked:
     errors: bool
     state: str = "waiting"
     said: tuple[str, ...] = ()
+    label: str = ""
 
 
 _ASKED_FORM = TypeAdapter(Asked)

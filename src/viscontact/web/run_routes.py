@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import io
-import re
 from typing import Annotated, Any
+from urllib.parse import quote
 
 from fastapi import APIRouter, Query, Request, Response
 from fastapi.responses import FileResponse, StreamingResponse
@@ -16,13 +16,16 @@ from viscontact.report.run_data import run_data
 from viscontact.results import RESULT_NAME
 from viscontact.web.case_routes import CaseText, Ours
 from viscontact.web.folder import CASE_NAME
+from viscontact.web.growing import grown
 from viscontact.web.guard import REPORT_POLICY
+from viscontact.web.naming import file_stem
 from viscontact.web.pictures import MEDIA_TYPES, Kind, Wish, comparison_of, figure_of, opened
 from viscontact.web.problems import RequestError
 from viscontact.web.work import Work
 
 router = APIRouter(prefix="/api")
 
+Place = Annotated[int, Query(ge=0, le=2**53)]
 Times = Annotated[list[str] | None, Query(alias="time", max_length=12)]
 
 #: More runs than this are not told apart in one figure.
@@ -40,7 +43,8 @@ async def begin(asked: CaseText, ours: Ours, request: Request) -> dict[str, Any]
     """Check a case, and let it wait for its turn to be run."""
     if ours.workshop.is_closing:
         raise RequestError(503, "the server is about to end")
-    new = await ours.do(lambda: ours.desk.new_run(asked.yaml, asked.quality), request)
+    others = [(work.name, work.asked) for work in reversed(ours.workshop.works)]
+    new = await ours.do(lambda: ours.desk.new_run(asked.yaml, asked.quality, others), request)
     return await ours.status(ours.workshop.ask(*new))
 
 
@@ -77,6 +81,12 @@ async def events(ours: Ours, name: str) -> StreamingResponse:
     """Tell how a run stands, until it is over."""
     told = ours.events(ours.workshop.work(name))
     return StreamingResponse(told, media_type="text/event-stream")
+
+
+@router.get("/runs/{name}/grown")
+def growth(ours: Ours, name: str, after: Place = 0) -> dict[str, Any]:
+    """Tell the scalars that a run has written since it was last asked."""
+    return grown(ours.workshop.work(name).directory, after)
 
 
 @router.get("/runs/{name}/given")
@@ -131,7 +141,7 @@ def case_file(ours: Ours, name: str) -> FileResponse:
     work = ours.workshop.work(name)
     as_run = work.directory / CASE_NAME
     path = as_run if as_run.is_file() else work.given
-    return FileResponse(path, filename=f"{_slug(work)}.yaml", media_type="application/yaml")
+    return FileResponse(path, filename=f"{_stem(work)}.yaml", media_type="application/yaml")
 
 
 @router.get("/runs/{name}/result.nc")
@@ -143,7 +153,7 @@ def result(ours: Ours, name: str) -> FileResponse:
         raise RequestError(409, "the run is still at work; its result can be had once it is over")
     if not path.is_file():
         raise RequestError(409, "the run has no result: it stopped before its first step")
-    return FileResponse(path, filename=f"{_slug(work)}.nc", media_type="application/x-netcdf")
+    return FileResponse(path, filename=f"{_stem(work)}.nc", media_type="application/x-netcdf")
 
 
 @router.get("/runs/{name}/history.csv")
@@ -157,7 +167,7 @@ async def history(ours: Ours, name: str, request: Request) -> Response:
             write_history(ds, text)
         return text.getvalue()
 
-    return _download(await ours.do(told, request), f"{_slug(work)}.csv", "text/csv")
+    return _download(await ours.do(told, request), f"{_stem(work)}.csv", "text/csv")
 
 
 @router.get("/runs/{name}/report.html")
@@ -168,7 +178,7 @@ async def report(ours: Ours, name: str, request: Request, view: bool = False) ->
     if view:
         headers = {"content-security-policy": REPORT_POLICY}
         return Response(page, media_type="text/html", headers=headers)
-    return _download(page, f"{_slug(work)}.html", "text/html")
+    return _download(page, f"{_stem(work)}.html", "text/html")
 
 
 def _report(work: Work, ours: Ours) -> bytes:
@@ -186,7 +196,7 @@ def _report(work: Work, ours: Ours) -> bytes:
 def _labels(works: list[Work]) -> list[str]:
     """What runs are called in a figure: their titles, numbered where they are alike."""
     # Between two of these a figure would read a formula.
-    titles = [work.asked.title.replace("$", r"\$") for work in works]
+    titles = [work.label.replace("$", r"\$") for work in works]
     told = [f"{title} (coarse)" if work.asked.quality == "coarse" else title
             for work, title in zip(works, titles, strict=True)]  # fmt: skip
     if len(set(told)) == len(told):
@@ -194,12 +204,10 @@ def _labels(works: list[Work]) -> list[str]:
     return [f"{number}: {label}" for number, label in enumerate(told, start=1)]
 
 
-def _slug(work: Work) -> str:
-    """A name for files that are handed out, from the title."""
-    words = re.findall(r"[a-z0-9]+", work.asked.title.lower())
-    return "-".join(words)[:60].strip("-") or "case"
+def _stem(work: Work) -> str:
+    return file_stem(work.label, work.asked.quality)
 
 
 def _download(content: str | bytes, name: str, media_type: str) -> Response:
-    headers = {"content-disposition": f'attachment; filename="{name}"'}
+    headers = {"content-disposition": f"attachment; filename*=utf-8''{quote(name)}"}
     return Response(content, media_type=media_type, headers=headers)

@@ -40,11 +40,13 @@ def status_of(work: Work, found: Mapping[str, Any]) -> dict[str, Any]:
     table = found.get("table") or _table(course.first, course.last)
     steps = None if asked.instants is None else max(asked.instants - 1, 1)
     return {
-        **{"id": work.name, "title": asked.title, "quality": asked.quality},
+        **{"id": work.name, "title": asked.title, "label": work.label},
+        "quality": asked.quality,
         **{"created": asked.created, "state": asked.state, "over": work.is_over},
         **{"resumable": work.can_go_on, "stage": _stage(work), "part": round(work.part, 4)},
         "step": max(course.instants - 1, 0),
         "steps": steps,
+        "end": asked.end,
         "time": in_words(course.time, "s") if course.instants else None,
         "seconds_left": None if left is None else round(left, 1),
         "message": _message(work, [*lines_of(problems)]),

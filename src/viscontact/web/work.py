@@ -59,6 +59,11 @@ class Work:
         self.course = Course(self._job(Standing.STOPPED))
 
     @property
+    def label(self) -> str:
+        """What it is called among others; runs of an earlier version have a title only."""
+        return self.asked.label or self.asked.title
+
+    @property
     def is_over(self) -> bool:
         """Whether nothing changes any more by itself."""
         return self.asked.state in OVER

@@ -9,6 +9,16 @@ let asked = 0;
 // Whether the values are those of the text; not while that cannot be read.
 let read = false;
 
+// Whose the title is: "own" was typed, "given" came with an example that nobody has changed yet,
+// "made" follows from the case, and changes with it.
+let naming = "made";
+let suggested = "";
+let shipped = new Set();
+
+export function useExampleTitles(titles) {
+  shipped = new Set(titles);
+}
+
 // A tab keeps its own case over a reload; a new tab begins with the one written last.
 const KEY = "viscontact.case";
 
@@ -28,6 +38,8 @@ const isEmpty = (value) =>
 
 // Sets a value; an empty one is left out, and so is a mapping that holds nothing any more.
 export function setValue(path, value) {
+  if (path.length === 1 && path[0] === "title") naming = isEmpty(value) ? "made" : "own";
+  else if (naming === "given") naming = "made";
   put(values, path, value);
   changed("values");
 }
@@ -47,9 +59,10 @@ function put(part, [key, ...rest], value) {
   else part[key] = value ?? "";
 }
 
-// A whole case from elsewhere, as text; its values are read by the server.
-export async function replaceText(yaml) {
-  const turn = ++asked;
+// A whole case from elsewhere, as text, or the present one `edited` as such; its values are read
+// by the server.
+export async function replaceText(yaml, { edited = false } = {}) {
+  const turn = ++asked, before = values.title;
   text = yaml;
   read = false;
   keep();
@@ -57,6 +70,10 @@ export async function replaceText(yaml) {
   const found = await post("/api/case", { yaml });
   if (turn !== asked) return;
   values = found.case;
+  suggested = found.suggested_title;
+  const isKept = edited && naming !== "own" && values.title === before;
+  if (isEmpty(values.title) || values.title === suggested || isKept) naming = "made";
+  else naming = shipped.has(values.title) ? "given" : "own";
   read = true;
   draft.dispatchEvent(new Event("replaced"));
 }
@@ -64,12 +81,23 @@ export async function replaceText(yaml) {
 // The text that the values amount to. A later change makes an earlier answer void.
 export async function writeText() {
   const turn = ++asked;
-  const written = await post("/api/yaml", { case: values, yaml: text });
+  const titled = naming !== "made";
+  const written = await post("/api/yaml", { case: values, yaml: text, titled });
   if (turn !== asked) return false;
   text = written.yaml;
+  suggested = written.suggested_title;
+  if (!titled) {
+    values.title = suggested;
+    draft.dispatchEvent(new Event("titled"));
+  }
   keep();
   draft.dispatchEvent(new Event("text"));
   return true;
+}
+
+// A case that was edited as text may still have the title that it had before.
+export async function renew() {
+  if (read && naming === "made" && values.title !== suggested) await writeText();
 }
 
 export function changed(what) {

@@ -1,7 +1,9 @@
 // The page: what there is, and what follows from what.
 
 import { check, checked, look, refuse, setUpChecking } from "./checking.js";
-import { caseText, draft, isRead, keptText, replaceText } from "./draft.js";
+import {
+  caseText, caseValues, draft, isRead, keptText, renew, replaceText, useExampleTitles,
+} from "./draft.js";
 import { make, place, settled } from "./dom.js";
 import { draw, placeDrawings, setUpDrawings } from "./drawings.js";
 import { drawForm, useMaterials } from "./form.js";
@@ -36,9 +38,9 @@ function notify(text, undo = null) {
   if (undo) setTimeout(close, 12000);
 }
 
-async function write(yaml) {
+async function write(yaml, how) {
   try {
-    await replaceText(yaml);
+    await replaceText(yaml, how);
     await Promise.all([look(), draw()]);
   } catch (error) {
     refuse(error);
@@ -72,6 +74,7 @@ function drawButtons() {
 async function begin(quality) {
   if (check.problems.length) { goToProblem(place("form")); return; }
   try {
+    await renew();
     await start(quality);
     arriving = true;
     if (!narrow.matches) place("answer").scrollIntoView({ behavior: "smooth", block: "start" });
@@ -102,12 +105,22 @@ function setUpCase() {
     setTimeout(() => URL.revokeObjectURL(address), 1000);
   });
   const text = place("yaml");
-  text.addEventListener("input", settled(() => write(text.value), 500));
+  text.addEventListener("input", settled(() => write(text.value, { edited: true }), 500));
   draft.addEventListener("text", () => {
     if (document.activeElement !== text) text.value = caseText();
     drawStale();
   });
+  draft.addEventListener("titled", showTitle);
+  place("form").addEventListener("focusout", (event) => {
+    if (event.target.id === "field-title") setTimeout(showTitle);
+  });
   for (const mode of ["form", "text"]) place(`as-${mode}`).addEventListener("click", () => choose(mode));
+}
+
+// A title that follows from the case; not while somebody is about to type one.
+function showTitle() {
+  const input = place("field-title"), title = caseValues().title ?? "";
+  if (input && input !== document.activeElement && input.value !== title) input.value = title;
 }
 
 function choose(mode) {
@@ -178,6 +191,7 @@ async function open() {
   const [schema, shipped, materials] = await Promise.all(asked);
   examples = shipped;
   useSchema(schema);
+  useExampleTitles(examples.map(({ title }) => title));
   useMaterials(materials);
   setUpTheme();
   setUpUnits();

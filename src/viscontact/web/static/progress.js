@@ -1,11 +1,11 @@
 // The run that is going on: how far it is, how to stop it, and what became of it.
 
 import { items, make, place, settled, write } from "./dom.js";
+import { drawGrowing } from "./growing.js";
 import { cancel, forget, refer, resume, show, start, state, watch } from "./runs.js";
 import { get } from "./server.js";
 import { lasting } from "./units.js";
 
-const NOW = { contact_area: "contact area", approach: "approach", peak_pressure: "peak pressure" };
 let spoken = "";
 
 export function setUpProgress(complain) {
@@ -20,13 +20,13 @@ export function drawProgress() {
   if (!status) return;
   box.dataset.state = state.lost ? "lost" : status.state;
   const quality = status.quality === "coarse" ? "Coarse answer" : "Full run";
-  write(place("progress-title"), `${quality}: ${status.title || "untitled"}`);
+  write(place("progress-title"), `${quality}: ${status.label}`);
   const bar = place("progress-bar");
   if (status.part > 0 || status.over) bar.value = status.over ? 1 : status.part;
   else bar.removeAttribute("value");
   bar.hidden = status.over;
   write(place("progress-text"), state.lost ? "No connection to the server; the run is looked for again." : told(status));
-  place("progress-now").replaceChildren(...(status.over ? [] : now(status.scalars ?? {})));
+  drawGrowing(status);
   place("cancel").hidden = status.over || state.lost;
   place("resume").hidden = !(status.over && status.resumable);
   write(place("resume"), onward(status));
@@ -53,9 +53,6 @@ function stage({ stage: now, step, steps }) {
   return steps ? `step ${step} of ${steps}` : `step ${step}`;
 }
 
-const now = (scalars) => Object.entries(NOW).filter(([name]) => scalars[name])
-  .map(([name, label]) => make("span", {}, `${label} `, make("b", { textContent: scalars[name].text })));
-
 // Screen readers are told of changes of state at once, of progress now and then.
 const speakSoon = settled((text) => write(place("spoken"), text), 4000);
 function speak(status) {
@@ -77,7 +74,7 @@ const buttonsFor = (run, { load, complain }) => [
   run.figures.length > 0 && act(isReference(run) ? "Not the reference" : "Reference", "Compare with this answer",
     () => refer(isReference(run) ? null : run.id), complain),
   act("Its case", "Write this run’s case into the form",
-    async () => load((await get(`/api/runs/${run.id}/given`)).yaml, run.title), complain),
+    async () => load((await get(`/api/runs/${run.id}/given`)).yaml, run.label), complain),
   act("Delete", "Delete this run and its files", () => forget(run.id), complain),
 ];
 
@@ -91,7 +88,7 @@ let all = false;
 export function drawList(acts) {
   const shown = all ? state.listed : state.listed.slice(0, FEW), more = state.listed.length - shown.length;
   const rows = shown.map((run) => make("li", { class: run.id === state.shown?.id ? "current" : "" },
-    make("div", { class: "run-name" }, make("b", { textContent: run.title || "untitled" }),
+    make("div", { class: "run-name" }, make("b", { textContent: run.label }),
       make("span", { class: `chip ${run.quality}`, textContent: run.quality }),
       run.id === state.shown?.id && make("span", { class: "chip", textContent: "shown" }),
       isReference(run) && make("span", { class: "chip warm", textContent: "reference" }),

@@ -31,7 +31,7 @@ export async function drawResults() {
   place("results").hidden = !shown;
   if (!shown) return;
   const { data, status } = shown, reference = state.reference?.id === shown.id ? null : state.reference;
-  write(place("result-title"), data.title);
+  write(place("result-title"), status.label);
   write(place("quality"), qualityOf(shown));
   place("quality").className = `chip ${status.quality}`;
   place("result-notes").replaceChildren(...notes(status, data));
@@ -75,7 +75,7 @@ function drawFacts(data) {
 
 function referenceTold(reference) {
   if (!reference) return [];
-  return [make("span", { class: "key" }), `Dashed: ${reference.data.title}, ${qualityOf(reference)}`];
+  return [make("span", { class: "key" }), `Dashed: ${reference.status.label}, ${qualityOf(reference)}`];
 }
 
 function downloads({ id, status }) {

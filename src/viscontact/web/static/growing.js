@@ -1,0 +1,85 @@
+// The histories of a run at work, as they grow: drawn from the lines that it writes anyway.
+
+import { instant } from "./charts.js";
+import { make, place } from "./dom.js";
+import { get } from "./server.js";
+import { unitFor } from "./units.js";
+
+const CURVES = { contact_area: "Contact area", approach: "Approach", peak_pressure: "Peak pressure" };
+const WIDTH = 200, HEIGHT = 60, MOST_POINTS = 400;
+// Between two questions; a run may take hundreds of steps a second.
+const PAUSE = 400;
+let curves = null;
+let asked = 0;
+
+const none = (id) => ({ id, after: 0, step: -1, busy: false, time: [], contact_area: [], approach: [], peak_pressure: [] });
+
+export function drawGrowing(status) {
+  if (curves?.id !== status.id) curves = none(status.id);
+  const box = place("growing");
+  box.hidden = status.over || !status.figures.length;
+  if (box.hidden) { box.replaceChildren(); curves = null; return; }
+  if (!curves.busy && status.step > curves.step) ask(curves, status);
+}
+
+async function ask(mine, status) {
+  mine.busy = true;
+  await new Promise((ready) => setTimeout(ready, Math.max(0, asked + PAUSE - Date.now())));
+  asked = Date.now();
+  try {
+    const news = await get(`/api/runs/${mine.id}/grown?after=${mine.after}`);
+    take(mine, news);
+    mine.step = mine.time.length - 1;
+    if (curves === mine) show(mine, status);
+  } catch (error) {
+    if (!error.problems) throw error; // the next event asks again
+  } finally {
+    mine.busy = false;
+  }
+}
+
+// A run that was gone on with may have written some lines anew.
+function take(mine, news) {
+  if (news.begun === 0) Object.assign(mine, none(mine.id), { busy: true });
+  const kept = news.time.length ? mine.time.filter((time) => time < news.time[0]).length : mine.time.length;
+  for (const name of ["time", ...Object.keys(CURVES)]) mine[name].splice(kept, Infinity, ...news[name]);
+  mine.after = news.after;
+}
+
+function show(mine, status) {
+  const end = status.end, at = scale(mine.time, end), isFirst = !place("growing").firstChild;
+  place("growing").replaceChildren(...Object.entries(CURVES).map(([name, label]) => {
+    const text = status.scalars[name]?.text ?? "";
+    return make("figure", {},
+      make("figcaption", {}, `${label} `, make("b", { textContent: text })), drawn(mine.time, mine[name], at, label),
+      make("div", { class: "ends", "aria-hidden": "true" },
+        make("span", { textContent: "0" }), make("span", { textContent: instant(end, unitFor("s", [end])) })));
+  }));
+  if (isFirst) place("progress").scrollIntoView({ block: "nearest" });
+}
+
+// Where an instant stands, from 0 to 1: on a logarithmic axis where the steps grow.
+function scale(times, end) {
+  const first = times.find((time) => time > 0) ?? end;
+  if (first > end / 200) return (time) => time / end;
+  const zero = Math.log10(first) - 0.5, length = Math.log10(end) - zero;
+  return (time) => (time > 0 ? (Math.log10(time) - zero) / length : 0);
+}
+
+function drawn(times, values, at, label) {
+  const largest = Math.max(...values, 0) || 1, each = Math.max(1, Math.ceil(values.length / MOST_POINTS));
+  const points = values.map((value, i) => (value === null || (i % each && i < values.length - 1) ? null
+    : `${(WIDTH * at(times[i])).toFixed(2)},${(HEIGHT * (1 - value / largest)).toFixed(2)}`));
+  const svg = (tag, attributes) => {
+    const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
+    for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+    return element;
+  };
+  const picture = svg("svg", {
+    viewBox: `0 0 ${WIDTH} ${HEIGHT}`, preserveAspectRatio: "none", role: "img",
+    "aria-label": `${label} over time so far`,
+  });
+  picture.append(svg("line", { class: "base", x1: 0, x2: WIDTH, y1: HEIGHT, y2: HEIGHT }),
+    svg("polyline", { class: "curve", points: points.filter(Boolean).join(" ") }));
+  return picture;
+}
