@@ -261,6 +261,7 @@ NEIGHBOURS = {
     ("tables", "units"),
     ("materials", "units"),
     ("plot", "units"),
+    ("plot", "particulars"),  # what is told beside an indenter
     ("verify", "units"),
     ("plot", "identification"),  # data, what was fitted, and what is left
     ("plot", "cross_section"),
