@@ -13,9 +13,11 @@ import xarray as xr
 from matplotlib import pyplot
 from matplotlib.axes import Axes
 from matplotlib.patches import PathPatch
+from PIL import Image
 
 import viscontact as vc
 from synthetic_results import maxwell_sphere, roller
+from viscontact.cli import main
 from viscontact.plot import COMPARISONS, FIGURES, Film, ResultPlots, draw_indenter, save_figure
 
 assert vc.open_results  # from here on results have their figures
@@ -180,3 +182,39 @@ def test_maps_of_runs_share_levels_and_axes() -> None:
     levels = [axes.collections[0].levels for axes in (first, second)]
     np.testing.assert_array_equal(*levels)
     assert first.get_xlim() == second.get_xlim()
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["material", "pmma-paper", "-o", "it.png"],
+        ["check", "ball.yaml", "--plot", "it.png"],
+        ["fit", "creep.csv", "--data", "shear", "-o", "it.png"],
+    ],
+    ids=["material", "check", "fit"],
+)
+def test_every_figure_of_the_command_line_takes_a_width(
+    words: list[str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("ball.yaml").write_text(
+        "indenter: {shape: sphere, radius: 5 mm}\n"
+        "material: {law: elastic, shear_modulus: 700 MPa, poisson_ratio: 0.3}\n"
+        "load: {kind: step, force: 20 N}\ntime: {end: 1 s, steps: 2}\n"
+        "grid: {shape: [32, 32], size: [0.8 mm, 0.8 mm]}\n"
+    )
+    rows = (f"{t},{2 - np.exp(-t)}" for t in np.geomspace(0.1, 10, 12))
+    Path("creep.csv").write_text("\n".join(["time [s],creep_compliance [1/GPa]", *rows]))
+    assert main([*words, "--width", "single"]) == 0
+    with Image.open("it.png") as picture:
+        assert picture.width == round(89 / 25.4 * 300)
+    capsys.readouterr()
+    for wrong in ("3 m", "5 kg", "wide"):
+        assert main([*words, "--width", wrong]) == 2
+        assert "--width" in capsys.readouterr().err
+    drawn = [word for word in words if word not in ("-o", "--plot", "it.png")]
+    assert main([*drawn, "--width", "single"]) == 2
+    assert capsys.readouterr().err.startswith("--width: a width is a figure's; add")

@@ -150,14 +150,44 @@ def _chosen(
     for name in given:
         if name not in signature(draw_it).parameters:
             refuse(f"--{name}: the figure {figure} has no such choice")
-    read: dict[str, str | float] = {}
-    for name, value in given.items():
-        is_length = name == "at" or (name == "width" and value not in ("single", "double"))
-        try:
-            read[name] = parse_quantity(str(value), "length") if is_length else value
-        except ValueError as error:
-            words = "; or say single (89 mm) or double (183 mm)" if name == "width" else ""
-            refuse(f"--{name}: {error}{words}")
+    return {name: _read(name, value) for name, value in given.items()}
+
+
+def _read(name: str, value: str | float) -> str | float:
+    is_length = name == "at" or (name == "width" and value not in ("single", "double"))
+    try:
+        return parse_quantity(str(value), "length") if is_length else value
+    except ValueError as error:
+        words = "; or say single (89 mm) or double (183 mm)" if name == "width" else ""
+        refuse(f"--{name}: {error}{words}")
+
+
+def chosen_width(width: str | None, *, drawn: bool, switch: str) -> str | float | None:
+    """Read --width before any work is done, or refuse it.
+
+    Parameters
+    ----------
+    width : str or None
+        As typed.
+    drawn : bool
+        Whether there is a figure to be so wide.
+    switch : str
+        What asks for one, as typed.
+
+    Returns
+    -------
+    str or float or None
+        As figures take it; None for their own choice.
+    """
+    if width is None:
+        return None
+    if not drawn:
+        refuse(f"--width: a width is a figure's; add {switch}")
+    read = _read("width", width)
+    try:
+        plot_package().page.page_width(read, 1.0)
+    except ValueError as error:
+        refuse(f"--width: {error}")
     return read
 
 

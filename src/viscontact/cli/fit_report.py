@@ -35,7 +35,14 @@ from viscontact.units import in_celsius
 _ROOM = 293.15  # [K]
 
 
-def report_fit(file: Path, wishes: Wishes, output: Path | None, section: Path | None) -> None:
+def report_fit(
+    file: Path,
+    wishes: Wishes,
+    output: Path | None,
+    section: Path | None,
+    *,
+    width: str | float | None = None,
+) -> None:
     """Fit, print, draw and write, or refuse in one line.
 
     Parameters
@@ -48,6 +55,8 @@ def report_fit(file: Path, wishes: Wishes, output: Path | None, section: Path | 
         The figure's file.
     section : Path or None
         Where the material section goes as well.
+    width : str or float or None, optional
+        Of the figure, as `viscontact.plot` takes it [m].
     """
     table = _read(file)
     if table.left_out:
@@ -58,7 +67,7 @@ def report_fit(file: Path, wishes: Wishes, output: Path | None, section: Path | 
         refuse(table.located(error))
     print(f"\n{text}")
     if output is not None:
-        _draw(draw, output)
+        _draw(draw, output, width)
     if section is not None:
         _write(section, text + "\n")
 
@@ -69,9 +78,10 @@ class _Drawing:
     def __init__(self, name: str, *shown: object, **options: object) -> None:
         self._name, self._shown, self._options = name, shown, options
 
-    def save(self, path: Path) -> None:
+    def save(self, path: Path, width: str | float | None) -> None:
         plot = plot_package()
-        plot.save_figure(getattr(plot, self._name)(*self._shown, **self._options), path)
+        draw = getattr(plot, self._name)
+        plot.save_figure(draw(*self._shown, width=width, **self._options), path)
 
 
 def _found(table: Table, wishes: Wishes) -> tuple[str, _Drawing]:
@@ -235,9 +245,9 @@ def _write(path: Path, text: str) -> None:
     print(path)
 
 
-def _draw(drawing: _Drawing, output: Path) -> None:
+def _draw(drawing: _Drawing, output: Path, width: str | float | None) -> None:
     try:
-        drawing.save(output)
+        drawing.save(output, width)
     except (ValueError, OSError) as error:
         refuse(f"{output}: {error}")
     print(output)

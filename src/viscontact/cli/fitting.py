@@ -7,6 +7,8 @@ from typing import Annotated
 
 import typer
 
+from viscontact.cli.drawing import Width
+
 Table = Annotated[
     Path,
     typer.Argument(metavar="FILE.csv", help="Measured values; the headings say what they are."),
@@ -84,12 +86,14 @@ def fit(
     indenter: Body = None,
     law: LawName = "zener",
     output: Figure = None,
+    width: Width = None,
     section: Section = None,
 ) -> None:
     """Fit a law to measured creep, relaxation, oscillation or indentation.
 
     Several temperatures in the file are joined to a master curve, and the shift factors printed.
     """
+    from viscontact.cli.figures import chosen_width
     from viscontact.cli.fit_report import report_fit
     from viscontact.cli.fit_wishes import Wishes
 
@@ -104,4 +108,5 @@ def fit(
         indenter=indenter,
         law=law,
     )
-    report_fit(file, wishes, output, section)
+    page = chosen_width(width, drawn=output is not None, switch="-o FIG.png")
+    report_fit(file, wishes, output, section, width=page)

@@ -47,7 +47,12 @@ def print_forecast(prepared: Prepared) -> Forecast:
     return expected
 
 
-def draw_body(prepared: Prepared, expected: Forecast, picture: Path | None) -> None:
+def draw_body(
+    prepared: Prepared,
+    expected: Forecast,
+    picture: Path | None,
+    width: str | float | None = None,
+) -> None:
     """Draw the indenter, on the grid's part of the surface and as far as it goes beside it.
 
     Parameters
@@ -58,13 +63,16 @@ def draw_body(prepared: Prepared, expected: Forecast, picture: Path | None) -> N
         Its contact is shaded.
     picture : Path or None
         The file; None for CASE-indenter.png beside the case.
+    width : str or float or None, optional
+        Of the figure, as `viscontact.plot` takes it [m].
     """
     plot, found, run = plot_package(), expected.estimate, prepared.run
     contact = found and (found.centre_x, found.centre_y, found.length, found.width)
     path = prepared.case.document.path
     file = picture or path.with_name(f"{path.stem}-indenter.png")
     size = drawn_size(run)
-    save(plot, file, plot.draw_indenter, run.indenter, size=size, contact=contact)
+    options = {"size": size, "contact": contact, "width": width}
+    save(plot, file, plot.draw_indenter, run.indenter, **options)
 
 
 def _listed(rows: list[tuple[str, str]]) -> Table:

@@ -56,7 +56,7 @@ def list_library(output: Path | None = None) -> None:
     print("viscontact material NAME tells all of one; -o FIG.png draws it against its source")
 
 
-def show_material(shown: Shown, output: Path | None) -> None:
+def show_material(shown: Shown, output: Path | None, width: str | float | None = None) -> None:
     """Print, and draw if a file is named, one material.
 
     Parameters
@@ -65,6 +65,8 @@ def show_material(shown: Shown, output: Path | None) -> None:
         The material.
     output : Path or None
         The figure's file.
+    width : str or float or None, optional
+        Of the figure, as `viscontact.plot` takes it [m].
     """
     if output is not None and (form := _WRITTEN.get(output.suffix.lower())):
         refuse(f"{output}: -o alone is a figure (.png, .pdf or .svg); add --to {form}")
@@ -75,7 +77,7 @@ def show_material(shown: Shown, output: Path | None) -> None:
         _print_about(shown)
     Console().print(_values(shown))
     if output is not None:
-        _draw(shown, output)
+        _draw(shown, output, width)
 
 
 def _print_about(shown: Shown) -> None:
@@ -175,7 +177,7 @@ def _within(time: float, measured: tuple[float, float] | None) -> bool:
     return measured is None or measured[0] * 0.999 <= time <= measured[1] * 1.001
 
 
-def _draw(shown: Shown, output: Path) -> None:
+def _draw(shown: Shown, output: Path, width: str | float | None) -> None:
     plot = plot_package()
     entry = shown.entry
 
@@ -186,6 +188,7 @@ def _draw(shown: Shown, output: Path) -> None:
             measured=shown.measured,
             points=shown.points,
             title=entry.title if entry else shown.name,
+            width=width,
         )
 
     save(plot, output, figure, shown.material)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from viscontact.cli.drawing import Width
 from viscontact.cli.messages import refuse
 
 if TYPE_CHECKING:  # heavy, and only to name its type
@@ -76,6 +77,7 @@ Name = Annotated[
 def material(
     which: Which = None,
     output: Output = None,
+    width: Width = None,
     to: Form = None,
     data: Test = None,
     poisson_ratio: PoissonRatio = None,
@@ -99,16 +101,21 @@ def material(
         temperature_unit=temperature_unit,
         name=name,
     )
-    _show_or_write(which, output, to, typed)
+    _show_or_write(which, output, width, to, typed)
 
 
-def _show_or_write(which: str | None, output: Path | None, to: str | None, typed: Typed) -> None:
+def _show_or_write(
+    which: str | None, output: Path | None, width: str | None, to: str | None, typed: Typed
+) -> None:
+    from viscontact.cli.figures import chosen_width
     from viscontact.cli.material_files import find_material
     from viscontact.cli.material_tables import list_library, show_material
     from viscontact.cli.material_writing import FORMS, write_material
 
     if to is not None and to not in FORMS:
         refuse(f"--to: must be one of {', '.join(FORMS)}, got {to!r}")
+    drawn = output is not None and to is None
+    page = chosen_width(width, drawn=drawn, switch="-o FIG.png")
     if which is None:
         if to is not None:
             refuse(f"--to {to}: name one material, e.g. pmma-paper")
@@ -116,6 +123,6 @@ def _show_or_write(which: str | None, output: Path | None, to: str | None, typed
         return
     shown = find_material(which, typed, writes=to is not None)
     if to is None:
-        show_material(shown, output)
+        show_material(shown, output, page)
     else:
         write_material(shown, to, typed, output)

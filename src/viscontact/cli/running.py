@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from viscontact.cli.drawing import Width
 from viscontact.cli.interruption import Interruption, watched_interruption
 from viscontact.cli.messages import INTERRUPTED, stop
 from viscontact.processes.request import RunRequest
@@ -103,16 +104,19 @@ def check(
         typer.Argument(metavar="FIG.png", help="With --plot: where to; CASE-indenter.png."),
     ] = None,
     plot: Annotated[bool, typer.Option("--plot", help="Draw the indenter, too.")] = False,
+    width: Width = None,
     settings: Settings = None,
 ) -> None:
     """Check a case, and say how large it is, how long it takes and what to expect."""
+    from viscontact.cli.figures import chosen_width
     from viscontact.cli.inspection import draw_body, print_forecast
     from viscontact.cli.messages import refuse
     from viscontact.cli.preparation import prepare
 
     if figure is not None and not plot:
         refuse(f"{figure}: a picture goes with --plot, as in: check {case} --plot {figure}")
+    page = chosen_width(width, drawn=plot, switch="--plot")
     prepared = prepare(case, settings or [])
     expected = print_forecast(prepared)
     if plot:
-        draw_body(prepared, expected, figure)
+        draw_body(prepared, expected, figure, page)

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact.identification import Fit, IndentationFit, MasterCurve, ShiftFit
 from viscontact.laws import Shift
 from viscontact.plot import style
+from viscontact.plot.page import NARROW, Width, page_width
 from viscontact.plot.readable import DisplayUnit, display_unit
 from viscontact.units import in_celsius
 
@@ -33,13 +34,15 @@ _DOT = 3.2
 _SECOND = "#D55E00"
 
 
-def fitted_series(fit: Fit) -> Figure:
+def fitted_series(fit: Fit, *, width: Width | None = None) -> Figure:
     """Draw measured values, the series fitted to them and the relative residuals.
 
     Parameters
     ----------
     fit : Fit
         What `fit_creep`, `fit_relaxation` or `fit_dynamic` returned.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
 
     Returns
     -------
@@ -55,7 +58,7 @@ def fitted_series(fit: Fit) -> Figure:
     >>> [axes.get_ylabel() for axes in figure.axes]
     ['Relaxation modulus G [GPa]', 'Residual [%]']
     """
-    figure = style.new_figure(style.ONE_COLUMN, 4.0)
+    figure = style.new_figure(page_width(width, style.ONE_COLUMN), 4.0)
     above, below = figure.subplots(2, 1, sharex=True, height_ratios=(3, 1))
     unit = _unit_of(fit)
     shown = fit.points > 0  # the instant itself is not on a logarithmic axis
@@ -111,22 +114,29 @@ def _dress_series(fit: Fit, above: Axes, below: Axes, unit: DisplayUnit) -> None
         style.dress(axes)
 
 
-def fitted_indentation(fit: IndentationFit) -> Figure:
+def fitted_indentation(fit: IndentationFit, *, width: Width | None = None) -> Figure:
     """Draw an indentation record, the law fitted to it and what it misses.
 
     Parameters
     ----------
     fit : IndentationFit
         What `fit_indentation` returned.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
 
     Returns
     -------
     matplotlib.figure.Figure
-        Force over approach on the left; on the right what was fitted, and below it the
+        Force over approach; beside it, below it on a narrow page, what was fitted, and the
         residuals relative to its largest value, over time.
     """
-    figure = style.new_figure(style.TWO_COLUMNS, 3.2)
-    panels = figure.subplot_mosaic([["loop", "time"], ["loop", "rest"]], height_ratios=(3, 1.2))
+    wide = page_width(width, style.TWO_COLUMNS)
+    if wide > NARROW:
+        figure = style.new_figure(wide, 3.2)
+        panels = figure.subplot_mosaic([["loop", "time"], ["loop", "rest"]], height_ratios=(3, 1.2))
+    else:
+        figure = style.new_figure(wide, 5.8)
+        panels = figure.subplot_mosaic([["loop"], ["time"], ["rest"]], height_ratios=(3, 3, 1.2))
     loop, over_time, below = panels["loop"], panels["time"], panels["rest"]
     record = fit.record
     d, F, t = (
@@ -168,7 +178,11 @@ def fitted_indentation(fit: IndentationFit) -> Figure:
 
 
 def master_curve(
-    curve: MasterCurve, *, fit: Fit | None = None, rules: Sequence[ShiftFit] = ()
+    curve: MasterCurve,
+    *,
+    fit: Fit | None = None,
+    rules: Sequence[ShiftFit] = (),
+    width: Width | None = None,
 ) -> Figure:
     """Draw the sets of several temperatures, their shift factors and the curve they make.
 
@@ -180,6 +194,8 @@ def master_curve(
         The series fitted to it.
     rules : sequence of ShiftFit, optional
         Rules to draw through the shift factors.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
 
     Returns
     -------
@@ -187,8 +203,13 @@ def master_curve(
         The sets as measured and their shift factors above, the master curve below; colours go
         from cold (dark) to warm (light). Of an oscillation, storage has circles and loss squares.
     """
-    figure = style.new_figure(style.TWO_COLUMNS, 5.4)
-    panels = figure.subplot_mosaic([["sets", "shifts"], ["master", "master"]])
+    wide = page_width(width, style.TWO_COLUMNS)
+    figure = style.new_figure(wide, 5.4 if wide > NARROW else 7.4)
+    panels = (
+        figure.subplot_mosaic([["sets", "shifts"], ["master", "master"]])
+        if wide > NARROW
+        else figure.subplot_mosaic([["sets"], ["shifts"], ["master"]])
+    )
     celsius = in_celsius(curve.temperatures)
     # The palest end of the map fades on white.
     shades = LinearSegmentedColormap.from_list("sets", colormaps["plasma"](np.linspace(0, 0.85)))
@@ -239,7 +260,8 @@ def _dress_sets(
     master.set_xlabel("Reduced " + _abscissa(curve.measured, reduced=True))
     style.add_heading(sets, "As measured")
     at = f"{in_celsius(curve.reference_temperature):.4g} °C"
-    said = f", {_count(fit)}, residual {_rms(fit)}" if fit else ""
+    apart = ", " if style.figure_of(master).get_figwidth() > NARROW else "\n"
+    said = f"{apart}{_count(fit)}, residual {_rms(fit)}" if fit else ""
     style.add_heading(master, f"Master curve at {at}{said}")
 
 
@@ -262,8 +284,10 @@ def _draw_shifts(curve: MasterCurve, axes: Axes, rules: Sequence[ShiftFit]) -> N
         labels.append(f"{type(rule.shift).__name__} ± {rule.residual:.2g} decades")
     axes.axhline(0.0, color=style.FAINT, linewidth=style.THIN_LINE)
     axes.set(xlabel="Temperature [°C]", ylabel="log₁₀ of shift factor $a_T$")
+    if style.figure_of(axes).get_figwidth() <= NARROW:
+        axes.margins(y=0.5)  # room for the legend
     style.add_heading(axes, "Shift factors")
-    style.add_legend(axes, handles, labels, loc="upper right")
+    style.add_legend(axes, handles, labels, loc="best")
     style.dress(axes)
 
 

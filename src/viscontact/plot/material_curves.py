@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from viscontact.laws import Law
 from viscontact.materials import Points
 from viscontact.plot import style
+from viscontact.plot.page import NARROW, Width, page_width
 from viscontact.plot.readable import DisplayUnit, display_unit
 
 _NAME = "material_curves"
@@ -29,6 +30,7 @@ def material_curves(
     measured: tuple[float, float] | None = None,
     points: Iterable[Points] = (),
     title: str = "",
+    width: Width | None = None,
 ) -> Figure:
     """Draw creep, relaxation and complex modulus of a law over logarithmic axes.
 
@@ -45,12 +47,15 @@ def material_curves(
         What the law is compared with, drawn as markers.
     title : str, optional
         A line above the figure.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
 
     Returns
     -------
     matplotlib.figure.Figure
-        Phi(t), G(t), and G'(ω) with G''(ω), side by side. The relaxation modulus is left out
-        for a law without instant compliance, whose G(t) starts with an impulse.
+        Phi(t), G(t), and G'(ω) with G''(ω), below one another on a narrow page. The relaxation
+        modulus is left out for a law without instant compliance, whose G(t) starts with an
+        impulse.
 
     Raises
     ------
@@ -69,8 +74,10 @@ def material_curves(
         raise ValueError(f"{_NAME}: times must be two, above 0 s and increasing, got {times!r} s")
     given = tuple(points)
     stiff_at_once = float(law(0.0)) > 0
-    figure = style.new_figure(9.6 if stiff_at_once else style.TWO_COLUMNS, 3.0)
-    panels = list(figure.subplots(1, 3 if stiff_at_once else 2).flat)
+    count, wide = 3 if stiff_at_once else 2, page_width(width, style.TWO_COLUMNS)
+    rows = count if wide <= NARROW else 1
+    figure = style.new_figure(wide, 2.3 * rows if rows > 1 else 2.8)
+    panels = list(figure.subplots(rows, count // rows).flat)
     instants = np.geomspace(first, last, _SAMPLES)
     solid = (instants[0], instants[-1]) if measured is None else measured
     _draw_time(panels[0], "creep_compliance", instants, law(instants), solid, given)
@@ -88,7 +95,7 @@ def material_curves(
 
 
 _LABELS = {
-    "creep_compliance": ("Creep compliance Φ = 1/(2G)", "1/Pa"),
+    "creep_compliance": ("Creep compliance Φ", "1/Pa"),
     "relaxation_modulus": ("Relaxation modulus G", "Pa"),
 }
 
