@@ -249,6 +249,7 @@ NEIGHBOURS = {
     ("case", "tables"),  # loads and materials may be measured ones
     ("preparation", "case"),  # makes a run of it
     ("preparation", "units"),
+    ("summary", "told"),
     ("summary", "units"),
     ("inspection", "preparation"),
     ("inspection", "forecast"),  # in words
@@ -269,6 +270,7 @@ NEIGHBOURS = {
     ("report", "markup"),
     ("report", "notebook"),  # has drawings for phones
     ("report", "particulars"),
+    ("report", "summary"),  # is its table of errors
     ("report", "told"),
     ("report", "units"),
     ("plot", "materials"),  # curves are drawn over the points they rest on

@@ -16,6 +16,7 @@ import pytest
 import served_page as seen
 import viscontact as vc
 from viscontact.cli import main
+from viscontact.summary import summary_rows
 
 pytest.importorskip("playwright")
 pytestmark = pytest.mark.skipif(seen.BROWSER is None, reason="there is no Chromium")
@@ -150,7 +151,7 @@ def test_a_newcomer_leaves_with_case_report_and_result(
     assert "±" not in page.inner_text("#facts")
     seen.run(page, "#refine")
     assert "full" in page.inner_text("#quality")
-    assert "±" in seen.fact(page, "Approach")
+    assert "±" in seen.fact(page, "Contact area")
     files = {}
     for text in ("Case (YAML)", "Report (HTML)", "Result (netCDF)", "Histories (CSV)"):
         with page.expect_download() as coming:
@@ -164,6 +165,10 @@ def test_a_newcomer_leaves_with_case_report_and_result(
     with vc.open_results(files["nc"]) as ds:
         approach = float(ds["approach"][-1])
         assert len(files["csv"].read_text(encoding="utf-8").splitlines()) > ds.sizes["time"]
+        rows = summary_rows(ds)
+    # To the letter what the command line and the report say.
+    cells = [row.locator("td").all_inner_texts() for row in page.locator("#told tbody tr").all()]
+    assert cells == [[row.first, row.last, row.largest, row.largest_error] for row in rows]
     assert float(seen.fact(page, "Approach").split()[0]) == pytest.approx(approach * 1e6, rel=1e-3)
     with page.expect_download() as coming:
         page.click("#save")

@@ -26,6 +26,10 @@ import viscontact as vc
 from viscontact.cli import main
 from viscontact.cli.summary import print_summary
 from viscontact.plot import COMPARISONS, FIGURES
+from viscontact.report import report_page
+from viscontact.report.accuracy import error_rows
+from viscontact.summary import summary_rows
+from viscontact.told import headline
 from viscontact.units import in_error_digits, in_percent, in_supported_digits
 from viscontact.variables import SCALARS
 
@@ -167,9 +171,9 @@ def test_last_line_of_the_table_is_the_largest_error_of_each_column(
     error = np.zeros(bare.sizes["time"])
     error[4] = 0.25 * bare.peak_pressure.values.max()  # at an instant that is not the largest
     printed = shown(with_errors(bare, peak_pressure=error))
-    [line] = [line for line in printed.splitlines() if line.startswith("   error ")]
+    [line] = [line for line in printed.splitlines() if line.startswith(" largest ")]
     # Force, approach, area, length, width and peak; a part of each value is one of the largest.
-    assert line.split() == ["error", "±0%", "±1.2%", "±3.4%", "±0.21%", "±0.34%", "±25%"]
+    assert line.split() == ["largest", "±0%", "±1.2%", "±3.4%", "±0.21%", "±0.34%", "±25%"]
 
 
 def test_each_number_has_its_error_below_it(ds: xr.Dataset, shown: Callable[..., str]) -> None:
@@ -198,7 +202,7 @@ def test_peak_that_depends_on_the_mesh_is_not_printed_as_a_fact(
         marked = [float(each) for each in re.findall(r">([\d.]+)", printed)]
         assert marked == pytest.approx(peaks[peaks > 0], rel=1e-3)
         assert "> peak pressure depends on the mesh: the number is the largest mean" in printed
-        assert re.search(r"error .* mesh *\n", printed)
+        assert re.search(r"largest .* mesh *\n +error", printed)
 
 
 def test_instants_of_unknown_error_are_counted(bare: xr.Dataset, shown: Callable[..., str]) -> None:
@@ -224,12 +228,57 @@ def test_summary_of_a_run_has_an_accuracy_column(
     vc.save(singular, tmp_path / "result.nc")
     print_summary(tmp_path)
     printed = capsys.readouterr().out
-    assert max(len(line) for line in printed.splitlines() if "│" in line) <= 80
-    largest = float(singular.approach_error.max()) * 1e6
-    assert f"±{largest:.1f} (1.2 %)" in printed
-    row = next(line for line in printed.splitlines() if "peak pressure [" in line)
-    assert row.count(">") == 1  # no contact, and no doubt, at first and last
-    assert "depends on the mesh" in row
+    assert max(map(len, printed.splitlines())) <= 80
+    rows = {line.split(" [")[0]: line for line in printed.splitlines() if " [" in line}
+    # The error is a part of each value; it is largest where the approach is, at 2 s.
+    at = singular.sel(time=2.0)
+    value, half_width = float(at.approach) * 1e6, float(at.approach_error) * 1e6
+    told = f"{value:.1f} ±{half_width:.1f} 1.2 % at 2 s"
+    assert " ".join(rows["approach"].split()).endswith(told)
+    assert rows["peak pressure"].count(">") == 1  # no contact, and no doubt, at first and last
+    assert "depends on the mesh" in rows["peak pressure"]
+    assert "±: the error of each value at that instant" in printed
+
+
+def test_each_value_stands_beside_the_error_of_its_instant(bare: xr.Dataset) -> None:
+    error = 0.02 * bare.peak_pressure.values
+    error[2] = 0.5 * bare.peak_pressure.values.max()  # the worst, at an instant of no row
+    [row] = [
+        row
+        for row in summary_rows(with_errors(bare, peak_pressure=error))
+        if row.name == "peak_pressure"
+    ]
+    largest = float(bare.peak_pressure.max())
+    assert float(row.largest.split(" ± ")[1]) == pytest.approx(0.02 * largest * 1e-3, rel=0.05)
+    assert float(row.error[1:]) == pytest.approx(0.5 * largest * 1e-3, rel=0.05)
+    assert (row.part, row.when) == ("50 %", f"{float(bare.time[2]) * 1e3:.0f} ms")
+
+
+def test_table_notebook_report_and_headline_say_the_same(ds: xr.Dataset) -> None:
+    area = next(row for row in summary_rows(ds) if row.name == "contact_area")
+    told = f"{area.largest} {area.unit}"
+    assert " ± " in told
+    assert told in str(ds.viscontact)
+    assert told in headline(ds)
+    [of_report] = [row for row in error_rows(ds) if row[0].startswith("contact area")]
+    assert of_report[3] == area.largest
+    assert told in report_page(ds)
+
+
+def test_table_on_a_narrow_terminal_has_errors_below_their_values(
+    directory: Path,
+    ds: xr.Dataset,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    shutil.copy(directory / "progress.jsonl", tmp_path)
+    vc.save(ds, tmp_path / "result.nc")
+    monkeypatch.setenv("COLUMNS", "60")
+    print_summary(tmp_path)
+    table = capsys.readouterr().out.split("±: the error")[0]
+    assert "…" not in table
+    assert re.search(r"^mean pressure .* [\d.]+ +0.78 % *\n +±[\d.]+.* +at ", table, re.MULTILINE)
 
 
 @pytest.mark.parametrize("words", [[], ["--all"]])

@@ -81,11 +81,14 @@ class LargestError:
         Of the scalar's largest magnitude [-].
     unknown : int
         At how many instants there is a value, but its error is not known.
+    time : float
+        When it is first so large [s]; NaN where nothing is known.
     """
 
     half_width: float
     part: float
     unknown: int
+    time: float
 
 
 def largest_error(ds: xr.Dataset, name: str) -> LargestError | None:
@@ -105,17 +108,19 @@ def largest_error(ds: xr.Dataset, name: str) -> LargestError | None:
 
     Examples
     --------
-    >>> run = xr.Dataset({"force": ("time", [2.0, 4.0]), "force_error": ("time", [0.1, np.nan])})
-    >>> largest_error(run, "force")
-    LargestError(half_width=0.1, part=0.025, unknown=1)
+    >>> force = {"force": ("time", [2.0, 4.0]), "force_error": ("time", [0.1, np.nan])}
+    >>> largest_error(xr.Dataset(force, {"time": [0.0, 1.0]}), "force")
+    LargestError(half_width=0.1, part=0.025, unknown=1, time=0.0)
     """
     error, values = stated_error(ds, name), np.asarray(ds[name].values, dtype=np.float64)
     given = ~np.isnan(values)
     if error is None or not given.any():
         return None
-    known = error[given & ~np.isnan(error)]
-    if not known.size:
-        return LargestError(np.nan, np.nan, int(given.sum()))
-    half_width, largest = float(known.max()), float(np.abs(values[given]).max())
+    known = given & ~np.isnan(error)
+    unknown = int(given.sum() - known.sum())
+    if not known.any():
+        return LargestError(np.nan, np.nan, unknown, np.nan)
+    at = int(np.where(known, error, -1.0).argmax())
+    half_width, largest = float(error[at]), float(np.abs(values[given]).max())
     part = half_width / largest if largest > 0 else (np.inf if half_width > 0 else 0.0)
-    return LargestError(half_width, part, int(given.sum()) - known.size)
+    return LargestError(half_width, part, unknown, float(ds["time"][at]))

@@ -1,4 +1,4 @@
-"""What a run found, a row for each scalar, in readable units."""
+"""What a run found, a row for each scalar: values with their errors, and the largest error."""
 
 from __future__ import annotations
 
@@ -8,11 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
-from viscontact.stated_errors import MESH_DEPENDENT, largest_error, stated_error
+from viscontact.stated_errors import MESH_DEPENDENT, LargestError, largest_error
+from viscontact.told import NEGLIGIBLE, errors_of, told_in
 from viscontact.units import (
+    ReadableUnit,
     in_error_digits,
     in_percent,
-    in_supported_digits,
+    in_words,
     is_rounding_tilt,
     readable_unit,
 )
@@ -23,8 +25,14 @@ _ROWS = (
     *("contact_area", "contact_length", "contact_width", "peak_pressure", "mean_pressure", "work"),
     "loss_per_cycle",
 )
-# Exactly centred loads leave eccentricities of rounding size [m].
-_NEGLIGIBLE = 1e-12
+#: Exactly centred loads leave eccentricities of rounding size [m].
+_ROUNDING = 1e-12
+
+#: What the columns mean.
+LEGEND = (
+    "±: the error of each value at that instant (of 100 true errors 95 are meant to be smaller); "
+    "left out below 0.01 %. Largest error: the worst of the run, in % of the largest value."
+)
 
 
 @dataclass(frozen=True)
@@ -38,9 +46,16 @@ class SummaryRow:
     unit : str
         The unit of the numbers.
     first, last, largest : str
-        At the first and the last instant, and the largest magnitude.
+        At the first and the last instant, and where its magnitude is largest; each with the error
+        that it has then, unless that is negligible.
     error : str
-        The largest error, and as a part of the largest value.
+        The largest error over the run, in the unit; or that it is not known, or why there is none.
+    part : str
+        That as a part of the largest value; empty where there is none.
+    when : str
+        When the error is so large; empty where it is negligible at all instants.
+    unknown : int
+        At how many instants the error is not known.
     """
 
     name: str
@@ -49,11 +64,21 @@ class SummaryRow:
     last: str
     largest: str
     error: str
+    part: str
+    when: str
+    unknown: int
 
     @property
     def title(self) -> str:
         """Its name in words."""
         return self.name.replace("_", " ")
+
+    @property
+    def largest_error(self) -> str:
+        """The largest error in short: as a part of the largest value, and when."""
+        if not self.part:
+            return self.error
+        return f"{self.part} at {self.when}" if self.when else self.part
 
 
 def summary_rows(ds: xr.Dataset) -> list[SummaryRow]:
@@ -78,43 +103,49 @@ def summary_rows(ds: xr.Dataset) -> list[SummaryRow]:
     >>> row.title, row.unit, row.last
     ('force', 'mN', '100.0')
     """
-    return [_row(ds, name) for name in _ROWS if not _is_rounding(ds, name)]
+    return [_row(ds, name) for name in told_scalars(ds)]
+
+
+def told_scalars(ds: xr.Dataset) -> list[str]:
+    """Return which scalars of a result a table tells of: not those that are rounding.
+
+    Parameters
+    ----------
+    ds : xarray.Dataset
+        A result.
+    """
+    return [name for name in _ROWS if name in ds and not _is_rounding(ds, name)]
 
 
 def _row(ds: xr.Dataset, name: str) -> SummaryRow:
-    values, error = ds[name].values, stated_error(ds, name)
-    largest = _largest(ds, name)
-    unit = readable_unit(largest, SCALARS[name].units)
-    bars = np.full(len(values), np.nan) if error is None else error
+    values, errors = np.asarray(ds[name].values, dtype=np.float64), errors_of(ds, name)
     at_largest = int(np.nanargmax(np.abs(values)))
-    first, last, most = (
-        in_supported_digits(float(value) / unit.factor, float(bar) / unit.factor)
-        for value, bar in (
-            (values[0], bars[0]),
-            (values[-1], bars[-1]),
-            (largest, bars[at_largest]),
-        )
+    unit = readable_unit(float(values[at_largest]), SCALARS[name].units)
+    # Beside a zero, what counts is what the value becomes.
+    scale = NEGLIGIBLE * float(np.abs(values[at_largest]))
+    errors = np.where((values == 0) & (errors <= scale), 0.0, errors)
+    first, last, largest = (
+        told_in(unit, float(values[k]), float(errors[k])) for k in (0, -1, at_largest)
     )
-    return SummaryRow(name, unit.symbol, first, last, most, _error_told(ds, name, unit.factor))
-
-
-def _error_told(ds: xr.Dataset, name: str, factor: float) -> str:
-    """The largest error, in the row's unit and as a part of the largest value."""
     found = largest_error(ds, name)
+    error, part, when = _error_told(found, unit)
+    unknown = found.unknown if found else 0
+    return SummaryRow(name, unit.symbol, first, last, largest, error, part, when, unknown)
+
+
+def _error_told(found: LargestError | None, unit: ReadableUnit) -> tuple[str, str, str]:
+    """The largest error in the row's unit, as a part of the largest value, and when it is."""
     if found is None or math.isnan(found.half_width):
-        return "not known"
+        return "not known", "", ""
     if math.isinf(found.half_width):
-        return MESH_DEPENDENT
-    return f"{in_error_digits(found.half_width / factor)} ({in_percent(found.part)})"
-
-
-def _largest(ds: xr.Dataset, name: str) -> float:
-    values = ds[name].values
-    return float(np.abs(values[np.isfinite(values)]).max(initial=0.0))
+        return MESH_DEPENDENT, "", ""
+    told, part = in_error_digits(found.half_width / unit.factor), in_percent(found.part)
+    return told, part, in_words(found.time, "s", 3) if found.part > NEGLIGIBLE else ""
 
 
 def _is_rounding(ds: xr.Dataset, name: str) -> bool:
+    values = np.asarray(ds[name].values, dtype=np.float64)
     if name.startswith("tilt"):
-        lengths, approaches = ds["contact_length"].values, ds["approach"].values
-        return is_rounding_tilt(ds[name].values, lengths, approaches)
-    return _largest(ds, name) <= (_NEGLIGIBLE if name.startswith("eccentricity") else 0.0)
+        return is_rounding_tilt(values, ds["contact_length"].values, ds["approach"].values)
+    largest = float(np.abs(values[np.isfinite(values)]).max(initial=0.0))
+    return largest <= (_ROUNDING if name.startswith("eccentricity") else 0.0)

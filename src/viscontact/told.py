@@ -8,14 +8,21 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from viscontact.stated_errors import stated_error
-from viscontact.units import in_error_digits, in_supported_digits, in_words, readable_unit
+from viscontact.stated_errors import MESH_DEPENDENT, stated_error
+from viscontact.units import (
+    ReadableUnit,
+    in_digits,
+    in_error_digits,
+    in_supported_digits,
+    in_words,
+    readable_unit,
+)
 from viscontact.variables import SCALARS
 
 #: Digits of a number at most, whatever its error.
 _DIGITS = 7
-#: Errors of so small a part are not worth a word in a sentence.
-_NEGLIGIBLE = 1e-5
+#: Errors of so small a part are not worth a word.
+NEGLIGIBLE = 1e-4
 
 
 def told(value: float, error: float, units: str) -> str:
@@ -39,13 +46,42 @@ def told(value: float, error: float, units: str) -> str:
     >>> told(57.634e-6, 0.149e-6, "m2"), told(152.2e6, math.inf, "Pa")
     ('57.63 ± 0.15 mm²', '152.2 MPa (depends on the mesh)')
     """
-    unit = readable_unit(value, units)
-    number = in_supported_digits(value / unit.factor, error / unit.factor, _DIGITS)
-    if not error > _NEGLIGIBLE * abs(value) or math.isinf(error):
+    if not error > NEGLIGIBLE * abs(value) or math.isinf(error):
         number = in_words(value, units)
-        return f"{number} (depends on the mesh)" if math.isinf(error) else number
-    bar = in_error_digits(error / unit.factor).replace("±", "± ")
-    return f"{number} {bar} {unit.symbol}".rstrip()
+        return f"{number} ({MESH_DEPENDENT})" if math.isinf(error) else number
+    unit = readable_unit(value, units)
+    return f"{told_in(unit, value, error)} {unit.symbol}".rstrip()
+
+
+def told_in(unit: ReadableUnit, value: float, error: float) -> str:
+    """Write a number with its error in the unit of a table.
+
+    Parameters
+    ----------
+    unit : ReadableUnit
+        The unit.
+    value, error : float
+        As in `told` [SI].
+
+    Returns
+    -------
+    str
+        The number, with as many digits as its error supports, and the error unless it is
+        negligible; behind ``>`` a number that depends on the mesh.
+
+    Examples
+    --------
+    >>> table = readable_unit(0.08, "m")
+    >>> told_in(table, 0.0576344, 0.000149), told_in(table, 0.0576344, 0.0)
+    ('57.63 ± 0.15', '57.63')
+    """
+    number, half_width = value / unit.factor, error / unit.factor
+    if math.isinf(error):
+        return in_supported_digits(number, half_width)
+    if not error > NEGLIGIBLE * abs(value):
+        return in_digits(number)
+    bar = in_error_digits(half_width).replace("±", "± ")
+    return f"{in_supported_digits(number, half_width, _DIGITS)} {bar}"
 
 
 def errors_of(ds: xr.Dataset, name: str) -> NDArray[np.float64]:

@@ -13,6 +13,7 @@ from viscontact.stated_errors import (
     WHY_MESH_DEPENDENT,
     largest_error,
 )
+from viscontact.units import in_percent
 from viscontact.variables import error_name
 
 #: How the memory of a series law begins to describe itself; there is nothing to doubt about it.
@@ -38,11 +39,16 @@ def accuracy_lines(time_error: ArrayLike, memory: str, inversion_error: float) -
     """
     largest = float(np.nanmax(np.asarray(time_error, dtype=float), initial=0.0))
     if largest > 0:
-        yield f"error owed to the time steps: {largest:.1e} of the pressure at most (estimated)"
+        yield f"error owed to the time steps: {_at_most(largest)} of the pressure (estimated)"
     if memory and not memory.startswith(_EXACT):
         yield f"memory: {memory}"
     if inversion_error > 0:
-        yield f"the law was converted numerically, within {inversion_error:.1e} (estimated)"
+        yield f"the law was converted numerically; error: {_at_most(inversion_error)} (estimated)"
+
+
+def _at_most(part: float) -> str:
+    told = in_percent(part)
+    return f"below {told[1:]}" if told.startswith("<") else f"at most {told}"
 
 
 def mesh_lines(ds: xr.Dataset, names: Iterable[str]) -> Iterator[str]:

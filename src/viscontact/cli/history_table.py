@@ -73,7 +73,7 @@ def print_history(ds: xr.Dataset, *, everything: bool = False, errors: bool = Fa
     console.print(table, crop=False)
     if len(rows) < count:
         console.print(f"{len(rows)} of {count} instants; --all shows every one")
-    for line in _footers(ds, shown):
+    for line in _footers(ds, shown, errors=errors):
         console.print(line, highlight=False)
     if ended := early_end(ds):
         console.print(f"[yellow]{escape(ended)}[/]", highlight=False, soft_wrap=True)
@@ -101,7 +101,7 @@ def write_csv(ds: xr.Dataset, output: Path | None) -> None:
         refuse(f"{output}: cannot be written: {error}")
 
 
-def _footers(ds: xr.Dataset, shown: list[str]) -> Iterator[str]:
+def _footers(ds: xr.Dataset, shown: list[str], *, errors: bool) -> Iterator[str]:
     """Loss per cycle, where the load has cycles, and what to know of errors."""
     losses = ds["loss_per_cycle"].values
     # The last whole cycle's loss stands at every instant until the next is over.
@@ -111,7 +111,8 @@ def _footers(ds: xr.Dataset, shown: list[str]) -> Iterator[str]:
         several = f"{first} in the first cycle, {last} in the last"
         yield f"loss per cycle: {last if np.ptp(known) == 0 else several}{_loss_error(ds)}"
     if any(largest_error(ds, name) for name in shown):
-        yield "±: error at most, as a part of the largest value; --errors shows each one"
+        said = "largest error: the worst of the run, in % of the largest value"
+        yield f"{said}; ±: at that instant" if errors else f"{said}; --errors shows each one"
     yield from unknown_lines(ds, shown)
     yield from mesh_lines(ds, shown)
     attributes = (str(ds.attrs.get("memory", "")), float(ds.attrs.get("inversion_error", 0.0)))
@@ -147,7 +148,7 @@ class _Column:
     def width(self) -> int:
         """Of its longest word."""
         lines = (line for cell in self.cells for line in cell.splitlines())
-        return max(map(len, (*self.head, *lines, self.foot)))
+        return max(map(len, (*self.head, *lines, *self.foot.splitlines())))
 
 
 def _columns(
@@ -159,7 +160,7 @@ def _columns(
         if largest == 0:  # of a single instant at time 0
             continue
         unit = readable_unit(largest, ds[name].attrs["units"])
-        foot = "error" if name == "time" else _error_told(largest_error(ds, name))
+        foot = "largest\nerror" if name == "time" else _error_told(largest_error(ds, name))
         cells = _cells(ds, name, rows, unit.factor, errors=errors)
         columns.append(_Column((*name.split("_"), f"[{unit.symbol}]"), cells, foot))
     return columns

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Literal
 
 import xarray as xr
+from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
@@ -15,8 +18,11 @@ from viscontact.cli.accuracy import accuracy_lines, mesh_lines, unknown_lines
 from viscontact.recording.recorded import PROGRESS_NAME
 from viscontact.results import RESULT_NAME, open_results
 from viscontact.stated_errors import largest_error
-from viscontact.summary import SummaryRow, summary_rows
+from viscontact.summary import LEGEND, SummaryRow, summary_rows
 from viscontact.units import in_words
+
+#: Blanks between columns.
+_GAP = 2
 
 
 def print_summary(directory: Path) -> None:
@@ -34,7 +40,10 @@ def print_summary(directory: Path) -> None:
 def _print(ds: xr.Dataset, directory: Path) -> None:
     console = Console()
     rows = summary_rows(ds)
-    console.print(_table(ds, rows))
+    # Rather too wide for a terminal than with digits left out.
+    console.print(_table(ds, rows, console.width), crop=False)
+    if _states_errors(ds, rows):
+        console.print(LEGEND, highlight=False)
     count, seconds = ds.sizes["time"], float(ds.attrs["wall_time"])
     console.print(
         f"{count} instants in {in_words(seconds, 's', 3)}, {int(ds['iterations'].sum())} "
@@ -65,17 +74,48 @@ def _warnings(lines: Path, of_result: str) -> Iterator[str]:
     yield from (text for text in of_result.splitlines() if text not in told)
 
 
-def _table(ds: xr.Dataset, rows: list[SummaryRow]) -> Table:
-    first, last = (float(ds["time"][index]) for index in (0, -1))
-    table = Table()
-    table.add_column("")
-    for heading in (f"t = {in_words(first, 's')}", f"t = {in_words(last, 's')}", "largest"):
-        table.add_column(heading, justify="right")
-    with_errors = any(largest_error(ds, row.name) for row in rows)
-    if with_errors:
-        table.add_column("error at most", justify="right", no_wrap=True)
-    for row in rows:
-        errors = [row.error] if with_errors else []
-        title = f"{row.title} [{row.unit}]".replace("[", r"\[")
-        table.add_row(title, row.first, row.last, row.largest, *errors)
+def _table(ds: xr.Dataset, rows: list[SummaryRow], width: int) -> Table:
+    """Errors stand behind their numbers, and below them where the terminal is too narrow."""
+    columns = _columns(ds, rows)
+    whole = sum(max(map(len, [heading, *cells])) + _GAP for heading, cells in columns.items())
+    narrow = whole > width
+    table = Table(box=SIMPLE_HEAD, padding=(0, 1, 0, 0), show_edge=False)
+    for heading, cells in columns.items():
+        shown = [_broken(cell) if narrow else cell for cell in cells]
+        least = max(len(line) for cell in (heading, *shown) for line in (cell.splitlines() or [""]))
+        justify: Literal["left", "right"] = "right" if narrow and heading else "left"
+        table.add_column(heading, min_width=least, justify=justify)
+        columns[heading] = shown
+    for cells_of_row in zip(*columns.values(), strict=True):
+        table.add_row(*map(escape, cells_of_row))
     return table
+
+
+def _columns(ds: xr.Dataset, rows: list[SummaryRow]) -> dict[str, list[str]]:
+    columns = {"": [f"{row.title} [{row.unit}]" for row in rows]}
+    first, last = (f"t = {in_words(float(ds['time'][index]), 's')}" for index in (0, -1))
+    # A load that comes on has nothing to tell of its first instant.
+    if not all(row.first.split()[0] in ("0", "-") for row in rows):
+        columns[first] = _aligned([row.first for row in rows])
+    columns[last] = _aligned([row.last for row in rows])
+    if any(row.largest not in (row.first, row.last) for row in rows):
+        columns["largest"] = _aligned([row.largest for row in rows])
+    if _states_errors(ds, rows):
+        columns["largest error"] = [row.largest_error for row in rows]
+    return columns
+
+
+def _broken(cell: str) -> str:
+    """An error below its number, and the instant of the largest one below that."""
+    return re.sub(r"\s+(?=±|at \d)", "\n", cell.strip())
+
+
+def _states_errors(ds: xr.Dataset, rows: list[SummaryRow]) -> bool:
+    return any(largest_error(ds, row.name) for row in rows)
+
+
+def _aligned(cells: list[str]) -> list[str]:
+    """Put numbers below each other, and errors behind them."""
+    parts = [cell.partition(" ± ") for cell in cells]
+    width = max((len(number) for number, _, _ in parts), default=0)
+    return [f"{number.rjust(width)}{f' ±{bar}' if bar else ''}" for number, _, bar in parts]

@@ -8,25 +8,10 @@ from collections.abc import Iterator
 import numpy as np
 import xarray as xr
 
-from viscontact.plot.readable import display_unit
 from viscontact.report.inputs import case_of, prescribes_approach
-from viscontact.stated_errors import MESH_DEPENDENT, WHY_MESH_DEPENDENT, largest_error
-from viscontact.units import (
-    in_error_digits,
-    in_percent,
-    in_supported_digits,
-    in_words,
-    is_rounding_tilt,
-)
-from viscontact.variables import SCALARS
-
-_ROWS = (
-    *("force", "eccentricity_x", "eccentricity_y", "approach", "tilt_x", "tilt_y"),
-    *("contact_area", "contact_length", "contact_width", "peak_pressure", "mean_pressure", "work"),
-    "loss_per_cycle",
-)
-#: Exactly centred loads leave eccentricities of rounding size [m].
-_NEGLIGIBLE = 1e-12
+from viscontact.stated_errors import WHY_MESH_DEPENDENT, largest_error
+from viscontact.summary import SummaryRow, summary_rows, told_scalars
+from viscontact.units import in_percent, in_words
 
 
 def error_rows(ds: xr.Dataset) -> list[tuple[str, ...]]:
@@ -40,21 +25,13 @@ def error_rows(ds: xr.Dataset) -> list[tuple[str, ...]]:
     Returns
     -------
     list of tuple of str
-        Name with unit, value at the end, largest value, largest error, and that as a part of the
-        largest value.
+        Name with unit; first, last and largest value, each with its error; the largest error over
+        the run, with its part of the largest value; when it is.
     """
-    return [_row(ds, name) for name in told_scalars(ds)]
-
-
-def told_scalars(ds: xr.Dataset) -> list[str]:
-    """Return which scalars of a result a table tells of: not those that are rounding.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result.
-    """
-    return [name for name in _ROWS if name in ds and not _is_rounding(ds, name)]
+    return [
+        (f"{row.title} [{row.unit}]", row.first, row.last, row.largest, _worst(row), row.when)
+        for row in summary_rows(ds)
+    ]
 
 
 def accuracy_lines(ds: xr.Dataset) -> Iterator[tuple[str, str]]:
@@ -80,38 +57,15 @@ def accuracy_lines(ds: xr.Dataset) -> Iterator[tuple[str, str]]:
         yield "Memory of the past", memory
     inversion = float(ds.attrs.get("inversion_error", 0.0))
     if inversion > 0:
-        yield "Law", f"converted numerically, within {inversion:.1e} (estimated)"
+        yield "Law", f"converted numerically, within {in_percent(inversion)} (estimated)"
     yield "Companions", _companions(ds)
     if _is_marked(ds):
         yield "Depends on the mesh", f"{WHY_MESH_DEPENDENT}."
 
 
-def _row(ds: xr.Dataset, name: str) -> tuple[str, ...]:
-    values = np.asarray(ds[name].values, dtype=np.float64)
-    given = values[np.isfinite(values)]
-    unit = display_unit(SCALARS[name].units, given)
-    found = largest_error(ds, name)
-    half_width = math.nan if found is None else found.half_width
-    shown = [
-        in_supported_digits(float(value) / unit.factor, half_width / unit.factor)
-        for value in (values[-1], given[np.abs(given).argmax()])
-    ]
-    error, part = "not known", ""
-    if math.isinf(half_width):
-        error = MESH_DEPENDENT
-    elif found is not None and not math.isnan(half_width):
-        error, part = in_error_digits(half_width / unit.factor), in_percent(found.part)
-        if found.unknown:
-            part += f"; not known at {found.unknown} instants"
-    return f"{name.replace('_', ' ')} [{unit.symbol}]", *shown, error, part
-
-
-def _is_rounding(ds: xr.Dataset, name: str) -> bool:
-    values = np.asarray(ds[name].values, dtype=np.float64)
-    largest = float(np.abs(values[np.isfinite(values)]).max(initial=0.0))
-    if name.startswith("tilt"):
-        return is_rounding_tilt(values, ds["contact_length"].values, ds["approach"].values)
-    return largest <= (_NEGLIGIBLE if name.startswith("eccentricity") else 0.0)
+def _worst(row: SummaryRow) -> str:
+    told = f"{row.error} ({row.part})" if row.when else row.part or row.error
+    return f"{told}; not known at {row.unknown} instants" if row.part and row.unknown else told
 
 
 def _balance(ds: xr.Dataset) -> str:
@@ -121,8 +75,8 @@ def _balance(ds: xr.Dataset) -> str:
     if known is None or not math.isfinite(known.part):
         return "force and moments of the pressure are those of the load, to the tolerance asked for"
     return (
-        f"the pressure's integral is the load within {in_percent(known.part)} of it; its moments "
-        "are the load's to the tolerance asked for"
+        f"the pressure's integral differs from the load by {in_percent(known.part)} of it at most; "
+        "its moments are the load's to the tolerance asked for"
     )
 
 
@@ -165,5 +119,5 @@ def _is_elastic(ds: xr.Dataset) -> bool:
 
 
 def _is_marked(ds: xr.Dataset) -> bool:
-    found = (largest_error(ds, name) for name in _ROWS if name in ds)
+    found = (largest_error(ds, name) for name in told_scalars(ds))
     return any(each is not None and math.isinf(each.half_width) for each in found)

@@ -17,6 +17,7 @@ from viscontact import __version__
 from viscontact.markup import element
 from viscontact.report import accuracy, citation, drawings, limits
 from viscontact.report.inputs import Input, case_file, inputs
+from viscontact.summary import LEGEND
 from viscontact.units import in_words
 
 
@@ -87,9 +88,10 @@ def accuracy_chapter(ds: xr.Dataset) -> Iterator[Element]:
     ds : xarray.Dataset
         A result.
     """
-    end = f"at t = {in_words(float(ds['time'][-1]), 's')}"
-    heads = ("", end, "largest", "error at most", "of the largest")
+    ends = (f"t = {in_words(float(ds['time'][k]), 's')}" for k in (0, -1))
+    heads = ("", *ends, "largest", "largest error", "when")
     yield _table(heads, accuracy.error_rows(ds))
+    yield element("p", LEGEND, class_="faint")
     yield _account(accuracy.accuracy_lines(ds))
 
 

@@ -11,12 +11,13 @@ from numpy.typing import NDArray
 
 from viscontact.plot.readable import display_unit
 from viscontact.plot.time_axis import suits_log_time
-from viscontact.report.accuracy import accuracy_lines, told_scalars
+from viscontact.report.accuracy import accuracy_lines
 from viscontact.report.found import title_of
 from viscontact.report.histories import panel_labels
 from viscontact.report.limits import notices, warnings_of
 from viscontact.report.map_data import map_data, rounded, section_data
 from viscontact.report.shown_fields import shown_fields
+from viscontact.summary import told_scalars
 from viscontact.told import errors_of
 from viscontact.variables import SCALARS
 

@@ -61,12 +61,12 @@ def in_error_digits(error: float) -> str:
 
     Examples
     --------
-    >>> in_error_digits(0.4567), in_error_digits(math.nan), in_error_digits(0.0)
-    ('±0.46', '±?', '±0')
+    >>> in_error_digits(0.4567), in_error_digits(107.0), in_error_digits(math.nan)
+    ('±0.46', '±110', '±?')
     """
     if math.isnan(error):
         return "±?"
-    return "±0" if error == 0 else f"±{in_digits(error, _ERROR_DIGITS)}"
+    return "±0" if error == 0 else f"±{in_digits(_rounded(error), _ERROR_DIGITS)}"
 
 
 def in_percent(part: float) -> str:
@@ -93,6 +93,10 @@ def in_percent(part: float) -> str:
     return f"{percent:.0f} %" if percent >= 9.95 else f"{in_digits(percent, 2)} %"
 
 
+def _rounded(value: float) -> float:
+    return float(f"{abs(value):.{_ERROR_DIGITS - 1}e}")
+
+
 def _leading(value: float) -> int:
     """Place of the first digit once the number is rounded to two: 0 for ones, -1 for tenths."""
-    return math.floor(math.log10(float(f"{abs(value):.{_ERROR_DIGITS - 1}e}")))
+    return math.floor(math.log10(_rounded(value)))

@@ -81,7 +81,7 @@ def found_by(directory: Path) -> dict[str, Any]:
         times = _field_times(ds)
         rows = [
             {**{"name": row.name, "title": row.title, "unit": row.unit, "start": row.first},
-             **{"end": row.last, "largest": row.largest, "error": _error(ds, row.error)}}
+             **{"end": row.last, "largest": row.largest, "error": _error(ds, row.largest_error)}}
             for row in summary_rows(ds)
         ]  # fmt: skip
         return {

@@ -3,7 +3,7 @@
 import { instant } from "./charts.js";
 import { make } from "./dom.js";
 import { titleOf } from "./hints.js";
-import { bar, digits, unitFor } from "./units.js";
+import { toldIn, unitFor } from "./units.js";
 
 const number = (text, style = "") => make("td", { class: `number ${style}`, textContent: text });
 
@@ -20,7 +20,7 @@ function head(data, reference, stated) {
   const time = unitFor("s", data.time), at = (index) => `t = ${instant(data.time.at(index), time)}`;
   const column = (text, style = "") => make("th", { scope: "col", class: `number ${style}`, textContent: text });
   return make("tr", {}, make("th", { scope: "col", textContent: "Quantity" }),
-    column(at(0), "first"), column(at(-1)), column("largest", "largest"), stated && column("error at most"),
+    column(at(0), "first"), column(at(-1)), column("largest", "largest"), stated && column("largest error"),
     reference && [column("reference, end"), column("change")]);
 }
 
@@ -30,32 +30,36 @@ function row(name, data, reference, stated) {
   const before = reference?.data.told.includes(name) ? other.value.at(-1) : null;
   const unit = unitFor(scalar.unit, scalar.value);
   const at = largestAt(scalar.value), largest = scalar.value[at] ?? null;
-  const cell = (value, error, style) => number(told(value, error, unit, scalar.mesh), style);
+  const cell = (value, error, style) => number(toldIn(unit, value, shownError(value, error, largest), scalar.mesh), style);
   return make("tr", {},
     make("th", { scope: "row" }, titleOf(name), make("small", { textContent: ` [${unit.symbol}]` })),
     cell(scalar.value[0], scalar.error[0], "first"),
     cell(scalar.value.at(-1), scalar.error.at(-1)),
     cell(largest, scalar.error[at] ?? null, "largest"),
-    stated && number(errorTold(scalar, largest, unit)),
+    stated && number(errorTold(scalar, largest, data.time)),
     reference && [cell(before, other?.error.at(-1) ?? null), number(change(scalar.value.at(-1), before))]);
 }
 
 const largestAt = (values) =>
   values.reduce((best, value, index) => (Math.abs(value) > Math.abs(values[best] ?? 0) ? index : best), 0);
 
-function told(value, error, unit, mesh) {
-  if (value === null || value === undefined) return "–";
-  return (mesh ? "> " : "") + digits(value / unit.factor, error === null ? null : error / unit.factor);
+// Beside a zero, what counts is what the value becomes.
+const shownError = (value, error, largest) =>
+  (value === 0 && error <= 1e-4 * Math.abs(largest) ? 0 : error);
+
+// The worst of the run as a part of the largest value, and when it is.
+function errorTold(scalar, largest, times) {
+  if (scalar.mesh) return "depends on the mesh";
+  const worst = scalar.error.reduce((best, error, index) =>
+    (error !== null && !(error <= (scalar.error[best] ?? -1)) ? index : best), -1);
+  if (worst < 0) return "not known";
+  const part = largest ? Math.abs(scalar.error[worst] / largest) : 0;
+  if (part < 1e-4) return "<0.01 %";
+  const unit = unitFor("s", times[worst]), when = Number((times[worst] / unit.factor).toPrecision(3));
+  return `${percent(part)} at ${when} ${unit.symbol}`;
 }
 
-function errorTold(scalar, largest, unit) {
-  if (scalar.mesh) return "depends on the mesh";
-  const known = scalar.error.filter((error) => error !== null), worst = Math.max(...known);
-  if (!known.length) return "not known";
-  if (!(worst > 0)) return "0";
-  const part = largest ? Math.abs(worst / largest) : 0;
-  return `${bar(worst / unit.factor)} (${part < 1e-5 ? "< 0.001" : Number((100 * part).toPrecision(2))} %)`;
-}
+const percent = (part) => `${part >= 0.0995 ? (100 * part).toFixed(0) : (100 * part).toPrecision(2)} %`;
 
 function change(value, before) {
   if (!before || value === null) return "–";

@@ -2,12 +2,14 @@
 
 const PREFIXED = [["G", 1e9], ["M", 1e6], ["k", 1e3], ["", 1], ["m", 1e-3], ["µ", 1e-6], ["n", 1e-9],
   ["p", 1e-12], ["f", 1e-15], ["a", 1e-18]];
-const TIMES = [["s", 1], ["ms", 1e-3], ["µs", 1e-6]];
-const prefixed = (unit) => PREFIXED.map(([prefix, factor]) => [prefix + unit, factor]);
+const TIMES = [["s", 1], ["ms", 1e-3], ["µs", 1e-6], ["ns", 1e-9]];
+const LONG_TIMES = [[2.6e5, "d", 86400], [1e4, "h", 3600]];
+const prefixed = (unit, least = 0) =>
+  PREFIXED.filter(([, factor]) => factor >= least).map(([prefix, factor]) => [prefix + unit, factor]);
 const LADDERS = {
   m: [["m", 1], ["mm", 1e-3], ["µm", 1e-6], ["nm", 1e-9]],
   m2: [["m²", 1], ["mm²", 1e-6], ["µm²", 1e-12], ["nm²", 1e-18]],
-  Pa: prefixed("Pa"), N: prefixed("N"), J: prefixed("J"), rad: [["rad", 1], ["mrad", 1e-3], ["µrad", 1e-6]], s: TIMES,
+  Pa: prefixed("Pa", 1e-9), N: prefixed("N"), J: prefixed("J"), rad: [["rad", 1], ["mrad", 1e-3], ["µrad", 1e-6], ["nrad", 1e-9]], s: TIMES,
 };
 // Of every kind the unit to use; mrad and s suit all but SI.
 const system = (name, units) => ({ name, units: { rad: ["mrad", 1e-3], s: ["s", 1], ...units } });
@@ -30,42 +32,58 @@ export function unitFor(si, ...values) {
   const fixed = SYSTEMS[chosen].units[si];
   if (fixed) return { symbol: fixed[0], factor: fixed[1] };
   const largest = Math.max(0, ...values.flat().filter(Number.isFinite).map(Math.abs));
+  const long = si === "s" && LONG_TIMES.find(([above]) => largest > above);
+  if (long) return { symbol: long[1], factor: long[2] };
   const ladder = LADDERS[si] ?? [[si === "1" ? "" : si, 1]];
-  const found = ladder.find(([, factor]) => largest >= 0.9995 * factor) ?? ladder.at(-1);
+  // An area passes for its unit down to a hundredth: 0.7 mm² reads better than 700000 µm².
+  const least = si === "m2" ? 0.01 : 1;
+  const found = ladder.find(([, factor]) => 1.001 * largest >= least * factor) ?? ladder.at(-1);
   const [symbol, factor] = largest > 0 ? found : ladder.find(([, each]) => each === 1);
   return { symbol, factor };
 }
 
 const MINUS = "\u2212";
-const decimalsOf = (error) => Math.max(0, 1 - Math.floor(Math.log10(error)));
+// Errors of so small a part are not told; a value whose error is not known has four digits.
+const NEGLIGIBLE = 1e-4, DIGITS = 4, MOST = 7;
+// The place of the first digit, once the number is rounded to two: 0 for ones, -1 for tenths.
+const leading = (value) => Number(Math.abs(value).toExponential(1).split("e")[1]);
 
-// As many digits as the error supports, five at most; four where it is not known, and no idle
-// zeros where there is none.
+// So many significant digits, without an exponent where that reads well.
+function inDigits(value, count) {
+  const size = Math.abs(value);
+  if (size === 0) return "0";
+  if (size < 1e-4 || size >= 1e6) return value.toExponential(count - 1).replace("-", MINUS);
+  const rounded = Number(value.toPrecision(count));
+  const places = Math.max(0, count - 1 - Math.floor(Math.log10(Math.abs(rounded))));
+  return value.toFixed(Math.min(places, 12)).replace("-", MINUS);
+}
+
+const withoutIdleZeros = (text) => (/\.\d*$/.test(text) ? text.replace(/\.?0+$/, "") : text);
+const isTold = (error, value) => error > NEGLIGIBLE * Math.abs(value);
+
+// As many digits as the error supports, down to its second one; no idle zeros where it is 0.
 export function digits(value, error = null) {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
-  const size = Math.abs(value);
-  const supported = error > 0 ? Math.max(2, Math.floor(Math.log10(size / error)) + 2) : error === 0 ? 5 : 4;
-  const kept = Math.min(5, Math.max(2, Number.isFinite(supported) ? supported : 2));
-  if (size > 0 && (size < 1e-4 || size >= 1e7)) return value.toExponential(kept - 1).replace("-", MINUS);
-  const rounded = Number(value.toPrecision(kept));
-  const places = size > 0 ? Math.max(0, kept - 1 - Math.floor(Math.log10(Math.abs(rounded)))) : 0;
-  const plain = rounded.toFixed(Math.min(places, 12));
-  return (error === 0 ? String(Number(plain)) : plain).replace("-", MINUS);
+  if (error === 0) return withoutIdleZeros(inDigits(value, DIGITS + 1));
+  if (!isTold(error, value)) return inDigits(value, DIGITS);
+  const last = leading(error) - 1, rounded = Math.round(value / 10 ** last) * 10 ** last;
+  if (rounded === 0) return "0";
+  return inDigits(rounded, Math.min(Math.max(leading(rounded) - last + 1, 1), MOST));
 }
 
-// The error bar by two digits.
-export function bar(error) {
-  if (!(error > 0)) return "";
-  if (error < 1e-4 || error >= 1e6) return `± ${error.toExponential(1)}`;
-  return `± ${Number(error.toPrecision(2)).toFixed(Math.min(decimalsOf(error), 12))}`;
+// A value with its error in a unit; none where it is negligible.
+export function toldIn(unit, value, error, mesh = false) {
+  if (value === null || value === undefined) return "–";
+  const number = value / unit.factor, half = isTold(error, value) ? error / unit.factor : null;
+  const parts = [mesh ? ">" : "", digits(number, half), half === null ? "" : `± ${inDigits(Number(half.toPrecision(2)), 2)}`];
+  return parts.filter(Boolean).join(" ");
 }
 
-// A value with its error and unit.
+// A value with its error and unit, as a sentence has it: without idle zeros.
 export function told(value, error, si, mesh = false) {
-  const unit = unitFor(si, value);
-  if (value === null) return "–";
-  const half = error === null ? null : error < 1e-5 * Math.abs(value) ? 0 : error / unit.factor;
-  return [mesh ? ">" : "", digits(value / unit.factor, half), bar(half), unit.symbol].filter(Boolean).join(" ");
+  if (value === null || value === undefined) return "–";
+  const unit = unitFor(si, value), number = toldIn(unit, value, error, mesh);
+  return `${number.includes("±") ? number : withoutIdleZeros(number)} ${unit.symbol}`.trim();
 }
 
 // A duration as people say it.
