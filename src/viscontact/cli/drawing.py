@@ -49,8 +49,8 @@ def plot(
         typer.Argument(
             metavar="FIGURE",
             help="pressure-map, pressure-3d, pressure-profile, pressure-radial, surface-3d, "
-            "contact-outline, contact-area, history, hysteresis, creep, stress-section, von-mises, "
-            "indenter, or animation.",
+            "contact-outline, contact-area, history, hysteresis, exact, creep, stress-section, "
+            "von-mises, indenter, or animation.",
         ),
     ],
     times: Instants = None,

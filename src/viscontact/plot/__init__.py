@@ -19,6 +19,7 @@ from viscontact.plot.contact_area import contact_area
 from viscontact.plot.contact_outline import compare_contact_outlines, contact_outline
 from viscontact.plot.creep import creep, creep_curve
 from viscontact.plot.deformed_surface import deformed_surface
+from viscontact.plot.exact import exact
 from viscontact.plot.film import Film, animation
 from viscontact.plot.film_saving import FILM_SUFFIXES, save_film
 from viscontact.plot.history import compare_histories, history
@@ -47,6 +48,7 @@ FIGURES: dict[str, Callable[..., Figure]] = {
     "history": history,
     "hysteresis": hysteresis,
     "creep": creep,
+    "exact": exact,
     "stress-section": stress_section,
     "von-mises": von_mises_history,
     "indenter": indenter,
@@ -84,6 +86,7 @@ __all__ = [
     "deformed_surface",
     "draw_indenter",
     "draw_load",
+    "exact",
     "fitted_indentation",
     "fitted_series",
     "history",

@@ -31,7 +31,7 @@ def exact_sphere(results: xr.Dataset, figure: str) -> LeeRadokContact | None:
         recorded_noun(results, part, figure)
         for part in ("indenter", "load", "material", "indenter_material")
     )
-    radius = _sphere_radius(indenter)
+    radius = sphere_radius(indenter)
     if radius is None or not isinstance(load, ForceHistory):
         return None
     compliance = material.contact_compliance()
@@ -40,7 +40,8 @@ def exact_sphere(results: xr.Dataset, figure: str) -> LeeRadokContact | None:
     return _growing_contact(load, radius, compliance)
 
 
-def _sphere_radius(indenter: Indenter) -> float | None:
+def sphere_radius(indenter: Indenter) -> float | None:
+    """Radius of a sphere or round paraboloid [m]; None for any other body."""
     if isinstance(indenter, Sphere):
         return indenter.radius
     if isinstance(indenter, Paraboloid) and indenter.radius_x == indenter.radius_y:

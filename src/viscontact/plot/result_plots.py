@@ -16,6 +16,7 @@ from viscontact.plot.contact_area import contact_area
 from viscontact.plot.contact_outline import contact_outline
 from viscontact.plot.creep import creep
 from viscontact.plot.deformed_surface import deformed_surface
+from viscontact.plot.exact import exact
 from viscontact.plot.film import Film, animation
 from viscontact.plot.history import history
 from viscontact.plot.hysteresis import hysteresis
@@ -95,6 +96,10 @@ class ResultPlots:
     def creep(self, **how: Any) -> Panels:
         """Draw creep compliance and relaxation modulus of the half-space."""
         return self._panels(creep, how)
+
+    def exact(self, **how: Any) -> Panels:
+        """Draw contact radius, approach and peak pressure of a sphere beside the exact ones."""
+        return self._panels(exact, how)
 
     def stress_section(self, **how: Any) -> Panels:
         """Draw von Mises stress below the contact."""
