@@ -285,7 +285,7 @@ def test_a_full_disk_is_told_and_leaves_nothing_behind(client: TestClient, tmp_p
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, usual)
         signal.signal(signal.SIGXFSZ, before)
-    assert (file.status_code, run.status_code) == (507, 500)
+    assert (file.status_code, run.status_code) == (507, 507)
     assert file.json()["problems"][0]["message"] == "a.csv cannot be kept: File too large"
     assert "cannot be kept" in run.json()["problems"][0]["message"]
     assert list((tmp_path / "page" / "runs").iterdir()) == []

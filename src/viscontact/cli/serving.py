@@ -79,7 +79,9 @@ def _refusing(port: int | None, folder: Path) -> Iterator[None]:
     except DirectoryInUse:
         refuse(f"{folder}: another viscontact serves from there; choose another --dir DIR")
     except OSError as error:
-        refuse(f"{folder}: cannot be used: {error.strerror or error}; choose another --dir DIR")
+        # What is said of the lock names an option that runs have.
+        cause = error.__cause__ if isinstance(error.__cause__, OSError) else error
+        refuse(f"{folder}: cannot be used: {cause.strerror or cause}; choose another --dir DIR")
 
 
 def _server() -> Any:

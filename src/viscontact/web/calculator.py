@@ -100,9 +100,11 @@ class Calculator:
         kept = self.folder.found(work.name, key)
         if kept is not None:
             return kept
-        found: dict[str, Any] = {}
-        with suppress(OSError, ValueError, KeyError):  # somebody has damaged it
+        try:
             found = await self.do(lambda: found_by(work.directory))
+        except (OSError, ValueError, KeyError):
+            return {}
+        with suppress(OSError):  # a full disk
             self.folder.keep_found(work.name, key, found)
         return found
 

@@ -14,8 +14,9 @@ from viscontact.case.document import document_of
 from viscontact.footprint import run_memory, step_count
 from viscontact.inspection import expectations, foreseen, needs, verdict, warnings_of
 from viscontact.preparation import Prepared, prepared
+from viscontact.web.asked import Asked
 from viscontact.web.coarse import coarse_settings, without_cells
-from viscontact.web.folder import Asked, Folder
+from viscontact.web.folder import Folder
 from viscontact.web.naming import label_of, suggested_title
 from viscontact.web.problems import RequestError, case_problems, without_folder
 
@@ -183,7 +184,7 @@ class Desk:
         try:
             name = self.folder.new_run(text, asked, {path: path.name for path in _data(case)})
         except OSError as error:
-            raise RequestError(500, f"the run cannot be kept: {error.strerror or error}") from error
+            raise RequestError(507, f"the run cannot be kept: {error.strerror or error}") from error
         return name, asked
 
     def _label(

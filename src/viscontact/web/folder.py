@@ -10,7 +10,7 @@ import sys
 import time as clock
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, suppress
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -19,6 +19,7 @@ from pydantic import TypeAdapter
 
 from viscontact.case.data_file import is_plain_name
 from viscontact.recording.exchange import replace
+from viscontact.web.asked import Asked
 from viscontact.web.problems import RequestError
 
 _FILES, _RUNS, _GIVEN, _RUN = "files", "runs", "given", "run"
@@ -29,52 +30,6 @@ CASE_NAME = "case.yaml"
 
 #: Endings of shipped files that examples read.
 _SHIPPED = (".npz", ".csv")
-
-
-@dataclass(frozen=True)
-class Asked:
-    """What was asked for, and how it stands; kept beside the run.
-
-    Attributes
-    ----------
-    title : str
-        What the case is called.
-    quality : str
-        ``"full"`` or ``"coarse"``.
-    created : str
-        When it was asked for, in UTC.
-    settings : tuple of str
-        What differs from the case as it was given, as ``--set`` takes it.
-    instants : int or None
-        How many the run will have; None where it chooses its steps.
-    end : float
-        Its last instant [s].
-    work : float
-        Cells times steps.
-    memory : float
-        What it will hold [bytes].
-    errors : bool
-        Whether the errors of its scalars are estimated in the end.
-    state : str
-        waiting, running, done, cancelled, interrupted or failed.
-    said : tuple of str
-        What it had to say for itself when it ended.
-    label : str
-        What the run is called, where others have the same title.
-    """
-
-    title: str
-    quality: str
-    created: str
-    settings: tuple[str, ...]
-    instants: int | None
-    end: float
-    work: float
-    memory: float
-    errors: bool
-    state: str = "waiting"
-    said: tuple[str, ...] = ()
-    label: str = ""
 
 
 _ASKED_FORM = TypeAdapter(Asked)
@@ -234,17 +189,26 @@ class Folder:
             return None
 
     def remove_run(self, name: str) -> None:
-        """Remove a run and all that is kept of it.
+        """Remove a run and all that is kept of it; of one that lies elsewhere, the link to it.
 
         Parameters
         ----------
         name : str
             The run.
+
+        Raises
+        ------
+        OSError
+            If it cannot be removed.
         """
+        place = self.path / _RUNS / name
+        if place.is_symlink():  # somebody keeps it elsewhere, where nothing is ours to remove
+            place.unlink()
+            return
         # First what makes a run of it: whatever cannot be removed comes back no more.
-        with suppress(OSError):
-            (self.path / _RUNS / name / _ASKED).unlink()
-        shutil.rmtree(self.path / _RUNS / name, ignore_errors=True)
+        with suppress(FileNotFoundError):
+            (place / _ASKED).unlink()
+        shutil.rmtree(place, ignore_errors=True)
 
     def given(self, name: str) -> Path:
         """Return the case of a run, as it was given."""
@@ -257,6 +221,21 @@ class Folder:
     def report(self, name: str) -> Path:
         """Return where the report of a run is kept."""
         return self.path / _RUNS / name / "report.html"
+
+    def keep_report(self, name: str, page: bytes, made_from: int) -> None:
+        """Keep the report of a run, with the time at which the result it tells of was written.
+
+        Parameters
+        ----------
+        name : str
+            The run.
+        page : bytes
+            The report.
+        made_from : int
+            That time [ns].
+        """
+        _write(self.report(name), page)
+        os.utime(self.report(name), ns=(made_from, made_from))
 
     def _file(self, name: str) -> Path:
         if not is_plain_name(name) or name.lower() == CASE_NAME or len(name.encode()) > 200:

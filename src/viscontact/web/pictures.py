@@ -14,7 +14,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from viscontact.plot.saving import written
-from viscontact.results import open_results
+from viscontact.results import RESULT_NAME, open_results
 from viscontact.units import in_words, parse_quantity
 from viscontact.web.problems import RequestError
 
@@ -22,6 +22,10 @@ Kind = Literal["svg", "png", "pdf"]
 MEDIA_TYPES: dict[str, str] = {
     **{"svg": "image/svg+xml", "png": "image/png", "pdf": "application/pdf"},
 }
+
+_NO_RESULT = "the run has no result; there is one after its first step"
+#: What is told of a result that cannot be read.
+DAMAGED = "the result of this run is damaged; delete the run, and run its case again"
 
 #: Colours in a drawing, and no names of its parts.
 _COLOUR = re.compile(rb"""(?<=[:\s"'])#([0-9a-fA-F]{6})(?=[;\s"'])""")
@@ -169,16 +173,25 @@ def opened(directory: Path) -> xr.Dataset:
     Raises
     ------
     RequestError
-        If there is nothing to see yet.
+        If there is nothing to see yet, or any more.
     """
     try:
         ds = open_results(directory)
     except (OSError, ValueError) as error:
-        raise RequestError(409, "the run has no result yet; wait for its first step") from error
+        raise RequestError(409, _why_none(directory)) from error
     if not ds.sizes.get("time"):
         ds.close()
-        raise RequestError(409, "the run has no result yet; wait for its first step")
+        raise RequestError(409, _NO_RESULT)
     return ds
+
+
+def _why_none(directory: Path) -> str:
+    """Why a result cannot be read: it is whole at every moment, unless somebody meddles with it."""
+    if not directory.parent.exists():
+        return "what this run kept is gone from the folder; delete the run here"
+    if (directory / RESULT_NAME).exists():
+        return DAMAGED
+    return _NO_RESULT
 
 
 def _named(figures: Mapping[str, Callable[..., Figure]], name: str) -> Callable[..., Figure]:

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import io
+from contextlib import suppress
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Annotated, Any
 from urllib.parse import quote
 
@@ -28,6 +31,7 @@ router = APIRouter(prefix="/api")
 Place = Annotated[int, Query(ge=0, le=2**53)]
 Times = Annotated[list[str] | None, Query(alias="time", max_length=12)]
 
+_NO_CASE = "the case of this run is gone from the folder; delete the run here"
 #: More runs than this are not told apart in one figure.
 _MOST_COMPARED = 8
 
@@ -93,7 +97,11 @@ def growth(ours: Ours, name: str, after: Place = 0) -> dict[str, Any]:
 def given(ours: Ours, name: str) -> dict[str, str]:
     """Tell the case of a run as it was sent."""
     work = ours.workshop.work(name)
-    return {"yaml": work.given.read_text(encoding="utf-8"), "quality": work.asked.quality}
+    try:
+        text = work.given.read_text(encoding="utf-8")
+    except (OSError, ValueError) as error:
+        raise RequestError(409, _NO_CASE) from error
+    return {"yaml": text, "quality": work.asked.quality}
 
 
 @router.get("/runs/{name}/data")
@@ -141,6 +149,8 @@ def case_file(ours: Ours, name: str) -> FileResponse:
     work = ours.workshop.work(name)
     as_run = work.directory / CASE_NAME
     path = as_run if as_run.is_file() else work.given
+    if not path.is_file():
+        raise RequestError(409, _NO_CASE)
     return FileResponse(path, filename=f"{_stem(work)}.yaml", media_type="application/yaml")
 
 
@@ -183,14 +193,21 @@ async def report(ours: Ours, name: str, request: Request, view: bool = False) ->
 
 def _report(work: Work, ours: Ours) -> bytes:
     """The report, written anew if the run has gone on since it was written."""
-    path, made_from = ours.folder.report(work.name), work.directory / RESULT_NAME
-    with opened(work.directory) as ds:
-        if not (path.is_file() and path.stat().st_mtime >= made_from.stat().st_mtime):
-            try:
-                write_report(ds, path)
-            except (ValueError, OSError) as error:
-                raise RequestError(422, f"there is no report: {error}") from error
-    return path.read_bytes()
+    kept, made_from = ours.folder.report(work.name), work.directory / RESULT_NAME
+    with opened(work.directory) as ds, TemporaryDirectory() as elsewhere:
+        # The same time and not a later one: clocks are set back.
+        written = made_from.stat().st_mtime_ns
+        if kept.is_file() and kept.stat().st_mtime_ns == written:
+            return kept.read_bytes()
+        fresh = Path(elsewhere) / kept.name
+        try:
+            write_report(ds, fresh)
+        except (ValueError, OSError) as error:
+            raise RequestError(422, f"there is no report: {error}") from error
+        page = fresh.read_bytes()
+    with suppress(OSError):  # a full disk; the report is made again when it is asked for again
+        ours.folder.keep_report(work.name, page, written)
+    return page
 
 
 def _labels(works: list[Work]) -> list[str]:

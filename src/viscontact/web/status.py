@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
@@ -17,12 +18,14 @@ from viscontact.results import RESULT_NAME, open_results
 from viscontact.summary import summary_rows
 from viscontact.units import in_words
 from viscontact.variables import SCALARS
+from viscontact.web.pictures import DAMAGED
 from viscontact.web.problems import Problem, lines_of, problem_of
 from viscontact.web.work import Work
 
 _STAGES = {"waiting": "waiting", "running": "steps"}
 #: Lines of the command line that say what to type, where the page has buttons.
 _COMMANDS = ("go on with:", "with that changed,", "once that is mended:", "interrupted")
+_WITHOUT_COMMAND = re.compile(r"^the run: (?=the run )|; [^;]*--overwrite[^;]*$")
 
 
 def status_of(work: Work, found: Mapping[str, Any]) -> dict[str, Any]:
@@ -37,24 +40,27 @@ def status_of(work: Work, found: Mapping[str, Any]) -> dict[str, Any]:
     """
     asked, course, left = work.asked, work.course, work.seconds_left
     problems = _problems(work)
+    # Of one that failed, its own words say more.
+    is_whole = not work.is_over or "table" in found or asked.state == "failed"
+    is_damaged = course.instants > 0 and not is_whole
     table = found.get("table") or _table(course.first, course.last)
     steps = None if asked.instants is None else max(asked.instants - 1, 1)
     return {
         **{"id": work.name, "title": asked.title, "label": work.label},
         "quality": asked.quality,
         **{"created": asked.created, "state": asked.state, "over": work.is_over},
-        **{"resumable": work.can_go_on, "stage": _stage(work), "part": round(work.part, 4)},
+        **{"resumable": work.can_go_on and not is_damaged, "stage": _stage(work), "part": round(work.part, 4)},
         "step": max(course.instants - 1, 0),
         "steps": steps,
         "end": asked.end,
         "time": in_words(course.time, "s") if course.instants else None,
         "seconds_left": None if left is None else round(left, 1),
-        "message": _message(work, [*lines_of(problems)]),
+        "message": DAMAGED if is_damaged else _message(work, [*lines_of(problems)]),
         "problems": [asdict(each) for each in problems],
         "warnings": found.get("warnings", list(course.last.get("warnings", []))),
         "scalars": _scalars(course.last, {row["name"] for row in table}),
         "table": table,
-        "figures": list(FIGURES) if course.instants else [],
+        "figures": list(FIGURES) if course.instants and not is_damaged else [],
         "field_times": found.get("field_times", []),
         "field_times_text": found.get("field_times_text", []),
     }
@@ -117,7 +123,7 @@ def _problems(work: Work) -> list[Problem]:
         return []
     said = [line for line in work.asked.said if not line.startswith(_COMMANDS)]
     told = (line.replace(str(work.directory), "the run") for line in said)
-    return [problem_of(line, work.given) for line in told]
+    return [problem_of(_WITHOUT_COMMAND.sub("", line), work.given) for line in told]
 
 
 def _message(work: Work, problems: Sequence[str]) -> str:

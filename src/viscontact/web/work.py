@@ -14,7 +14,8 @@ from viscontact.processes.request import RunRequest
 from viscontact.recording.checkpoint import STATE_NAME
 from viscontact.recording.lock import LOCK_NAME, DirectoryInUse, locked
 from viscontact.results import RESULT_NAME
-from viscontact.web.folder import Asked, Folder
+from viscontact.web.asked import Asked
+from viscontact.web.folder import Folder
 
 #: Errors take about so much of the time of the march before them.
 ERRORS_PART = 0.67

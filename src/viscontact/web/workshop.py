@@ -5,7 +5,8 @@ from __future__ import annotations
 from os import cpu_count
 
 from viscontact.free_memory import available_memory
-from viscontact.web.folder import Asked, Folder
+from viscontact.web.asked import Asked
+from viscontact.web.folder import Folder
 from viscontact.web.problems import RequestError
 from viscontact.web.work import Work
 
@@ -125,10 +126,17 @@ class Workshop:
         ----------
         work : Work
             The run.
+
+        Raises
+        ------
+        RequestError
+            If it belongs to a server that was killed, or its files cannot be removed.
         """
         self.cancel(work)
         work.is_unwanted = True
         self.look()
+        if not work.is_unwanted:
+            raise RequestError(507, f"the run cannot be removed from {work.directory.parent}")
 
     def look(self) -> None:
         """Look after all runs: see who has ended, and begin what can be begun."""
@@ -136,10 +144,18 @@ class Workshop:
             if work.is_at_work:
                 work.look()
             if work.is_unwanted and work.is_over:
-                del self._works[work.name]
-                self._folder.remove_run(work.name)
+                self._remove(work)
         while not self.is_closing and (chosen := self._next()) is not None:
             chosen.start()
+
+    def _remove(self, work: Work) -> None:
+        """Remove a run, which is still there where its files cannot be removed."""
+        try:
+            self._folder.remove_run(work.name)
+        except OSError:
+            work.is_unwanted = False
+        else:
+            del self._works[work.name]
 
     def end(self) -> None:
         """Begin no more, and ask the runs at work to finish their steps and save."""
