@@ -61,7 +61,7 @@ sphinx_gallery_conf = {
     "gallery_dirs": "examples",
     "filename_pattern": r"\.py$",
     "image_scrapers": ("gallery_figures.pictures",),
-    "reset_modules": (),
+    "reset_modules": ("gallery_figures.dressed",),
     "download_all_examples": False,
     "remove_config_comments": True,
     "show_memory": False,

@@ -68,7 +68,8 @@ def _section(defs: Schema, path: str, value: Schema, depth: int) -> Iterator[str
     if not names:
         return
     yield from ("", _target(path), f"{'#' * depth} `{path}`", "")
-    if "description" in value:
+    # Of a single kind what it says of itself is enough.
+    if len(names) > 1 and "description" in value:
         yield from (_sentence(value["description"]), "")
     if len(names) == 1:
         only = defs[names[0]]

@@ -6,11 +6,39 @@ from collections.abc import Iterator
 from typing import Any
 from weakref import WeakSet
 
+import matplotlib as mpl
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from sphinx_gallery.scrapers import figure_rst
 
 _shown: WeakSet[Figure] = WeakSet()
+
+#: Drawings that examples make by themselves look like those of the package: open at the top and at
+#: the right, with thin lines and small letters.
+LOOKS = {
+    "axes.labelsize": 9,
+    "axes.linewidth": 0.6,
+    "axes.spines.right": False,
+    "axes.spines.top": False,
+    "axes.titlesize": 9,
+    "legend.fontsize": 8,
+    "lines.linewidth": 1.4,
+    "xtick.labelsize": 8,
+    "xtick.major.width": 0.6,
+    "ytick.labelsize": 8,
+    "ytick.major.width": 0.6,
+}
+
+
+def dressed(gallery_conf: dict[str, Any], script: str) -> None:
+    """Set the looks before each example.
+
+    Parameters
+    ----------
+    gallery_conf, script
+        As sphinx-gallery gives them.
+    """
+    mpl.rcParams.update(LOOKS)
 
 
 def pictures(block: Any, block_vars: dict[str, Any], gallery_conf: dict[str, Any]) -> str:

@@ -44,12 +44,12 @@ middle = len(ds.y) // 2
 for time, colour in zip([0.0, 1.0, 8.0], ["#440154", "#21918c", "#d98c00"], strict=True):
     pressure = ds.pressure.sel(field_time=time)[:, middle]
     left.plot(ds.x * 1e3, pressure / 1e6, color=colour, label=f"{time:g} s")
-for modulus in (10e6, 5e6):  # of both springs in series in the end
+for modulus, label in ((10e6, "Hertz"), (5e6, None)):  # of both springs in series in the end
     hertz = reference.hertz_sphere(force, radius, contact_modulus=2 * modulus / 0.5)
     x = np.linspace(-1.3e-3, 1.3e-3, 400)
-    left.plot(x * 1e3, hertz.pressure(x) / 1e6, "k--", linewidth=0.8)
-left.set(xlabel="x [mm]", ylabel="pressure [MPa]", xlim=(-1.3, 1.3), ylim=(0, None))
-left.legend(frameon=False)
+    left.plot(x * 1e3, hertz.pressure(x) / 1e6, "k--", linewidth=0.8, label=label)
+left.set(xlabel="x [mm]", ylabel="pressure [MPa]", xlim=(-1.3, 1.3), ylim=(0, 2.8))
+left.legend(frameon=False, loc="upper left")
 
 peak, bar = ds.peak_pressure / 1e6, ds.peak_pressure_error / 1e6
 right.plot(ds.time, peak, color="#0072B2")

@@ -60,8 +60,9 @@ for axes, time in zip(panels, (0.0, 1000.0), strict=True):
         axes.plot(ds.x * 1e3, pressure / 1e6, color=colour, label=name)
     here = 1 / float(pmma.contact_compliance()(time))
     hertz = reference.hertz_line(line_load, radius, here)
-    axes.axhline(hertz.peak_pressure / 1e6, color="k", linestyle="--", linewidth=0.8)
-    axes.set(xlabel="x [mm]", title=f"after {time:g} s" if time else "at once", ylim=(0, 120))
+    even = {"color": "k", "linestyle": "--", "linewidth": 0.8, "label": "even (Hertz)"}
+    axes.axhline(hertz.peak_pressure / 1e6, **even)
+    axes.set(xlabel="x [mm]", title=f"after {time:g} s" if time else "at once", ylim=(60, 120))
 panels[0].set_ylabel("pressure [MPa]")
 panels[1].legend(frameon=False, loc="upper left", bbox_to_anchor=(1, 1))
 

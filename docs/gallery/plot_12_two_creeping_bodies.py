@@ -32,10 +32,19 @@ rigid = vc.simulate(shape, plate, load, grid, times, fields="none")
 # %%
 # The picture
 # -----------
+#
+# The approach of both runs, and what the sum of the two compliances makes of it (dashed): Lee &
+# Radok (1960), a²/R with a³ = (3/4) R F (J₁ + J₂), where J = (1 - ν) Φ of each body.
 
 figure, axes = plt.subplots(figsize=(4.8, 3.2), layout="constrained")
-axes.plot(times, both.approach * 1e6, color="#0072B2", label="both creep")
-axes.plot(times, rigid.approach * 1e6, color="#D55E00", label="rigid ball")
+compliances = plate.contact_compliance()(times), ball.contact_compliance()(times)
+for ds, bodies, colour, label in (
+    (both, sum(compliances), "#0072B2", "both creep"),
+    (rigid, compliances[0], "#D55E00", "rigid ball"),
+):
+    axes.plot(times, ds.approach * 1e6, color=colour, label=label)
+    exact = (0.75 * radius * force * bodies) ** (2 / 3) / radius
+    axes.plot(times, exact * 1e6, "k--", linewidth=0.8)
 axes.set(xlabel="time [s]", ylabel="approach [µm]", ylim=(0, None))
 axes.legend(frameon=False)
 
@@ -43,8 +52,7 @@ axes.legend(frameon=False)
 # The check
 # ---------
 #
-# Lee & Radok (1960): the approach is a²/R, and a³ = (3/4) R F (J₁ + J₂), where J = (1 - ν) Φ of
-# each body.
+# The same at the end, by the formulas of the two laws.
 
 t = 400.0
 flowing = (1 - 0.4) * (1 / 400e6 + t / 80e9) / 2

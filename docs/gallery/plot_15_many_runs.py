@@ -36,10 +36,16 @@ if __name__ == "__main__":
     runs = vc.simulate_many(recipes, workers=2)
 
     figure, axes = plt.subplots(figsize=(4.8, 3.2), layout="constrained")
-    for index, label in ((0, "at once"), (-1, "after 200 s")):
-        approach = [float(ds.approach[index]) for ds in runs]
-        axes.loglog(forces, np.array(approach) * 1e3, "o-", label=label)
+    for index, label, colour in ((0, "at once", "#440154"), (-1, "after 200 s", "#d98c00")):
+        approach = np.array([float(ds.approach[index]) for ds in runs])
+        axes.loglog(forces, approach * 1e3, "o", color=colour, label=label)
+        # A line of the slope 2/3 through the first one.
+        line = approach[0] * (np.array(forces) / forces[0]) ** (2 / 3)
+        axes.loglog(forces, line * 1e3, "-", color=colour, linewidth=0.8)
     axes.set(xlabel="force [N]", ylabel="approach [mm]")
+    axes.set_xticks(forces, [f"{force:g}" for force in forces], minor=False)
+    axes.set_yticks([0.1, 0.2, 0.5, 1, 2], ["0.1", "0.2", "0.5", "1", "2"], minor=False)
+    axes.minorticks_off()
     axes.legend(frameon=False)
 
     # The check: the approach of a ball grows with the power 2/3 of the force (Hertz), at every
