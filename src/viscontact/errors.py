@@ -6,7 +6,20 @@ from typing import Any
 
 
 class AccuracyWarning(UserWarning):
-    """The result stands, but something about it is coarser than a user would expect."""
+    """The result stands, but something about it is coarser than a user would expect.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> coarse = vc.Grid((8, 8), (4e-3, 4e-3))
+    >>> with warnings.catch_warnings():
+    ...     warnings.simplefilter("ignore", AccuracyWarning)
+    ...     ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(1.0), coarse, [0.0], errors=False)
+    >>> ds.attrs["warnings"][:18]  # which stays with the result
+    'only 6 cells lie a'
+    """
 
 
 class RunError(RuntimeError):
@@ -25,8 +38,27 @@ class RunError(RuntimeError):
 
 
 class ConvergenceError(RunError):
-    """The contact solver stopped short of the tolerance at some step."""
+    """The contact solver stopped short of the tolerance at some step.
+
+    Examples
+    --------
+    >>> error = ConvergenceError("stopped at t = 2 s")
+    >>> error.partial is None  # nothing was completed before
+    True
+    """
 
 
 class DomainError(RunError):
-    """The grid does not fit the contact: pressure at its rim, or too few cells across."""
+    """The grid does not fit the contact: pressure at its rim, or too few cells across.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> small = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> try:
+    ...     vc.simulate(vc.Sphere(0.01), rubber, vc.step(1.0), small, [0.0])
+    ... except DomainError as error:
+    ...     print(error.partial is None)
+    True
+    """

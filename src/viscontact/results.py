@@ -53,6 +53,16 @@ def open_results(path: str | Path) -> xr.Dataset:
         If there is no result.
     ValueError
         If the file cannot be read as netCDF.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> ds = xr.Dataset({"force": ("time", [1.0])}, coords={"time": [0.0]})
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     save(ds, Path(folder) / "run.nc")
+    ...     with open_results(Path(folder) / "run.nc") as stored:
+    ...         stored.force.dims
+    ('time',)
     """
     file = Path(path)
     # Absolute: else "~", a blank in front or "file:" mean something of their own to the reader.

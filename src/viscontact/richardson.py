@@ -36,6 +36,12 @@ class Richardson:
     converges : ndarray of bool
         False where the values grow or fall from each spacing to the next by as much or more, as a
         singular pressure does.
+
+    Examples
+    --------
+    >>> found = richardson([1.01, 1.04, 1.16], [1.0, 2.0, 4.0])
+    >>> round(float(found.error), 6), round(float(found.order), 6)
+    (0.01, 2.0)
     """
 
     error: NDArray[np.float64]

@@ -12,7 +12,13 @@ from viscontact.grid import Grid
 
 
 class Outcome(IntEnum):
-    """How an instant ended."""
+    """How an instant ended.
+
+    Examples
+    --------
+    >>> Outcome(1).name
+    'NO_CONTACT'
+    """
 
     CONVERGED = 0
     NO_CONTACT = 1
@@ -112,6 +118,15 @@ class ContactState:
         How the instant ended.
     warnings : tuple of str
         Doubts about accuracy met first at this instant.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (6e-3, 6e-3))
+    >>> state = next(vc.march(vc.Paraboloid(0.01, 0.01), rubber, vc.step(1.0), grid, [0.0]))
+    >>> state.pressure.shape, state.outcome.name, round(state.force, 6)
+    ((24, 24), 'CONVERGED', 1.0)
     """
 
     time: float

@@ -24,6 +24,12 @@ class Card:
         How its times shift with temperature; the law holds at the reference temperature.
     notes : tuple of str, optional
         What stood in the file and was not used.
+
+    Examples
+    --------
+    >>> from viscontact.laws import Maxwell
+    >>> Card("gel", Material(Maxwell(1e3, 2e3), poisson_ratio=0.5)).material.poisson_ratio
+    0.5
     """
 
     name: str

@@ -37,6 +37,14 @@ class Fit:
         and ``loss`` [Pa].
     poisson_ratio, bulk_modulus : float or None
         What uniaxial data were converted with [-, Pa].
+
+    Examples
+    --------
+    >>> from viscontact.identification.prony import fit_creep
+    >>> times = np.geomspace(0.1, 100.0, 13)
+    >>> fit = fit_creep(times, 1.0 - 0.5 * np.exp(-times / 5.0), data="deviatoric")
+    >>> fit.terms, round(float(fit.law(1e9)), 3)
+    (1, 1.0)
     """
 
     law: CreepSeries | RelaxationSeries

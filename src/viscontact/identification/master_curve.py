@@ -45,6 +45,12 @@ class Isotherm:
     ------
     ValueError
         If a number is not positive, naming its row; if the columns are others.
+
+    Examples
+    --------
+    >>> warm = Isotherm(303.15, [1.0, 10.0], {"compliance": [1.1e-9, 1.3e-9]})
+    >>> warm.points.tolist(), warm.oscillates
+    ([1.0, 10.0], False)
     """
 
     temperature: float
@@ -110,6 +116,18 @@ class MasterCurve:
         where they do not [-]; None where the factors were given.
     shift : Shift
         The rule given, or the table of the factors found.
+
+    Examples
+    --------
+    Ten times as fast for each ten degrees:
+
+    >>> times = np.geomspace(1.0, 100.0, 9)
+    >>> sets = [
+    ...     Isotherm(283.15 + 10 * k, times, {"compliance": 1e-9 * (10**k * times) ** 0.2})
+    ...     for k in (1, 2, 3)
+    ... ]
+    >>> build_master_curve(sets, 293.15).factors.round(4).tolist()
+    [1.0, 0.1, 0.01]
     """
 
     reference_temperature: float
@@ -237,6 +255,17 @@ def fit_master_curve(curve: MasterCurve, **options: Unpack[FitOptions]) -> Fit:
     Fit
         The law at the reference temperature; ``fit.law.slowed(curve.shift.factor(T))`` is the
         law at another temperature T.
+
+    Examples
+    --------
+    >>> times = np.geomspace(1.0, 100.0, 9)
+    >>> sets = [
+    ...     Isotherm(283.15 + 10 * k, times, {"compliance": 1e-9 * (10**k * times) ** 0.2})
+    ...     for k in (1, 2, 3)
+    ... ]
+    >>> fit = fit_master_curve(build_master_curve(sets, 293.15), data="deviatoric")
+    >>> bool(abs(fit.law(1e4) / (1e-9 * 1e5**0.2) - 1) < 0.02)
+    True
     """
     points, measured = curve.points, curve.measured
     if "compliance" in measured:

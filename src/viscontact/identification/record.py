@@ -37,6 +37,13 @@ class IndentationRecord:
     ValueError
         If a value is not finite or a time falls, naming its row; if lengths differ; if nothing
         is pressed; if the indenter is another one.
+
+    Examples
+    --------
+    >>> times = np.linspace(0.0, 1.0, 6)
+    >>> record = IndentationRecord(FlatPunch(1e-3), times, 1e-6 * times, 2.0 * times)
+    >>> float(record.force[-1])
+    2.0
     """
 
     indenter: Indenter

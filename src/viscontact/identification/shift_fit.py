@@ -29,6 +29,12 @@ class ShiftFit:
         Root mean square of the difference in log10 a_T [decades].
     largest_residual : float
         Its largest magnitude [decades].
+
+    Examples
+    --------
+    >>> fit = fit_wlf([293.15, 303.15, 313.15], [1.0, 0.0316228, 0.00215443], 293.15)
+    >>> fit.residual < 1e-3
+    True
     """
 
     shift: WLF | Arrhenius

@@ -18,6 +18,13 @@ class Indenter(Shown, ABC):
 
     To add a shape, write a frozen dataclass with a `gap`; give it `curvatures` too if it is
     smooth at its deepest point.
+
+    Examples
+    --------
+    >>> from viscontact.indenters import Sphere, Waviness
+    >>> wavy_ball = Sphere(0.01) + Waviness(amplitude=1e-6, wavelength_x=1e-3)
+    >>> round(1e6 * float(wavy_ball.gap(0.5e-3, 0.0)), 2)  # 12.51 of the ball, 2 of the waves
+    14.51
     """
 
     @abstractmethod

@@ -15,6 +15,13 @@ class Profile(Shown, ABC):
 
     A profile is a shape; the length is the roller's. To add one, write a frozen dataclass with a
     `drop` and an `end`, and a `curvature` if the line is smooth in the middle.
+
+    Examples
+    --------
+    >>> from viscontact.indenters import FullCrown
+    >>> profile = FullCrown(crown_radius=13.0)
+    >>> float(profile.drop(5.0, half_length=6.0)), profile.end(half_length=6.0)
+    (1.0, 6.0)
     """
 
     @abstractmethod

@@ -28,6 +28,13 @@ class Law(Shown, ABC):
     ``law(t)`` is the creep compliance Phi(t), strain deviator per unit stress deviator, so that
     Phi(0) = 1/(2 G_0); ``law.relaxation(t)`` is the plain shear modulus G(t). The two are
     inverse in the sense 2 s² L[Phi](s) L[G](s) = 1.
+
+    Examples
+    --------
+    >>> from viscontact.laws import Maxwell
+    >>> law = Maxwell(shear_modulus=1e6, viscosity=2e6)
+    >>> law(2.0), round(law.relaxation(2.0))  # 1/(2 G) + t/(2 eta), G exp(-t G/eta)
+    (1e-06, 367879)
     """
 
     @overload

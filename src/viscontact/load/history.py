@@ -49,7 +49,15 @@ class LoadPoint:
 
 
 class LoadHistory(Shown, ABC):
-    """A force or an approach over time, with where the force acts and prescribed tilts."""
+    """A force or an approach over time, with where the force acts and prescribed tilts.
+
+    Examples
+    --------
+    >>> from viscontact.load import ramp
+    >>> history = ramp(10.0, duration=2.0)
+    >>> history.level_at([0.0, 1.0, 5.0]).tolist(), history.kinks.tolist()
+    ([0.0, 5.0, 10.0], [0.0, 2.0])
+    """
 
     #: What the history prescribes along z.
     control: Control = "force"

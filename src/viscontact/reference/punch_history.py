@@ -27,6 +27,12 @@ class PunchOscillation:
         Angle by which the approach lags behind the force, 0 to pi/2 [rad].
     loss_per_cycle : float
         Work the load does in each cycle, all of it lost [J].
+
+    Examples
+    --------
+    >>> steady = punch_harmonic(0.005, 5e-10 * (1 - 0.2j), force_amplitude=10.0)
+    >>> round(steady.phase_lag, 4), steady.force_amplitude
+    (0.1974, 10.0)
     """
 
     force_amplitude: float

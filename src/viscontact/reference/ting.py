@@ -37,6 +37,14 @@ class TingHump:
         Instants of the largest approach, and of the last one known [s].
     relaxation_modulus : callable
         M(t) [Pa].
+
+    Examples
+    --------
+    >>> from viscontact.reference.profiles import ConeProfile
+    >>> hump = ting_hump(ConeProfile(1.2), lambda t: 1e-5 * np.sin(math.pi * t / 2) ** 2,
+    ...     peak_time=1.0, end=2.0, relaxation_modulus=lambda t: 2e9 * np.exp(-t))
+    >>> hump.lost < 2.0
+    True
     """
 
     profile: GrowingProfile

@@ -35,6 +35,15 @@ class TingCycles:
         M(0) [Pa].
     relaxation_time : float
         tau of M(t) = M(0) exp(-t/tau) [s].
+
+    Examples
+    --------
+    From cycle to cycle the dent is met again later:
+
+    >>> from viscontact.reference.profiles import SphereProfile
+    >>> contact = ting_cycles(SphereProfile(0.01), 1e-5, 1.0, 2e9, 1.0)
+    >>> [round(float(contact.touched(cycle)) - 2 * cycle, 3) for cycle in (1, 2)]
+    [0.51, 0.673]
     """
 
     profile: GrowingProfile

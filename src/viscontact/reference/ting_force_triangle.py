@@ -32,6 +32,14 @@ class TingForceTriangle:
         M(0) [Pa].
     relaxation_time : float
         That of M(t) [s].
+
+    Examples
+    --------
+    The approach when the force turns, and when it is gone:
+
+    >>> contact = ting_force_triangle(10.0, 1.0, 0.01, 2e9, 1.0)
+    >>> [round(float(contact.approach(t)) * 1e6, 2) for t in (1.0, 2.0)]
+    [14.68, 10.46]
     """
 
     peak: float

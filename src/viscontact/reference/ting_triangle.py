@@ -34,6 +34,15 @@ class TingTriangle:
         Equilibrium modulus of M(t) [Pa].
     moduli, times : tuple of float
         Terms of M(t) [Pa], [s].
+
+    Examples
+    --------
+    Force at the turn of the stage, and when nothing touches any more:
+
+    >>> from viscontact.reference.profiles import SphereProfile
+    >>> contact = ting_triangle(SphereProfile(0.01), 1e-5, 1.0, 0.0, [2e9], [1.0])
+    >>> round(float(contact.force(1.0)), 3), float(contact.force(1.6))
+    (5.843, 0.0)
     """
 
     profile: GrowingProfile

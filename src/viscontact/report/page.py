@@ -47,6 +47,18 @@ def write_report(ds: xr.Dataset, path: str | Path) -> None:
         If the result holds no instant.
     OSError
         If the file cannot be written.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (6e-3, 6e-3))
+    >>> ds = vc.simulate(vc.Paraboloid(0.01, 0.01), rubber, vc.step(1.0), grid, [0.0])
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     write_report(ds, Path(folder) / "ball.html")
+    ...     (Path(folder) / "ball.html").read_text(encoding="utf-8")[:15].lower()
+    '<!doctype html>'
     """
     Path(path).write_text(report_page(ds), encoding="utf-8")
 

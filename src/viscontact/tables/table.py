@@ -21,7 +21,7 @@ _SAME_TEMPERATURE, _WIDEST_SET = 1.0, 5.0
 
 @dataclass(frozen=True, eq=False)
 class Table:
-    """A measured table.
+    r"""A measured table.
 
     Made by `viscontact.tables.read_table`.
 
@@ -41,6 +41,17 @@ class Table:
         Line of the file where each row stands, from 1.
     left_out : tuple of str
         Headings of columns that are not known and not read.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from viscontact.tables import read_table
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = Path(folder) / "creep.csv"
+    ...     _ = file.write_text("time [min], D [1/GPa]\n1, 0.5\n2, 0.6\n")
+    ...     table = read_table(file)
+    >>> table.data, table["time"].tolist(), table["creep_compliance"].tolist()
+    ('uniaxial', [60.0, 120.0], [5e-10, 6e-10])
     """
 
     source: Path

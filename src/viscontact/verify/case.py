@@ -31,6 +31,11 @@ class Quantity:
         Largest relative error allowed on the finest mesh of the fast and of the full form [-].
     has_order : bool
         Whether the error is a power of the refinement; an instant found between two steps is not.
+
+    Examples
+    --------
+    >>> Quantity("approach", "m", fast_bound=1e-2, bound=1e-3).has_order
+    True
     """
 
     name: str
@@ -50,6 +55,11 @@ class Comparison:
         The values, in the quantity's unit.
     error : float
         Their difference relative to the exact value, or to the largest of its history [-].
+
+    Examples
+    --------
+    >>> round(single(exact=2.0, ours=2.002).error, 6)
+    0.001
     """
 
     exact: float
@@ -74,6 +84,12 @@ class Case:
         first two.
     compare : callable
         From a refinement to a `Comparison` for each quantity.
+
+    Examples
+    --------
+    >>> from viscontact.verify import CASES
+    >>> CASES[0].name, CASES[0].reference, [each.name for each in CASES[0].quantities]
+    ('sphere', 'Hertz 1882', ['approach', 'central pressure', 'contact radius'])
     """
 
     name: str
@@ -103,6 +119,11 @@ class Result:
         What the whole case took [s].
     failure : str
         Why there are no values; empty if there are.
+
+    Examples
+    --------
+    >>> Result("cone", "Love 1939", "approach", "m", 2e-5, 2.001e-5, 5e-4, 1e-3, 2.0, 0.1).passed
+    True
     """
 
     case: str

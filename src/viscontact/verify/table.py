@@ -122,6 +122,15 @@ def write_table(results: Sequence[Result], path: Path) -> None:
     ------
     ValueError
         If the suffix is another one.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> result = Result("cone", "Love 1939", "approach", "m", 2e-5, 2e-5, 0.0, 1e-3, 2.0, 0.1)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     write_table([result], Path(folder) / "table.csv")
+    ...     (Path(folder) / "table.csv").read_text(encoding="utf-8")[:23]
+    'case,reference,quantity'
     """
     if path.suffix not in SUFFIXES:
         raise ValueError(f"{path}: wanted a file that ends in .md or .csv")
