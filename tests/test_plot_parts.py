@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 import xarray as xr
 
+import viscontact as vc
 from synthetic_results import FORCE, RADIUS, maxwell_sphere, roller
 from viscontact.plot import FIGURES, save_figure
 from viscontact.plot.readable import display_unit, time_labels
-from viscontact.plot.rim_polygons import rim_polygons
+from viscontact.plot.rim_polygons import rim_curves, rim_polygons
 from viscontact.plot.snapshots import Snapshot, take_snapshots
 from viscontact.plot.window import window_around
 
@@ -70,6 +71,48 @@ def test_outline_of_a_hertz_contact_is_its_circle_to_second_order() -> None:
     # Where the rim falls within a cell differs between grids, so the fit is over all four.
     order = -np.polyfit(np.log([8, 16, 32, 64]), np.log(errors), 1)[0]
     assert order > 1.8
+
+
+@pytest.mark.parametrize(
+    ("radii", "shape"),
+    [((0.01, 0.01), (20, 20)), ((0.04, 0.01), (60, 24)), ((0.2, 0.01), (100, 48))],
+    ids=["circle", "ellipse", "slender ellipse"],
+)
+def test_curve_drawn_is_nearer_to_hertzs_ellipse_than_the_polygon_and_smooth(
+    radii: tuple[float, float], shape: tuple[int, int]
+) -> None:
+    hertz = vc.reference.hertz_elliptical(10.0, *radii, 2e9)
+    axes = np.array([hertz.semi_axis_x, hertz.semi_axis_y])
+    grid = vc.Grid(shape, tuple((2.7 * axes).tolist()))
+    material = vc.Material(vc.Elastic(1e9), 0.0)
+    run = vc.simulate(vc.Paraboloid(*radii), material, vc.step(force=10.0), grid, [0.0])
+    snapshot = take_snapshots(run, None, "figure")[0]
+    (polygon,), (curve,) = rim_polygons(snapshot), rim_curves(snapshot)
+    edges = np.concatenate(
+        [(1 - part) * polygon[:-1] + part * polygon[1:] for part in np.linspace(0, 1, 6)]
+    )
+    off = [np.sqrt(np.mean((np.hypot(*(each / axes).T) - 1) ** 2)) for each in (edges, curve)]
+    assert off[1] < off[0]
+    # Angles between neighbouring pieces of the line, in the shape of the cells.
+    turns = []
+    for line in (polygon, curve):
+        steps = np.diff(line / snapshot.cell_size, axis=0)
+        along = np.unwrap(np.arctan2(*steps.T[::-1]))
+        turns.append(np.abs(np.diff(along)).max())
+    assert turns[1] < 0.5 * turns[0]
+
+
+@pytest.mark.parametrize("rim", ["square", "frayed"])
+def test_rim_that_is_not_smooth_stays_a_polygon(rim: str) -> None:
+    x = np.arange(-31.5, 32.0)
+    r, angle = np.hypot(x[:, None], x), np.arctan2(x, x[:, None])
+    outside = {
+        "square": np.maximum(np.abs(x[:, None]), np.abs(x)) - 18.3,
+        "frayed": r - 20.3 - 2.0 * np.sign(np.sin(24 * angle)),
+    }[rim]
+    snapshot = Snapshot(0.0, x, x, 1.0 * (outside < 0), np.maximum(outside, 0.0) ** 1.5)
+    for polygon, curve in zip(rim_polygons(snapshot), rim_curves(snapshot), strict=True):
+        assert np.array_equal(polygon, curve)
 
 
 def test_outline_of_a_contact_with_a_hole_has_two_polygons() -> None:

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 from viscontact.plot import style
 from viscontact.plot.page import Width, page_width
 from viscontact.plot.readable import time_labels
-from viscontact.plot.rim_polygons import rim_path, rim_polygons
+from viscontact.plot.rim_polygons import rim_curves, rim_path
 from viscontact.plot.snapshots import snapshots_of_runs, take_snapshots
 from viscontact.plot.window import Window, window_around
 
@@ -60,7 +60,7 @@ def contact_outline(
     colours = style.time_colours(len(snapshots))
     for snapshot, colour in zip(snapshots, colours, strict=True):
         if snapshot.touching:
-            path = rim_path(window.unit(polygon) for polygon in rim_polygons(snapshot))
+            path = rim_path(window.unit(polygon) for polygon in rim_curves(snapshot))
             axes.add_patch(
                 PathPatch(path, fill=False, edgecolor=colour, linewidth=style.LINE_WIDTH)
             )
@@ -110,7 +110,7 @@ def compare_contact_outlines(
     axes = _new_axes(window, len(snapshots), width, below=True)
     looks = style.run_styles(len(snapshots))
     for snapshot, look in zip(snapshots, looks, strict=True):
-        path = rim_path(window.unit(polygon) for polygon in rim_polygons(snapshot))
+        path = rim_path(window.unit(polygon) for polygon in rim_curves(snapshot))
         how = {"edgecolor" if key == "color" else key: value for key, value in look.items()}
         axes.add_patch(PathPatch(path, fill=False, **how))
     axes.set(xlabel=window.unit.label("x"), ylabel=window.unit.label("y"))

@@ -17,7 +17,7 @@ from viscontact.plot import style
 from viscontact.plot.page import Width, page_width
 from viscontact.plot.readable import DisplayUnit, display_number, display_unit, time_labels
 from viscontact.plot.relief import Relief, draw_relief, relief
-from viscontact.plot.rim_polygons import rim_polygons
+from viscontact.plot.rim_polygons import rim_curves
 from viscontact.plot.snapshots import Snapshot, field_at, take_snapshots
 from viscontact.plot.solid_axes import (
     add_note,
@@ -173,7 +173,7 @@ def _depths(dents: list[Dent], window: Window) -> tuple[DisplayUnit, tuple[float
 def _draw_rim(axes: Axes3D, dent: Dent, window: Window, unit: DisplayUnit) -> None:
     cells = (dent.snapshot.x, dent.snapshot.y)
     depth = RegularGridInterpolator(cells, dent.displacement, bounds_error=False)
-    for polygon in rim_polygons(dent.snapshot):
+    for polygon in rim_curves(dent.snapshot):
         x, y = window.unit(polygon).T
         axes.plot(x, y, unit(depth(polygon)), color=style.INK, linewidth=0.9, zorder=3)
 

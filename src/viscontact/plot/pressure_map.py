@@ -22,7 +22,7 @@ from viscontact.plot.contour_labels import label_contours
 from viscontact.plot.error_band import peak_note
 from viscontact.plot.page import Width, page_width
 from viscontact.plot.readable import DisplayUnit, display_number, display_unit, time_labels
-from viscontact.plot.rim_polygons import beyond_period, rim_path, rim_polygons
+from viscontact.plot.rim_polygons import beyond_period, rim_curves, rim_path
 from viscontact.plot.snapshots import Snapshot, snapshots_of_runs, take_snapshots
 from viscontact.plot.squared_pressure import squared_pressure
 from viscontact.plot.window import Window, window_around
@@ -190,7 +190,7 @@ def draw_contours(
     """
     if not snapshot.touching:
         return None
-    outline = rim_path(window.unit(polygon) for polygon in rim_polygons(snapshot))
+    outline = rim_path(window.unit(polygon) for polygon in rim_curves(snapshot))
     # Contours are drawn between the centres of cells, so half a cell short of the last ones.
     wide = beyond_period(snapshot).with_border(1)
     x, y = window.unit(wide.x), window.unit(wide.y)
