@@ -429,7 +429,7 @@ def test_check_foresees_grid_steps_memory_time_and_contact(
 ) -> None:
     assert main(["check", "case.yaml"]) == 0
     printed = capsys.readouterr().out
-    for expected in ("32 x 32 cells on 3 mm x 3 mm", "6 to t = 5 s", "memory", "are free", "time"):
+    for expected in ("32 x 32 cells on 3 mm x 3 mm", "6, up to t = 5 s", "GB free", "run time"):
         assert expected in printed
     # Hertz with Phi(5 s): a^3 = 3 R W Phi / 8 (eq. 16 of Spinu & Cerlinca 2018), a = 1.143 mm,
     # peak pressure 3 W / (2 pi a^2) = 1.46 MPa; the estimate is good to a few per cent.
@@ -438,14 +438,38 @@ def test_check_foresees_grid_steps_memory_time_and_contact(
     assert [path.name for path in folder.iterdir()] == ["case.yaml"]
 
 
+@pytest.mark.parametrize(
+    ("load", "when"),
+    [
+        ("{kind: step, force: 4 N}", "at the largest load, from the cells alone"),
+        ("{kind: ramp, force: 4 N, duration: 1 s}", "at the largest load (t = 1 s to 5 s), from"),
+        (
+            "{kind: harmonic, mean: 3 N, amplitude: 1 N, period: 2 s, cycles: 2}",
+            "at the largest load (first at t = 500 ms), from",
+        ),
+    ],
+)
+def test_check_tells_when_the_error_of_an_automatic_grid_is_so_small(
+    folder: Path, capsys: pytest.CaptureFixture[str], load: str, when: str
+) -> None:
+    settings = ["--set", f"load={load}", "--set", "grid={tolerance: 5 %}"]
+    assert main(["check", "case.yaml", *settings]) == 0
+    printed = capsys.readouterr().out
+    # Of all three quantities, in one line: no number is torn from its unit.
+    assert re.search(r"grid error .*pressure [\d.]+ %, .*area [\d.]+ %, approach [\d.]+ %", printed)
+    assert when in printed
+    assert ("more at smaller loads" in printed) == ("step" not in load)
+    assert max(len(line.rstrip()) for line in printed.splitlines()) <= 80
+
+
 def test_check_foresees_an_approach_and_adaptive_steps(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     load = ["--set", "load={kind: ramp, approach: 100 um, duration: 1 s}"]
     assert main(["check", "case.yaml", *ADAPTIVE, *load]) == 0
     printed = capsys.readouterr().out
-    assert "adaptive, tolerance 0.01, to t = 5 s" in printed
-    assert "Under the largest approach, with the instant compliance" in printed
+    assert "as needed for an error of 1 %, up to t = 5 s" in printed
+    assert "largest approach, before any creep" in printed
     # Hertz, E* = 4 G: F = (4/3) E* sqrt(R) delta^(3/2) = 5.33 N, a = sqrt(R delta) = 1 mm,
     # p = (2/pi) E* sqrt(delta/R) = 2.55 MPa; the estimate is good to a few per cent.
     found = dict(re.findall(r"(force|peak pressure|contact) +([\d.]+)", printed))

@@ -43,8 +43,8 @@ class Forecast:
     estimate : ContactEstimate or None
         The contact under the largest load, by a coarse elastic solve; None without a load.
     compliance : str
-        Which compliance it is of: the largest under a force, the smallest under an approach,
-        that is, where the contact and where the pressure is largest.
+        How much creep it has, in words: all of it under a force, none under an approach, that is,
+        where the contact and where the pressure is largest.
     cells_along, cells_across : float
         Cells over the estimated length and width.
     fits : bool
@@ -125,10 +125,10 @@ def _estimate(run: Run, compliance: float, point: LoadPoint) -> ContactEstimate:
 
 def _telling_compliance(run: Run, time: float) -> tuple[float, str]:
     if run.load.control == "force":
-        return float(run.compliance(run.times[-1])), "the end's compliance"
+        return float(run.compliance(run.times[-1])), "creep as at the end of the run"
     if run.compliance.instant > 0:
-        return float(run.compliance.instant), "the instant compliance"
-    return float(run.compliance(time)), "the compliance of that instant"
+        return float(run.compliance.instant), "before any creep"
+    return float(run.compliance(time)), "creep as at that instant"
 
 
 def _seconds(run: Run, *, errors: bool) -> float:

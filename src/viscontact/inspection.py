@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from viscontact.estimate import ContactEstimate
+from viscontact.estimate import ContactEstimate, level_of
+from viscontact.extent import largest_load
 from viscontact.forecast import Forecast, forecast
 from viscontact.geometry_doubts import SINGULAR_KINDS
 from viscontact.plausibility import DOUBTFUL_CELLS
@@ -14,6 +16,9 @@ from viscontact.preparation import Prepared
 from viscontact.run import Run
 from viscontact.stated_errors import MESH_DEPENDENT
 from viscontact.units import in_digits, in_words
+
+#: A load is as large as the largest from this part of it on.
+AS_LARGE = 0.999
 
 #: An end of the body within so many times the grid is drawn as well.
 FARTHEST_END = 1.3
@@ -98,40 +103,63 @@ def needs(prepared: Prepared, expected: Forecast) -> list[tuple[str, str]]:
     chosen = " (automatic)" if run.automatic is not None else ""
     growing = "; more if the grid has to grow" if run.grows else ""
     period = ", periodic" if run.grid.periodic else ""
-    kept = prepared.case.fields
+    free = f"of {_bytes(expected.available)} free"
     return [
         ("grid", f"{nx} x {ny} cells on {in_words(lx, 'm')} x {in_words(ly, 'm')}{chosen}{period}"),
         ("cell", f"{in_words(dx, 'm', 3)} x {in_words(dy, 'm', 3)}"),
-        *_expected_errors(run),
-        ("steps", f"{_steps(run)} to t = {in_words(float(run.times[-1]), 's')}"),
-        ("fields kept", kept if isinstance(kept, str) else f"at {len(kept)} instants"),
-        (
-            "memory",
-            f"about {_bytes(expected.memory)}, {_bytes(expected.available)} are free{growing}",
-        ),
-        ("time", f"{_duration(expected.seconds)} on this machine"),
+        *_grid_error(run),
+        ("time steps", f"{_steps(run)}, up to t = {in_words(float(run.times[-1]), 's')}"),
+        ("fields kept", _kept(prepared.case.fields)),
+        ("memory", f"about {_bytes(expected.memory)} {free}{growing}"),
+        ("run time", f"{_duration(expected.seconds)} on this machine"),
     ]
 
 
-def _expected_errors(run: Run) -> list[tuple[str, str]]:
-    """How exact the cells are under the largest load, where they were chosen for it."""
-    if run.mesh is None:
+def _grid_error(run: Run) -> list[tuple[str, str]]:
+    """How exact the cells are, and when, where they were chosen for it."""
+    if run.mesh is None or not run.mesh.errors:
         return []
     told = [
         f"{name.replace('_', ' ')} {in_digits(100 * error, 1)} %"
         for name, error in run.mesh.errors.items()
     ]
-    return [("expected errors", ", ".join(told))] if told else []
+    # Broken here: a terminal would break between a number and its unit.
+    return [("grid error", "\n".join([", ".join(told), *_when_largest(run)]))]
+
+
+def _when_largest(run: Run) -> Iterator[str]:
+    """When the load is largest, for which the cells were chosen; and what is so at other times."""
+    crest, point = largest_load(run.load, float(run.times[-1]))
+    kinks = run.load.kinks[run.load.kinks <= run.times[-1]]
+    instants = np.union1d(run.times, [*kinks, crest])
+    # On the left of a jump, say, it is at one instant only.
+    is_largest = run.load.level_at(instants) >= AS_LARGE * level_of(point)
+    is_largest |= instants == crest
+    first, last = (in_words(float(instants[is_largest][k]), "s", 3) for k in (0, -1))
+    when = f" (t = {first} to {last})" if first != last else f" (t = {first})"
+    comes = np.diff(is_largest.astype(int), prepend=0) > 0
+    if math.isfinite(run.load.longest_step) or np.count_nonzero(comes) > 1:
+        when = f" (first at t = {first})"
+    yield f"at the largest load{'' if is_largest.all() else when}, from the cells alone"
+    if not is_largest[instants > 0].all():
+        yield "more at smaller loads, whose contact has fewer cells"
 
 
 def _steps(run: Run) -> str:
     if run.adaptive is None:
         return f"{len(run.times) - 1}"
-    return f"adaptive, tolerance {run.adaptive.tolerance:g},"
+    return f"as needed for an error of {100 * run.adaptive.tolerance:g} %"
+
+
+def _kept(fields: str | Sequence[float]) -> str:
+    if fields == "none":
+        return "none"
+    when = "every instant" if fields == "all" else f"{len(fields)} instants"
+    return f"pressure, gap and displacement at {when}"
 
 
 def expectations(prepared: Prepared, expected: Forecast) -> tuple[str, list[tuple[str, str]]]:
-    """Return what a run may find: of what that is the estimate, and rows; no rows without a load.
+    """Return what a run may find: how that is known, and rows; no rows without a load.
 
     Parameters
     ----------
@@ -141,7 +169,7 @@ def expectations(prepared: Prepared, expected: Forecast) -> tuple[str, list[tupl
         What was foreseen of it.
     """
     found, control = expected.estimate, prepared.run.load.control
-    title = f"Under the largest {control}, with {expected.compliance} (a coarse elastic solve):"
+    title = "What to expect, by a quick elastic estimate on few cells:"
     if found is None:
         return title, []
     # What is prescribed is known.
@@ -151,6 +179,7 @@ def expectations(prepared: Prepared, expected: Forecast) -> tuple[str, list[tupl
         else ("force", in_words(found.force, "N", 3))
     )
     return title, [
+        ("when", f"largest {control}, {expected.compliance}"),
         ("contact", f"{in_words(found.length, 'm', 3)} long, {in_words(found.width, 'm', 3)} wide"),
         ("cells in it", f"{expected.cells_along:.0f} along, {expected.cells_across:.0f} across"),
         ("peak pressure", _peak_told(expected, found)),

@@ -15,6 +15,9 @@ from viscontact.forecast import Forecast
 from viscontact.inspection import drawn_size, expectations, foreseen, needs, verdict, warnings_of
 from viscontact.preparation import Prepared
 
+#: Two lists below each other have their values in line.
+_NAMES = len("peak pressure")
+
 
 def print_forecast(prepared: Prepared) -> Forecast:
     """Print what a run will need and what it may find.
@@ -76,7 +79,9 @@ def draw_body(
 
 
 def _listed(rows: list[tuple[str, str]]) -> Table:
-    table = Table(show_header=False, box=None, padding=(0, 2))
+    table = Table(show_header=False, box=None, padding=(0, 0, 0, 2))
+    table.add_column(min_width=_NAMES)
+    table.add_column()
     for row in rows:
         table.add_row(*row)
     return table
