@@ -55,8 +55,8 @@ def variations(varied: Sequence[str], settings: Sequence[str] = ()) -> list[Vari
     >>> found = variations(["load.force=5 kN,10 kN", "grid.shape=[32, 32],[64, 64]"])
     >>> found[2].settings
     ('load.force=10 kN', 'grid.shape=[32, 32]')
-    >>> found[2].name
-    'force=10kN_shape=32-32'
+    >>> found[2].name, variations(["grid.tolerance=5%"])[0].name
+    ('force=10kN_shape=32-32', 'tolerance=5%')
     """
     axes = dict(_axis(text) for text in varied)
     _refuse_keys_given_twice([_key(text) for text in (*varied, *settings)], set(axes))
@@ -139,5 +139,5 @@ def _short_names(keys: list[str]) -> dict[str, str]:
 
 def _safe(text: str) -> str:
     """What may stand in the name of a directory on any system."""
-    words = re.sub(r"[^\w.+-]+", "-", re.sub(r"\s+", "", text))
+    words = re.sub(r"[^\w.+%-]+", "-", re.sub(r"\s+", "", text))
     return words.strip("-.") if text.strip()[:1] != "-" else "-" + words.strip("-.")
