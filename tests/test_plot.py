@@ -18,7 +18,7 @@ from synthetic_results import maxwell_pressure, maxwell_sphere, roller
 from viscontact.laws import CreepSeries, Maxwell
 from viscontact.plot import COMPARISONS, FIGURES, creep_curve, save_figure
 from viscontact.plot.readable import display_unit
-from viscontact.plot.rim_polygons import rim_polygons
+from viscontact.plot.rim_polygons import rim_curves
 from viscontact.plot.snapshots import take_snapshots
 
 
@@ -186,7 +186,7 @@ def test_round_contact_is_drawn_in_its_true_shape(sphere: xr.Dataset) -> None:
 def test_outlines_are_drawn_in_millimetres(long_contact: xr.Dataset) -> None:
     axes = FIGURES["contact-outline"](long_contact, times=[0.0]).axes[0]
     (patch,) = (patch for patch in axes.patches if isinstance(patch, PathPatch))
-    (outline,) = rim_polygons(take_snapshots(long_contact, [0.0], "figure")[0])
+    (outline,) = rim_curves(take_snapshots(long_contact, [0.0], "figure")[0])
     assert axes.get_xlabel() == "x [mm]"
     np.testing.assert_allclose(patch.get_path().vertices, outline * 1e3, rtol=1e-12)
 
