@@ -140,18 +140,9 @@ def test_what_cannot_be_varied_is_refused_in_one_line(
 
 
 def test_names_of_variations_may_stand_in_any_path() -> None:
-    names = [
-        each.name
-        for text in (
-            "a.b=1e-3 / MPa",
-            'a.b="x, y"',
-            "a.b=-5 µm",
-            "a[2].b=../..",
-            "a.b=C:\\x",
-            "a.b=5%",
-        )
-        for each in variations([text])
-    ]
+    values = ("1e-3 / MPa", '"x, y"', "-5 µm", "5%", "C:\\x")
+    texts = [*(f"a.b={value}" for value in values), "a[2].b=../.."]
+    names = [each.name for text in texts for each in variations([text])]
     assert names == ["b=1e-3-MPa", "b=x-y", "b=-5µm", "b=5%", "b=C-x", "b="]
     # two keys that end in the same are told apart by all of their names
     both = variations(["load.force=1 N", "other.force=2 N"])[0].name
