@@ -1,7 +1,7 @@
 // The pressure over the surface with a slider over time, and sections along and across.
 
 import { axis, config, instant, layout, plotly, quiet } from "./charts.js";
-import { make, place } from "./dom.js";
+import { make, place, settled } from "./dom.js";
 import { colour } from "./theme.js";
 import { digits, unitFor } from "./units.js";
 
@@ -16,6 +16,8 @@ export function setUpMap() {
   place("instant-slider").addEventListener("input", () => showInstant(Number(place("instant-slider").value)));
   place("instant-slider").addEventListener("pointerdown", pause);
   place("play").addEventListener("click", () => (clock === null ? play() : pause()));
+  // Its height follows from its width: a phone is turned, a window made narrow.
+  window.addEventListener("resize", settled(() => picture && drawPlane(), 150));
 }
 
 // Draws the map anew; the instant stays, where the run is the same.

@@ -10,17 +10,23 @@ const number = (text, style = "") => make("td", { class: `number ${style}`, text
 export function numbersTable(data, reference) {
   const stated = data.told.some((name) => isStated(data.scalars[name]));
   const rows = data.told.map((name) => row(name, data, reference, stated));
-  return make("table", { class: reference ? "compared" : "" },
+  // Where all is largest at the beginning or in the end, that stands there already.
+  const isTold = data.told.every((name) => {
+    const { value } = data.scalars[name];
+    return [0, value.length - 1].includes(largestAt(value));
+  });
+  const style = [reference && "compared", isTold && "told-already"].filter(Boolean).join(" ");
+  return make("table", { class: style },
     make("thead", {}, head(data, reference, stated)), make("tbody", {}, rows));
 }
 
 const isStated = (scalar) => scalar.mesh || scalar.error.some((error) => error !== null);
 
 function head(data, reference, stated) {
-  const time = unitFor("s", data.time), at = (index) => `t = ${instant(data.time.at(index), time)}`;
+  const time = unitFor("s", data.time), at = (index) => `t = ${instant(data.time.at(index), time)}`.replaceAll(" ", "\u00a0");
   const column = (text, style = "") => make("th", { scope: "col", class: `number ${style}`, textContent: text });
   return make("tr", {}, make("th", { scope: "col", textContent: "Quantity" }),
-    column(at(0), "first"), column(at(-1)), column("largest", "largest"), stated && column("largest error"),
+    column(at(0), "first"), column(at(-1)), column("largest", "largest"), stated && column("largest error", "worst"),
     reference && [column("reference, end"), column("change")]);
 }
 
@@ -30,15 +36,19 @@ function row(name, data, reference, stated) {
   const before = reference?.data.told.includes(name) ? other.value.at(-1) : null;
   const unit = unitFor(scalar.unit, scalar.value);
   const at = largestAt(scalar.value), largest = scalar.value[at] ?? null;
-  const cell = (value, error, style) => number(toldIn(unit, value, shownError(value, error, largest), scalar.mesh), style);
+  const cell = (value, error, style) =>
+    number(whole(toldIn(unit, value, shownError(value, error, largest), scalar.mesh)), style);
   return make("tr", {},
     make("th", { scope: "row" }, titleOf(name), make("small", { textContent: ` [${unit.symbol}]` })),
     cell(scalar.value[0], scalar.error[0], "first"),
     cell(scalar.value.at(-1), scalar.error.at(-1)),
     cell(largest, scalar.error[at] ?? null, "largest"),
-    stated && number(errorTold(scalar, largest, data.time)),
+    stated && number(errorTold(scalar, largest, data.time), "worst"),
     reference && [cell(before, other?.error.at(-1) ?? null), number(change(scalar.value.at(-1), before))]);
 }
+
+// Where there is no room, a value stands above its error.
+const whole = (text) => text.replace("± ", "±\u00a0").replace("> ", ">\u00a0");
 
 const largestAt = (values) =>
   values.reduce((best, value, index) => (Math.abs(value) > Math.abs(values[best] ?? 0) ? index : best), 0);
@@ -54,12 +64,12 @@ function errorTold(scalar, largest, times) {
     (error !== null && !(error <= (scalar.error[best] ?? -1)) ? index : best), -1);
   if (worst < 0) return "not known";
   const part = largest ? Math.abs(scalar.error[worst] / largest) : 0;
-  if (part < 1e-4) return "<0.01 %";
+  if (part < 1e-4) return "<0.01\u00a0%";
   const unit = unitFor("s", times[worst]), when = Number((times[worst] / unit.factor).toPrecision(3));
-  return `${percent(part)} at ${when} ${unit.symbol}`;
+  return `${percent(part)} at ${when}\u00a0${unit.symbol}`;
 }
 
-const percent = (part) => `${part >= 0.0995 ? (100 * part).toFixed(0) : (100 * part).toPrecision(2)} %`;
+const percent = (part) => `${part >= 0.0995 ? (100 * part).toFixed(0) : (100 * part).toPrecision(2)}\u00a0%`;
 
 function change(value, before) {
   if (!before || value === null) return "–";
