@@ -7,6 +7,8 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent / "_ext"))
 
+import numpydoc.xref
+
 import viscontact
 
 project = "viscontact"
@@ -51,7 +53,13 @@ nitpick_ignore_regex = [
 autosummary_generate = True
 autodoc_typehints = "none"  # numpydoc's sections say it
 numpydoc_show_class_members = False
-numpydoc_xref_param_type = False
+# Types of ours are links; other words are not, as the manual points to no other one.
+numpydoc_xref_param_type = True
+numpydoc_xref_ignore = "all"
+numpydoc.xref.DEFAULT_LINKS.clear()
+numpydoc_xref_aliases = {
+    name: f"viscontact.{name}" for name in viscontact.__all__ if name[0].isupper()
+}
 add_module_names = False
 
 # --- the gallery --------------------------------------------------------------------------------
