@@ -108,12 +108,12 @@ FLOORS = (
         "units",
         "particulars",
         "told",
-        "notebook",
         "tables",
         "surfaces",
         "cards",
         "materials",
         "identification",
+        "notebook",
         "foresight",
         "forecast",
         "case",
@@ -243,6 +243,9 @@ NEIGHBOURS = {
     ("notebook", "told"),
     ("notebook", "markup"),
     ("notebook", "cross_section"),  # is what it draws
+    ("notebook", "surfaces"),  # measured things as well
+    ("notebook", "cards"),
+    ("notebook", "identification"),
     ("case", "units"),
     ("case", "materials"),  # which may be given by name
     ("case", "cards"),  # materials of other programs

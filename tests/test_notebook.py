@@ -79,7 +79,35 @@ OTHERS = [
     read_case(_EXAMPLES / "rough-ball.yaml"),
     read_case(_EXAMPLES / "punch-harmonic.yaml"),
 ]
-NOUNS = [*INDENTERS, *LAWS, *OTHERS]
+_ZENER = vc.Zener(1e4, 1e4, 5e3)
+_TIMES, _FREQUENCIES = np.geomspace(0.1, 100.0, 30), np.geomspace(0.1, 1e3, 25)
+_HEIGHTS = 1e-6 * np.sin(np.arange(60.0))[:, None] * np.cos(np.arange(20.0))
+_HEIGHTS[5:9, 3:6] = np.nan
+_HEIGHTS[40, 15] = 5e-6
+_MODULUS = _ZENER.complex_modulus(_FREQUENCIES)
+#: A punch of radius a on G, nu: F = 4 G a delta / (1 - nu); pressed at 1 um/s, then held.
+_PRESSED = np.linspace(0.0, 3.0, 61)
+_RECORD = vc.IndentationRecord(
+    vc.FlatPunch(radius=1e-5),
+    _PRESSED,
+    1e-6 * np.minimum(_PRESSED, 1.0),
+    4e-5 / 0.5 * 1e-6 * 5e3 * np.minimum(_PRESSED, 1.0) * (1 + np.exp(-_PRESSED)),
+)
+_ISOTHERMS = [
+    vc.Isotherm(273.15 + 10 * k, _TIMES, {"compliance": 1e-9 * (10**k * _TIMES) ** 0.2})
+    for k in (1, 2, 3)
+]
+MEASURED = [
+    vc.Surface(_HEIGHTS, (2e-6, 5e-6), name="mine <b>.npz"),
+    vc.fit_creep(_TIMES, _ZENER(_TIMES), data="deviatoric"),
+    vc.fit_dynamic(_FREQUENCIES, _MODULUS.real, _MODULUS.imag, data="shear"),
+    _RECORD,
+    vc.fit_indentation(_RECORD, "zener", poisson_ratio=0.5),
+    _ISOTHERMS[0],
+    vc.build_master_curve(_ISOTHERMS, 293.15),
+    vc.Card("gel", vc.Material(_ZENER, 0.5), vc.WLF(293.15, 17.44, 51.6), ("*DENSITY",)),
+]
+NOUNS = [*INDENTERS, *LAWS, *OTHERS, *MEASURED]
 #: Half of the last digit of a path, and what it may leave out of a straight piece [px].
 _ROUNDING = 0.05 + 0.03
 
@@ -156,6 +184,14 @@ def test_repr_can_still_be_typed_in(noun: Any) -> None:
             OTHERS[14],
             ["Rough ball", "part 1 radius 2 mm", "force 0 N, 60 mN", "steps 63,"],
         ),
+        (MEASURED[0], ["mine <b>.npz", "size 120 µm × 100 µm", "not measured 1.0 % of the points"]),
+        (MEASURED[1], ["data deviatoric", "misses the compliance by <0.01 %", "times 500 ms"]),
+        (MEASURED[2], ["angular frequency 0.1000 rad/s to 1000 rad/s", "misses the loss by"]),
+        (MEASURED[3], ["indenter flat punch", "largest approach 1 µm", "duration 3 s"]),
+        (MEASURED[4], ["(95 %: ", "given approach over 3 s", "Poisson's ratio 0.5"]),
+        (MEASURED[5], ["temperature 10 °C", "time 100 ms to 100 s"]),
+        (MEASURED[6], ["reference temperature 20 °C", "made of 3 sets", "at 30 °C 0.1000"]),
+        (MEASURED[7], ["Material card: gel", "note *DENSITY", "law Zener", "c1 17.44"]),
     ],
     ids=lambda value: type(value).__name__,
 )
@@ -223,6 +259,31 @@ def test_curves_of_a_law_are_the_law() -> None:
         values = np.polyval(y_of, py)
         # 0.1 px of 160 px over six decades, and of 98 px up.
         np.testing.assert_allclose(values, exact(times), rtol=0.004)
+
+
+def test_map_of_a_surface_has_its_strongest_tone_on_its_peak_and_holes_where_it_has() -> None:
+    heights = np.zeros((8, 4))
+    heights[6, 1], heights[0, 3] = 1e-6, np.nan
+    drawing = next(_parsed(vc.Surface(heights, 1e-6)).iter("svg"))
+    strokes = {path.get("stroke-opacity"): path.get("d", "") for path in drawing.iter("path")}
+    # 8 x 4 points in 206 x 103 px, which begin 7 px from the left and 22 px from the top.
+    side = 206 / 8
+    [(left, at, width)] = re.findall(r"M([\d.]+),([\d.]+)h([\d.]+)", strokes["0.95"])
+    assert float(left) == pytest.approx(7 + 6 * side, abs=0.1)
+    assert float(at) == pytest.approx(22 + (4 - 1.5) * side, abs=0.1)  # y goes upwards
+    assert float(width) == pytest.approx(side, abs=0.1)
+    drawn = sum(float(w) for d in strokes.values() for w in re.findall(r"h([\d.]+)", d))
+    assert drawn == pytest.approx(31 * side, abs=1.0)
+
+
+def test_dots_of_a_fit_lie_on_its_curve_where_it_misses_nothing() -> None:
+    drawing = next(_parsed(MEASURED[1]).iter("svg"))
+    [curve] = [path for path in drawing.iter("path") if path.get("class") == "curve"]
+    line = np.array(re.findall(r"([\d.]+),([\d.]+)", curve.get("d", "")), dtype=float)
+    dots = [(float(d.get("cx", "")), float(d.get("cy", ""))) for d in drawing.iter("circle")]
+    assert len(dots) == 30
+    for across, up in dots:
+        assert up == pytest.approx(np.interp(across, line[:, 0], line[:, 1]), abs=0.3)
 
 
 def test_a_jump_of_a_load_is_drawn_upright() -> None:

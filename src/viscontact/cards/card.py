@@ -7,11 +7,12 @@ from decimal import Decimal
 
 from viscontact.laws import Shift
 from viscontact.material import Material
+from viscontact.shown import Shown
 from viscontact.units import Scale, parse_scale, parse_unit
 
 
 @dataclass(frozen=True)
-class Card:
+class Card(Shown):
     """A material as a finite-element program has it.
 
     Parameters

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.laws import CreepSeries, RelaxationSeries
+from viscontact.shown import Shown
 
 Array = NDArray[np.float64]
 
@@ -16,7 +17,7 @@ _SHOWN = 6  # terms that are printed
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Fit:
+class Fit(Shown):
     """A series fitted to measured values.
 
     Made by `fit_creep`, `fit_relaxation` and `fit_dynamic`.

@@ -11,6 +11,7 @@ from viscontact.identification.record import IndentationRecord
 from viscontact.laws import Law
 from viscontact.material import Material
 from viscontact.readable import in_words
+from viscontact.shown import Shown
 
 Array = NDArray[np.float64]
 
@@ -18,7 +19,7 @@ _TOUCH = 0.05  # of the largest force: less may be scatter without contact
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class IndentationFit:
+class IndentationFit(Shown):
     """A law fitted to an indentation record.
 
     Made by `fit_indentation`.

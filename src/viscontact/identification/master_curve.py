@@ -16,6 +16,7 @@ from viscontact.identification.overlap import Curve, log_shift
 from viscontact.identification.prony import FitOptions, fit_creep, fit_dynamic, fit_relaxation
 from viscontact.identification.shift_fit import ShiftFit, fit_arrhenius, fit_wlf
 from viscontact.laws import Shift, TabulatedShift
+from viscontact.shown import Shown
 
 Array = NDArray[np.float64]
 
@@ -27,7 +28,7 @@ _SCATTER = np.log(10.0) / 3
 
 
 @dataclass(frozen=True, eq=False)
-class Isotherm:
+class Isotherm(Shown):
     """What a test measured at one temperature.
 
     Parameters
@@ -98,7 +99,7 @@ class Isotherm:
 
 
 @dataclass(frozen=True, eq=False)
-class MasterCurve:
+class MasterCurve(Shown):
     """One curve at a reference temperature, made of sets at several temperatures.
 
     Made by `build_master_curve`.

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from viscontact.indenters import Cone, FlatPunch, Indenter, Sphere
 from viscontact.readable import in_words
 from viscontact.reference import ConeProfile, PunchProfile, SphereProfile
+from viscontact.shown import Shown
 
 Array = NDArray[np.float64]
 
@@ -18,7 +19,7 @@ _LEAST_ROWS = 5
 
 
 @dataclass(frozen=True, eq=False)
-class IndentationRecord:
+class IndentationRecord(Shown):
     """Approach and force of a rigid indenter over time, from before the first contact on.
 
     Parameters

@@ -2,22 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from typing import Any
 from xml.etree.ElementTree import Element
 
 from viscontact.accessor import ResultAccessor
+from viscontact.cards import Card as MaterialCard
 from viscontact.description import describe
 from viscontact.grid import Grid
+from viscontact.identification import Fit, IndentationFit, IndentationRecord, Isotherm, MasterCurve
 from viscontact.indenters import Indenter
 from viscontact.laws import Law
 from viscontact.load import LoadHistory
 from viscontact.material import Material
 from viscontact.notebook.card import Card, as_html, as_text
 from viscontact.notebook.curves import law_drawings, load_drawings
+from viscontact.notebook.measured import (
+    fit_card,
+    indentation_fit_card,
+    isotherm_card,
+    master_curve_card,
+    record_card,
+)
 from viscontact.notebook.results import result_card
 from viscontact.notebook.shapes import grid_drawings, indenter_drawings
+from viscontact.notebook.surface_map import surface_card
 from viscontact.particulars import in_plain_words, particulars
 from viscontact.shown import Shown, ShownWhole
+from viscontact.surfaces import Surface
 from viscontact.units import in_words
 
 
@@ -27,7 +39,8 @@ def noun_html(noun: Shown) -> str:
     Parameters
     ----------
     noun : Shown
-        Indenter, law, material, load, grid, case, or what a result has as ``ds.viscontact``.
+        Indenter, law, material, load, grid, case, surface, record, fit, master curve, material
+        card, or what a result has as ``ds.viscontact``.
 
     Returns
     -------
@@ -43,7 +56,8 @@ def noun_text(noun: Shown) -> str:
     Parameters
     ----------
     noun : Shown
-        Indenter, law, material, load, grid, case, or what a result has as ``ds.viscontact``.
+        Indenter, law, material, load, grid, case, surface, record, fit, master curve, material
+        card, or what a result has as ``ds.viscontact``.
 
     Examples
     --------
@@ -59,8 +73,13 @@ def _cards(noun: Shown) -> Iterator[Card]:
     if isinstance(noun, ResultAccessor):
         yield result_card(noun.result)
         return
+    measured = next((make for kind, make in _MEASURED.items() if isinstance(noun, kind)), None)
+    if measured is not None:
+        yield measured(noun)
+        yield from (_card(part) for part in _found(noun))
+        return
     if not isinstance(noun, ShownWhole):
-        yield Card(_sentence_case(_name_of(noun)), _rows(noun), _drawings(noun))
+        yield _card(noun)
         return
     parts = noun.shown_parts()
     words = [(name, part) for name, part in parts.items() if isinstance(part, str)]
@@ -69,6 +88,37 @@ def _cards(noun: Shown) -> Iterator[Card]:
         if isinstance(part, Shown):
             title = f"{name}: {_name_of(part)}" if _name_of(part) not in name else name
             yield Card(_sentence_case(title), _rows(part), _drawings(part))
+
+
+def _card(noun: Shown) -> Card:
+    return Card(_sentence_case(_name_of(noun)), _rows(noun), _drawings(noun))
+
+
+def _material_card(card: MaterialCard) -> Card:
+    rows = [("note", note) for note in card.notes]
+    return Card(f"Material card: {card.name}", rows)
+
+
+def _found(noun: Shown) -> Iterator[Shown]:
+    """What measurements and files hold that can be used: laws, materials, shift rules."""
+    if isinstance(noun, Fit):
+        yield noun.law
+    elif isinstance(noun, IndentationFit):
+        yield noun.material
+    elif isinstance(noun, MaterialCard):
+        yield from (part for part in (noun.material, noun.shift) if part is not None)
+
+
+#: Nouns that hold numbers by the thousand, which no table of arguments tells.
+_MEASURED: dict[type[Shown], Callable[[Any], Card]] = {
+    Surface: surface_card,
+    IndentationRecord: record_card,
+    Fit: fit_card,
+    IndentationFit: indentation_fit_card,
+    Isotherm: isotherm_card,
+    MasterCurve: master_curve_card,
+    MaterialCard: _material_card,
+}
 
 
 def _name_of(noun: Shown) -> str:

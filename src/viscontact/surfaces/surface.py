@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.readable import in_words
 from viscontact.real import as_real
+from viscontact.shown import Shown
 
 Array = NDArray[np.float64]
 
@@ -18,7 +19,7 @@ _LARGEST = 1e6
 
 
 @dataclass(frozen=True, eq=False, init=False)
-class Surface:
+class Surface(Shown):
     """Heights on an even mesh, as measured with the surface facing the instrument.
 
     Parameters

@@ -1,0 +1,141 @@
+"""A measured surface as a card: its heights as a small map, a section, and what is known of it."""
+
+from __future__ import annotations
+
+import math
+from xml.etree.ElementTree import Element
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.markup import element
+from viscontact.notebook.card import Card
+from viscontact.notebook.panel import BLUE, WIDTH, Mark, panel
+from viscontact.notebook.scales import linear
+from viscontact.surfaces import Surface
+from viscontact.units import in_digits, in_percent, in_words
+
+Floats = NDArray[np.float64]
+
+#: The map's room, and the least side of what is drawn in one tone [px].
+_ROOM, _LEAST = (206.0, 120.0), 5.0
+#: From low to high; what is not known stays empty.
+_TONES = (0.12, 0.3, 0.5, 0.7, 0.95)
+#: Of a section so many points are drawn.
+_POINTS = 240
+
+
+def surface_card(surface: Surface) -> Card:
+    """Make the card of a measured surface.
+
+    Parameters
+    ----------
+    surface : Surface
+        The surface.
+
+    Examples
+    --------
+    >>> print(surface_card(Surface([[0.0, 1e-6], [2e-6, 1e-6]], 1e-5, name="mine.npz")).text())
+    Surface: mine.npz
+      points        2 × 2
+      size          20 µm × 20 µm
+      spacing       10 µm × 10 µm
+      rms height    707.1 nm
+      height range  2 µm
+      rms slope     0.1732
+      skewness      0
+    """
+    rows = [
+        ("points", " × ".join(map(str, surface.shape))),
+        ("size", " × ".join(in_words(extent, "m") for extent in surface.size)),
+        ("spacing", " × ".join(in_words(step, "m") for step in surface.spacing)),
+        ("rms height", in_words(surface.rms_height, "m")),
+        ("height range", in_words(surface.height_range, "m")),
+        ("rms slope", in_digits(surface.rms_slope)),
+        ("skewness", in_digits(surface.skewness, 2)),
+    ]
+    if surface.periodic:
+        rows.append(("periodic", "yes"))
+    if surface.missing_share > 0:
+        rows.append(("not measured", f"{in_percent(surface.missing_share)} of the points"))
+    return Card(f"Surface: {surface.name}", rows, [_map(surface), *_section(surface)])
+
+
+def _map(surface: Surface) -> Element:
+    """Heights in tones, in true proportions; x to the right, y upwards."""
+    scale = min(room / extent for room, extent in zip(_ROOM, surface.size, strict=True))
+    width, height = (max(scale * extent, _LEAST) for extent in surface.size)
+    counts = [
+        max(1, min(points, int(side / _LEAST)))
+        for points, side in zip(surface.shape, (width, height), strict=True)
+    ]
+    tones = _tones(_means(surface.heights, counts))
+    across, up = width / counts[0], height / counts[1]
+    drawn = [
+        element(
+            "path",
+            d=_strokes(tones == tone, across, up, height),
+            stroke=BLUE,
+            stroke_opacity=f"{opacity:g}",
+            stroke_width=f"{up + 0.1:.2f}",
+        )
+        for tone, opacity in enumerate(_TONES)
+    ]
+    return element(
+        "svg",
+        element("text", "heights", x="6", y="13", font_weight="600"),
+        element("text", "blue: high", x="210", y="13", text_anchor="end", fill_opacity="0.65"),
+        *drawn,
+        viewBox=f"0 0 {WIDTH} {height + 30:.0f}",
+        width=str(WIDTH),
+        height=f"{height + 30:.0f}",
+        role="img",
+        aria_label="map of the heights",
+        style="font:11px system-ui,sans-serif;max-width:100%",
+        fill="currentColor",
+    )
+
+
+def _means(heights: Floats, counts: list[int]) -> Floats:
+    """Means of the known heights over so many parts along x and y; NaN where there is none."""
+    known = np.isfinite(heights)
+    sums, numbers = np.where(known, heights, 0.0), known.astype(np.float64)
+    for axis, count in enumerate(counts):
+        begins = np.arange(count) * heights.shape[axis] // count
+        sums = np.add.reduceat(sums, begins, axis=axis)
+        numbers = np.add.reduceat(numbers, begins, axis=axis)
+    means = np.divide(sums, numbers, out=np.full(sums.shape, np.nan), where=numbers > 0)
+    return np.asarray(means, dtype=np.float64)
+
+
+def _tones(means: Floats) -> NDArray[np.int_]:
+    """Which of the tones each part has: as many of each; -1 where nothing is known."""
+    known = means[np.isfinite(means)]
+    limits = np.quantile(known, np.linspace(0, 1, len(_TONES) + 1)[1:-1])
+    return np.where(np.isfinite(means), np.searchsorted(limits, means), -1)
+
+
+def _strokes(where: NDArray[np.bool_], across: float, up: float, height: float) -> str:
+    """A horizontal stroke for each run of parts in a row."""
+    path = []
+    for row in range(where.shape[1]):
+        edges = np.flatnonzero(np.diff(where[:, row].astype(int), prepend=0, append=0))
+        at = 22 + height - (row + 0.5) * up
+        for first, last in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True):
+            path.append(f"M{7 + first * across:.1f},{at:.1f}h{(last - first) * across:.1f}")
+    return "".join(path)
+
+
+def _section(surface: Surface) -> list[Element]:
+    """Heights along x through the highest point, from the lowest of the section on."""
+    highest = int(np.nanargmax(surface.heights))
+    line = surface.heights[:, highest % surface.shape[1]]
+    known = np.isfinite(line)
+    if np.count_nonzero(known) < 2 or not np.ptp(line[known]) > 0:
+        return []
+    every = math.ceil(line.size / _POINTS)
+    low, span = float(line[known].min()), float(np.ptp(line[known]))
+    x = linear("x", "m", float(surface.x[0]), float(surface.x[-1]))
+    y = linear("height", "m", -0.06 * span, 1.1 * span, 3)
+    mark = Mark(surface.x[::every], line[::every] - low)
+    return [panel("along x", x, y, [mark], aside="through the highest")]
