@@ -78,8 +78,8 @@ def compare(
         str,
         typer.Option(
             "--figure",
-            help="history, hysteresis, contact-outline, pressure-profile, pressure-map, or "
-            "pressure-3d.",
+            help="history, hysteresis, contact-outline, pressure-profile, pressure-map, "
+            "pressure-3d, creep, or von-mises.",
         ),
     ] = "history",
     times: Instants = None,

@@ -109,7 +109,8 @@ def draw_comparison(
         runs = [stack.enter_context(opened(directory)) for directory in directories]
         labelled = dict(zip(_labels(directories), runs, strict=True))
         for directory, (label, ds) in zip(directories, labelled.items(), strict=True):
-            _refuse_outside(instants, ds, directory)
+            if figure != "creep":  # the law goes on after the run
+                _refuse_outside(instants, ds, directory)
             notes = (early_end(ds), _snapped(instants, ds, figure))
             _note(*(f"{label}: {note}" for note in notes if note))
         save(plot, file, draw_it, labelled, times=instants, **chosen)

@@ -17,7 +17,7 @@ except ModuleNotFoundError as error:
 
 from viscontact.plot.contact_area import contact_area
 from viscontact.plot.contact_outline import compare_contact_outlines, contact_outline
-from viscontact.plot.creep import creep, creep_curve
+from viscontact.plot.creep import compare_creep, creep, creep_curve
 from viscontact.plot.deformed_surface import deformed_surface
 from viscontact.plot.exact import exact
 from viscontact.plot.film import Film, animation
@@ -35,7 +35,8 @@ from viscontact.plot.pressure_radial import pressure_radial
 from viscontact.plot.pressure_surface import compare_pressure_surfaces, pressure_surface
 from viscontact.plot.result_plots import ResultPlots
 from viscontact.plot.saving import FIGURE_SUFFIXES, require_suffix, save_figure
-from viscontact.plot.stress_section import stress_section, von_mises_history
+from viscontact.plot.stress_section import stress_section
+from viscontact.plot.von_mises import compare_von_mises, von_mises_history
 
 FIGURES: dict[str, Callable[..., Figure]] = {
     "pressure-map": pressure_map,
@@ -62,6 +63,8 @@ COMPARISONS: dict[str, Callable[..., Figure]] = {
     "pressure-map": compare_pressure_maps,
     "pressure-3d": compare_pressure_surfaces,
     "contact-outline": compare_contact_outlines,
+    "creep": compare_creep,
+    "von-mises": compare_von_mises,
 }
 """Figures of several runs by name: ``COMPARISONS[name]({label: results, ...}, times=None)``."""
 
@@ -74,11 +77,13 @@ __all__ = [
     "ResultPlots",
     "animation",
     "compare_contact_outlines",
+    "compare_creep",
     "compare_histories",
     "compare_hysteresis",
     "compare_pressure_maps",
     "compare_pressure_profiles",
     "compare_pressure_surfaces",
+    "compare_von_mises",
     "contact_area",
     "contact_outline",
     "creep",

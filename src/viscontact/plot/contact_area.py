@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from viscontact.plot import style
 from viscontact.plot.error_band import band_key, draw_band, keep_curves_in_sight
-from viscontact.plot.page import NARROW, Width, page_width
+from viscontact.plot.page import Width, page_width
 from viscontact.plot.readable import display_unit
 from viscontact.plot.snapshots import Snapshot, field_times, snapshot_reader
 from viscontact.plot.span import within_span
@@ -94,8 +94,7 @@ def contact_area(
         style.add_legend(axes, handles, labels, loc="best")
     else:
         figure = style.figure_of(axes)
-        columns = 2 if figure.get_figwidth() > NARROW else 1
-        style.add_legend_below(figure, handles, labels, columns=columns)
+        style.add_legend_below(figure, handles, labels, columns=2)
     return style.figure_of(axes)
 
 

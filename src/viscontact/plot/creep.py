@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
@@ -42,14 +44,46 @@ def creep(
     ValueError
         If the result carries no case, or the span is empty.
     """
-    law = recorded_noun(results, "material", _NAME).law
-    span = np.atleast_1d(np.asarray(results["time"].values if times is None else times, float))
+    return compare_creep({"": results}, times=times, width=width)
+
+
+def compare_creep(
+    runs: Mapping[str, xr.Dataset], *, times: ArrayLike | None = None, width: Width | None = None
+) -> Figure:
+    """Overlay the creep compliances and relaxation moduli of the half-spaces of several runs.
+
+    Parameters
+    ----------
+    runs : mapping of str to xarray.Dataset
+        Results by the name to print.
+    times : array_like, optional
+        Draw the span between the least and the largest of these instants [s]; by default
+        that of the times simulated.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        As `creep_curve` draws it, one line a run. The modulus is left out if one of the laws has
+        no instant compliance.
+
+    Raises
+    ------
+    ValueError
+        If there are no runs, one carries no case, or the span is empty.
+    """
+    if not runs:
+        raise ValueError(f"{_NAME}: needs at least one run to compare, got none")
+    laws = {name: recorded_noun(run, "material", _NAME).law for name, run in runs.items()}
+    simulated = np.concatenate([run["time"].values for run in runs.values()])
+    span = np.atleast_1d(np.asarray(simulated if times is None else times, float))
     positive = span[span > 0]
     if positive.size == 0 or not np.all(np.isfinite(span)):
         raise ValueError(f"{_NAME}: times must be finite with one above 0 s, got {times!r}")
     # Four decades show how the law gets to where the run begins.
     first = min(float(positive.min()), float(positive.max()) / 1e4)
-    return creep_curve(law, np.geomspace(first, positive.max(), 300), width=width)
+    return _curves(laws, np.geomspace(first, positive.max(), 300), width)
 
 
 def creep_curve(law: Law, times: ArrayLike, *, width: Width | None = None) -> Figure:
@@ -89,18 +123,25 @@ def creep_curve(law: Law, times: ArrayLike, *, width: Width | None = None) -> Fi
         raise ValueError(
             f"{_NAME}: times must be at least two, above 0 s and increasing, got {times!r}"
         )
-    instant_compliance = float(law(0.0))
-    stiff_at_once = instant_compliance > 0
+    return _curves({"": law}, instants, width)
+
+
+def _curves(laws: Mapping[str, Law], times: NDArray[np.float64], width: Width | None) -> Figure:
+    compliances = [(law(times), float(law(0.0))) for law in laws.values()]
+    stiff_at_once = all(at_once > 0 for _, at_once in compliances)
     count = 2 if stiff_at_once else 1
     wide = page_width(width, style.TWO_COLUMNS if count == 2 else style.ONE_COLUMN)
     columns = 1 if wide <= NARROW else count
     rows = count // columns
     figure = style.new_figure(wide, 2.7 if rows == 1 else 2.4 * rows)
     panels = list(figure.subplots(rows, columns, squeeze=False).flat)
-    _draw(panels[0], "Creep compliance Φ", "1/Pa", instants, law(instants), instant_compliance)
+    _draw(panels[0], "Creep compliance Φ", "1/Pa", times, compliances)
     if stiff_at_once:
-        at_once = float(law.relaxation(0.0))
-        _draw(panels[1], "Relaxation modulus G", "Pa", instants, law.relaxation(instants), at_once)
+        moduli = [(law.relaxation(times), float(law.relaxation(0.0))) for law in laws.values()]
+        _draw(panels[1], "Relaxation modulus G", "Pa", times, moduli)
+    if len(laws) > 1:
+        lines = panels[0].get_lines()[: len(laws)]
+        style.add_legend_below(figure, lines, list(laws), columns=columns + 1)
     return figure
 
 
@@ -109,17 +150,29 @@ def _draw(
     quantity: str,
     si_unit: str,
     times: NDArray[np.float64],
-    values: NDArray[np.float64],
-    at_once: float,
+    curves: list[tuple[NDArray[np.float64], float]],
 ) -> None:
-    unit, time_unit = display_unit(si_unit, values, at_once), display_unit("s", times)
-    axes.semilogx(time_unit(times), unit(values), color=style.LINE, linewidth=style.LINE_WIDTH)
-    # The instant itself is not on a logarithmic axis.
-    axes.axhline(float(unit(at_once)), color=style.FAINT, linewidth=0.8, linestyle=(0, (4, 3)))
-    rises = values[-1] > at_once
+    """Curves, each with its value at time 0."""
+    everything = [each for values, at_once in curves for each in (values, at_once)]
+    unit, time_unit = display_unit(si_unit, *everything), display_unit("s", times)
+    looks = style.run_styles(len(curves))
+    for (values, _), look in zip(curves, looks, strict=True):
+        axes.semilogx(time_unit(times), unit(values), **look)
+    if len(curves) == 1:
+        _mark_beginning(axes, *(unit(each) for each in curves[0]))
+    axes.set(xlabel=time_unit.label("Time"), ylabel=unit.label(quantity))
+    axes.set_xlim(*time_unit([times[0], times[-1]]))
+    style.dress(axes)
+
+
+def _mark_beginning(axes: Axes, values: NDArray[np.float64], at_once: NDArray[np.float64]) -> None:
+    """The instant itself is not on a logarithmic axis."""
+    level = float(at_once)
+    axes.axhline(level, color=style.FAINT, linewidth=0.8, linestyle=(0, (4, 3)))
+    rises = values[-1] > level
     axes.annotate(
         "t = 0",
-        (1.0, float(unit(at_once))),
+        (1.0, level),
         xycoords=("axes fraction", "data"),
         xytext=(-2, 3 if rises else -3),
         textcoords="offset points",
@@ -128,6 +181,3 @@ def _draw(
         fontsize=style.TICK_SIZE,
         color=style.FAINT,
     )
-    axes.set(xlabel=time_unit.label("Time"), ylabel=unit.label(quantity))
-    axes.set_xlim(*time_unit([times[0], times[-1]]))
-    style.dress(axes)

@@ -130,5 +130,4 @@ def _add_key(
     handles = [panels[0].get_lines()[0], *below.get_lines()[: len(names)]]
     labels = [what_is_exact(results, theory.solution, _NAME)]
     labels += [f"{name.lower()}, computed" for name in names]
-    columns = 4 if figure.get_figwidth() > NARROW else 1
-    style.add_legend_below(figure, handles, labels, columns=columns)
+    style.add_legend_below(figure, handles, labels, columns=4)

@@ -225,7 +225,7 @@ def _add_key(figure: Figure, panels: list[Axes], names: list[str], bands: list[B
     figure.legend(
         *zip(*entries, strict=True),
         loc="outside upper center" if len(names) > 1 else "outside upper right",
-        ncols=min(len(entries), 4 if figure.get_figwidth() > NARROW else 2),
+        ncols=style.columns_that_fit(figure, [label for _, label in entries], 4),
         frameon=False,
         fontsize=style.TICK_SIZE,
         labelcolor=style.INK,

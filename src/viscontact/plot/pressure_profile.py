@@ -123,21 +123,17 @@ def compare_pressure_profiles(
     everything = [snapshot for snapshots in drawn.values() for snapshot in snapshots]
     length, pressure = _units(everything, along)
     for column, axes in enumerate(panels):
-        lines, labels = [], []
         at_instant = {name: snapshots[column] for name, snapshots in drawn.items()}
-        for (name, snapshot), look in zip(
-            at_instant.items(), style.run_styles(len(runs)), strict=True
-        ):
+        looks = style.run_styles(len(runs))
+        for snapshot, look in zip(at_instant.values(), looks, strict=True):
             positions, values = _in_contact(*_section(snapshot, along, at))
-            lines += axes.plot(length(positions), pressure(values), **look)
-            labels.append(name)
+            axes.plot(length(positions), pressure(values), **look)
         _frame(axes, everything, along, length, pressure)
         style.add_heading(axes, _instants_drawn(at_instant))
         style.add_heading(axes, peak_note(runs.values(), [instants[column]]), aside=True)
-        if column == 0:
-            style.add_legend(axes, lines, labels)
     for axes in panels[:-1]:
         axes.set_xlabel("")
+    style.add_legend_below(figure, panels[0].get_lines(), list(runs))
     return figure
 
 

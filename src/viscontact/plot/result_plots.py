@@ -25,7 +25,8 @@ from viscontact.plot.pressure_map import pressure_map
 from viscontact.plot.pressure_profile import pressure_profile
 from viscontact.plot.pressure_radial import pressure_radial
 from viscontact.plot.pressure_surface import pressure_surface
-from viscontact.plot.stress_section import stress_section, von_mises_history
+from viscontact.plot.stress_section import stress_section
+from viscontact.plot.von_mises import von_mises_history
 
 #: One panel, or those of a figure in reading order.
 Panels = Axes | NDArray[np.object_]

@@ -1,4 +1,4 @@
-"""Von Mises stress below the contact: on a section, and its largest value over time."""
+"""Von Mises stress below the contact, on a section."""
 
 from __future__ import annotations
 
@@ -19,21 +19,18 @@ from viscontact.plot.contour_labels import label_contours
 from viscontact.plot.error_band import peak_note
 from viscontact.plot.page import Width, page_width
 from viscontact.plot.readable import DisplayUnit, display_unit, time_labels
-from viscontact.plot.snapshots import Snapshot, field_times, take_snapshots
-from viscontact.plot.time_axis import scale_time
+from viscontact.plot.snapshots import Snapshot, take_snapshots
 from viscontact.stresses import recorded_grid, recorded_poisson_ratio
 from viscontact.subsurface import stress_on_section
 from viscontact.units import in_words
 
-_SECTION, _HISTORY = "stress-section", "von-mises"
+_NAME = "stress-section"
 
 #: The section is drawn to so many half widths of the contact, in depth and to each side.
 _DEEP, _ASIDE = 2.0, 2.0
 _DEPTHS = 61
 #: A section that is as deep as wide, because the grid ends beside the contact, is so high [inch].
 _HIGHEST = 2.2
-#: More instants than this make a line of their markers.
-_MARKED = 40
 # Pressures within so much of each other are equal to what runs are solved to.
 _EQUAL = 1e-5
 
@@ -105,8 +102,8 @@ def stress_section(
         If no fields are stored, the bodies do not touch, or Poisson's ratio is not known.
     """
     ratio = recorded_poisson_ratio(results)
-    snapshots = take_snapshots(results, times, _SECTION, count=2)
-    sections = _sections(snapshots, recorded_grid(results), ratio)
+    snapshots = take_snapshots(results, times, _NAME, count=2)
+    sections = stress_sections(snapshots, recorded_grid(results), ratio)
     length = display_unit("m", *(section.half_width * _ASIDE for section in sections))
     stress = display_unit("Pa", max(section.largest[0] for section in sections))
     levels = _levels(sections, stress)
@@ -134,64 +131,8 @@ def stress_section(
     return figure
 
 
-def von_mises_history(
-    results: xr.Dataset, *, times: ArrayLike | None = None, width: Width | None = None
-) -> Figure:
-    """Draw the largest von Mises stress and its depth over time.
-
-    Parameters
-    ----------
-    results : xarray.Dataset
-        What ``simulate`` or ``open_results`` returned, with fields stored.
-    times : array_like, optional
-        Instants [s]; by default all that are stored.
-    width : {"single", "double"} or float, optional
-        One or two columns of a journal (89 and 183 mm), or a width [m].
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The largest stress on planes across the contact through its largest pressure, above its
-        depth.
-
-    Raises
-    ------
-    ValueError
-        As in `stress_section`.
-    """
-    ratio = recorded_poisson_ratio(results)
-    chosen = field_times(results, _HISTORY) if times is None else times
-    snapshots = take_snapshots(results, chosen, _HISTORY)
-    sections = _sections(snapshots, recorded_grid(results), ratio)
-    instants = np.array([section.time for section in sections])
-    largest, depths, _ = np.array([section.largest for section in sections]).T
-    time = display_unit("s", instants)
-    figure = style.new_figure(page_width(width, style.ONE_COLUMN), 3.6)
-    panels = figure.subplots(2, 1, sharex=True)
-    curves = ((largest, "Pa", "Von Mises stress"), (depths, "m", "Depth"))
-    look: dict[str, Any] = {"color": style.LINE, "linewidth": style.LINE_WIDTH}
-    if instants.size <= _MARKED:
-        look |= {"marker": "o", "markersize": 3.5}
-    for axes, (values, si_unit, name) in zip(panels, curves, strict=True):
-        unit = display_unit(si_unit, values)
-        axes.plot(time(instants), unit(values), clip_on=False, zorder=3, **look)
-        axes.set_ylabel(unit.label(name))
-        axes.set_ylim(0.0, 1.1 * float(unit(values.max())) or 1.0)
-        style.dress(axes)
-    panels[-1].tick_params(labelbottom=True)
-    scale_time(list(panels), {"": _scalars_at(results, instants)}, time)
-    style.add_heading(panels[0], "largest below the contact")
-    style.add_heading(panels[1], "where it is the largest")
-    style.add_heading(panels[0], peak_note([results], instants), aside=True)
-    return figure
-
-
-def _scalars_at(results: xr.Dataset, instants: NDArray[np.float64]) -> xr.Dataset:
-    """What chooses a time axis, at the instants that are drawn on it."""
-    return results[["force", "approach"]].sel(time=instants, method="nearest")
-
-
-def _sections(snapshots: list[Snapshot], grid: Grid, poisson_ratio: float) -> list[Section]:
+def stress_sections(snapshots: list[Snapshot], grid: Grid, poisson_ratio: float) -> list[Section]:
+    """Return the sections at those of the instants at which the bodies touch."""
     touching = [snapshot for snapshot in snapshots if snapshot.touching]
     half_width = max(_half_width(snapshot) for snapshot in touching)
     return [_section(snapshot, grid, half_width, poisson_ratio) for snapshot in touching]

@@ -24,6 +24,8 @@ LABEL_SIZE = 9.0
 TICK_SIZE = 8.0
 LINE_WIDTH = 1.4
 THIN_LINE = 0.6
+# Widths of a letter of a legend in the mean, and of the key before its text [inch].
+_LETTER, _KEY = 0.062, 0.5
 INK = "#262626"
 FAINT = "#7a7a7a"
 LINE = "#0072B2"
@@ -72,18 +74,24 @@ def add_legend(axes: Axes, handles: Sequence[Artist], labels: Sequence[str], **h
 def add_legend_below(
     figure: Figure, handles: Sequence[Artist], labels: Sequence[str], *, columns: int = 3
 ) -> None:
-    """Add the same legend below all panels, for a figure that has no room beside them."""
+    """Add the same legend below all panels, in so many columns at most as there is room for."""
     figure.legend(
         handles,
         labels,
         loc="outside lower center",
-        ncols=columns,
+        ncols=columns_that_fit(figure, labels, columns),
         fontsize=TICK_SIZE,
         frameon=False,
         handlelength=1.6,
         columnspacing=1.2,
         labelcolor=INK,
     )
+
+
+def columns_that_fit(figure: Figure, labels: Sequence[str], most: int) -> int:
+    """How many columns of a legend a page has room for, with the widest label in each."""
+    each = _KEY + _LETTER * max(map(len, labels))
+    return max(1, min(most, len(labels), int(figure.get_figwidth() / each)))
 
 
 def add_heading(axes: Axes, text: str, *, aside: bool = False) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 import xarray as xr
@@ -16,19 +16,40 @@ from viscontact.plot.readable import DisplayUnit
 #: A change by less than this part is rounding; a load that is held from this part of the time on
 #: leaves the rest to creep, which is even in log time.
 _STEADY, _SOON = 1e-5, 0.05
+#: An axis with less than one decade has no tick labels to speak of.
+_DECADE = 10.0
 #: Length of a logarithmic time axis before the first step, against the rest of it.
 BEFORE_FIRST = 0.2
 
 
-def scale_time(panels: list[Axes], runs: Mapping[str, xr.Dataset], time_unit: DisplayUnit) -> None:
-    """Scale and name the time axes of panels, logarithmic where all runs suit that."""
-    instants = [time_unit(run["time"].values) for run in runs.values()]
-    on_log = all(map(suits_log_time, runs.values()))
+def scale_time(
+    panels: list[Axes],
+    runs: Mapping[str, xr.Dataset],
+    time_unit: DisplayUnit,
+    drawn: Iterable[NDArray[np.float64]] | None = None,
+) -> None:
+    """Scale and name the time axes of panels, logarithmic where all runs suit that.
+
+    Parameters
+    ----------
+    panels : list of matplotlib.axes.Axes
+        To be scaled.
+    runs : mapping of str to xarray.Dataset
+        The runs, which choose the scale.
+    time_unit : DisplayUnit
+        Of the axes.
+    drawn : iterable of ndarray, optional
+        Instants that are drawn of each run, if they are not all of its own [s].
+    """
+    shown = [run["time"].values for run in runs.values()] if drawn is None else drawn
+    instants = [time_unit(each) for each in shown]
     start = min(float(instant[0]) for instant in instants)
     end = max(float(instant[-1]) for instant in instants)
+    first = min((float(t) for instant in instants for t in instant if t > 0), default=end)
+    # A few instants of a long run may lie close together.
+    on_log = all(map(suits_log_time, runs.values())) and end >= _DECADE * first
     for axes in panels:
         if on_log:
-            first = min(float(instant[instant > 0][0]) for instant in instants)
             _set_log_time(axes, first, end)
         if end > start:
             axes.set_xlim(start, end)
