@@ -93,6 +93,10 @@ def test_a_case_is_changed_and_answered_in_seconds(page: Any, server: seen.Serve
 def test_another_shape_can_be_run_at_once(page: Any, server: seen.Server) -> None:
     """The page begins with a roller, on whose grid a ball's contact would not lie."""
     seen.visit(page, server)
+    # A punch is round or rectangular: of the roller's radius and length it takes the first.
+    page.select_option('[id="field-indenter.shape"]', "flat-punch")
+    seen.until_checked(page)
+    assert page.is_hidden("#to-problem")
     page.select_option('[id="field-indenter.shape"]', "sphere")
     seen.type_into(page, "indenter.radius", "20 mm")
     seen.run(page, "#coarse")

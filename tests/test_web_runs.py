@@ -127,7 +127,7 @@ def test_a_run_is_cancelled_and_goes_on_to_the_same_numbers(
     assert told["resumable"]
     assert 3 < told["step"] < 400
     assert told["message"].startswith(f"cancelled after step {told['step']} of 400, at t = ")
-    assert told["message"].endswith("; it is kept")
+    assert told["message"].endswith("; what it has computed is kept")
     kept = client.get(f"/api/runs/{run}/history.csv").text
     assert len(kept.splitlines()) == told["step"] + 2
 
@@ -171,7 +171,8 @@ def test_runs_whose_cases_have_one_title_are_told_apart(tmp_path: Path) -> None:
         other = stronger.replace("steps: 4", "steps: 5").replace("10 mm", "9 mm")
         nameless = CASE.replace("title: Zener sphere\n", "")
         asked = [(LONG_CASE, "full"), (CASE, "coarse"), (stronger, "full"), (stronger, "full")]
-        asked += [(other, "coarse"), (nameless, "full")]
+        finer = LONG_CASE.replace("shape: [24, 24]", "shape: [32, 24]")
+        asked += [(other, "coarse"), (finer, "full"), (nameless, "full")]
         runs = [begun(client, *each) for each in asked]
         told = [status(client, run)["label"] for run in runs]
         assert told == [
@@ -180,6 +181,7 @@ def test_runs_whose_cases_have_one_title_are_told_apart(tmp_path: Path) -> None:
             "Zener sphere, force 8.5 N, steps 4 and 1 more",
             "Zener sphere, force 8.5 N, steps 4 and 1 more (2)",
             "Zener sphere, radius 9 mm, force 8.5 N and 2 more",
+            "Zener sphere, cells 32 × 24",
             "Sphere, radius 10 mm, on Zener 10 MPa, 4 N",
         ]
         files = [client.get(f"/api/runs/{run}/case.yaml").headers for run in runs]

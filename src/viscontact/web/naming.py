@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterator, Mapping
 from itertools import count
 from typing import Any
 
-from viscontact.recording.differences import NOTHING, Difference, differences
+from viscontact.recording.differences import differences
 
 #: What a shape, and a law, is known by: the first of these that it has.
 _SIZES = ("radius", "radius_x", "half_angle", "semi_axis_x", "ring_radius", "amplitude", "file")
@@ -15,6 +15,9 @@ _MODULI = ("shear_modulus", "youngs_modulus", "file")
 #: What the load may be given by.
 _LEVELS = ("force", "approach", "mean_pressure", "mean")
 _PROPER = ("zener", "maxwell", "burgers")
+_SECTIONS = ("indenter", "indenter_material", "material", "load", "time")
+#: Keys that mean something else in another section.
+_KEYS = {"grid.shape": "cells", "grid.size": "extents", "time.end": "until"}
 #: Longer values name nothing; so many differences tell two cases apart.
 _LONGEST, _MOST = 24, 2
 
@@ -77,7 +80,10 @@ def label_of(title: str, case: Any, first: Any, taken: Collection[str]) -> str:
     'Ball (2)'
     """
     changes = () if first is None else differences(first, case)
-    told = [_told(each) for each in changes if each.where != "title"]
+    # A list is one value; what is pressed, on what and how, says more than how it is computed.
+    places = dict.fromkeys(each.where.partition("[")[0] for each in changes)
+    places.pop("title", None)
+    told = [_told(place, case) for place in sorted(places, key=_rank)]
     more = [f"and {len(told) - _MOST} more"] if len(told) > _MOST else []
     label = " ".join([", ".join([title, *told[:_MOST]]), *more])
     numbered = (f"{label} ({number})" for number in count(2))
@@ -143,13 +149,20 @@ def _sizes(given: Mapping[Any, Any], keys: tuple[str, ...]) -> Iterator[tuple[st
     return ((key, text) for key in keys if (text := _text(given.get(key))))
 
 
-def _told(change: Difference) -> str:
+def _rank(place: str) -> int:
+    section = place.partition(".")[0]
+    return _SECTIONS.index(section) if section in _SECTIONS else len(_SECTIONS)
+
+
+def _told(place: str, case: Any) -> str:
     """A difference in a few words: the last key, and what is there now."""
-    key = _words(re.sub(r"(\[\d+\])+$", "", change.where).rpartition(".")[2])
-    if change.now is NOTHING:
+    key, now = _KEYS.get(place) or _words(place.rpartition(".")[2]), case
+    for step in place.split("."):
+        now = now.get(step) if isinstance(now, Mapping) else None
+    if now is None:
         return f"without {key}"
-    value = _text(change.now)
-    return f"{key} {value}" if value else f"other {key}"
+    value = _text(" × ".join(map(_text, now)) if isinstance(now, list) else now)
+    return f"{key} {value}" if value.strip("× ") else f"other {key}"
 
 
 def _text(value: Any) -> str:

@@ -23,6 +23,8 @@ from viscontact.web.problems import Problem, lines_of, problem_of
 from viscontact.web.work import Work
 
 _STAGES = {"waiting": "waiting", "running": "steps"}
+#: Of a run that was stopped.
+_ITS = "what it has computed is kept"
 #: Lines of the command line that say what to type, where the page has buttons.
 _COMMANDS = ("go on with:", "with that changed,", "once that is mended:", "interrupted")
 _WITHOUT_COMMAND = re.compile(r"^the run: (?=the run )|; [^;]*--overwrite[^;]*$")
@@ -151,9 +153,9 @@ def _kept(work: Work) -> str:
     if not course.instants:
         return "before its first step; there is nothing to show yet"
     if course.part >= 1:
-        return "after its last step; it is kept, without error bars"
+        return f"after its last step, before its error bars; {_ITS}"
     of = "" if asked.instants is None else f" of {asked.instants - 1}"
-    return f"after step {course.instants - 1}{of}, at t = {in_words(course.time, 's')}; it is kept"
+    return f"after step {course.instants - 1}{of}, at t = {in_words(course.time, 's')}; {_ITS}"
 
 
 def _scalars(line: Mapping[str, Any], names: Collection[str]) -> dict[str, Any]:

@@ -31,6 +31,10 @@ export const INSTEAD = {
   poisson_ratio: ["bulk_modulus"], points: ["file", "sentences", "mean_pressure"], wavelength_x: ["wavelength_y"],
 };
 
+// What another shape had under these keys is left behind where the other key comes along: a punch is
+// round or rectangular.
+export const APART = { half_length: ["radius"], half_width: ["radius"] };
+
 // Paths of files, which may be uploaded.
 export const FILES = new Set(["file"]);
 

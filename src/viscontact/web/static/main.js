@@ -84,6 +84,13 @@ async function begin(quality) {
   }
 }
 
+// On a narrow page the buttons stay in sight anyway.
+function bringIntoSight() {
+  const top = place("results").getBoundingClientRect().top;
+  if (narrow.matches) place("results").scrollIntoView();
+  else if (top > 0.4 * window.innerHeight) place("answer").scrollIntoView({ behavior: "smooth", block: "start" });
+}
+
 function setUpCase() {
   const select = place("examples");
   select.append(...examples.map(({ name, title }) => make("option", { value: name, textContent: title })));
@@ -166,7 +173,7 @@ function setUpRuns() {
   runs.addEventListener("shown", () => {
     newRunShown();
     redraw();
-    if (arriving && state.shown?.id === state.active?.id && narrow.matches) place("results").scrollIntoView();
+    if (arriving && state.shown?.id === state.active?.id) bringIntoSight();
     arriving = false;
   });
   runs.addEventListener("reference", redraw);

@@ -49,9 +49,18 @@ function notes(status, data) {
   // Of one that was stopped early the notices tell where it ended.
   const said = [status.quality === "coarse" && note(COARSE), status.state === "failed" && note(status.message)];
   said.push(...data.notices.map((text) => note(text, "warm")));
-  if (data.warnings.length) said.push(make("div", { class: "note warm" },
-    make("p", { textContent: "This run warns:" }), make("ul", {}, items(data.warnings))));
+  if (data.warnings.length) said.push(warned(data.warnings));
   return said.filter(Boolean);
+}
+
+// Many would hide the answer; the first few stand there, the others unfold.
+const FEW = 3;
+function warned(warnings) {
+  const count = warnings.length > FEW + 1 ? FEW : warnings.length, rest = warnings.slice(count);
+  return make("div", { class: "note warm" },
+    make("p", { textContent: "This run warns:" }), make("ul", {}, items(warnings.slice(0, count))),
+    rest.length > 0 && make("details", {},
+      make("summary", { textContent: `${rest.length} more warnings` }), make("ul", {}, items(rest))));
 }
 
 // The end of the run, or where the contact was largest, if it is lost by then.

@@ -1,6 +1,6 @@
 // What a part of the JSON Schema asks for, as one of a few kinds that the form can draw.
 
-import { FILLED, FIRST, INSTEAD } from "./hints.js";
+import { APART, FILLED, FIRST, INSTEAD } from "./hints.js";
 
 let root = { properties: {}, $defs: {} };
 
@@ -127,7 +127,8 @@ function startOfGroup(node, before) {
   const values = {};
   for (const { key, node: asked, required } of keysOf(node)) {
     const old = before[key];
-    if (old !== undefined && fits(asked, old)) values[key] = old;
+    const isApart = !required && (APART[key] ?? []).some((other) => other in values);
+    if (old !== undefined && fits(asked, old) && !isApart) values[key] = old;
     else if (required) values[key] = startOf(asked);
     else if (key in FILLED && !stoodFor(key, node, before)) values[key] = FILLED[key] ?? startOf(asked);
   }
