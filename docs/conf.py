@@ -67,6 +67,8 @@ add_module_names = False
 sphinx_gallery_conf = {
     "examples_dirs": "gallery",
     "gallery_dirs": "examples",
+    "backreferences_dir": "reference/generated/examples",  # which examples use a name
+    "doc_module": ("viscontact",),
     "filename_pattern": r"\.py$",
     "image_scrapers": ("gallery_figures.pictures",),
     "reset_modules": ("gallery_figures.dressed",),
