@@ -91,7 +91,7 @@ def test_force_is_compared_where_the_approach_is_given() -> None:
     run["force"][:] = 4 / 3 * MODULUS * np.sqrt(RADIUS) * depth**1.5
     theory, ours = lines(run, 1)
     np.testing.assert_allclose(theory, ours, rtol=1e-5, atol=1e-9)
-    assert legend(run)[2] == "force, computed"
+    assert legend(run)[2] == "force"
 
 
 def test_what_has_no_exact_solution_is_refused_with_another_figure() -> None:

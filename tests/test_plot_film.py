@@ -101,6 +101,7 @@ def test_a_gif_has_the_length_asked_for_and_a_frame_for_each_instant(
             durations.append(read.info["duration"])
         assert read.info["loop"] == 0
         assert read.size[0] == 720
+        assert read.convert("RGB").getpixel((1, 1)) == (255, 255, 255)
     assert sum(durations) == pytest.approx(1000 * 22 / 7.0, abs=10)
     assert seen[-1] == (22, 22)
     assert [done for done, _ in seen] == sorted(done for done, _ in seen)

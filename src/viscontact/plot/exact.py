@@ -129,5 +129,7 @@ def _add_key(
     """Tell markers from lines, and the three differences by their markers."""
     handles = [panels[0].get_lines()[0], *below.get_lines()[: len(names)]]
     labels = [what_is_exact(results, theory.solution, _NAME)]
-    labels += [f"{name.lower()}, computed" for name in names]
+    labels += [name.lower() for name in names]
+    style.add_heading(panels[0], "markers: computed", aside=True)
+    style.add_heading(below, "computed less exact", aside=True)
     style.add_legend_below(figure, handles, labels, columns=4)

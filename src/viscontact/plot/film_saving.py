@@ -30,6 +30,8 @@ _DOTS = {".gif": 100, ".mp4": 150}
 #: GIF counts time in hundredths of a second.
 _TICKS = 100
 _COLOURS = 128
+# From here on a colour is the page's.
+_WHITE = 248
 
 #: Frames done, and how many there are.
 Progress = Callable[[int, int], None]
@@ -104,7 +106,12 @@ def _write_gif(film: Film, path: Path, pictures: Iterator[tuple[Picture, int]]) 
 def _palette(pictures: list[Picture]) -> Image.Image:
     """Colours for all frames: with one palette, what stays the same is not stored again."""
     chosen = pictures[:: max(1, len(pictures) // 6)]
-    return Image.fromarray(np.concatenate(chosen)).quantize(_COLOURS)
+    palette = Image.fromarray(np.concatenate(chosen)).quantize(_COLOURS)
+    colours = np.reshape(palette.getpalette() or [], (-1, 3))
+    # The page is white, not the mean of white and the rims of letters.
+    colours[colours.min(axis=1) >= _WHITE] = 255
+    palette.putpalette(colours.ravel().tolist())
+    return palette
 
 
 def _write_mp4(film: Film, path: Path, pictures: Iterator[tuple[Picture, int]]) -> None:
