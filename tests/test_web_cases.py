@@ -12,7 +12,10 @@ from fastapi.testclient import TestClient
 
 import viscontact as vc
 from calculator_page import CASE, as_printed, asking
+from viscontact.case import Case
 from viscontact.cli import main
+from viscontact.preparation import Prepared, prepared
+from viscontact.web import desk
 
 
 @pytest.fixture(scope="module")
@@ -257,6 +260,34 @@ def test_drawings_come_in_ink_for_light_and_for_dark_ground(client: TestClient) 
     answer = client.post("/api/drawing", json={"yaml": CASE, "what": "indenter_material"})
     assert answer.status_code == 422
     assert "rigid" in answer.json()["problems"][0]["message"]
+
+
+def test_an_automatic_grid_is_found_once_for_a_check_and_a_drawing(
+    client: TestClient, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    found: list[str] = []
+
+    def counted(case: Case) -> Prepared:
+        found.append(case.title)
+        return prepared(case)
+
+    monkeypatch.setattr(desk, "prepared", counted)
+    first, second = (CASE.replace("Zener sphere", name) for name in ("first", "second"))
+    assert client.post("/api/check", json={"yaml": first}).status_code == 200
+    wish = {"yaml": first, "what": "indenter"}
+    assert client.post("/api/drawing", json=wish).status_code == 200
+    for text in (second, second, first):
+        assert client.post("/api/check", json={"yaml": text}).status_code == 200
+    assert found == ["first", "second", "first"]
+    # A file may be another one the next time.
+    text = CASE.replace("kind: step\n  force: 4 N", "kind: history\n  file: load.csv")
+    for force in (4, 5):
+        content = f"time [s], force [N]\n0, 0\n1, {force}\n"
+        client.post("/api/files?name=load.csv", content=content.encode())
+        told = client.post("/api/check", json={"yaml": text}).json()
+        assert told["cells"] == [24, 24]
+    assert len(found) == 5
+    client.delete("/api/files/load.csv")
 
 
 def test_drawings_for_a_phone_stand_below_one_another(client: TestClient) -> None:

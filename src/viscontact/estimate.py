@@ -131,8 +131,9 @@ def estimate_contact(
         # A contact of a few cells says little about its size: do not trust it beyond a factor 4.
         size = size * np.clip(part / 0.68, 0.25, 2.0)
     raise ValueError(
-        "grid: no fitting grid was found for this load; the force may act outside what can "
-        "touch, or the contact runs on without end. Give a grid, or move the force in"
+        "grid: no fitting grid was found for this load; the force may be too large for so soft a "
+        "material, or act outside what can touch, or the contact runs on without end. Press less, "
+        "move the force in, or give a grid"
     )
 
 

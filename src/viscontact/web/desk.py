@@ -5,13 +5,14 @@ from __future__ import annotations
 import time as clock
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from viscontact.case import Case, CaseError, read_case_text
 from viscontact.case.document import document_of
 from viscontact.footprint import run_memory, step_count
+from viscontact.forecast import Forecast
 from viscontact.inspection import expectations, foreseen, needs, verdict, warnings_of
 from viscontact.preparation import Prepared, prepared
 from viscontact.web.asked import Asked
@@ -32,6 +33,35 @@ class Desk:
     """
 
     folder: Folder
+    _foreseen: dict[str, tuple[Prepared, Forecast]] = field(default_factory=dict, repr=False)
+
+    def foreseen(self, text: str) -> tuple[Prepared, Forecast]:
+        """Read a case, check it, and foresee its run.
+
+        What was asked for last is kept: a check, a drawing and a run of one case come after each
+        other, and an automatic grid is found once for all of them.
+
+        Parameters
+        ----------
+        text : str
+            The case.
+
+        Raises
+        ------
+        RequestError
+            With all that is wrong with it.
+        """
+        if text in self._foreseen:
+            return self._foreseen[text]
+        try:
+            whole = prepared(read_case_text(text, self.folder.case))
+            found = whole, foreseen(whole)
+        except CaseError as error:
+            raise case_problems(error, self.folder.case) from error
+        self._foreseen.clear()
+        if not whole.case.files:  # these may be replaced meanwhile
+            self._foreseen[text] = found
+        return found
 
     def values(self, text: str) -> Any:
         """Return the values of a case, as its text has them.
@@ -91,11 +121,11 @@ class Desk:
         RequestError
             With all that is wrong with it.
         """
+        whole, expected = self.foreseen(text)
+        if quality == "full":
+            return whole, ()
+        settings = coarse_settings(whole, expected)
         try:
-            whole = prepared(read_case_text(text, self.folder.case))
-            if quality == "full":
-                return whole, ()
-            settings = coarse_settings(whole, foreseen(whole))
             try:
                 return prepared(read_case_text(text, self.folder.case, settings)), settings
             except CaseError:  # such as waves that need their cells
@@ -119,11 +149,14 @@ class Desk:
         RequestError
             With all that is wrong with it.
         """
-        run, _ = self.prepared(text, quality)
-        try:
-            expected = foreseen(run)
-        except CaseError as error:
-            raise case_problems(error, self.folder.case) from error
+        if quality == "full":
+            run, expected = self.foreseen(text)
+        else:
+            run, _ = self.prepared(text, quality)
+            try:
+                expected = foreseen(run)
+            except CaseError as error:
+                raise case_problems(error, self.folder.case) from error
         first = without_folder(verdict(run, expected), self.folder.case.parent)
         doubts, rows = warnings_of(run, expected), needs(run, expected)
         title, found = expectations(run, expected)

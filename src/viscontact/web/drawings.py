@@ -6,11 +6,12 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from viscontact.case import Case, CaseError
-from viscontact.inspection import drawn_size, foreseen
+from viscontact.forecast import Forecast
+from viscontact.inspection import drawn_size
 from viscontact.material import Material
 from viscontact.plot import creep_curve, draw_indenter, draw_load
 from viscontact.plot.page import Width
-from viscontact.preparation import prepared
+from viscontact.preparation import Prepared
 from viscontact.stepping import AdaptiveTimes
 from viscontact.web.desk import Desk
 from viscontact.web.problems import RequestError, case_problems
@@ -46,7 +47,7 @@ def drawing(desk: Desk, text: str, what: str, width: Width | None = None) -> Fig
     case = desk.case(text)
     try:
         if what == "indenter":
-            return _indenter(case, width)
+            return _indenter(*desk.foreseen(text), width)
         if what == "load":
             return draw_load(case.load, _end(case))
         return _curves(_material(case, what), _end(case), width)
@@ -56,9 +57,8 @@ def drawing(desk: Desk, text: str, what: str, width: Width | None = None) -> Fig
         raise RequestError(422, f"the {what} cannot be drawn: {error}") from error
 
 
-def _indenter(case: Case, width: Width | None) -> Figure:
-    found = prepared(case)
-    estimate = foreseen(found).estimate
+def _indenter(found: Prepared, expected: Forecast, width: Width | None) -> Figure:
+    case, estimate = found.case, expected.estimate
     contact = None
     if estimate is not None:
         contact = (estimate.centre_x, estimate.centre_y, estimate.length, estimate.width)
