@@ -111,7 +111,9 @@ def _draw(snapshots: list[Snapshot], headings: list[str], note: str, width: Widt
         style.add_heading(axes, heading)
     style.add_heading(panels[0], "; ".join(filter(None, (window.note, note))), aside=True)
     _add_colour_bar(figure, panels, levels, unit, "max" if note else "neither")
-    figure.draw_without_rendering()  # Only now the room for labels is known.
+    figure.draw_without_rendering()  # Only now the room for texts is known.
+    style.settle_headings(figure)
+    figure.draw_without_rendering()
     for axes, snapshot, contours in zip(panels, snapshots, lines, strict=True):
         if contours is not None:
             _label_contours(axes, contours, snapshot, unit, window)

@@ -105,6 +105,34 @@ def add_heading(axes: Axes, text: str, *, aside: bool = False) -> None:
     )
 
 
+def settle_headings(figure: Figure) -> None:
+    """Put what is said aside above a heading that leaves no room for it, once the layout is known.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+        Laid out, its headings made by `add_heading`.
+
+    Examples
+    --------
+    >>> figure = new_figure(2.0, 2.0)
+    >>> axes = figure.subplots()
+    >>> add_heading(axes, "t = 1000 s")
+    >>> add_heading(axes, "peak depends on the mesh", aside=True)
+    >>> figure.draw_without_rendering()
+    >>> settle_headings(figure)
+    >>> axes.get_title(loc="left").splitlines(), axes.get_title(loc="right")
+    (['peak depends on the mesh', 't = 1000 s'], '')
+    """
+    for axes in figure.axes:
+        heading, aside = (axes.get_title(loc=side) for side in ("left", "right"))
+        room = axes.get_window_extent().width / figure.dpi
+        if heading and aside and _LETTER * (len(heading) + len(aside) + 2) > room:
+            # Not below it: there a neighbour's heading may stand.
+            add_heading(axes, f"{aside}\n{heading}")
+            add_heading(axes, "", aside=True)
+
+
 def figure_of(axes: Axes) -> Figure:
     """Return the figure that holds these axes."""
     figure = axes.get_figure(root=True)

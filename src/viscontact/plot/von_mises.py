@@ -101,6 +101,8 @@ def compare_von_mises(
     style.add_heading(panels[0], peak_note(runs.values(), shown), aside=True)
     if len(runs) > 1:
         style.add_legend_below(figure, panels[0].get_lines(), list(runs), columns=2)
+    figure.draw_without_rendering()
+    style.settle_headings(figure)
     return figure
 
 
