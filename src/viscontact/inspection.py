@@ -209,9 +209,10 @@ def warnings_of(prepared: Prepared, expected: Forecast) -> list[str]:
     doubts = []
     if not expected.fits:
         reach = " and ".join(in_words(far, "m", 3) for far in expected.estimate.reach)
+        ends = " and ".join(in_words(extent / 2, "m", 3) for extent in grid.size)
         doubts.append(
             f"the contact will probably overrun the grid: it reaches {reach} from the middle "
-            "along x and y; enlarge grid.size"
+            f"along x and y, and the grid {ends}; enlarge grid.size"
         )
     across = (expected.cells_along, expected.cells_across)
     # Where a contact goes on from period to period there is nothing that the cells lie across.

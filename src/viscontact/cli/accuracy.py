@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 import xarray as xr
@@ -74,14 +74,14 @@ def mesh_lines(ds: xr.Dataset, names: Iterable[str]) -> Iterator[str]:
         yield f"> {listed} {verb}: {WHY_MESH_DEPENDENT}"
 
 
-def unknown_lines(ds: xr.Dataset, names: Iterable[str]) -> Iterator[str]:
+def unknown_lines(ds: xr.Dataset, names: Sequence[str]) -> Iterator[str]:
     """Yield whose errors are not known everywhere.
 
     Parameters
     ----------
     ds : xarray.Dataset
         A result.
-    names : iterable of str
+    names : sequence of str
         The scalars that are printed.
 
     Yields
@@ -92,9 +92,28 @@ def unknown_lines(ds: xr.Dataset, names: Iterable[str]) -> Iterator[str]:
     count = ds.sizes["time"]
     found = {name: largest_error(ds, name) for name in names}
     places = {name: each.unknown for name, each in found.items() if each and each.unknown}
-    if places:
+    if not knows_errors(ds, names) and places:
+        done = ds.attrs.get("complete", 1)
+        yield "errors: not known" + (
+            "" if done else " yet; they are estimated once the run is over"
+        )
+    elif places:
         told = (f"{name.replace('_', ' ')} at {n} of {count}" for name, n in places.items())
         yield f"error not known: {', '.join(told)} instants"
+
+
+def knows_errors(ds: xr.Dataset, names: Iterable[str]) -> bool:
+    """Tell whether the error of any of these scalars is known at any instant.
+
+    Parameters
+    ----------
+    ds : xarray.Dataset
+        A result.
+    names : iterable of str
+        The scalars.
+    """
+    found = (largest_error(ds, name) for name in names)
+    return any(each is not None and not np.isnan(each.half_width) for each in found)
 
 
 def has_errors(ds: xr.Dataset) -> bool:

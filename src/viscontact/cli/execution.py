@@ -188,7 +188,7 @@ def _is_marched_to_the_end(attempt: Attempt, record: RunRecord) -> bool:
                 record.checkpoint()
                 return False
     if recorded.errors:
-        attempt.say("estimating errors from two coarser companions of the run")
+        attempt.say("estimating errors, from two coarser runs of the same case")
     record.finish(record.estimate_errors(partial(_stop_if_asked, attempt.interruption)))
     attempt.interruption.over = True
     return True

@@ -19,6 +19,7 @@ from rich.table import Table
 from viscontact.cli.accuracy import (
     accuracy_lines,
     has_errors,
+    knows_errors,
     mesh_lines,
     unknown_lines,
 )
@@ -110,7 +111,7 @@ def _footers(ds: xr.Dataset, shown: list[str], *, errors: bool) -> Iterator[str]
         first, last = (in_words(float(loss), "J") for loss in known[[0, -1]])
         several = f"{first} in the first cycle, {last} in the last"
         yield f"loss per cycle: {last if np.ptp(known) == 0 else several}{_loss_error(ds)}"
-    if any(largest_error(ds, name) for name in shown):
+    if knows_errors(ds, shown):
         said = "largest error: the worst of the run, in % of the largest value"
         yield f"{said}; ±: at that instant" if errors else f"{said}; --errors shows each one"
     yield from unknown_lines(ds, shown)
@@ -167,7 +168,7 @@ def _columns(
 
 
 def _table(ds: xr.Dataset, columns: list[_Column], *, narrow: bool) -> Table:
-    stated = any(column.foot for column in columns[1:])
+    stated = any(column.foot not in ("", in_error_digits(np.nan)) for column in columns[1:])
     # Narrow enough for nine columns on eighty characters.
     table = Table(
         box=SIMPLE if stated else SIMPLE_HEAD,

@@ -14,10 +14,9 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from viscontact.cli.accuracy import accuracy_lines, mesh_lines, unknown_lines
+from viscontact.cli.accuracy import accuracy_lines, knows_errors, mesh_lines, unknown_lines
 from viscontact.recording.recorded import PROGRESS_NAME
 from viscontact.results import RESULT_NAME, open_results
-from viscontact.stated_errors import largest_error
 from viscontact.summary import LEGEND, SummaryRow, summary_rows
 from viscontact.units import in_words
 
@@ -111,7 +110,7 @@ def _broken(cell: str) -> str:
 
 
 def _states_errors(ds: xr.Dataset, rows: list[SummaryRow]) -> bool:
-    return any(largest_error(ds, row.name) for row in rows)
+    return knows_errors(ds, [row.name for row in rows])
 
 
 def _aligned(cells: list[str]) -> list[str]:

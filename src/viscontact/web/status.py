@@ -143,7 +143,7 @@ def _message(work: Work, problems: Sequence[str]) -> str:
         "failed": problems[0] if problems else "the run stopped, and did not say why",
     }
     if work.is_estimating:
-        return "all steps are done; estimating errors from two coarser companions of the run"
+        return "all steps are done; estimating errors, from two coarser runs of the same case"
     return told[asked.state]
 
 
