@@ -488,7 +488,7 @@ def test_show_and_plot_tell_of_a_run_that_can_go_on(
         assert main(["show", "a b"]) == 0
         told = capsys.readouterr().out
         assert "the run is still going on, at 4 of 11 instants" in told
-        assert "errors: not known yet; they are estimated at the run's end" in told
+        assert "errors: not known yet; they are estimated once the run is over" in told
         assert "largest error" not in told
     assert main(command[1:]) == 0
     assert main(["show", "a b"]) == 0
