@@ -22,6 +22,7 @@ LOOKS = {
     "axes.spines.top": False,
     "axes.titlesize": 9,
     "legend.fontsize": 8,
+    "legend.title_fontsize": 8,
     "lines.linewidth": 1.4,
     "xtick.labelsize": 8,
     "xtick.major.width": 0.6,
