@@ -260,7 +260,8 @@ def test_a_reload_in_mid_run_finds_the_run_and_it_can_be_cancelled(
     seen.visit(page, server, LONG)
     page.click("#refine")
     page.wait_for_function(
-        "() => document.getElementById('progress-text').textContent.includes('step')"
+        "() => document.getElementById('progress-text').textContent.includes('step')",
+        timeout=60_000,
     )
     page.reload()
     seen.until_ready(page)
@@ -268,7 +269,7 @@ def test_a_reload_in_mid_run_finds_the_run_and_it_can_be_cancelled(
     # Area, approach and peak pressure grow, those of before the reload included.
     grown = """() => [...document.querySelectorAll("#growing polyline")].map(
       (each) => each.points.length)"""
-    page.wait_for_function(f"() => Math.min(...({grown})(), 3) > 2")
+    page.wait_for_function(f"() => Math.min(...({grown})(), 3) > 2", timeout=60_000)
     assert len(page.evaluate(grown)) == 3
     assert page.locator("#growing").inner_text().count("100 s") == 3
     assert page.is_visible("#cancel")
