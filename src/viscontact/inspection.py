@@ -124,7 +124,8 @@ def _grid_error(run: Run) -> list[tuple[str, str]]:
         for name, error in run.mesh.errors.items()
     ]
     # Broken here: a terminal would break between a number and its unit.
-    return [("grid error", "\n".join([", ".join(told), *_when_largest(run)]))]
+    when = ";\n".join(_when_largest(run))
+    return [("grid error", f"{', '.join(told)},\n{when}")]
 
 
 def _when_largest(run: Run) -> Iterator[str]:
@@ -140,7 +141,7 @@ def _when_largest(run: Run) -> Iterator[str]:
     comes = np.diff(is_largest.astype(int), prepend=0) > 0
     if math.isfinite(run.load.longest_step) or np.count_nonzero(comes) > 1:
         when = f" (first at t = {first})"
-    yield f"at the largest load{'' if is_largest.all() else when}, from the cells alone"
+    yield f"at the largest load{'' if is_largest.all() else when}"
     if not is_largest[instants > 0].all():
         yield "more at smaller loads, whose contact has fewer cells"
 
@@ -169,7 +170,7 @@ def expectations(prepared: Prepared, expected: Forecast) -> tuple[str, list[tupl
         What was foreseen of it.
     """
     found, control = expected.estimate, prepared.run.load.control
-    title = "What to expect, by a quick elastic estimate on few cells:"
+    title = "What to expect, by a quick elastic solve on few cells:"
     if found is None:
         return title, []
     # What is prescribed is known.
@@ -179,7 +180,7 @@ def expectations(prepared: Prepared, expected: Forecast) -> tuple[str, list[tupl
         else ("force", in_words(found.force, "N", 3))
     )
     return title, [
-        ("when", f"largest {control}, {expected.compliance}"),
+        ("estimate for", f"largest {control}, {expected.compliance}"),
         ("contact", f"{in_words(found.length, 'm', 3)} long, {in_words(found.width, 'm', 3)} wide"),
         ("cells in it", f"{expected.cells_along:.0f} along, {expected.cells_across:.0f} across"),
         ("peak pressure", _peak_told(expected, found)),
