@@ -1,9 +1,11 @@
 """Cost of the whole roller run, in reference convolutions, and beside the published algorithm.
 
 A reference convolution is one plain zero-padded scipy.fft rfft2, multiply, irfft2 on the same
-grid. One is timed after every step of the run, so that both see the same machine in the same
-mood; a second column takes the fastest of many in a row, which find their memory warm and are
-the hardest yardstick. Ratios travel from machine to machine; seconds do not.
+grid. Runs and references take turns, each in a process of its own: between the steps of a run a
+reference would empty the caches that the run has filled, and find memory that the run has left. A
+second column takes the fastest of many in a row after a run, which is the hardest yardstick: where
+the allocator has kept memory it takes a third of the time. Ratios travel from machine to machine;
+seconds do not.
 
 For the load at half the length, both libraries for transforms are compared with what is promised:
 convolutions at most, 2^18 cells against 2^16 in their own reference convolutions, and times as fast
@@ -27,7 +29,6 @@ from cases import Case, roller
 from published import estimate
 from scipy import fft
 
-import viscontact as vc
 from viscontact.marching import march_run
 from viscontact.run import prepare_run
 from viscontact.transforms import fastest_transforms
@@ -77,41 +78,46 @@ class Cost:
 
     @property
     def convolutions(self) -> float:
-        """Reference convolutions, timed between the run's steps, that the run comes to."""
+        """Reference convolutions that the run comes to."""
         return self.run / self.reference
 
 
-def cost_of_run(case: Case, tolerance: float, library: str) -> Cost:
-    convolve = reference_convolution(case.grid.shape)
-    convolve()
-    references, iterations = [], []
-
-    def observe(state: vc.ContactState, done: int, total: int) -> None:
-        iterations.append(state.iterations)
-        references.append(seconds_of(convolve))
+def cost_of_run(case: Case, tolerance: float, library: str) -> tuple[float, float, float]:
+    """CPU time [s] from the arguments to the last state, of a reference afterwards; iterations."""
+    iterations = []
 
     def run() -> None:
         given = (case.indenter, case.material, case.load, case.grid, case.times)
         prepared = replace(prepare_run(*given, tolerance=tolerance), transforms=library)
-        for _ in march_run(prepared, observe):
-            pass
+        iterations.extend(state.iterations for state in march_run(prepared))
 
-    seconds = seconds_of(run) - sum(references)
+    seconds = seconds_of(run)
+    convolve = reference_convolution(case.grid.shape)
     in_a_row = min(seconds_of(convolve) for _ in range(60))
-    return Cost(seconds, float(np.mean(references)), in_a_row, float(np.mean(iterations[1:])))
+    return seconds, in_a_row, float(np.mean(iterations[1:]))
+
+
+def cost_of_reference(cells: tuple[int, int]) -> float:
+    """CPU time [s] of one of many references, in a process that does nothing else."""
+    convolve = reference_convolution(cells)
+    return float(np.median([seconds_of(convolve) for _ in range(60)]))
 
 
 def least(case: Case, tolerance: float, library: str, repeat: int) -> Cost:
-    """Of several runs, the one that took the fewest reference convolutions."""
-    costs = [afresh(cost_of_run, case, tolerance, library) for _ in range(repeat)]
-    return min(costs, key=lambda cost: cost.convolutions)
+    """The least that a run and a reference took, each of several in turn."""
+    runs, references = [], []
+    for _ in range(repeat):
+        references.append(afresh(cost_of_reference, case.grid.shape))
+        runs.append(afresh(cost_of_run, case, tolerance, library))
+    seconds, in_a_row, iterations = (min(each) for each in zip(*runs, strict=True))
+    return Cost(seconds, min(references), in_a_row, iterations)
 
 
 def afresh(measure: Callable[..., Any], *arguments: Any) -> Any:
     """What a function returns in a process of its own.
 
     Once large arrays have been freed, the allocator keeps memory: the reference of a process that
-    has had more cells takes half the time.
+    has had more cells takes less than half the time.
     """
     with ProcessPoolExecutor(1, get_context("spawn")) as one:
         return one.submit(measure, *arguments).result()
@@ -122,7 +128,7 @@ def print_runs(tolerances: Sequence[float], repeat: int) -> None:
     library = fastest_transforms()
     print(f"{library}; {CELLS[0]} x {CELLS[1]} cells, {STEPS} steps, one thread; best of {repeat}")
     print("                                            reference convolutions")
-    print("crown mm   e/L  tolerance  its/step   run s     between steps  in a row")
+    print("crown mm   e/L  tolerance  its/step   run s             alone  in a row")
     for tolerance in tolerances:
         for crown_radius in CROWNS:
             for eccentricity in (0.0, 0.5, 1.0):
