@@ -167,6 +167,7 @@ class Past:
         self, step: Step, posed: Posed, solution: ContactSolution, outcome: Outcome
     ) -> Trial:
         values = np.stack([solution.found.pressure, solution.found.deflection])
+        values.flags.writeable = False  # it will be remembered, without a copy
         response = posed.response
         twin = Twin(step.time, posed.drive, response.of(values), solution.found.motion)
         error = self._errors.of_step(step, values, response)

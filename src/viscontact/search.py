@@ -96,13 +96,11 @@ def measure(problem: ContactProblem, patch: Patch, now: Guess) -> Measure:
     gap += problem.open_gap
     gap -= patch.plane.field(now.motion)
     gap_in_contact = np.where(contact, gap, 0.0)
-    weight = contact.astype(float)
-    inverse = patch.plane.inverse_gram(weight, problem.support.free)
+    inverse = patch.plane.inverse_gram(contact.astype(float), problem.support.free)
     # A correction, so that a motion the contact does not determine stays as it was.
     correction = inverse @ patch.plane.sums(gap_in_contact)
-    plane = patch.plane.field(correction)
-    gap -= plane
-    gap_in_contact -= np.multiply(weight, plane, out=weight)
+    gap -= patch.plane.field(correction)
+    np.copyto(gap_in_contact, gap, where=contact)
     error = max(float(gap_in_contact.max()), -float(gap.min()), 0.0) / scale
     return Measure(contact, inverse, now.motion + correction, gap, gap_in_contact, error)
 

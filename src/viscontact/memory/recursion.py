@@ -78,7 +78,7 @@ class RecursiveMemory(Memory):
             field *= decay
             field += np.multiply(old, self._value, out=term)
             field += np.multiply(new, value, out=term)
-        self._value = value.copy()
+        self._value = value.copy() if value.flags.writeable else value
 
     def carried(self) -> Carried:
         """The internal fields and the last value; see `Memory.carried`."""

@@ -95,7 +95,8 @@ class Memory(ABC):
         Parameters
         ----------
         value : ndarray
-            The field at the end of the `jump` or `ramp` asked for last.
+            The field at the end of the `jump` or `ramp` asked for last; one that cannot be written
+            is kept as it is.
         """
 
     @abstractmethod
