@@ -149,8 +149,8 @@ def print_promised(tolerances: Sequence[float], repeat: int) -> None:
     """What is promised of e/L = 0.5, and what it comes to."""
     print(
         f"\ne/L = 0.5, {STEPS} steps: reference convolutions, and the published algorithm\n"
-        "                                 2^16           2^18           2^18/2^16\n"
-        "crown mm  tolerance  library  alone between  alone between  alone between"
+        "                                        2^16           2^18           2^18/2^16\n"
+        "crown mm  tolerance  library   run s  alone between  alone between  alone between"
         "  published s    / 2^16"
     )
     libraries = sorted({"scipy", fastest_transforms()})
@@ -161,7 +161,7 @@ def print_promised(tolerances: Sequence[float], repeat: int) -> None:
             for library in libraries:
                 cost, fine = (least(case, tolerance, library, repeat) for case in (small, large))
                 print(
-                    f"{crown_radius * 1e3:8g} {tolerance:10g}  {library:7}"
+                    f"{crown_radius * 1e3:8g} {tolerance:10g}  {library:7} {cost.run:6.2f}"
                     f" {cost.alone:6.0f} {cost.between:7.0f} {fine.alone:6.0f} {fine.between:7.0f}"
                     f" {fine.alone / cost.alone:6.2f} {fine.between / cost.between:7.2f}"
                     f" {theirs:12.0f} {theirs / cost.run:9.0f}",

@@ -373,3 +373,8 @@ def test_ipython_displays_drawing_and_table() -> None:
     shown, _ = DisplayFormatter(active_types=["text/plain", "text/html"]).format(vc.Sphere(0.01))
     assert shown["text/plain"] == "Sphere(radius=0.01)"
     assert "<svg" in shown["text/html"]
+
+
+def test_an_isotherm_tells_its_temperature_with_all_digits() -> None:
+    glass = vc.Isotherm(1273.15, _TIMES, {"compliance": 1e-11 * _TIMES**0.2})
+    assert "1000 °C" in glass._repr_html_()

@@ -190,6 +190,13 @@ def test_runs_whose_cases_have_one_title_are_told_apart(tmp_path: Path) -> None:
         assert "zener-sphere-steps-4-without-errors-coarse.yaml" in names[1]
 
 
+def test_a_run_whose_case_is_damaged_hinders_none_of_the_same_title(tmp_path: Path) -> None:
+    with asking(tmp_path / "page", at_once=0) as client:
+        damaged = begun(client, CASE)
+        (tmp_path / "page" / "runs" / damaged / "given" / "case.yaml").write_bytes(b"\xff")
+        assert status(client, begun(client, CASE))["label"].startswith("Zener sphere")
+
+
 @pytest.mark.slow
 def test_a_run_that_stops_says_why_in_the_words_of_the_command_line(
     client: TestClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]

@@ -295,7 +295,7 @@ def _around(lines: NDArray[np.intp], distance: int, grid: Grid, axis: int) -> ND
 
 
 def _steepest_slope(geometry: Geometry, rim: Rim, motion: NDArray[np.float64]) -> float:
-    """Steepest slope between cells in contact; where none around is steep, one around."""
+    """Steepest slope in contact; a bound, of the block or the grid, where that is not steep."""
     tilt = float(np.abs(motion[1:]).max())
     if geometry.steepest + tilt <= STEEP_SLOPE:
         return geometry.steepest + tilt

@@ -13,7 +13,7 @@ from viscontact.stated_errors import (
     WHY_MESH_DEPENDENT,
     largest_error,
 )
-from viscontact.units import in_percent
+from viscontact.units import at_most
 from viscontact.variables import error_name
 
 #: How the memory of a series law begins to describe itself; there is nothing to doubt about it.
@@ -39,16 +39,11 @@ def accuracy_lines(time_error: ArrayLike, memory: str, inversion_error: float) -
     """
     largest = float(np.nanmax(np.asarray(time_error, dtype=float), initial=0.0))
     if largest > 0:
-        yield f"error owed to the time steps: {_at_most(largest)} of the pressure (estimated)"
+        yield f"error owed to the time steps: {at_most(largest)} of the pressure (estimated)"
     if memory and not memory.startswith(_EXACT):
         yield f"memory: {memory}"
     if inversion_error > 0:
-        yield f"the law was converted numerically; error: {_at_most(inversion_error)} (estimated)"
-
-
-def _at_most(part: float) -> str:
-    told = in_percent(part)
-    return f"below {told[1:]}" if told.startswith("<") else f"at most {told}"
+        yield f"the law was converted numerically; error: {at_most(inversion_error)} (estimated)"
 
 
 def mesh_lines(ds: xr.Dataset, names: Iterable[str]) -> Iterator[str]:

@@ -95,8 +95,8 @@ class Memory(ABC):
         Parameters
         ----------
         value : ndarray
-            The field at the end of the `jump` or `ramp` asked for last; one that cannot be written
-            is kept as it is.
+            The field at the end of the `jump` or `ramp` asked for last. One that cannot be written
+            may be kept without a copy, and must never change.
         """
 
     @abstractmethod

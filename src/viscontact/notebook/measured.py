@@ -215,4 +215,4 @@ def _worth(value: float, unit: str) -> str:
 
 
 def _celsius(kelvin: float) -> str:
-    return f"{in_digits(round(in_celsius(kelvin), 6)).rstrip('0').rstrip('.') or '0'} °C"
+    return f"{round(in_celsius(kelvin), 6):.4g} °C"

@@ -11,7 +11,7 @@ import xarray as xr
 from viscontact.report.inputs import case_of, prescribes_approach
 from viscontact.stated_errors import WHY_MESH_DEPENDENT, largest_error
 from viscontact.summary import SummaryRow, summary_rows, told_scalars
-from viscontact.units import in_percent, in_words
+from viscontact.units import at_most, in_words
 
 
 def error_rows(ds: xr.Dataset) -> list[tuple[str, ...]]:
@@ -57,7 +57,7 @@ def accuracy_lines(ds: xr.Dataset) -> Iterator[tuple[str, str]]:
         yield "Memory of the past", memory
     inversion = float(ds.attrs.get("inversion_error", 0.0))
     if inversion > 0:
-        yield "Law", f"converted numerically, within {in_percent(inversion)} (estimated)"
+        yield "Law", f"converted numerically; error {at_most(inversion)} (estimated)"
     yield "Companions", _companions(ds)
     if _is_marked(ds):
         yield "Depends on the mesh", f"{WHY_MESH_DEPENDENT}."
@@ -75,7 +75,7 @@ def _balance(ds: xr.Dataset) -> str:
     if known is None or not math.isfinite(known.part):
         return "force and moments of the pressure are those of the load, to the tolerance asked for"
     return (
-        f"the pressure's integral differs from the load by {in_percent(known.part)} of it at most; "
+        f"the pressure's integral differs from the load by {at_most(known.part)} of it; "
         "its moments are the load's to the tolerance asked for"
     )
 
@@ -83,7 +83,7 @@ def _balance(ds: xr.Dataset) -> str:
 def _steps(ds: xr.Dataset) -> str:
     largest = float(np.nanmax(ds["time_error"].values, initial=0.0))
     if largest > 0:
-        return f"they cost at most {in_percent(largest)} of the pressure (estimated)"
+        return f"they cost {at_most(largest)} of the pressure (estimated)"
     if _is_elastic(ds):
         return "they cost nothing: the contact at each instant follows from the load alone"
     return "what they cost is not estimated step by step; it is part of the errors above"

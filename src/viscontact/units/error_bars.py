@@ -100,3 +100,25 @@ def _rounded(value: float) -> float:
 def _leading(value: float) -> int:
     """Place of the first digit once the number is rounded to two: 0 for ones, -1 for tenths."""
     return math.floor(math.log10(_rounded(value)))
+
+
+def at_most(part: float) -> str:
+    """Write a bound on a part of a whole in per cent, in words.
+
+    Parameters
+    ----------
+    part : float
+        The part [-].
+
+    Returns
+    -------
+    str
+        "at most", or "below" where it is too small to be told.
+
+    Examples
+    --------
+    >>> at_most(0.0031), at_most(1e-9)
+    ('at most 0.31 %', 'below 0.01 %')
+    """
+    told = in_percent(part)
+    return f"below {told[1:]}" if told.startswith("<") else f"at most {told}"

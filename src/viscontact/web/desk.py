@@ -5,7 +5,7 @@ from __future__ import annotations
 import time as clock
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +13,7 @@ from viscontact.case import Case, CaseError, read_case_text
 from viscontact.case.document import document_of
 from viscontact.footprint import run_memory, step_count
 from viscontact.forecast import Forecast
+from viscontact.free_memory import available_memory
 from viscontact.inspection import expectations, foreseen, needs, verdict, warnings_of
 from viscontact.preparation import Prepared, prepared
 from viscontact.web.asked import Asked
@@ -52,7 +53,8 @@ class Desk:
             With all that is wrong with it.
         """
         if text in self._foreseen:
-            return self._foreseen[text]
+            whole, expected = self._foreseen[text]
+            return whole, replace(expected, available=available_memory())
         try:
             whole = prepared(read_case_text(text, self.folder.case))
             found = whole, foreseen(whole)
@@ -226,7 +228,7 @@ class Desk:
         """What a run is called; a coarse one and a full one of one case are told apart by that."""
         alike = [(name, asked) for name, asked in others if asked.title == title]
         first = None
-        with suppress(OSError, RequestError):  # somebody has removed or damaged it
+        with suppress(OSError, ValueError, RequestError):  # somebody has removed or damaged it
             if alike:
                 first = self.values(self.folder.given(alike[0][0]).read_text(encoding="utf-8"))
         taken = {asked.label or asked.title for _, asked in alike if asked.quality == quality}

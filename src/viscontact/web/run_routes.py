@@ -211,7 +211,7 @@ def _report(work: Work, ours: Ours) -> bytes:
 
 
 def _labels(works: list[Work]) -> list[str]:
-    """What runs are called in a figure: their titles, numbered where they are alike."""
+    """What runs are called in a figure: their labels, numbered where they are alike."""
     # Between two of these a figure would read a formula.
     titles = [work.label.replace("$", r"\$") for work in works]
     told = [f"{title} (coarse)" if work.asked.quality == "coarse" else title

@@ -67,7 +67,7 @@ function scale(times, end) {
 }
 
 function drawn(times, values, at, label) {
-  const largest = Math.max(...values, 0) || 1, each = Math.max(1, Math.ceil(values.length / MOST_POINTS));
+  const largest = values.reduce((most, value) => Math.max(most, value ?? 0), 0) || 1, each = Math.max(1, Math.ceil(values.length / MOST_POINTS));
   const points = values.map((value, i) => (value === null || (i % each && i < values.length - 1) ? null
     : `${(WIDTH * at(times[i])).toFixed(2)},${(HEIGHT * (1 - value / largest)).toFixed(2)}`));
   const svg = (tag, attributes) => {
