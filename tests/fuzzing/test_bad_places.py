@@ -144,7 +144,7 @@ def test_run_takes_no_more_memory_than_check_announces(law: str, cells: int, pla
     (place / "large.yaml").write_text(text, encoding="utf-8")
     said = command("check", "large.yaml")
     assert said.returncode == 0, said.stderr
-    found = re.search(r"about ([\d.]+) (MB|GB), [\d.]+ [MG]B are free", said.stdout)
+    found = re.search(r"about ([\d.]+) (MB|GB) of [\d.]+ [MG]B free", said.stdout)
     assert found is not None, said.stdout
     announced = float(found[1]) * {"MB": 1e6, "GB": 1e9}[found[2]]
     peak = subprocess.run(
