@@ -51,6 +51,7 @@ nitpick_ignore_regex = [
     ("py:obj", r"fit_\w+|build_master_curve"),
 ]
 autosummary_generate = True
+autodoc_preserve_defaults = True  # as they are written: some are long
 autodoc_typehints = "none"  # numpydoc's sections say it
 numpydoc_show_class_members = False
 # Types of ours are links; other words are not, as the manual points to no other one.
