@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Literal, NamedTuple
+from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -155,8 +156,20 @@ def _marched(profile: Profile, steps: Course, law: Law, elements: int) -> tuple[
             deepest *= 1.05  # its bound is that of a contact which only grows
 
 
-class ResolutionError(NamedTuple):
-    """Largest errors of a contact's history, relative to its largest values."""
+@dataclass(frozen=True)
+class ResolutionError:
+    """Largest errors of a contact's history, relative to its largest values.
+
+    Attributes
+    ----------
+    force, approach, contact_radius : float
+        Of each of them [-].
+
+    Examples
+    --------
+    >>> ResolutionError(force=1e-3, approach=4e-4, contact_radius=2e-3).approach
+    0.0004
+    """
 
     force: float
     approach: float
