@@ -137,7 +137,7 @@ def test_profile_of_one_shape_in_a_list_keeps_its_place(case: Path) -> None:
         ("profile={kind: table, points: [[0 mm, 0 um]]}", "profile.points: a line needs at least"),
         (
             "profile={kind: table, points: [[0 mm, 0 um], [3 mm, 1 um]]}",
-            "profile.points: x ends at 0.003 m from the middle, before the half length",
+            "profile.points: x ends at 3 mm from the middle, before the half length",
         ),
         ("profile={kind: table, points: [[0, 0]]}", "profile.points[1][1]: 0 has no unit"),
         (
@@ -163,7 +163,7 @@ def test_slip_in_a_profile_is_told_at_its_key(case: Path, setting: str, said: st
         ("x [mm],drop\n0,0\n6,8\n", "column 'drop': has no unit"),
         ("x [mm],drop [N]\n0,0\n6,8\n", "'N'"),
         ("x [mm],drop [um]\n0,0\n6,much\n", "crown.csv:3"),
-        ("x [mm],drop [um]\n0,0\n6,8\n3,1\n", "positions must increase, got 0.006 m followed by"),
+        ("x [mm],drop [um]\n0,0\n6,8\n3,1\n", "positions must increase, got 6 mm followed by"),
     ],
 )
 def test_broken_profile_file_is_told_at_the_key_file(case: Path, text: str, said: str) -> None:

@@ -344,7 +344,7 @@ def test_turned_roller_presses_as_the_roller_does() -> None:
         (lambda: vc.Dimples(1.0, 0.5, 2.0), "depth must be at most the radius"),
         (lambda: vc.Dimples(0.1, 0.5, 0.9), "spacing must be at least two radii"),
         (lambda: vc.Dimples(0.1, 0.5, 2.0, "hex"), "pattern must be 'square' or 'hexagonal', got"),
-        (lambda: vc.Revolved([-1, 1], [0, 1]), "r must not be negative, got -1.0"),
+        (lambda: vc.Revolved([-1, 1], [0, 1]), "r must not be negative, got -1 m"),
         (lambda: vc.Revolved([0, 1], [0]), "must be a drop at every position, got 1 drops at 2"),
         (lambda: vc.Revolved([], []), "at least two positions"),
         (lambda: vc.Swept([1, 2], [0, 1]), "y must begin with 0"),

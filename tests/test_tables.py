@@ -247,7 +247,7 @@ def test_bad_times_are_refused_with_row_and_column(kind, times, message):
         (lambda t: TabulatedRelaxation(t, [2, 1, -1]), r"modulus, row 2: must be positive, got -1"),
         (
             lambda t: TabulatedCreep.from_uniaxial(t, [1, 2, 3], bulk_modulus=1 / 9),
-            r"compliance, row 0: bulk_modulus 0\.111111 Pa is too small",
+            r"compliance, row 0: bulk_modulus 111\.111 mPa is too small",
         ),
         (
             lambda t: TabulatedRelaxation.from_uniaxial(t, [3, 2, 1], bulk_modulus=9),

@@ -74,9 +74,9 @@ def check_creep(compliance: ContactCompliance, times: NDArray[np.float64]) -> No
     wrong[1:] |= values[1:] < (1 - NOTABLE_FALL) * values[:-1]
     if wrong.any():
         raise ValueError(
-            f"material: its law gives a contact compliance of {in_words(values[wrong][0], '1/Pa')} "
-            f"at t = {in_words(instants[wrong][0], 's')}; creep is a number, not negative, and "
-            "never falls. Mend the law"
+            f"material: its law gives a contact compliance of {values[wrong][0]:.4g} /Pa at t = "
+            f"{in_words(instants[wrong][0], 's')}; creep is a number, not negative, and never "
+            "falls. Mend the law"
         )
 
 

@@ -52,8 +52,8 @@ def check_period(
     >>> try:
     ...     check_period(waves, waves.gap(period.x[:, None], period.y), period, step(1.0))
     ... except ValueError as error:
-    ...     print(str(error)[:49])
-    grid.size: the body does not repeat itself over 0
+    ...     print(str(error)[:52])
+    grid.size: the body does not repeat itself over 3 mm
     """
     if not grid.periodic:
         return

@@ -57,6 +57,10 @@ def test_a_process_of_its_own_gives_the_same_bits(surroundings, first, tmp_path)
             assert (name, differing(first[name], dict(stored))) == (name, [])
 
 
+#: Of an eccentricity [m] or a tilt [rad] that is zero by symmetry; measured: 2e-21.
+ROUNDING = 1e-18
+
+
 @pytest.mark.parametrize("threads", [2, 4])
 def test_more_threads_change_no_field_by_more_than_1e_10(threads, first):
     for name in CASES:
@@ -64,7 +68,7 @@ def test_more_threads_change_no_field_by_more_than_1e_10(threads, first):
         for variable, array in first[name].items():
             values = array.astype(float)
             allowed = 1e-10 * np.abs(values[np.isfinite(values)]).max(initial=0.0)
-            # Measured: no difference at all, with SciPy 1.17.
+            allowed = max(allowed, ROUNDING)  # what symmetry makes zero differs by rounding
             np.testing.assert_allclose(
                 several[variable].astype(float), values, rtol=0, atol=allowed
             )
