@@ -81,7 +81,7 @@ class LogCurve:
             self.exponent * values[0] if before != "value" and self.at_once is None else None,
             {"value": None, "line": self._line, "power": self._fade * values[-1]}[beyond],
         )
-        whole = [self._primitive(k, times[k + 1], times[k]) for k in range(self._widths.size)]
+        whole = self._primitive(np.arange(self._widths.size), times[1:], times[:-1])
         self._areas = np.concatenate([[0.0], np.cumsum(whole)])
 
     def _smooth(self, first: float | None, last: float | None) -> Floats:
@@ -174,7 +174,7 @@ class LogCurve:
         c3, c2, c1, c0 = self._pieces[:, piece]
         return np.asarray(((c3 * u + c2) * u + c1) * u + c0)
 
-    def _primitive(self, piece: NDArray[np.intp] | int, end: Floats, start: Floats) -> Floats:
+    def _primitive(self, piece: NDArray[np.intp], end: Floats, start: Floats) -> Floats:
         """Return the integral over a part of a piece."""
         c3, c2, c1, c0 = self._pieces[:, piece]
 

@@ -21,7 +21,7 @@ like sin(πm)/(πm) t^-m / c, which starts the march.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -34,6 +34,9 @@ Mean = Callable[[Floats, Floats], Floats]
 # Steps so much shorter than their lag see it as a point: an error of its square / 24. Differences
 # of f are taken over that part of the lag at least.
 _POINT = 3e-4
+
+# Nodes whose past is weighed in one call.
+_AT_ONCE = 16
 
 
 class Load(NamedTuple):
@@ -52,7 +55,7 @@ class Kernel(NamedTuple):
     Attributes
     ----------
     past : callable
-        From lags that fall to 0 and the steps between them, ∫ κ dl over each step and
+        From lags, a row for each node, and the steps that end there, ∫ κ dl over each step and
         ∫ κ (h - 2 (l - a)) dl, a being where it begins: what the bend of the unknown meets.
     whole, bent : ndarray
         The same over the step in progress, for all steps, with what κ has in a point at lag 0.
@@ -94,8 +97,7 @@ def _rates(kernel: Kernel, nodes: Floats, owed: Floats, first: float | None) -> 
     begins, steps = np.append(0.0, nodes[:-1]), np.diff(nodes, prepend=0.0)
     rates, bends = np.zeros(nodes.size), np.zeros(nodes.size)
     rates[0] = owed[0] / kernel.whole[0] if first is None else first
-    for i in range(1, nodes.size):
-        whole, bent = kernel.past(nodes[i] - begins[:i], steps[:i])
+    for i, (whole, bent) in enumerate(_pasts(kernel, nodes, begins, steps), start=1):
         rest = owed[i] - whole @ rates[:i] - bent @ bends[:i]
         if i == 1:  # the first step is long and may hide a power: no parabola rests on it
             rates[i] = rest / kernel.whole[i]
@@ -107,13 +109,27 @@ def _rates(kernel: Kernel, nodes: Floats, owed: Floats, first: float | None) -> 
     return rates
 
 
+def _pasts(
+    kernel: Kernel, nodes: Floats, begins: Floats, steps: Floats
+) -> Iterator[tuple[Floats, Floats]]:
+    """Yield what the kernel makes of all steps before each node but the first."""
+    # Many nodes at once: one by one, the calls would take longer than the numbers.
+    for low in range(1, nodes.size, _AT_ONCE):
+        high = min(low + _AT_ONCE, nodes.size)
+        lags = nodes[low:high, None] - begins[: high - 1]
+        # A step that is not past yet is seen from its end, and left out again.
+        whole, bent = kernel.past(np.maximum(lags, steps[: high - 1]), steps[: high - 1])
+        for i in range(low, high):
+            yield whole[i - low, :i], bent[i - low, :i]
+
+
 def _falling(function: Function, mean: Mean, steps: Floats) -> Kernel:
     """Return the kernel κ = f of a function that falls."""
 
     def past(lags: Floats, steps: Floats) -> tuple[Floats, Floats]:
         middle = lags - steps / 2
         values = function(middle)
-        bent = np.zeros(values.size)
+        bent = np.zeros(values.shape)
         near = steps > _POINT * middle
         a, b, c = (lags - steps)[near], middle[near], lags[near]
         early, late = mean(a, b), mean(b, c)
