@@ -21,6 +21,8 @@ import viscontact as vc
 from synthetic_results import maxwell_pressure, maxwell_sphere, roller
 from viscontact.cli import main
 from viscontact.markup import as_script
+from viscontact.plot.rim_polygons import rim_curves
+from viscontact.plot.snapshots import take_snapshots
 from viscontact.report import report_page
 from viscontact.report.accuracy import accuracy_lines
 from viscontact.report.histories import answer_panels, load_panels
@@ -135,6 +137,15 @@ def test_a_map_holds_the_pressure(page: _Page) -> None:
         # Half a step of 1/65535 of the peak, a whole one at the rim.
         exact = maxwell_pressure(radius, instant)
         np.testing.assert_allclose(pressure, exact, atol=1.6e-5 * drawn["peak"] * 1e6)
+
+
+def test_outlines_are_the_smooth_rims_of_the_figures(page: _Page) -> None:
+    last = take_snapshots(_run(), TIMES[-1], "rim")[0]
+    (curve,) = rim_curves(last)
+    drawn = page.data["map"]["rims"][-1]
+    assert (drawn["x"][-1], drawn["y"][-1]) == (None, None)
+    told = np.array([drawn["x"][:-1], drawn["y"][:-1]]).T * 1e-6
+    np.testing.assert_allclose(told, curve, atol=1e-4 * np.abs(curve).max())
 
 
 def test_a_fine_map_shows_means_that_keep_the_force() -> None:
@@ -281,7 +292,10 @@ def test_report_writes_a_page_beside_the_result(
     vc.save(_run(), run / "result.nc")
     assert main(["report", str(run)]) == 0
     assert capsys.readouterr().out.strip() == str(run / "report.html")
-    assert (run / "report.html").read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
+    page = (run / "report.html").read_text(encoding="utf-8")
+    assert page.startswith("<!DOCTYPE html>")
+    # Runs of a case that was changed have its title; their directories tell them apart.
+    assert re.search(r"<h1>(.*?)</h1>", page)[1].endswith(" (run)")
 
 
 @pytest.mark.parametrize(

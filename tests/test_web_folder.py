@@ -104,7 +104,7 @@ def test_a_report_is_made_anew_although_the_clock_was_set_back(
 ) -> None:
     made: list[str] = []
 
-    def counted(ds: xr.Dataset, path: Path) -> None:
+    def counted(ds: xr.Dataset, path: Path, *, label: str) -> None:
         made.append(f"report {len(made) + 1}")
         path.write_text(made[-1], encoding="utf-8")
 

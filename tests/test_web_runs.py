@@ -272,6 +272,8 @@ def test_figures_and_reports_of_a_run_can_be_had(client: TestClient) -> None:
         assert name in both.text
     assert both.headers["content-type"] == "image/svg+xml"
     assert client.get("/api/compare.svg", params={"runs": run}).status_code == 422
+    assert "<h1>Zener sphere, force 8 N (coarse)</h1>" in client.get(
+        f"/api/runs/{stronger}/report.html").text  # fmt: skip
     saved = client.get(f"/api/runs/{run}/report.html")
     assert saved.headers["content-disposition"].startswith("attachment")
     shown = client.get(f"/api/runs/{run}/report.html", params={"view": True})

@@ -7,6 +7,7 @@ from typing import Any
 
 from viscontact.cli.messages import refuse, say
 from viscontact.cli.stored import early_end, opened
+from viscontact.results import RESULT_NAME
 
 #: The page's name in a run directory.
 PAGE_NAME = "report.html"
@@ -40,15 +41,26 @@ def write_page(directory: Path, output: Path | None) -> Path:
         if ended := early_end(ds):
             say(ended)
         try:
-            package.write_report(ds, file)
+            package.write_report(ds, file, label=_label(directory))
         except (ValueError, OSError) as error:
             refuse(f"{file}: {error}")
     return file
 
 
 def _beside(directory: Path) -> Path:
-    is_result = directory.suffix == ".nc" and not directory.is_dir()
-    return directory.with_suffix(".html") if is_result else directory / PAGE_NAME
+    return directory.with_suffix(".html") if _is_file(directory) else directory / PAGE_NAME
+
+
+def _label(directory: Path) -> str:
+    """What the run is called beside others, as where they are compared: its directory's name."""
+    place = directory.resolve()
+    if not _is_file(place):
+        return place.name
+    return place.parent.name if place.name == RESULT_NAME else place.stem
+
+
+def _is_file(directory: Path) -> bool:
+    return directory.suffix == ".nc" and not directory.is_dir()
 
 
 def _package() -> Any:

@@ -34,11 +34,35 @@ def title_of(ds: xr.Dataset) -> str:
     return str(ds.attrs.get("title") or "Contact of a creeping body")
 
 
-def opening(ds: xr.Dataset, chapters: dict[str, str]) -> Element:
+def heading_of(ds: xr.Dataset, label: str) -> str:
+    """Return what a run is called where it has a name of its own.
+
+    Parameters
+    ----------
+    ds : xarray.Dataset
+        A result.
+    label : str
+        What tells the run from others of the same title; empty if nothing does.
+
+    Examples
+    --------
+    >>> ball = xr.Dataset(attrs={"title": "Ball"})
+    >>> [heading_of(ball, label) for label in ("", "run-2", "Ball, force 2 N")]
+    ['Ball', 'Ball (run-2)', 'Ball, force 2 N']
+    """
+    title = title_of(ds)
+    if not label:
+        return title
+    return label if label.startswith(title) else f"{title} ({label})"
+
+
+def opening(name: str, ds: xr.Dataset, chapters: dict[str, str]) -> Element:
     """Open the page: title, result in a sentence, what must be known first.
 
     Parameters
     ----------
+    name : str
+        What the run is called.
     ds : xarray.Dataset
         A result.
     chapters : dict
@@ -47,7 +71,7 @@ def opening(ds: xr.Dataset, chapters: dict[str, str]) -> Element:
     links = (element("a", title, href=f"#{place}") for place, title in chapters.items())
     return element(
         "header",
-        element("h1", title_of(ds)),
+        element("h1", name),
         element("p", _unbroken(headline(ds)), class_="headline"),
         *(element("p", text, class_="notice") for text in notices(ds)),
         _facts(ds),

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.plot.readable import DisplayUnit, display_number, display_unit, time_labels
-from viscontact.plot.rim_polygons import rim_polygons
+from viscontact.plot.rim_polygons import rim_curves
 from viscontact.plot.snapshots import Snapshot
 from viscontact.plot.style import time_colours
 from viscontact.report.shown_fields import ShownFields
@@ -158,12 +158,12 @@ def _joined(values: Floats, stride: int, axis: int = 0) -> Floats:
 
 
 def _rim(snapshot: Snapshot, length: DisplayUnit) -> dict[str, list[float | None]]:
-    """All polygons as one line, interrupted between them."""
+    """All curves as one line, interrupted between them."""
     x: list[float | None] = []
     y: list[float | None] = []
-    for polygon in rim_polygons(snapshot) if snapshot.touching else ():
-        x += [*rounded(length(polygon[:, 0]), 5), None]
-        y += [*rounded(length(polygon[:, 1]), 5), None]
+    for curve in rim_curves(snapshot) if snapshot.touching else ():
+        x += [*rounded(length(curve[:, 0]), 5), None]
+        y += [*rounded(length(curve[:, 1]), 5), None]
     return {"x": x, "y": y}
 
 

@@ -127,8 +127,9 @@
   }
 
   function drawOutlines() {
-    const box = place("outlines"), lines = map.outlines.map((index) => ({
-      ...map.rims[index], mode: "lines", name: map.labels[index], line: { color: map.colours[index], width: 2 },
+    const box = place("outlines"), width = box.clientWidth < 500 ? 1.2 : 2;
+    const lines = map.outlines.map((index) => ({
+      ...map.rims[index], mode: "lines", name: map.labels[index], line: { color: map.colours[index], width },
       hovertemplate: `x %{x:.4g} ${map.unit}, y %{y:.4g} ${map.unit}<extra>${map.labels[index]}</extra>`,
     }));
     box.style.height = `${planeHeight(box, 120, 440)}px`;
@@ -178,11 +179,14 @@
     });
   }
 
-  if (map) {
-    drawOutlines();
-    followSlider();
-    showInstant(shown);
-  }
-  drawHistories();
-  document.documentElement.dataset.drawn = "yes";
+  if (map) followSlider();
+  const figures = [...(map ? [() => showInstant(shown), drawOutlines] : []), ...panels.map((panel) => () => drawPanel(panel))];
+  const drawNext = () => {
+    const draw = figures.shift();
+    if (!draw) { document.documentElement.dataset.drawn = "yes"; return; }
+    draw();
+    setTimeout(drawNext);
+  };
+  // The words are to be seen first, then figure by figure from above.
+  requestAnimationFrame(() => setTimeout(drawNext));
 })();

@@ -31,7 +31,7 @@ _CHAPTERS = {
 }
 
 
-def write_report(ds: xr.Dataset, path: str | Path) -> None:
+def write_report(ds: xr.Dataset, path: str | Path, *, label: str = "") -> None:
     """Write a run as one page of HTML that needs nothing from outside.
 
     Parameters
@@ -40,6 +40,8 @@ def write_report(ds: xr.Dataset, path: str | Path) -> None:
         What ``simulate`` or ``open_results`` returned.
     path : path
         The file, by custom ending in ``.html``; replaced if it is there.
+    label : str, optional
+        What the run is called among others whose cases have the same title.
 
     Raises
     ------
@@ -60,16 +62,19 @@ def write_report(ds: xr.Dataset, path: str | Path) -> None:
     ...     (Path(folder) / "ball.html").read_text(encoding="utf-8")[:15].lower()
     '<!doctype html>'
     """
-    Path(path).write_text(report_page(ds), encoding="utf-8")
+    Path(path).write_text(report_page(ds, label=label), encoding="utf-8")
 
 
-def report_page(ds: xr.Dataset) -> str:
+def report_page(ds: xr.Dataset, *, label: str = "") -> str:
     """Return a run as one page of HTML that needs nothing from outside.
 
     Parameters
     ----------
     ds : xarray.Dataset
         What ``simulate`` or ``open_results`` returned.
+    label : str, optional
+        What the run is called among others whose cases have the same title; it stands in the
+        heading beside that title, or alone if it begins with it.
 
     Returns
     -------
@@ -87,13 +92,13 @@ def report_page(ds: xr.Dataset) -> str:
         raise ValueError("a report needs one instant at least, got a result without any; run it")
     fields = _fields(ds)
     data = _data(ds, fields)
-    folder = files("viscontact.report")
+    folder, name = files("viscontact.report"), found.heading_of(ds, label)
     template = Template((folder / "page.html").read_text(encoding="utf-8"))
     return template.substitute(
         generator=f"viscontact {__version__}",
-        title=written(element("title", found.title_of(ds))),
+        title=written(element("title", name)),
         style=(folder / "page.css").read_text(encoding="utf-8"),
-        body="\n".join(map(written, _body(ds, fields, data))),
+        body="\n".join(map(written, _body(name, ds, fields, data))),
         data=as_script(data),
         plotly=get_plotlyjs(),
         script=(folder / "page.js").read_text(encoding="utf-8"),
@@ -118,7 +123,9 @@ def _data(ds: xr.Dataset, fields: ShownFields | None) -> dict[str, Any]:
     }
 
 
-def _body(ds: xr.Dataset, fields: ShownFields | None, data: dict[str, Any]) -> Iterable[Element]:
+def _body(
+    name: str, ds: xr.Dataset, fields: ShownFields | None, data: dict[str, Any]
+) -> Iterable[Element]:
     histories = found.history_chapter(ds, data["time"], data["load"], data["answers"])
     chapters: dict[str, Iterable[Element]] = {
         "pressure": found.pressure_chapter(ds, fields),
@@ -131,6 +138,6 @@ def _body(ds: xr.Dataset, fields: ShownFields | None, data: dict[str, Any]) -> I
         "about": given.about_chapter(ds),
     }
     yield element("noscript", element("p", "The figures of this page need JavaScript."))
-    yield found.opening(ds, _CHAPTERS)
+    yield found.opening(name, ds, _CHAPTERS)
     for place, parts in chapters.items():
         yield element("section", element("h2", _CHAPTERS[place]), *parts, id=place)

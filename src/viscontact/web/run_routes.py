@@ -201,7 +201,7 @@ def _report(work: Work, ours: Ours) -> bytes:
             return kept.read_bytes()
         fresh = Path(elsewhere) / kept.name
         try:
-            write_report(ds, fresh)
+            write_report(ds, fresh, label=_label(work))
         except (ValueError, OSError) as error:
             raise RequestError(422, f"there is no report: {error}") from error
         page = fresh.read_bytes()
@@ -213,12 +213,14 @@ def _report(work: Work, ours: Ours) -> bytes:
 def _labels(works: list[Work]) -> list[str]:
     """What runs are called in a figure: their labels, numbered where they are alike."""
     # Between two of these a figure would read a formula.
-    titles = [work.label.replace("$", r"\$") for work in works]
-    told = [f"{title} (coarse)" if work.asked.quality == "coarse" else title
-            for work, title in zip(works, titles, strict=True)]  # fmt: skip
+    told = [_label(work).replace("$", r"\$") for work in works]
     if len(set(told)) == len(told):
         return told
     return [f"{number}: {label}" for number, label in enumerate(told, start=1)]
+
+
+def _label(work: Work) -> str:
+    return f"{work.label} (coarse)" if work.asked.quality == "coarse" else work.label
 
 
 def _stem(work: Work) -> str:
