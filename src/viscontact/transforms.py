@@ -8,6 +8,7 @@ rounding, not to the bit, so a run stays with the one that it began with.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,9 @@ try:
     import ducc0
 except ImportError:
     ducc0 = None
+
+#: Lines that a library may transform at once: of single numbers in the widest registers there are.
+BUNCH = 16
 
 #: Real or complex fields, in single or double precision.
 Field = NDArray[Any]
@@ -149,6 +153,71 @@ class DuccTransforms(Transforms):
         return spectrum
 
 
+class SharedTransforms(Transforms):
+    """On several threads, to the bits of one.
+
+    A library transforms lines in bunches, and those that are left over one by one, which may round
+    otherwise. So each thread gets whole bunches, and what is left goes to one.
+
+    Parameters
+    ----------
+    several, one : Transforms
+        The same library's on several threads, and on one.
+    """
+
+    def __init__(self, several: Transforms, one: Transforms) -> None:
+        super().__init__(several.threads)
+        self.name = several.name
+        self._several, self._one = several, one
+
+    def real_forth(self, field: Field, into: Field, axis: int) -> Field:
+        """Into an array; see `Transforms.real_forth`."""
+        return self._shared(
+            axis, into, lambda by, lines: by.real_forth(field[lines], into[lines], axis)
+        )
+
+    def real_back(self, spectrum: Field, spare: Field, axis: int) -> Field:
+        """Into the spare array; see `Transforms.real_back`."""
+        return self._shared(
+            axis, spare, lambda by, lines: by.real_back(spectrum[lines], spare[lines], axis)
+        )
+
+    def complex_forth(self, field: Field, axis: int) -> Field:
+        """In place; see `Transforms.complex_forth`."""
+        return self._shared(axis, field, lambda by, lines: by.complex_forth(field[lines], axis))
+
+    def complex_back(self, spectrum: Field, axis: int) -> Field:
+        """In place; see `Transforms.complex_back`."""
+        return self._shared(
+            axis, spectrum, lambda by, lines: by.complex_back(spectrum[lines], axis)
+        )
+
+    def cosine_forth(self, field: Field, axis: int) -> Field:
+        """In place; see `Transforms.cosine_forth`."""
+        return self._shared(axis, field, lambda by, lines: by.cosine_forth(field[lines], axis))
+
+    def cosine_back(self, spectrum: Field, axis: int) -> Field:
+        """In place; see `Transforms.cosine_back`."""
+        return self._shared(axis, spectrum, lambda by, lines: by.cosine_back(spectrum[lines], axis))
+
+    def _shared(
+        self,
+        axis: int,
+        into: Field,
+        transform: Callable[[Transforms, tuple[slice, slice]], Field],
+    ) -> Field:
+        count, every = into.shape[1 - axis], slice(None)
+        whole = count - count % (BUNCH * self.threads)
+        for part, by in ((slice(0, whole), self._several), (slice(whole, count), self._one)):
+            if part.stop == part.start:
+                continue
+            lines = (part, every) if axis == 1 else (every, part)
+            result = transform(by, lines)
+            if not np.may_share_memory(result, into[lines]):
+                into[lines] = result
+        return into
+
+
 def fastest_transforms() -> str:
     """Return the name of the fastest transforms that are installed.
 
@@ -180,13 +249,16 @@ def transforms_by(name: str, threads: int = 1) -> Transforms:
     >>> transforms_by("scipy").name
     'scipy'
     """
+    if threads > 1:
+        several = DuccTransforms if name == DuccTransforms.name else SciPyTransforms
+        return SharedTransforms(several(threads), transforms_by(name))
     if name == SciPyTransforms.name:
-        return SciPyTransforms(threads)
+        return SciPyTransforms()
     if name != DuccTransforms.name:
         raise ValueError(f"no Fourier transforms are called {name!r}; known are scipy and ducc0")
     if ducc0 is None:
         raise ValueError("ducc0 is not installed; install it: pip install viscontact[fast]")
-    return DuccTransforms(threads)
+    return DuccTransforms()
 
 
 def as_reals(spectrum: Field) -> Field:
