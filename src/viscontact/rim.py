@@ -229,24 +229,22 @@ def _enclosed_squares(rim: Rim) -> float:
     pairs = inside[1:].view(np.int8) + inside[:-1].view(np.int8)
     count = pairs[:, 1:] + pairs[:, :-1]
     i, j = _places((count & 3) != 0)  # neither none nor all four
-    # Four of each, the way round; each edge leaves the corner of its number.
-    corner = np.array([inside[i, j], inside[i + 1, j], inside[i + 1, j + 1], inside[i, j + 1]])
-    rim_x, rim_y = rim.along_x, rim.along_y
-    after = np.array([rim_x[i, j], rim_y[i + 1, j], rim_x[i, j + 1], rim_y[i, j]])
-    after = np.fmin(np.fmax(after, 0.0), 1.0)  # where nothing crosses, 0
-    before, beyond = after[[3, 0, 1, 2]], after[[1, 2, 3, 0]]
-    following, opposite = corner[[1, 2, 3, 0]], corner[[2, 3, 0, 1]]
-    mixed = count[i, j]
-    # One corner in: a triangle. Opposite corners in: two of them, held apart.
-    lone = corner & ((mixed == 1) | ((mixed == 2) & opposite))
-    # One corner out: what is missing is a triangle.
-    missing = ~corner & (mixed == 3)
-    # A side in: a trapezium between the crossings of the two edges that leave it.
-    side = corner & following & (mixed == 2)
-    triangles = (before * after)[lone].sum() / 2
-    cut_off = (1 - (1 - before) * (1 - after) / 2)[missing].sum()
-    trapezia = (before + beyond)[side].sum() / 2
-    return float(np.count_nonzero(count == 4) + triangles + cut_off + trapezia)
+    along_x, along_y = rim.along_x, rim.along_y
+    edges = np.array([along_x[i, j], along_x[i, j + 1], along_y[i, j], along_y[i + 1, j]])
+    edges = np.fmin(np.fmax(edges, 0.0), 1.0)  # where nothing crosses, 0
+    u, v = edges[0] + edges[1], edges[2] + edges[3]
+    # One corner in: a triangle. A side in: a trapezium between the crossings of the two edges that
+    # leave it. One corner out: what is missing is a triangle.
+    corners = count[i, j]
+    enclosed = np.choose(corners - 1, [u * v / 2, (u + v) / 2, 1 - (1 - u) * (1 - v) / 2])
+    # Opposite corners in: two triangles, held apart.
+    first = inside[i, j]
+    apart = np.flatnonzero((corners == 2) & (first == inside[i + 1, j + 1]))
+    if apart.size:
+        left, right, lower, upper = edges[:, apart]
+        ends = np.where(first[apart], left * lower + right * upper, left * upper + right * lower)
+        enclosed[apart] = ends / 2
+    return float(np.count_nonzero(count == 4) + enclosed.sum())
 
 
 def _places(where: NDArray[np.bool_]) -> Place:
