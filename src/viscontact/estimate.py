@@ -137,22 +137,9 @@ def estimate_contact(
     )
 
 
-def level_of(point: LoadPoint) -> float:
-    """Return what presses: the force [N] or, where that is prescribed, the approach [m].
-
-    Examples
-    --------
-    >>> level_of(LoadPoint(None, 0.0, 0.0, None, None, approach=1e-6))
-    1e-06
-    """
-    level = point.approach if point.force is None else point.force
-    assert level is not None  # one of the two is given
-    return level
-
-
 def _first_size(indenter: Indenter, compliance: float, point: LoadPoint) -> float:
     radius = indenter.radius_of_curvature
-    level, is_round = level_of(point), math.isfinite(radius) and radius > 0
+    level, is_round = point.level, math.isfinite(radius) and radius > 0
     if point.force is None:
         scale = math.sqrt(radius * level) if is_round else level
     else:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.compliance import ContactCompliance, SeriesCompliance
-from viscontact.estimate import ContactEstimate, estimate_contact, level_of
+from viscontact.estimate import ContactEstimate, estimate_contact
 from viscontact.indenters import Indenter
 from viscontact.load import LoadHistory, LoadPoint
 
@@ -119,8 +119,8 @@ def hardest_contact(
     ValueError
         If no grid fits that contact.
     """
-    highest = max(level_of(each.point) for each in found)
-    as_large = [each for each in found if level_of(each.point) >= AS_LARGE * highest]
+    highest = max(each.point.level for each in found)
+    as_large = [each for each in found if each.point.level >= AS_LARGE * highest]
     smallest = min(as_large, key=lambda each: min(each.estimate.extents))
     if load.control == "approach":  # where the compliance scales the pressure, and nothing else
         return smallest
@@ -160,7 +160,7 @@ def _corners(load: LoadHistory, end: float | None) -> list[LoadPoint]:
     crest, _ = largest_load(load, float(corners[-1]))
     instants = _telling(np.unique(np.concatenate([corners, *within, [crest]])), load).tolist()
     points = [load.at(time, side=side) for time in instants for side in ("left", "right")]
-    return _outermost(list(dict.fromkeys(point for point in points if level_of(point) > 0)))
+    return _outermost(list(dict.fromkeys(point for point in points if point.level > 0)))
 
 
 def _telling(instants: NDArray[np.float64], load: LoadHistory) -> NDArray[np.float64]:
@@ -178,10 +178,10 @@ def _outermost(points: list[LoadPoint]) -> list[LoadPoint]:
     if len(points) <= MOST_CORNERS:
         return points
     ways = ("eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y")
-    extremes = [max(points, key=level_of)]
+    extremes = [max(points, key=lambda point: point.level)]
     for way in ways:
         extremes += _farthest(points, way)
-    highest = sorted(points, key=level_of, reverse=True)[: MOST_CORNERS // 2]
+    highest = sorted(points, key=lambda point: point.level, reverse=True)[: MOST_CORNERS // 2]
     return list(dict.fromkeys([*extremes, *highest]))
 
 
@@ -189,7 +189,7 @@ def _farthest(points: list[LoadPoint], way: str) -> list[LoadPoint]:
     """The loads that act or tilt farthest one way and the other."""
 
     def reach(point: LoadPoint) -> tuple[float, float]:
-        return getattr(point, way) or 0.0, level_of(point)
+        return getattr(point, way) or 0.0, point.level
 
     return [min(points, key=reach), max(points, key=reach)]
 

@@ -10,7 +10,7 @@ import numpy as np
 from scipy import fft
 
 from viscontact.companions import usual_companions
-from viscontact.estimate import ContactEstimate, estimate_contact, level_of
+from viscontact.estimate import ContactEstimate, estimate_contact
 from viscontact.extent import largest_load
 from viscontact.footprint import run_memory, step_count
 from viscontact.foresight import foreseen_doubts
@@ -95,7 +95,7 @@ def forecast(run: Run, *, errors: bool = False) -> Forecast:
     """
     time, point = largest_load(run.load, float(run.times[-1]))
     compliance, named = _telling_compliance(run, time)
-    if level_of(point) > 0:
+    if point.level > 0:
         estimate = _estimate(run, compliance, point)
         extents, reach = (estimate.length, estimate.width), estimate.reach
     else:

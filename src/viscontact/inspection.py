@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from viscontact.estimate import ContactEstimate, level_of
+from viscontact.estimate import ContactEstimate
 from viscontact.extent import largest_load
 from viscontact.forecast import Forecast, forecast
 from viscontact.geometry_doubts import SINGULAR_KINDS
@@ -134,7 +134,7 @@ def _when_largest(run: Run) -> Iterator[str]:
     kinks = run.load.kinks[run.load.kinks <= run.times[-1]]
     instants = np.union1d(run.times, [*kinks, crest])
     # On the left of a jump, say, it is at one instant only.
-    is_largest = run.load.level_at(instants) >= AS_LARGE * level_of(point)
+    is_largest = run.load.level_at(instants) >= AS_LARGE * point.level
     is_largest |= instants == crest
     first, last = (in_words(float(instants[is_largest][k]), "s", 3) for k in (0, -1))
     when = f" (t = {first} to {last})" if first != last else f" (t = {first})"

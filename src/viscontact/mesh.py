@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.compliance import ContactCompliance
-from viscontact.estimate import level_of
 from viscontact.extent import (
     MOST_CELLS,
     PointContact,
@@ -109,8 +108,8 @@ def choose_mesh(
     """
     largest = largest_compliance(compliance, end)
     found = contacts_of_history(indenter, largest, load, end)
-    highest = max(level_of(each.point) for each in found)
-    late = next(each for each in found if level_of(each.point) == highest)
+    highest = max(each.point.level for each in found)
+    late = next(each for each in found if each.point.level == highest)
     reach = np.array([each.estimate.reach for each in found], dtype=np.float64).max(axis=0)
     size = 2 * MARGIN * reach
     choice = _begun(indenter, wish, late, size)

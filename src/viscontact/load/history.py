@@ -47,6 +47,19 @@ class LoadPoint:
     tilt_y: float | None
     approach: float | None = None
 
+    @property
+    def level(self) -> float:
+        """What presses: the force [N] or, where that is prescribed, the approach [m].
+
+        Examples
+        --------
+        >>> LoadPoint(None, 0.0, 0.0, None, None, approach=1e-6).level
+        1e-06
+        """
+        level = self.approach if self.force is None else self.force
+        assert level is not None  # one of the two is given
+        return level
+
 
 class LoadHistory(Shown, ABC):
     """A force or an approach over time, with where the force acts and prescribed tilts.
