@@ -29,6 +29,9 @@ CELLS_OF_A_WAVE = 10
 #: Where a body is looked for beyond the grid, as part of its size: evenly near it, then ever wider.
 NEAR, FAR = np.linspace(0.0, 1.5, 25), np.geomspace(1.6, 30.0, 32)
 
+#: Rings of points beyond the grid, each of which is passed over where none of it can touch.
+RINGS = 16
+
 Points = tuple[NDArray[np.float64], NDArray[np.float64]]
 
 
@@ -58,6 +61,26 @@ class Sampling:
         gap = self.indenter.gap(x, y)
         solid = np.isfinite(gap)
         return x[solid], y[solid], gap[solid]
+
+    @cached_property
+    def _rings(self) -> NDArray[np.float64]:
+        """Of rings of points beyond the grid: largest distances along x and y, least gap [m]."""
+        x, y, gap = self.beyond
+        (lx, ly), distances = self.grid.size, np.abs([x, y])
+        outwards = np.argsort(np.maximum(distances[0] / lx, distances[1] / ly))
+        rings = [ring for ring in np.array_split(outwards, RINGS) if ring.size]
+        found = [[*distances[:, ring].max(axis=1), gap[ring].min()] for ring in rings]
+        return np.reshape(found, (-1, 3)).T
+
+    def reaches_beyond(self, motion: NDArray[np.float64], depth: float) -> bool:
+        """Whether the moved body lies deeper than a depth [m] at a point outside the grid."""
+        far_x, far_y, least = self._rings
+        # It is asked at every step, and nearly always no ring comes close.
+        deepest = motion[0] + abs(motion[1]) * far_x + abs(motion[2]) * far_y - least
+        if (deepest <= depth).all():
+            return False
+        x, y, gap = self.beyond
+        return bool((motion[0] + motion[1] * x + motion[2] * y - gap > depth).any())
 
     @cached_property
     def missed(self) -> NDArray[np.float64]:
@@ -173,11 +196,9 @@ def sampling_doubts(
     doubts = map_doubts(missed, cell, strain) | texture_doubts(sampling.indenter.period, cell)
     if sampling.grid.periodic:
         return doubts  # the next period is beside it, not the body
-    x, y, gap = sampling.beyond
     # Pressure is all within the grid, so displacement falls from its rim outwards.
     rim_displacement = max(displacement[[0, -1]].max(), displacement[:, [0, -1]].max())
-    reached = float((motion[0] + motion[1] * x + motion[2] * y - gap).max(initial=-math.inf))
-    if reached > rim_displacement * (1 + 1e-9):
+    if sampling.reaches_beyond(motion, rim_displacement * (1 + 1e-9)):
         doubts["beyond"] = (
             "the body would touch outside the grid, too, where nothing is computed: the contact "
             "carries a part of the load only; enlarge grid.size"
