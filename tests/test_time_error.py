@@ -14,19 +14,22 @@ from viscontact.schedule import Step
 from viscontact.time_error import ALONE, FIRST, SAFETY, TimeErrors
 
 FLUID = SeriesCompliance(1.0, [], [], 0.01)  # so stiff that steps of 1 s rise all the way
+LOAD = step(1.0)
 FIELD = np.array([[0.0, 0.0], [0.5, 1.0]])  # pressure, which does not count, and deflection
 
 
 def follow(values, duration=1.0, compliance=FLUID):
     """Estimates and exact errors along a field that takes the values step by step."""
-    errors = TimeErrors(plan_memory(compliance, np.arange(len(values)) * duration, 2), step(1.0))
+    errors = TimeErrors(plan_memory(compliance, np.arange(len(values)) * duration, 2), LOAD)
     memory = RecursiveMemory(compliance, FIELD.shape)
     estimates = []
     for k, value in enumerate(values):
         each = Step(k * duration, duration if k else 0.0, None, smooth=k > 1)
         response = memory.ramp(duration) if k else memory.jump()
         field = value * FIELD
-        estimates.append(errors.after(each, field, errors.of_step(each, field, response)))
+        estimates.append(
+            errors.after(each, field, errors.of_step(each, LOAD.at(each.time), field, response))
+        )
         memory.accept(field)
     return np.array(estimates), response.compliance
 
@@ -72,7 +75,7 @@ def test_a_first_step_without_a_successor_counts_by_its_change():
         (Step(2.0, 1.0, 2.0, smooth=False), 1.0),
     ):
         response = memory.jump() if each.is_jump else memory.ramp(each.duration)
-        measured = errors.of_step(each, value * FIELD, response)
+        measured = errors.of_step(each, LOAD.at(each.time), value * FIELD, response)
         estimate = errors.after(each, value * FIELD, measured)
         memory.accept(value * FIELD)
     assert estimate == pytest.approx(ALONE * 0.01 / response.compliance, rel=1e-12)
@@ -90,7 +93,7 @@ def test_what_touches_first_is_measured_against_what_the_load_will_come_to():
         memory = RecursiveMemory(FLUID, FIELD.shape)
         for each in (Step(0.0, 0.0, 0.0, smooth=False), Step(time, 1.0, 1.0, smooth=False)):
             response = memory.jump() if each.is_jump else memory.ramp(each.duration)
-            measured = errors.of_step(each, each.time * FIELD, response)
+            measured = errors.of_step(each, load.at(each.time), each.time * FIELD, response)
             errors.after(each, each.time * FIELD, measured)
             memory.accept(each.time * FIELD)
         parts.append(measured.relative)

@@ -58,7 +58,9 @@ class Observer:
         self._point: LoadPoint | None = None
         self._resultants = np.zeros(3)
         self._cycles = Cycles(run.load.load_cycles)
-        self._largest_area, self._cells_at_largest, self._spots_at_largest = 0.0, 0, 0.0
+        self._largest_area, self._cells_at_largest = 0.0, 0
+        self._largest: NDArray[np.bool_] | None = None  # the contact whose spots are not told yet
+        self._spots_at_largest = 0.0
         self._peak, self._peak_time, self._peak_told = 0.0, 0.0, 0.0
         self._looked_at = 0.0
 
@@ -88,15 +90,17 @@ class Observer:
         if self._before is not None:
             self._before = onto.instant(self._before)
 
-    def observe(self, step: Step, instant: Instant) -> ContactState:
+    def observe(self, step: Step, point: LoadPoint, instant: Instant) -> ContactState:
         """Describe the end of a step.
 
         Parameters
         ----------
         step : Step
             The step.
+        point : LoadPoint
+            The load at its end.
         instant : Instant
-            Its end.
+            What was found there.
 
         Returns
         -------
@@ -106,14 +110,13 @@ class Observer:
         contact = instant.pressure > 0
         rim = trace_rim(self._run.grid, contact, instant.gap, self._outline)
         resultants = self._plane.sums(instant.pressure) * self._run.grid.cell_area
-        self._work += self._work_of(step, instant, resultants)
+        self._work += self._work_of(point, instant, resultants)
         self._cycles.pass_by(step, self._work)
         self._collect_doubts(step, instant, rim)
         state = _state(step, instant, rim, resultants, self._work, self._cycles.last_loss)
         if state.contact_area > self._largest_area:
             self._largest_area, self._cells_at_largest = state.contact_area, state.cells_across
-            periodic = self._run.grid.periodic
-            self._spots_at_largest = cells_across_spots(contact, periodic=periodic)
+            self._largest = contact
         if state.peak_pressure > self._peak and step.time >= self._run.times[0]:
             self._peak, self._peak_time = state.peak_pressure, step.time
         self._before, self._resultants = instant, resultants
@@ -137,7 +140,7 @@ class Observer:
         self._peak_told = max(self._peak_told, state.peak_pressure)
         mesh, untold = {}, {}
         if last and self._largest_area:
-            mesh = mesh_doubts(self._cells_at_largest, self._spots_at_largest)
+            mesh = mesh_doubts(self._cells_at_largest, self._cells_across_spots())
             untold = untold_doubts(self._peak, self._peak_time, self._peak_told)
         return replace(state, warnings=self._doubts.new(self._open, mesh, untold))
 
@@ -171,7 +174,7 @@ class Observer:
             "cycles": self._cycles.carried(),
             "largest_area": self._largest_area,
             "cells_at_largest": self._cells_at_largest,
-            "spots_at_largest": self._spots_at_largest,
+            "spots_at_largest": self._cells_across_spots(),
             "peak": [self._peak, self._peak_time, self._peak_told],
             "looked_at": self._looked_at,
         }
@@ -192,6 +195,14 @@ class Observer:
         self._spots_at_largest = carried["spots_at_largest"]
         self._peak, self._peak_time, self._peak_told = carried["peak"]
         self._looked_at = carried["looked_at"]
+
+    def _cells_across_spots(self) -> float:
+        """Cells across the spots of the largest contact, counted when they are asked for."""
+        if self._largest is not None:
+            periodic = self._run.grid.periodic
+            self._spots_at_largest = cells_across_spots(self._largest, periodic=periodic)
+            self._largest = None
+        return self._spots_at_largest
 
     def _collect_doubts(self, step: Step, instant: Instant, rim: Rim) -> None:
         found = data_doubts(step.time, self._run.measured_until)
@@ -214,7 +225,9 @@ class Observer:
         strain = strain_of(peak, float(self._run.compliance(time)))
         return corner_doubts(self._geometry, place, strain)
 
-    def _work_of(self, step: Step, instant: Instant, resultants: NDArray[np.float64]) -> float:
+    def _work_of(
+        self, point: LoadPoint, instant: Instant, resultants: NDArray[np.float64]
+    ) -> float:
         """Work over a step: exact while the load is held, and for all that is elastic.
 
         Under a held load the force is constant, or nothing travels: force times approach is exact.
@@ -224,10 +237,10 @@ class Observer:
         reciprocity, however far the step goes.
         """
         before, point_before = self._before, self._point
-        self._point = self._run.load.at(step.time, side=step.side)
+        self._point = point
         if before is None:  # every run starts with a jump
             return self._run.compliance.instant * instant.energy
-        if self._point == point_before:
+        if point == point_before:
             travel = instant.motion - before.motion
             return float((self._resultants + resultants) @ travel / 2)
         mean = (before.pressure + instant.pressure) / 2

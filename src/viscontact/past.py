@@ -38,8 +38,6 @@ class Posed:
     ----------
     point : LoadPoint
         The load at its end.
-    force : float
-        Prescribed force, 0 where an approach is prescribed [N].
     response : Response
         Of the memory to the step.
     drive : float
@@ -49,7 +47,6 @@ class Posed:
     """
 
     point: LoadPoint
-    force: float
     response: Response
     drive: float
     problem: ContactProblem
@@ -61,12 +58,12 @@ class Trial:
 
     Attributes
     ----------
+    point : LoadPoint
+        The load at its end.
     solution : ContactSolution
-        Equilibrium at its end.
+        Equilibrium there.
     values : ndarray, shape (2, nx, ny)
         Pressure [Pa] and deflection [Pa m] there.
-    force : float
-        Prescribed force, 0 where an approach is prescribed [N].
     response : Response
         Of the memory to the step.
     twin : Twin
@@ -77,9 +74,9 @@ class Trial:
         What the step adds to the error of the pressure.
     """
 
+    point: LoadPoint
     solution: ContactSolution
     values: NDArray[np.float64]
-    force: float
     response: Response
     twin: Twin
     outcome: Outcome
@@ -149,11 +146,10 @@ class Past:
     def _posed(self, step: Step) -> Posed:
         """Ask the memories what the step will meet."""
         point = self._run.load.at(step.time, side=step.side)
-        force = point.force or 0.0
         response, force_response = (
             _response(each, step) for each in (self._memory, self._force_memory)
         )
-        twin_force = float(force_response.of(np.array([force]))[0])
+        twin_force = float(force_response.of(_force(point))[0])
         drive = twin_force if point.approach is None else point.approach
         problem = ContactProblem(
             self._shape + response.history[1],
@@ -161,7 +157,7 @@ class Past:
             self._half_space.share(Support.of(point)),
             self._scale,
         )
-        return Posed(point, force, response, drive, problem)
+        return Posed(point, response, drive, problem)
 
     def _tried(
         self, step: Step, posed: Posed, solution: ContactSolution, outcome: Outcome
@@ -170,8 +166,8 @@ class Past:
         values.flags.writeable = False  # it will be remembered, without a copy
         response = posed.response
         twin = Twin(step.time, posed.drive, response.of(values), solution.found.motion)
-        error = self._errors.of_step(step, values, response)
-        return Trial(solution, values, posed.force, response, twin, outcome, error)
+        error = self._errors.of_step(step, posed.point, values, response)
+        return Trial(posed.point, solution, values, response, twin, outcome, error)
 
     def accept(self, step: Step, trial: Trial) -> Instant:
         """Take a step that has been solved."""
@@ -179,7 +175,7 @@ class Past:
         self._twins = [] if trial.outcome is Outcome.NO_CONTACT else [*known, trial.twin]
         self._motion = trial.solution.found.motion
         self._memory.accept(trial.values)
-        self._force_memory.accept(np.array([trial.force]))
+        self._force_memory.accept(_force(trial.point))
         time_error = self._errors.after(step, trial.values, trial.error)
         instant = _whole(self._half_space, trial, time_error)
         self._scale = max(self._scale, HISTORY_COUNTS * float(instant.displacement.max()))
@@ -218,6 +214,11 @@ class Past:
         return _at_lowest_point(self._run, apart) if untouched else apart
 
 
+def _force(point: LoadPoint) -> NDArray[np.float64]:
+    """The prescribed force [N], 0 where an approach is prescribed: a field of one number."""
+    return np.array([point.force or 0.0])
+
+
 def _response(memory: Memory, step: Step) -> Response:
     return memory.jump() if step.is_jump else memory.ramp(step.duration)
 
@@ -226,7 +227,7 @@ def _guess(twin: Twin | None, response: Response) -> Guess | None:
     """From a predicted twin back to the pressure and the deflection that would bring it about."""
     if twin is None:
         return None
-    values = twin.fields - response.history
+    values = np.subtract(twin.fields, response.history, out=twin.fields)  # it was made for this
     values /= response.compliance
     return Guess(values[0], values[1], twin.motion)
 
@@ -265,11 +266,11 @@ def _whole(half_space: HalfSpace, trial: Trial, time_error: float) -> Instant:
     }
     for field in fields.values():
         field.flags.writeable = False  # the run goes on from them
-    energy = half_space.fold_count * float((found.pressure * found.deflection).sum()) / 2
+    energy = half_space.fold_count * np.einsum("ij,ij->", found.pressure, found.deflection) / 2
     return Instant(
         **fields,
         motion=found.motion,
-        energy=energy * half_space.grid.cell_area,
+        energy=float(energy) * half_space.grid.cell_area,
         residual=solution.residual,
         iterations=solution.iterations,
         outcome=trial.outcome,

@@ -73,10 +73,11 @@ def predict(past: Sequence[Twin], time: float, drive: float) -> Twin | None:
         weights = lagrange_weights(drives, drive)
     else:
         weights = lagrange_weights([twin.time for twin in known], time)
-    fields = weights[0] * known[0].fields
-    term = np.empty_like(fields)
-    for weight, twin in zip(weights[1:], known[1:], strict=True):
-        fields += np.multiply(weight, twin.fields, out=term)
+    # From the last one on, as the weights' sum is one: in place, where each pass counts.
+    last = known[-1].fields
+    fields = np.subtract(known[0].fields, last)
+    fields *= weights[0]
+    fields += last
     motion = np.asarray(weights) @ np.array([twin.motion for twin in known])
     return Twin(time, drive, fields, motion)
 

@@ -184,7 +184,7 @@ class March:
     def _taken(self, step: Step, trial: Trial, solved: SolvedStep) -> Taken:
         instant = self._past.accept(step, trial)
         _refuse_rim(self._run, step, instant)
-        state = self._observer.observe(step, instant)
+        state = self._observer.observe(step, trial.point, instant)
         if step.asked is None:
             return Taken(solved, None, self._done, self._steps.left)
         self._done += 1

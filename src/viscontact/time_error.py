@@ -2,8 +2,8 @@
 
 Within a step the pressure is taken for linear in time. What it is not, a bulge of d² q''/12 in the
 mean over a step of length d, enters the memory and acts on as long as the body remembers it: the
-displacement e(t) it amounts to has to be made good by a wrong pressure, J * dq = -e. Memories of a
-single number follow both, with all bulges of one sign: an estimate of the most that they can have
+displacement e(t) it amounts to has to be made good by a wrong pressure, J * dq = -e. A memory of
+single numbers follows both, with all bulges of one sign: an estimate of the most that they can have
 come to, not of what they cancel to.
 """
 
@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.carried import Carried
-from viscontact.load import LoadHistory
-from viscontact.memory import Enlarging, MemoryPlan, RecursiveMemory, Response
+from viscontact.load import LoadHistory, LoadPoint
+from viscontact.memory import Enlarging, MemoryPlan, Response, ramp_weights
 from viscontact.schedule import Step
 
 #: The bulge of a first step after a kink is guessed from the curvature in its successor, which is
@@ -34,7 +34,7 @@ ALONE = 1 / 4
 GROWTH = 1 / 4
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class StepError:
     """What one step adds to the error.
 
@@ -48,12 +48,15 @@ class StepError:
         Largest deflection so far [Pa m].
     level : float
         Largest level of the load so far [N or m].
+    rate : ndarray, shape (nx, ny), or None
+        Rate of the deflection over the step [Pa m/s]; None for a jump.
     """
 
     bulge: float
     relative: float
     size: float
     level: float
+    rate: NDArray[np.float64] | None = None
 
 
 class TimeErrors:
@@ -74,23 +77,26 @@ class TimeErrors:
         self._load = load
         self._level = 0.0
         self._compliance = plan.sketch
-        self._bulges = RecursiveMemory(plan.sketch, (1,))
-        self._wrong = RecursiveMemory(plan.sketch, (1,))
-        for memory in (self._bulges, self._wrong):
-            memory.jump()
-            memory.accept(np.zeros(1))
-        self._error = 0.0
+        #: What each term of J still owes, to bulges and to the wrong pressure together [m].
+        self._owed = np.zeros(plan.sketch.term_count)
+        self._wrong, self._jumped = 0.0, True
+        #: Lengths of the last two steps since a kink, values at their ends; rate over the last.
         self._past: list[tuple[float, NDArray[np.float64]]] = []
+        self._rate: NDArray[np.float64] | None = None
         self._pending: tuple[float, float] | None = None
         self._size = 0.0
 
-    def of_step(self, step: Step, values: NDArray[np.float64], response: Response) -> StepError:
+    def of_step(
+        self, step: Step, point: LoadPoint, values: NDArray[np.float64], response: Response
+    ) -> StepError:
         """Return what a step adds to the error of the pressure at its end.
 
         Parameters
         ----------
         step : Step
             The step, not taken yet.
+        point : LoadPoint
+            The load at its end.
         values : ndarray, shape (2, nx, ny)
             Pressure ``p`` [Pa] and deflection ``K p`` [Pa m] at its end.
         response : Response
@@ -102,13 +108,16 @@ class TimeErrors:
             For the first step after a kink a guess from the change over it.
         """
         # Deflections are positive: the kernel is.
-        size, level = max(self._size, float(values[1].max())), self._level_after(step)
-        if step.is_jump or size == 0:
+        size, level = max(self._size, float(values[1].max())), max(self._level, point.level)
+        if step.is_jump or not self._past:
             return StepError(0.0, 0.0, size, level)
-        bulge = self._bulge(step, values[1], response)
+        rate = values[1] - self._past[-1][1][1]
+        rate /= step.duration
+        bulge = self._bulge(step, rate, response)
         crept = self._compliance(step.duration) - self._compliance.instant
         to_come = size * self._growth_to_come(level)
-        return StepError(bulge, bulge * crept / (response.compliance * to_come), size, level)
+        relative = bulge * crept / (response.compliance * to_come) if size > 0 else 0.0
+        return StepError(bulge, relative, size, level, rate)
 
     def after(self, step: Step, values: NDArray[np.float64], error: StepError) -> float:
         """Take a step, and return the estimated relative error of the pressure after it.
@@ -132,71 +141,64 @@ class TimeErrors:
         if step.is_jump:
             self._past = []
             if self._compliance.instant > 0:  # else nothing jumps
-                self._make_good(self._wrong.jump())
+                self._wrong = -float(self._owed.sum()) / self._compliance.instant
+                self._jumped = True
         elif len(self._past) < 2:
-            change = float(np.abs(self._change_to(values[1])).max()) if self._past else 0.0
+            change = 0.0 if error.rate is None else step.duration * _largest(error.rate)
             self._pending = (step.duration, change)
         else:
             self._settle(alone=False, bulge=error.bulge / step.duration**2)
             self._remember(step.duration, error.bulge)
-        self._past = [*self._past[-1:], (step.time, values)]
-        return self._error / self._size if self._size > 0 else 0.0
+        self._past = [*self._past[-1:], (step.duration, values)]
+        self._rate = error.rate
+        return abs(self._wrong) / self._size if self._size > 0 else 0.0
 
     def carried(self) -> Carried:
         """What has to be kept to go on from here."""
         return {
-            "bulges": self._bulges.carried(),
-            "wrong": self._wrong.carried(),
-            "past": [{"time": time, "values": values} for time, values in self._past],
+            "owed": self._owed,
+            "wrong": self._wrong,
+            "jumped": self._jumped,
+            "past": [{"duration": duration, "values": values} for duration, values in self._past],
             "pending": None if self._pending is None else list(self._pending),
-            "error": self._error,
             "size": self._size,
             "level": self._level,
         }
 
     def restore(self, carried: Carried) -> None:
-        """Go on from what was `carried` under the same load by the same law."""
-        self._bulges.restore(carried["bulges"])
-        self._wrong.restore(carried["wrong"])
-        self._past = [(point["time"], point["values"]) for point in carried["past"]]
+        """Go on from what was `carried`, in the same run."""
+        self._owed, self._wrong = carried["owed"], carried["wrong"]
+        self._jumped = carried["jumped"]
+        self._past = [(point["duration"], point["values"]) for point in carried["past"]]
+        self._rate = self._last_rate()
         pending = carried["pending"]
         self._pending = None if pending is None else (pending[0], pending[1])
-        self._error, self._size, self._level = (
-            carried[name] for name in ("error", "size", "level")
-        )
+        self._size, self._level = carried["size"], carried["level"]
 
     def enlarge(self, grown: Enlarging) -> None:
         """Go on with larger fields, which `grown` makes of those that are remembered."""
-        self._past = [(time, grown(values)) for time, values in self._past]
+        self._past = [(duration, grown(values)) for duration, values in self._past]
+        self._rate = self._last_rate()
 
     def _growth_to_come(self, level: float) -> float:
         """By how much pressure and deflection will still grow with the load, at least."""
         return (self._load.largest_level / level) ** GROWTH if level > 0 else 1.0
 
-    def _level_after(self, step: Step) -> float:
-        """Largest level of the load so far, the step's end included [N or m]."""
-        return max(self._level, float(self._load.level_at(step.time, side=step.side)))
-
-    def _bulge(self, step: Step, field: NDArray[np.float64], response: Response) -> float:
-        """Mean distance of the field from the path that the memory takes, within a step."""
-        if step.is_jump or not self._past:
-            return 0.0
-        change = self._change_to(field)
-        travel = _largest(change)
+    def _bulge(self, step: Step, rate: NDArray[np.float64], response: Response) -> float:
+        before = self._rate if step.smooth else None
+        travel = step.duration * _largest(rate) if response.held or before is None else 0.0
         late = response.held * travel / 2
-        if not step.smooth or len(self._past) < 2:
+        if before is None:
             return max(late, ALONE * travel)
-        before = self._past[-1][0] - self._past[-2][0]
-        earlier = self._past[-1][1][1] - self._past[-2][1][1]
-        earlier /= before
-        change /= step.duration
-        change -= earlier
-        curvature = 2 * _largest(change) / (step.duration + before)
+        change = _largest(rate - before)
+        curvature = 2 * change / (step.duration + self._past[-1][0])
         return SAFETY * step.duration**2 / 12 * curvature + late
 
-    def _change_to(self, deflection: NDArray[np.float64]) -> NDArray[np.float64]:
-        """From the last deflection on."""
-        return np.asarray(deflection - self._past[-1][1][1])
+    def _last_rate(self) -> NDArray[np.float64] | None:
+        if len(self._past) < 2:
+            return None
+        (_, before), (duration, last) = self._past
+        return np.asarray((last[1] - before[1]) / duration)
 
     def _settle(self, *, alone: bool, bulge: float = 0.0) -> None:
         """Remember a first step, with or without a successor that tells the bulge per d²."""
@@ -211,20 +213,13 @@ class TimeErrors:
 
     def _remember(self, duration: float, bulge: float) -> None:
         """Let a bulge over a step enter the memory, and the pressure go wrong by what it does."""
-        held, nothing = np.array([bulge]), np.zeros(1)
-        self._bulges.jump()
-        self._bulges.accept(held)
-        self._bulges.ramp(duration)
-        self._bulges.accept(held)
-        self._bulges.jump()
-        self._bulges.accept(nothing)
-        self._make_good(self._wrong.ramp(duration))
-
-    def _make_good(self, response: Response) -> None:
-        left = self._bulges.jump().history
-        wrong = -(response.history + left) / response.compliance
-        self._wrong.accept(wrong)
-        self._error = abs(float(wrong[0]))
+        held = ramp_weights(self._compliance, duration, after_jump=True)
+        wrong = ramp_weights(self._compliance, duration, after_jump=self._jumped)
+        self._owed = wrong.decay * self._owed + (held.old + held.new) * bulge
+        self._owed += wrong.old * self._wrong
+        met = self._compliance.instant + float(wrong.new.sum())
+        self._wrong, self._jumped = -float(self._owed.sum()) / met, False
+        self._owed += wrong.new * self._wrong
 
 
 def _largest(field: NDArray[np.float64]) -> float:

@@ -69,6 +69,11 @@ class SeriesCompliance(ContactCompliance):
         store(self, instant=instant, amplitudes=amplitudes, times=times, fluidity=fluidity)
 
     @property
+    def term_count(self) -> int:
+        """How many terms creep: the exponentials, and the flow if there is any."""
+        return len(self.times) + (self.fluidity > 0)
+
+    @property
     def settled_after(self) -> float:
         """Five of the slowest times [s]; a fluid's is the time of doubling its instant part."""
         times = self.times.tolist()

@@ -7,7 +7,7 @@ contact solver computes anyway: history costs no convolution.
 
 from viscontact.memory.choice import MemoryPlan, plan_memory
 from viscontact.memory.exponentials import as_exponentials
-from viscontact.memory.recursion import RecursiveMemory
+from viscontact.memory.recursion import RampWeights, RecursiveMemory, ramp_weights
 from viscontact.memory.response import Enlarging, Memory, Response
 from viscontact.memory.superposition import SuperposedMemory
 
@@ -15,9 +15,11 @@ __all__ = [
     "Enlarging",
     "Memory",
     "MemoryPlan",
+    "RampWeights",
     "RecursiveMemory",
     "Response",
     "SuperposedMemory",
     "as_exponentials",
     "plan_memory",
+    "ramp_weights",
 ]

@@ -58,7 +58,7 @@ class MemoryPlan:
     def fields_kept(self) -> int:
         """Fields that a memory keeps: one for each exponential, or one for each step."""
         if isinstance(self.compliance, SeriesCompliance):
-            return len(self.compliance.times) + (self.compliance.fluidity > 0)
+            return self.compliance.term_count
         return self.steps
 
     def memory(self, shape: tuple[int, ...]) -> Memory:

@@ -51,8 +51,9 @@ class RecursiveMemory(Memory):
 
     def __init__(self, compliance: SeriesCompliance, shape: tuple[int, ...]) -> None:
         self._compliance = compliance
-        self._fields = np.zeros((_terms(compliance), *shape))
+        self._fields = np.zeros((compliance.term_count, *shape))
         self._value = np.zeros(shape)
+        self._term = np.empty(shape)  # to work in
         self._jumped = self._next_jumps = False
         self._next = _jump(compliance)
 
@@ -65,19 +66,18 @@ class RecursiveMemory(Memory):
     def ramp(self, duration: float) -> Response:
         """Response to a change over a step of the given time; see `Memory.ramp`."""
         self._next_jumps = False
-        self._next = _ramp(self._compliance, duration, after_jump=self._jumped)
+        self._next = ramp_weights(self._compliance, duration, after_jump=self._jumped)
         return self._response()
 
     def accept(self, value: NDArray[np.float64]) -> None:
         """Take the new value of the field into the memory and close the step."""
         self._jumped = self._next_jumps
-        term = np.empty_like(value)
         for field, decay, old, new in zip(
             self._fields, self._next.decay, self._next.old, self._next.new, strict=True
         ):
             field *= decay
-            field += np.multiply(old, self._value, out=term)
-            field += np.multiply(new, value, out=term)
+            field += np.multiply(old, self._value, out=self._term)
+            field += np.multiply(new, value, out=self._term)
         self._value = value.copy() if value.flags.writeable else value
 
     def carried(self) -> Carried:
@@ -87,6 +87,7 @@ class RecursiveMemory(Memory):
     def enlarge(self, grown: Enlarging) -> None:
         """Go on with a larger field; see `Memory.enlarge`."""
         self._fields, self._value = grown(self._fields), grown(self._value)
+        self._term = np.empty(self._value.shape)
 
     def restore(self, carried: Carried) -> None:
         """Go on from what was carried; see `Memory.restore`."""
@@ -96,16 +97,27 @@ class RecursiveMemory(Memory):
     def _response(self) -> Response:
         step = self._next
         history = step.old.sum() * self._value
-        term = np.empty_like(history)
         for field, decay in zip(self._fields, step.decay, strict=True):
-            history += np.multiply(decay, field, out=term)
+            history += np.multiply(decay, field, out=self._term)
         met = self._compliance.instant + float(step.new.sum())
         return Response(history, met, step.resolved, step.held)
 
 
 @dataclass(frozen=True, eq=False)
-class _Weights:
-    """What a step makes of each term: its decay, and its parts of the old and the new value."""
+class RampWeights:
+    """What a step makes of each term of a series.
+
+    Attributes
+    ----------
+    decay : ndarray, shape (n,)
+        The part of a term that is left of it [-].
+    old, new : ndarray, shape (n,)
+        What is added to it of the value before the step, and of the value at its end [1/Pa].
+    resolved : bool
+        Whether the step is short against the law.
+    held : float
+        Part of the step over which the new value is held [-].
+    """
 
     decay: NDArray[np.float64]
     old: NDArray[np.float64]
@@ -114,19 +126,36 @@ class _Weights:
     held: float = 0.0
 
 
-def _jump(compliance: SeriesCompliance) -> _Weights:
-    nothing = np.zeros(_terms(compliance))
-    return _Weights(nothing + 1.0, nothing, nothing)
-
-
-def _terms(compliance: SeriesCompliance) -> int:
-    return len(compliance.times) + (compliance.fluidity > 0)
+def _jump(compliance: SeriesCompliance) -> RampWeights:
+    nothing = np.zeros(compliance.term_count)
+    return RampWeights(nothing + 1.0, nothing, nothing)
 
 
 # Several memories take the same step: of the fields, and of single numbers that go with them.
 @lru_cache(maxsize=16)
-def _ramp(compliance: SeriesCompliance, duration: float, *, after_jump: bool) -> _Weights:
-    """Parts of the old and the new value in each term after a rise and a hold."""
+def ramp_weights(compliance: SeriesCompliance, duration: float, *, after_jump: bool) -> RampWeights:
+    """Parts of the old and the new value in each term after a rise and a hold.
+
+    Parameters
+    ----------
+    compliance : SeriesCompliance
+        J(t).
+    duration : float
+        Length of the step [s].
+    after_jump : bool
+        Whether the step before was a jump.
+
+    Returns
+    -------
+    RampWeights
+        Of each of its terms, the flow's last.
+
+    Examples
+    --------
+    >>> flow = SeriesCompliance(1.0, [], [], 0.01)
+    >>> ramp_weights(flow, 2.0, after_jump=False).new.tolist()
+    [0.01]
+    """
     rise = longest_smooth_rise(compliance, duration, after_jump=after_jump)
     times, amplitudes = np.asarray(compliance.times), np.asarray(compliance.amplitudes)
     ratio, rest = rise / times, np.exp((rise - duration) / times)
@@ -140,7 +169,7 @@ def _ramp(compliance: SeriesCompliance, duration: float, *, after_jump: bool) ->
         new = np.append(new, compliance.fluidity * (duration - rise / 2))
     crept = compliance(duration) - compliance.instant
     resolved = is_resolved(crept, compliance.instant, whole=rise == duration)
-    return _Weights(decay, old, new, resolved, 1 - rise / duration)
+    return RampWeights(decay, old, new, resolved, 1 - rise / duration)
 
 
 def _share_of_new(ratio: NDArray[np.float64]) -> NDArray[np.float64]:
