@@ -1,6 +1,8 @@
 """Hypothesis draws the same examples in every run; campaigns report their figures at the end."""
 
+import os
 import signal
+import sys
 from collections.abc import Callable, Iterator
 
 import pytest
@@ -8,6 +10,11 @@ from hypothesis import settings
 
 settings.register_profile("reproducible", derandomize=True, deadline=None)
 settings.load_profile("reproducible")
+
+# Tests start a hundred processes. Where no bytecode may be written each would compile all that it
+# imports, which takes longer than what it is started for.
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+sys.dont_write_bytecode = False
 
 # The tests send these; `nohup` and a shell's background leave them ignored, for children too.
 for name, usual in (("SIGINT", signal.default_int_handler), ("SIGHUP", signal.SIG_DFL)):

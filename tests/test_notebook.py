@@ -86,7 +86,7 @@ _HEIGHTS[5:9, 3:6] = np.nan
 _HEIGHTS[40, 15] = 5e-6
 _MODULUS = _ZENER.complex_modulus(_FREQUENCIES)
 #: A punch of radius a on G, nu: F = 4 G a delta / (1 - nu); pressed at 1 um/s, then held.
-_PRESSED = np.linspace(0.0, 3.0, 61)
+_PRESSED = np.linspace(0.0, 3.0, 16)
 _RECORD = vc.IndentationRecord(
     vc.FlatPunch(radius=1e-5),
     _PRESSED,

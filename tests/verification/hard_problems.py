@@ -41,12 +41,15 @@ class HardProblem:
         return vc.march(*arguments, indenter_material=self.indenter_material, **options)
 
 
+def law_of(seed):
+    """The kind of law that a problem has, without the problem."""
+    return _begun(np.random.default_rng([seed, 6]))[-2]
+
+
 def hard_problem(seed):
     """A problem; the seed says which."""
     rng = np.random.default_rng([seed, 6])
-    length, modulus = 10.0 ** rng.uniform(-9, 3), 10.0 ** rng.uniform(0, 12)
-    duration = 10.0 ** rng.uniform(-9, 9)
-    law_kind, law = _law(rng, modulus, duration)
+    length, modulus, duration, law_kind, law = _begun(rng)
     material = _material(rng, law)
     other = _other_body(rng, modulus, duration)
     body = hard_body(rng, length)
@@ -72,6 +75,12 @@ def hard_problem(seed):
     kinds = (body.kind, law_kind, "creeping indenter" if other else "rigid indenter")
     kinds += (("stage: " if staged else "force: ") + load_kind,)
     return HardProblem(body.indenter, material, load, grid, times, other, kinds)
+
+
+def _begun(rng):
+    length, modulus = 10.0 ** rng.uniform(-9, 3), 10.0 ** rng.uniform(0, 12)
+    duration = 10.0 ** rng.uniform(-9, 9)
+    return length, modulus, duration, *_law(rng, modulus, duration)
 
 
 def _law(rng, modulus, duration):
