@@ -5,13 +5,13 @@ Each is run in a process of its own, which may take no more memory than the comm
 
 from __future__ import annotations
 
-import os
 import re
 import subprocess
 import sys
-import time as clock
+import tempfile
 from itertools import product
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -35,30 +35,12 @@ def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def command(*arguments: str, room: int = PROGRAM) -> subprocess.CompletedProcess[str]:
+def command(*arguments: str, room: int = PROGRAM) -> Any:
     """Run the command as a user does, its standard input left open and silent."""
-    import resource
+    from fuzzing import forked  # Windows lacks what it imports
 
-    def limit() -> None:
-        resource.setrlimit(resource.RLIMIT_AS, (room, room))
-
-    read, write = os.pipe()
-    started = clock.perf_counter()
-    try:
-        done = subprocess.run(
-            [sys.executable, "-m", "viscontact", *arguments],
-            stdin=read,
-            capture_output=True,
-            text=True,
-            errors="replace",
-            timeout=6 * LONGEST,  # beside other processes, and with all that is imported
-            preexec_fn=limit,
-            env={**os.environ, "OPENBLAS_NUM_THREADS": "1", "MPLCONFIGDIR": "."},
-        )
-    finally:
-        os.close(read)
-        os.close(write)
-    assert clock.perf_counter() - started < 6 * LONGEST
+    with tempfile.TemporaryDirectory() as papers:
+        done = forked.command(arguments, room, 6 * LONGEST, Path(papers))
     assert "Traceback" not in done.stderr, done.stderr
     assert "fault of viscontact" not in done.stderr, done.stderr
     return done
@@ -162,6 +144,7 @@ def test_run_takes_no_more_memory_than_check_announces(law: str, cells: int, pla
 _WITH_PEAK = """
 import sys
 from pathlib import Path
+from typing import Any
 from viscontact.cli import main
 code = main(sys.argv[1:])
 print(*[line for line in Path("/proc/self/status").read_text().splitlines() if "VmHWM" in line])
