@@ -828,7 +828,13 @@ def _shell(line: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(["bash", "-c", line], capture_output=True, text=True, env=environment)
 
 
-@pytest.mark.parametrize("closed", [">&-", "2>&-", ">&- 2>&-", "<&- >&- 2>&-"])
+@pytest.mark.parametrize(
+    "closed",
+    [
+        "<&- >&- 2>&-",
+        *(pytest.param(c, marks=pytest.mark.slow) for c in (">&-", "2>&-", ">&- 2>&-")),
+    ],
+)
 def test_run_needs_no_standard_streams(closed: str, folder: Path) -> None:
     assert _shell(f"$V run case.yaml {closed}").returncode == 0
     with vc.open_results("case") as ds:
@@ -839,8 +845,15 @@ def test_run_needs_no_standard_streams(closed: str, folder: Path) -> None:
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no full device here")
-@pytest.mark.parametrize("buffered", ["", "1"])
-@pytest.mark.parametrize("reader", [">/dev/full", "| sleep 0; exit ${PIPESTATUS[0]}"])
+@pytest.mark.parametrize(
+    ("reader", "buffered"),
+    [
+        (">/dev/full", ""),
+        ("| sleep 0; exit ${PIPESTATUS[0]}", "1"),
+        pytest.param(">/dev/full", "1", marks=pytest.mark.slow),
+        pytest.param("| sleep 0; exit ${PIPESTATUS[0]}", "", marks=pytest.mark.slow),
+    ],
+)
 def test_finished_run_whose_table_nobody_gets_is_finished(
     reader: str, buffered: str, folder: Path
 ) -> None:
@@ -855,7 +868,13 @@ def test_finished_run_whose_table_nobody_gets_is_finished(
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no full device here")
 @pytest.mark.parametrize(
     "words",
-    ["show finished", "check case.yaml", "example", "schema", "--help", "run --help", "--version"],
+    [
+        *("show finished", "--help", "--version"),
+        *(
+            pytest.param(words, marks=pytest.mark.slow)
+            for words in ("check case.yaml", "example", "schema", "run --help")
+        ),
+    ],
 )
 def test_full_output_is_said_in_one_line(words: str, folder: Path, finished: Path) -> None:
     words = words.replace("finished", str(finished))

@@ -515,8 +515,23 @@ sys.exit(main())
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no such signals")
-@pytest.mark.parametrize("module", ["typer", "numpy", "exit"])
-@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGHUP"])
+@pytest.mark.parametrize(
+    ("name", "module"),
+    [
+        ("SIGINT", "typer"),
+        ("SIGTERM", "numpy"),
+        ("SIGHUP", "exit"),
+        *(
+            pytest.param(name, module, marks=pytest.mark.slow)
+            for module, names in {
+                "typer": ("SIGTERM", "SIGHUP"),
+                "numpy": ("SIGINT", "SIGHUP"),
+                "exit": ("SIGINT", "SIGTERM"),
+            }.items()
+            for name in names
+        ),
+    ],
+)
 def test_request_during_imports_or_after_the_end_is_met_in_order(
     name: str, module: str, folder: Path
 ) -> None:
