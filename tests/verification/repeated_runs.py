@@ -46,7 +46,7 @@ def _table():
 def _adaptive():
     grid = vc.Grid((48, 48), (1.2e-3, 1.2e-3))
     load = vc.ramp(0.02, 1.0, eccentricity_y=3e-5)
-    return (vc.Sphere(5e-3), powdery, load, grid, vc.adaptive_times(10.0, 1e-2)), {}
+    return (vc.Sphere(5e-3), powdery, load, grid, vc.adaptive_times(10.0, 4e-2)), {}
 
 
 def _stage():
@@ -58,7 +58,7 @@ def _stage():
 def _two_bodies():
     grid = vc.Grid((50, 50), (1.5e-3, 1.5e-3))
     load = vc.harmonic(0.02, 0.01, 2.0, 1, eccentricity_x=2e-5)
-    times = np.linspace(0.0, 4.0, 9)
+    times = np.linspace(0.0, 2.0, 5)
     return (vc.Sphere(5e-3), rubber, load, grid, times), {"indenter_material": measured}
 
 
