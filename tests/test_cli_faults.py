@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import errno
 import os
 import shutil
@@ -29,14 +30,21 @@ __all__ = ["folder", "whole"]  # fixtures
 resource = pytest.importorskip("resource") if os.name != "nt" else None
 
 
-@pytest.fixture
-def stopped(folder: Path, capsys: pytest.CaptureFixture[str]) -> Path:
-    """The directory of a run that was stopped, all saved, after its fourth instant."""
+@pytest.fixture(scope="module")
+def stopped_once(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    here = tmp_path_factory.mktemp("stopped")
+    (here / "case.yaml").write_text(CASE, encoding="utf-8")
     undo = at_instant(4, lambda: signal.raise_signal(signal.SIGTERM))
-    assert main(["run", "case.yaml", "-q"]) == 130
+    with contextlib.chdir(here):
+        assert main(["run", "case.yaml", "-q"]) == 130
     undo()
-    capsys.readouterr()
-    return folder / "case"
+    return here / "case"
+
+
+@pytest.fixture
+def stopped(folder: Path, stopped_once: Path) -> Path:
+    """The directory of a run that was stopped, all saved, after its fourth instant."""
+    return Path(shutil.copytree(stopped_once, folder / "case"))
 
 
 def said_in_lines(capsys: pytest.CaptureFixture[str]) -> list[str]:
