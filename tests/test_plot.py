@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -45,10 +47,18 @@ def legend_texts(axes: Axes) -> list[str]:
 # --- every figure ----------------------------------------------------------------------------
 
 
+@pytest.fixture(scope="module")
+def drawn(sphere: xr.Dataset) -> Callable[[str], Figure]:
+    """Every figure of the sphere, drawn once."""
+    return cache(lambda name: FIGURES[name](sphere))
+
+
 @pytest.mark.parametrize("name", sorted(FIGURES))
-def test_every_figure_of_a_sphere_draws(name: str, sphere: xr.Dataset, tmp_path: Path) -> None:
+def test_every_figure_of_a_sphere_draws(
+    name: str, drawn: Callable[[str], Figure], tmp_path: Path
+) -> None:
     path = tmp_path / f"{name}.png"
-    save_figure(FIGURES[name](sphere), path)
+    save_figure(drawn(name), path)
     assert path.stat().st_size > 5000
 
 
@@ -70,10 +80,10 @@ def test_every_comparison_draws_every_run(name: str, long_contact: xr.Dataset) -
 
 
 @pytest.mark.parametrize("name", sorted(FIGURES))
-def test_every_labelled_axis_states_its_unit(name: str, sphere: xr.Dataset) -> None:
+def test_every_labelled_axis_states_its_unit(name: str, drawn: Callable[[str], Figure]) -> None:
     labels = [
         label
-        for axes in FIGURES[name](sphere).axes
+        for axes in drawn(name).axes
         for label in (axes.get_xlabel(), axes.get_ylabel())
         if label
     ]

@@ -98,8 +98,14 @@ def test_drop_is_told_as_far_as_a_crown_is_drawn_and_before_it_falls_without_end
     assert f"profile drop at x = ±5.4 mm: {-2 * math.log(1 - 0.81):.2f} µm" in said
 
 
-@pytest.mark.parametrize("width", ["single", "double"])
-@pytest.mark.parametrize("name", SHAPES)
+@pytest.mark.parametrize(
+    ("name", "width"),
+    [
+        *((name, "single") for name in SHAPES),
+        ("roller", "double"),
+        *(pytest.param(name, "double", marks=pytest.mark.slow) for name in [*SHAPES][1:]),
+    ],
+)
 def test_no_text_of_a_drawing_is_cut_off_or_runs_into_it(name: str, width: str | float) -> None:
     body, size = SHAPES[name]
     figure = draw_indenter(body, size, contact=(0.0, 0.0, *size), width=width)

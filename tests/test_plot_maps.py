@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from functools import cache
 from itertools import combinations
 
 import numpy as np
@@ -114,9 +115,14 @@ def _shown(axes: Axes, points: FloatArray) -> NDArray[np.bool_]:
     return np.asarray(inside, dtype=np.bool_)
 
 
+@cache
+def _map(contact: str) -> Figure:
+    return FIGURES["pressure-map"](_result(*CONTACTS[contact]))
+
+
 @pytest.mark.parametrize("contact", CONTACTS)
 def test_map_is_coloured_where_the_surface_is_pressed_and_nowhere_else(contact: str) -> None:
-    figure = FIGURES["pressure-map"](_result(*CONTACTS[contact]))
+    figure = _map(contact)
     axes = figure.axes[0]
     assert axes.get_xlabel() == "x [mm]"
     points, pressed = _far_from_rim(*CONTACTS[contact][:2])
@@ -149,7 +155,7 @@ def test_outline_runs_along_the_rim_and_nowhere_else(contact: str) -> None:
 
 @pytest.mark.parametrize("contact", ["waves, 54 %", "rough, without end", "rough", "sphere"])
 def test_labels_lie_in_the_contact_and_apart(contact: str) -> None:
-    figure = FIGURES["pressure-map"](_result(*CONTACTS[contact]))
+    figure = _map(contact)
     figure.draw_without_rendering()
     axes = figure.axes[0]
     boxes = [text.get_window_extent() for text in axes.texts]
