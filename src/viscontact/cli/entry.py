@@ -66,8 +66,8 @@ def _answered(typed: list[str] | None, interruption: Interruption) -> int:
     try:
         # An import that is interrupted may end in any error.
         with interruption.postponed():
-            from viscontact.cli.shell import app
-        return int(app(typed, prog_name="viscontact", standalone_mode=False) or 0)
+            from viscontact.cli.shell import command
+        return int(command(typed, prog_name="viscontact", standalone_mode=False) or 0)
     except KeyboardInterrupt:
         return _interrupted(interruption)
     except SystemExit:  # rich and Typer, when the reader of a pipe has had enough

@@ -63,3 +63,7 @@ def viscontact(
     ] = False,
 ) -> None:
     """Press a body on a creeping half-space and see what happens over time."""
+
+
+#: What is typed is read by this: `app` would build it anew for each call.
+command = typer.main.get_command(app)
