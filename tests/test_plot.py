@@ -62,7 +62,17 @@ def test_every_figure_of_a_sphere_draws(
     assert path.stat().st_size > 5000
 
 
-@pytest.mark.parametrize("name", sorted(set(FIGURES) - {"pressure-radial", "exact"}))
+#: What a contact that is long and at an edge changes most, by default.
+LONG = {"history", "pressure-map", "pressure-profile", "pressure-3d"}
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        name if name in LONG else pytest.param(name, marks=pytest.mark.slow)
+        for name in sorted(set(FIGURES) - {"pressure-radial", "exact"})
+    ],
+)
 def test_every_figure_of_a_roller_draws(name: str, long_contact: xr.Dataset) -> None:
     FIGURES[name](long_contact, times=[0.0, 1000.0]).draw_without_rendering()
 

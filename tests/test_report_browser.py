@@ -33,7 +33,8 @@ document.addEventListener("securitypolicyviolation", (event) => faults.push(even
 for (const kind of ["error", "warn"]) console[kind] = (...words) => faults.push(words.join(" "));
 </script>"""
 
-# After them, once all is drawn: what is there, before and after the slider and the button have been used.
+# After them, once all is drawn: what is there, before and after the slider and the button have
+# been used.
 _TRY = """<script>
 const tried = () => {
   if (!document.documentElement.dataset.drawn) { setTimeout(tried, 20); return; }
@@ -93,6 +94,7 @@ def _tried(page: str, folder: Path, width: int = 1280) -> dict[str, Any]:
     return seen
 
 
+@pytest.mark.slow
 def test_the_slider_moves_the_map_and_nothing_is_asked_for(tmp_path: Path) -> None:
     seen = _tried(report_page(_run()), tmp_path)
     assert seen["faults"] == []

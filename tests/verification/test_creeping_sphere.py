@@ -69,7 +69,21 @@ def test_step_loaded_sphere_in_120_uniform_steps(name):
     assert found["radius"] < 2e-3
 
 
-@pytest.mark.parametrize("name", [name for name in BODIES if name != "maxwell"])
+#: Of each kind of law one; the others with the slow tests.
+BY_DEFAULT = {
+    *("zener", "solid_ball_on_a_fluid", "power_law", "fractional_maxwell_with_elastic_bulk"),
+    *("tabulated_creep", "tabulated_relaxation"),
+}
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        name if name in BY_DEFAULT else pytest.param(name, marks=pytest.mark.slow)
+        for name in BODIES
+        if name != "maxwell"
+    ],
+)
 def test_step_loaded_sphere_in_120_logarithmic_steps_for_every_kind_of_law(name):
     """Lee & Radok (1960). Measured, worst: pressure 2.2e-4, approach 1.6e-4, radius 1.7e-3.
 

@@ -134,7 +134,7 @@ def test_adaptive_steps_reach_the_tolerance_and_know_their_error(name, history):
     [
         ("zener", "ramp"),
         ("burgers", "step"),
-        ("creep_series", "step"),
+        slow("creep_series", "step"),
         slow("zener", "triangle"),
         slow("fractional_zener", "step"),
         slow("power_law", "ramp"),
