@@ -232,6 +232,48 @@ def test_bad_input_is_told_beside_its_field_in_the_words_of_the_command_line(
 
 
 @pytest.mark.slow
+def test_choices_begin_with_values_that_go_together(browser: Any, server: seen.Server) -> None:
+    page, watched = seen.new_page(browser, server)
+    seen.visit(page, server)
+
+    def choose(key: str, name: str) -> None:
+        page.select_option(f'[id="field-{key}"]', name)
+        seen.until_checked(page)
+        assert page.is_hidden("#to-problem"), page.inner_text("#form .problems li")
+
+    # The roller's crown radius means nothing with another crown.
+    choose("indenter.profile.kind", "logarithmic")
+    assert page.input_value('[id="field-indenter.crown_radius"]') == ""
+    choose("time.spacing", "adaptive")
+    assert page.input_value('[id="field-time.steps"]') == ""
+    choose("time.spacing", "log")
+    assert page.input_value('[id="field-time.steps"]') == "120"
+    # With the roller's radius of 5 mm dimples would overlap; they lie on a ball.
+    page.select_option('[id="field-indenter.shape"]', "dimples")
+    seen.until_checked(page)
+    assert page.input_value('[id="field-indenter.radius"]') == "50 um"
+    page.context.close()
+    assert _said_by_the_network(watched.faults)
+
+
+@pytest.mark.slow
+def test_a_wrong_force_does_not_hide_the_shape(browser: Any, server: seen.Server) -> None:
+    page, watched = seen.new_page(browser, server)
+    seen.visit(page, server, BALL)
+    seen.type_into(page, "load.force", "100 Pa")
+    before = page.locator("#drawing-indenter img").get_attribute("src")
+    page.fill('[id="field-indenter.radius"]', "20 mm")
+    page.wait_for_function(
+        "(old) => document.querySelector('#drawing-indenter img').src !== old", arg=before
+    )
+    assert page.locator("#drawing-indenter.stale").count() == 0
+    page.click("#tab-load")
+    page.wait_for_selector("#drawing-load.stale")
+    page.context.close()
+    assert _said_by_the_network(watched.faults)
+
+
+@pytest.mark.slow
 def test_two_tabs_do_not_disturb_each_other(browser: Any, server: seen.Server) -> None:
     one, watched = seen.new_page(browser, server)
     seen.visit(one, server, BALL)

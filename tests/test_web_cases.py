@@ -265,6 +265,21 @@ def test_drawings_come_in_ink_for_light_and_for_dark_ground(client: TestClient) 
     assert "rigid" in answer.json()["problems"][0]["message"]
 
 
+def test_what_can_be_read_is_drawn_while_the_rest_is_wrong(client: TestClient) -> None:
+    wrong_force = CASE.replace("4 N", "4 Pa")
+    wrong_ball = CASE.replace("10 mm", "ten")
+    assert CASE not in (wrong_force, wrong_ball)
+    drawn = {}
+    for name, text in {"force": wrong_force, "ball": wrong_ball}.items():
+        for what in ("indenter", "material", "load"):
+            answer = client.post("/api/drawing", json={"yaml": text, "what": what})
+            drawn[name, what] = answer.status_code
+            if answer.status_code == 422:
+                assert len(answer.json()["problems"]) == 1
+    refused = [key for key, code in drawn.items() if code != 200]
+    assert refused == [("force", "load"), ("ball", "indenter")]
+
+
 def test_an_automatic_grid_is_found_once_for_a_check_and_a_drawing(
     client: TestClient, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -133,7 +133,7 @@ def estimate_contact(
     raise ValueError(
         "grid: no fitting grid was found for this load; the force may be too large for so soft a "
         "material, or act outside what can touch, or the contact runs on without end. Press less, "
-        "move the force in, or give a grid"
+        "move the force in, or give a grid, a periodic one for waves without end"
     )
 
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from viscontact.case import Case, CaseError, read_case_text
+from viscontact.case import Case, CaseError, Parts, read_case_text, read_parts
 from viscontact.case.document import document_of
 from viscontact.footprint import run_memory, step_count
 from viscontact.forecast import Forecast
@@ -98,6 +98,24 @@ class Desk:
         """
         try:
             return read_case_text(text, self.folder.case)
+        except CaseError as error:
+            raise case_problems(error, self.folder.case) from error
+
+    def parts(self, text: str) -> Parts:
+        """Read what can be read of a case that is still being written.
+
+        Parameters
+        ----------
+        text : str
+            The case.
+
+        Raises
+        ------
+        RequestError
+            If it is no YAML, or no mapping.
+        """
+        try:
+            return read_parts(text, self.folder.case)
         except CaseError as error:
             raise case_problems(error, self.folder.case) from error
 

@@ -5,10 +5,12 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from viscontact.case import Case, CaseError
+from viscontact.case import Case, CaseError, Parts
 from viscontact.forecast import Forecast
 from viscontact.inspection import drawn_size
 from viscontact.material import Material
+from viscontact.notebook.curves import law_span
+from viscontact.notebook.shapes import drawn_size as worth_drawing
 from viscontact.plot import creep_curve, draw_indenter, draw_load
 from viscontact.plot.page import Width
 from viscontact.preparation import Prepared
@@ -21,7 +23,7 @@ _BACK, _POINTS = 1e-4, 300
 
 
 def drawing(desk: Desk, text: str, what: str, width: Width | None = None) -> Figure:
-    """Draw a part of a case.
+    """Draw a part of a case, by itself while the rest of the case cannot be read.
 
     Parameters
     ----------
@@ -44,6 +46,16 @@ def drawing(desk: Desk, text: str, what: str, width: Width | None = None) -> Fig
     RequestError
         With all that is wrong with the case, or why it cannot be drawn.
     """
+    try:
+        return _of_case(desk, text, what, width)
+    except RequestError:
+        alone = _alone(desk.parts(text), what, width)
+        if alone is None:
+            raise
+        return alone
+
+
+def _of_case(desk: Desk, text: str, what: str, width: Width | None) -> Figure:
     case = desk.case(text)
     try:
         if what == "indenter":
@@ -55,6 +67,22 @@ def drawing(desk: Desk, text: str, what: str, width: Width | None = None) -> Fig
         raise case_problems(error, case.document.path) from error
     except ValueError as error:
         raise RequestError(422, f"the {what} cannot be drawn: {error}") from error
+
+
+def _alone(parts: Parts, what: str, width: Width | None) -> Figure | None:
+    """A part that can be read although the case cannot, over what is worth drawing of it."""
+    try:
+        if what == "indenter" and parts.indenter is not None:
+            return draw_indenter(parts.indenter, worth_drawing(parts.indenter), width=width)
+        if what == "load" and parts.load is not None:
+            end = parts.end or float(parts.load.kinks[-1])
+            return draw_load(parts.load, end)
+        material = parts.indenter_material if what == "indenter_material" else parts.material
+        if what.endswith("material") and material is not None:
+            return _curves(material, parts.end or law_span(material.law)[1], width)
+    except ValueError:  # such as a step without an end
+        return None
+    return None
 
 
 def _indenter(found: Prepared, expected: Forecast, width: Width | None) -> Figure:

@@ -1,5 +1,6 @@
 // After each change: the text, what is wrong with it, what it would take, and the drawings.
 
+import { mended } from "./choosing.js";
 import { caseText, draft, writeText } from "./draft.js";
 import { definitions, items, place, settled, write } from "./dom.js";
 import { draw } from "./drawings.js";
@@ -37,7 +38,7 @@ export async function look() {
     clearProblems(place("form"));
     tell({ problems: [], full, busy: false });
   } catch (error) {
-    refuse(error);
+    if (!mended(error.problems ?? [])) refuse(error);
   }
 }
 

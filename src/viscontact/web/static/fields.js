@@ -1,6 +1,7 @@
 // Single values: a text with a unit, a number, a choice, a switch.
 
-import { dotted, setValue, valueAt } from "./draft.js";
+import { chosen, putBack } from "./choosing.js";
+import { changed, dotted, setValue, valueAt } from "./draft.js";
 import { make } from "./dom.js";
 import { FILES, titleOf } from "./hints.js";
 import { unitsOf } from "./schema.js";
@@ -116,7 +117,13 @@ function choice(path, node, required) {
   const strange = value !== undefined && !node.options.includes(value) && option(value, String(value), true);
   const select = make("select", {
     id: idOf(path), "aria-describedby": `${idOf(path)}-told ${idOf(path)}-problems`,
-    onchange: () => setValue(path, select.value === usual && !required ? undefined : select.value),
+    onchange: () => {
+      const group = path.slice(0, -1);
+      putBack(group);
+      setValue(path, select.value === usual && !required ? undefined : select.value);
+      chosen(group);
+      changed("structure");
+    },
   }, none, strange, options);
   return select;
 }

@@ -1,5 +1,6 @@
 // The form: sections, groups and variants as the schema has them.
 
+import { chosen } from "./choosing.js";
 import { caseValues, changed, dotted, rewrite, setValue, valueAt } from "./draft.js";
 import { make } from "./dom.js";
 import { field, idOf } from "./fields.js";
@@ -164,7 +165,18 @@ function choose(path, node, name) {
   else {
     const old = left.get(`${place} ${name}`) ?? {};
     const now = typeof before === "object" ? { ...old, ...before } : old;
+    if (path.length > 1) leaveBeside(path, node, name);
     setValue(path, startOfVariant(node, name, now));
+    chosen(path, startOfVariant(node, name, {}));
   }
   changed("structure");
+}
+
+// A key that some of the choices have too, such as a roller's crown radius, goes where this one has not.
+function leaveBeside(path, node, name) {
+  const around = path.slice(0, -1), here = node.options.get(name).properties;
+  for (const key of Object.keys(valueAt(around) ?? {})) {
+    const isShared = [...node.options.values()].some(({ properties }) => key in properties);
+    if (isShared && !(key in here)) setValue([...around, key], undefined);
+  }
 }
