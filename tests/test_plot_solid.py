@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib.colors import to_hex
 from numpy.typing import NDArray
 
+import viscontact as vc
 from synthetic_results import maxwell_sphere, roller
-from viscontact.plot import COMPARISONS, FIGURES, relief, save_figure
+from viscontact.plot import COMPARISONS, FIGURES, relief, save_figure, style
 
 FloatArray = NDArray[np.float64]
 TIMES = [0.0, 300.0]
@@ -141,6 +144,34 @@ def test_indenter_lies_on_the_surface_where_they_touch_and_above_it_elsewhere():
         np.testing.assert_allclose(depth[touching], surface[touching], rtol=1e-9)
         beside = shown & ~touching
         assert np.all(depth[beside] < surface[beside])
+
+
+def test_rim_of_a_punch_is_level():
+    punch = vc.FlatPunch(5e-3)
+    rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    grid = vc.Grid((24, 24), (20e-3, 20e-3))
+    with pytest.warns(vc.AccuracyWarning, match="singular"):
+        results = vc.simulate(punch, rubber, vc.step(1.0), grid, [0.0], errors=False)
+    axes = FIGURES["surface-3d"](results).axes[0]
+    rims = [line for line in axes.lines if to_hex(line.get_color()) == style.INK]
+    depth = np.concatenate([line.get_data_3d()[2] for line in rims])
+    # The surface falls beside it, by a tenth of the approach within a cell.
+    approach = float(results["approach"][0])
+    unit = approach / depth.mean()
+    assert unit == pytest.approx(10.0 ** round(np.log10(unit)), rel=1e-4)
+    np.testing.assert_allclose(depth, depth.mean(), rtol=1e-4)
+
+
+def test_numbers_at_the_short_side_of_a_slender_box_stay_apart():
+    results = with_dent(roller(shape=(48, 16)))
+    figure = FIGURES["surface-3d"](results, times=[0.0], width=0.085)
+    figure.draw_without_rendering()
+    axes = figure.axes[0]
+    ticks = [*axes.xaxis.get_major_ticks(), *axes.yaxis.get_major_ticks()]
+    texts = [tick.label1 for tick in ticks if tick.label1.get_text()]
+    assert len(axes.get_yticks()) == 2
+    boxes = [text.get_window_extent() for text in texts]
+    assert not any(a.overlaps(b) for a, b in itertools.combinations(boxes, 2))
 
 
 def test_stretch_of_heights_that_is_told_is_the_one_that_is_drawn():

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d.axes3d import Axes3D
 from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import RegularGridInterpolator
+from scipy.ndimage import distance_transform_edt
 
 from viscontact.plot import style
 from viscontact.plot.page import Width, page_width
@@ -172,10 +173,17 @@ def _depths(dents: list[Dent], window: Window) -> tuple[DisplayUnit, tuple[float
 
 def _draw_rim(axes: Axes3D, dent: Dent, window: Window, unit: DisplayUnit) -> None:
     cells = (dent.snapshot.x, dent.snapshot.y)
-    depth = RegularGridInterpolator(cells, dent.displacement, bounds_error=False)
+    # The bodies meet there: the indenter goes on smoothly, the surface falls beside a punch.
+    depth = RegularGridInterpolator(cells, _continued(dent.indenter), bounds_error=False)
     for polygon in rim_curves(dent.snapshot):
         x, y = window.unit(polygon).T
         axes.plot(x, y, unit(depth(polygon)), color=style.INK, linewidth=0.9, zorder=3)
+
+
+def _continued(depth: Array) -> Array:
+    """Values beyond a body's end: those of the nearest cell where it is."""
+    nearest = distance_transform_edt(np.isnan(depth), return_distances=False, return_indices=True)
+    return np.asarray(depth[tuple(nearest)])
 
 
 def _draw_indenter(axes: Axes3D, dent: Dent, window: Window, unit: DisplayUnit) -> None:

@@ -9,10 +9,11 @@ import numpy as np
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Colormap, Normalize
 from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator
+from matplotlib.ticker import FixedLocator, MaxNLocator
 from matplotlib.transforms import Bbox
 from mpl_toolkits.mplot3d import proj3d
 from mpl_toolkits.mplot3d.axes3d import Axes3D
+from mpl_toolkits.mplot3d.axis3d import Axis
 
 from viscontact.plot import style
 from viscontact.plot.page import NARROW
@@ -25,6 +26,10 @@ _ELEVATION, _AZIMUTH = 28.0, -58.0
 _TALL = 0.5
 #: Height of a panel against its width.
 _DOWN = 0.78
+#: Ticks of x an inch; a short side with room for fewer than so many is a slender box.
+_TICKS, _NARROW_BOX = 1.6, 2.5
+#: Part of the longer side beside a slender box's corner where no tick is written.
+_CORNER = 0.07
 #: Part of a panel's place that is filled.
 _FILLED = 0.94
 #: Room at the right for a colour bar, above each panel for a heading and below for notes [inch].
@@ -95,13 +100,34 @@ def _dress(
     axes.set_box_aspect((1 / longer, window.height_to_width / longer, _TALL))
     axes.view_init(_ELEVATION, _AZIMUTH)
     axes.set_proj_type("persp", focal_length=1.6)
-    counts = (max(3, round(1.6 * across)), max(2, round(1.6 * across * window.height_to_width)), 4)
+    room = _TICKS * across * window.height_to_width
+    counts = (max(3, round(_TICKS * across)), max(2, round(room)), 4)
     for axis, ticks in zip((axes.xaxis, axes.yaxis, axes.zaxis), counts, strict=True):
         axis.set_major_locator(MaxNLocator(min(ticks, 6), steps=[1, 2, 2.5, 5, 10]))
         axis.pane.set(facecolor="white", edgecolor="#d9d9d9")
         axis.label.set(size=style.LABEL_SIZE, color=style.INK)
         axis.set_tick_params(labelsize=style.TICK_SIZE, colors=style.INK, pad=-1)
         axis.labelpad = -1 if axis is axes.xaxis else 1
+    if room < _NARROW_BOX:
+        _thin_out(axes)
+
+
+def _thin_out(axes: Axes3D) -> None:
+    """Keep what is written at the short side of a slender box apart."""
+    # The outermost of y; of x none beside the corner where y begins.
+    at_y, at_x = _ticks(axes.yaxis), _ticks(axes.xaxis)
+    start, end = axes.get_xlim()
+    axes.yaxis.set_major_locator(FixedLocator([at_y[0], at_y[-1]] if len(at_y) > 1 else at_y))
+    axes.xaxis.set_major_locator(
+        FixedLocator([at for at in at_x if at < end - _CORNER * (end - start)])
+    )
+    # The name of y is moved along x, by a part of what is much longer here.
+    axes.yaxis.labelpad = -3.5
+
+
+def _ticks(axis: Axis) -> list[float]:
+    low, high = axis.get_view_interval()
+    return [float(at) for at in axis.get_majorticklocs() if low <= at <= high]
 
 
 def _fill(axes: Axes3D, place: Bbox) -> None:
