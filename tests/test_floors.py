@@ -171,7 +171,6 @@ NEIGHBOURS = {
     ("facets", "estimate"),
     ("facets", "sampling_doubts"),  # how far apart a map's points are
     ("mesh", "facets"),
-    ("mesh", "estimate"),
     ("resolution", "mesh_trial"),  # after trial
     ("mesh", "mesh_trial"),  # of an elastic contact
     ("mesh", "resolution"),  # and resolves it,

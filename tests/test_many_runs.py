@@ -26,6 +26,8 @@ from viscontact.cli.variations import variations
 from viscontact.processes.job import Job, Standing
 from viscontact.processes.request import RunRequest
 from viscontact.recording.lock import DirectoryInUse, locked
+from viscontact.stated_errors import largest_error
+from viscontact.units import in_percent
 
 PAGE = (Path(__file__).parent.parent / "docs" / "many-runs.md").read_text(encoding="utf-8")
 CASE = (
@@ -75,6 +77,9 @@ def test_runs_at_once_end_in_the_bits_of_runs_alone(
         assert contents("alone") == contents(name)
         with vc.open_results(name) as ds:  # the table shows what the result holds
             assert f"{float(ds.peak_pressure.max()) / 1e6:.3f}" in printed.out
+            told = ("force", "approach", "contact_area", "peak_pressure")
+            parts = [found.part for each in told if (found := largest_error(ds, each))]
+            assert in_percent(max(parts)) in printed.out
     # what is finished is not run again
     assert command("## What can go wrong") == [*command("## Values"), "--resume"]
     times = {name: Path(name, "result.nc").stat().st_mtime_ns for name in ("zener", "maxwell")}

@@ -235,19 +235,19 @@ def _bar(run: Run, name: str, levels: Levels, places: _Places, history: History)
     ]
     solver = SOLVER * run.tolerance + run.memory.error + run.compliance.inversion_error
     bar = (parts[0] + np.nan_to_num(parts[1]) + solver) * scale
-    bar = np.maximum(bar, _least_bar(run, name, by_cells / np.maximum(own, TINY), places, history))
+    bar = np.maximum(bar, _least_bar(run, name, by_cells > AGREED * own, places, history))
     return np.where(np.isnan(own), np.nan, bar)
 
 
 def _least_bar(
-    run: Run, name: str, differences: Array, places: _Places, history: History
+    run: Run, name: str, differs: NDArray[np.bool_], places: _Places, history: History
 ) -> Array | float:
     """What no agreement of grids undercuts: parts of a cell, and the balance of moments."""
     if name in EXTENTS:
         cell = run.grid.cell_size[EXTENTS.index(name)]
         ragged = places.of_spots | places.at_end
         parts = np.where(ragged, RAGGED_RIM_CELLS, RIM_CELLS)
-        return np.asarray(np.where(differences > AGREED, parts * cell, 0.0))
+        return np.asarray(np.where(differs, parts * cell, 0.0))
     if name in MOMENTS:
         # Balanced to a part of the force times the extent, which may turn a body that is even.
         axis = "contact_length" if name.endswith("x") else "contact_width"

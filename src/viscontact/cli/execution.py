@@ -211,6 +211,8 @@ def _kept(attempt: Attempt, record: RunRecord) -> str:
     directory = attempt.recorded.directory
     if _is_gone(attempt, record):
         return f"{directory} is not there any more, and what it kept has gone with it"
+    if not record.kept:
+        return f"{directory} keeps nothing yet: no instant was finished"
     made = attempt.made(record.kept, record.reached)
     late = ""
     if record.published < record.kept:

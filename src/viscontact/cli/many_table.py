@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -14,7 +15,8 @@ from rich.table import Table
 
 from viscontact.processes.child import Ended
 from viscontact.results import open_results
-from viscontact.units import in_digits, in_words, readable_unit
+from viscontact.stated_errors import largest_error
+from viscontact.units import in_digits, in_percent, in_words, readable_unit
 from viscontact.variables import SCALARS
 
 #: Of each the largest over time: what a design is judged by.
@@ -26,9 +28,14 @@ _NAMED = 3
 
 @dataclass(frozen=True)
 class _Found:
-    """What a run has found: its largest values [SI], time spent [s], and what it doubts."""
+    """What a run has found: its largest values [SI], time spent [s], and what it doubts.
+
+    Of the errors of those values the largest part of one, nan if none is known and inf if a value
+    depends on the mesh.
+    """
 
     largest: dict[str, float]
+    error: float
     seconds: float
     warnings: tuple[str, ...]
 
@@ -62,7 +69,9 @@ def _found(ended: Ended) -> _Found | None:
 def _of(ds: xr.Dataset) -> _Found:
     largest = {name: float(np.nanmax(np.abs(ds[name].values), initial=0.0)) for name in _COLUMNS}
     warnings = tuple(str(ds.attrs.get("warnings", "")).splitlines())
-    return _Found(largest, float(ds.attrs["wall_time"]), warnings)
+    known = [found.part for name in _COLUMNS if (found := largest_error(ds, name)) is not None]
+    error = max((part for part in known if not math.isnan(part)), default=math.nan)
+    return _Found(largest, error, float(ds.attrs["wall_time"]), warnings)
 
 
 def _table(runs: Sequence[Ended], found: Sequence[_Found | None]) -> Table:
@@ -83,13 +92,23 @@ def _table(runs: Sequence[Ended], found: Sequence[_Found | None]) -> Table:
         units[name] = readable_unit(largest, SCALARS[name].units)
         heading = f"{name.replace('_', ' ')} [{units[name].symbol}]"
         table.add_column(heading.replace("[", r"\["), justify="right", vertical="bottom")
+    has_errors = any(each is not None and not math.isnan(each.error) for each in found)
+    if has_errors:
+        table.add_column("largest error", justify="right", vertical="bottom")
     for ended, each in zip(runs, found, strict=True):
         cells = ["", *("" for _ in _COLUMNS)]
         if each is not None:
             values = (in_digits(each.largest[name] / units[name].factor) for name in _COLUMNS)
             cells = [in_words(each.seconds, "s", 2), *values]
+            cells += [_error(each.error)] if has_errors else []
         table.add_row(escape(ended.job.name), ended.outcome, *cells)
     return table
+
+
+def _error(part: float) -> str:
+    if math.isnan(part):
+        return ""
+    return "mesh" if math.isinf(part) else in_percent(part)
 
 
 def _warnings(runs: Sequence[Ended], found: Sequence[_Found | None]) -> list[str]:

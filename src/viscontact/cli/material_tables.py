@@ -16,7 +16,7 @@ from viscontact import materials
 from viscontact.cli.figures import plot_package, save
 from viscontact.cli.messages import refuse
 from viscontact.cli.shown_material import Shown
-from viscontact.laws import WLF, Arrhenius, Shift
+from viscontact.laws import WLF, Arrhenius, Elastic, Shift
 from viscontact.material import Material
 from viscontact.materials import Entry
 from viscontact.units import in_celsius, in_digits, in_words, readable_unit
@@ -142,7 +142,8 @@ def _values(shown: Shown) -> Table:
     low, high = round(math.log10(first)), round(math.log10(last))
     times = np.logspace(low, high, high - low + 1, dtype=np.float64)
     law = shown.material.law
-    columns = {"creep Φ = 1/(2G)": (law(times), "1/Pa")}
+    # It is 1/(2 G(t)) of an elastic law only.
+    columns = {"creep Φ = 1/(2G)" if isinstance(law, Elastic) else "creep Φ": (law(times), "1/Pa")}
     if float(law(0.0)) > 0:
         columns["relaxation G"] = (law.relaxation(times), "Pa")
     columns["contact J"] = (shown.material.contact_compliance()(times), "1/Pa")
