@@ -45,6 +45,17 @@ class IndentationFit(Shown):
         The other one as the law gives it [N or m].
     units : tuple of str
         Units of the parameters, in their order.
+
+    Examples
+    --------
+    >>> from viscontact.identification import fit_indentation
+    >>> from viscontact.indenters import Sphere
+    >>> depth = 1e-6 * np.linspace(0.0, 1.0, 11)
+    >>> force = 16 / 3 * 2e6 * np.sqrt(5e-6) * depth**1.5  # Hertz with G = 2 MPa, nu = 0.5
+    >>> record = IndentationRecord(Sphere(5e-6), np.linspace(0.0, 1.0, 11), depth, force)
+    >>> fit = fit_indentation(record, "elastic", poisson_ratio=0.5)
+    >>> f"{fit.parameters['shear_modulus']:.3g} {fit.units[0]}", fit.residual < 1e-3
+    ('2e+06 Pa', True)
     """
 
     material: Material

@@ -59,6 +59,15 @@ def contact_area(
     ------
     ValueError
         If no fields are stored, or fewer than two steps lie in the span.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(0.1), grid, [0.0, 1.0], errors=False)
+    >>> contact_area(ds).axes[0].get_ylabel()
+    'Contact area [mm²]'
     """
     stored, read = field_times(results, _NAME), snapshot_reader(results)
     names = ["contact_area", "force", "approach"]

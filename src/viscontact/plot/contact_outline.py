@@ -53,6 +53,16 @@ def contact_outline(
     ------
     ValueError
         If no fields are stored or the bodies do not touch at these instants.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(0.1), grid, [0.0, 1.0], errors=False)
+    >>> axes = contact_outline(ds).axes[0]
+    >>> len(axes.patches), axes.get_xlabel()
+    (2, 'x [µm]')
     """
     snapshots = take_snapshots(results, times, _NAME)
     window = window_around(snapshots)
@@ -102,6 +112,21 @@ def compare_contact_outlines(
     ------
     ValueError
         If there are no runs, one of them cannot be drawn, or several instants are asked for.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ball = vc.Sphere(0.01)
+    >>> one, two = (
+    ...     vc.simulate(ball, rubber, vc.step(force), grid, [0.0, 1.0], errors=False)
+    ...     for force in (0.1, 0.2)
+    ... )
+    >>> runs = {"0.1 N": one, "0.2 N": two}
+    >>> figure = compare_contact_outlines(runs)
+    >>> [text.get_text() for text in figure.legends[0].get_texts()]
+    ['0.1 N, t = 1 s', '0.2 N, t = 1 s']
     """
     snapshots, labels = snapshots_of_runs(runs, times, _NAME)
     if len(snapshots) > len(runs):

@@ -43,6 +43,15 @@ def creep(
     ------
     ValueError
         If the result carries no case, or the span is empty.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(0.1), grid, [0.0, 1.0], errors=False)
+    >>> [axes.get_ylabel() for axes in creep(ds).axes]
+    ['Creep compliance Φ [1/GPa]', 'Relaxation modulus G [MPa]']
     """
     return compare_creep({"": results}, times=times, width=width)
 
@@ -72,6 +81,21 @@ def compare_creep(
     ------
     ValueError
         If there are no runs, one carries no case, or the span is empty.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ball = vc.Sphere(0.01)
+    >>> one, two = (
+    ...     vc.simulate(ball, rubber, vc.step(force), grid, [0.0, 1.0], errors=False)
+    ...     for force in (0.1, 0.2)
+    ... )
+    >>> runs = {"0.1 N": one, "0.2 N": two}
+    >>> figure = compare_creep(runs)
+    >>> figure.axes[0].get_ylabel()
+    'Creep compliance Φ [1/GPa]'
     """
     if not runs:
         raise ValueError(f"{_NAME}: needs at least one run to compare, got none")

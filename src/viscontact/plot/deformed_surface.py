@@ -90,6 +90,16 @@ def deformed_surface(
     ------
     ValueError
         If no fields are stored or the bodies do not touch at these instants.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(0.1), grid, [1.0], errors=False)
+    >>> figure = deformed_surface(ds)
+    >>> figure.axes[0].get_xlabel(), figure.axes[1].get_ylabel()
+    ('x [mm]', 'Displacement [µm]')
     """
     snapshots = take_snapshots(results, times, _NAME, count=2)
     dents = [Dent(each, field_at(results, "displacement", each.time, _NAME)) for each in snapshots]

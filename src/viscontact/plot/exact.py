@@ -60,6 +60,15 @@ def exact(
     -----
     The radius computed is that of a circle of the contact area. Theory takes the sphere for the
     paraboloid of its radius R, which alone makes a difference of some (a/R)²/10.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(0.1), grid, [0.0, 1.0], errors=False)
+    >>> [axes.get_ylabel() for axes in exact(ds).axes][:2]
+    ['Contact radius [µm]', 'Approach [µm]']
     """
     theory = exact_history(results, _NAME)
     names = ["force", "approach", "contact_area", "peak_pressure"]

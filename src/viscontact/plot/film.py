@@ -60,6 +60,16 @@ class Film:
         [1/s].
     show : callable
         ``show(instant)`` draws a stored instant [s].
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(0.1), grid, [0.0, 1.0], errors=False)
+    >>> film = animation(ds, seconds=2.0, fps=5.0)
+    >>> film.seconds, film.instants.size
+    (2.0, 10)
     """
 
     figure: Figure
@@ -128,6 +138,16 @@ def animation(
     ValueError
         If fewer than two fields are stored in the span, the bodies never touch in it, or
         `seconds` and `fps` do not make two frames or more.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(0.1), grid, [0.0, 1.0], errors=False)
+    >>> film = animation(ds, seconds=2.0, fps=5.0)
+    >>> film.instants[[0, -1]].tolist()
+    [0.0, 1.0]
     """
     count = _frames(seconds, fps)
     run = within_span(results, _drawn(results), times, _NAME, "")

@@ -58,6 +58,18 @@ def save_film(
         If the suffix is another one, or the encoder of MP4 is not installed.
     OSError
         If the file cannot be written.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(0.1), grid, [0.0, 1.0], errors=False)
+    >>> from viscontact.plot.film import animation
+    >>> save_film(animation(ds), "ball.doc")
+    Traceback (most recent call last):
+    ...
+    ValueError: path must end in .gif or .mp4, got 'ball.doc'; choose one of these formats
     """
     suffix = require_suffix(path, FILM_SUFFIXES)
     write = {".gif": _write_gif, ".mp4": _write_mp4}[suffix]

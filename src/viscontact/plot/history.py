@@ -81,6 +81,15 @@ def history(
     ------
     ValueError
         If fewer than two steps lie in the span.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(0.1), grid, [0.0, 1.0], errors=False)
+    >>> [axes.get_ylabel() for axes in history(ds).axes][:2]
+    ['Contact area [mm²]', 'Approach [µm]']
     """
     return compare_histories({"": results}, times=times, width=width)
 
@@ -108,6 +117,21 @@ def compare_histories(
     ------
     ValueError
         If there are no runs, or one has fewer than two steps in the span.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ball = vc.Sphere(0.01)
+    >>> one, two = (
+    ...     vc.simulate(ball, rubber, vc.step(force), grid, [0.0, 1.0], errors=False)
+    ...     for force in (0.1, 0.2)
+    ... )
+    >>> runs = {"0.1 N": one, "0.2 N": two}
+    >>> figure = compare_histories(runs)
+    >>> figure.axes[0].get_ylabel()
+    'Contact area [mm²]'
     """
     if not runs:
         raise ValueError(f"{_NAME}: needs at least one run to compare, got none")

@@ -52,6 +52,17 @@ def hysteresis(
     ------
     ValueError
         If fewer than two steps lie in the span.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> load, times = vc.harmonic(0.1, 0.05, period=1.0, cycles=1), vc.uniform_times(1.0, 4)
+    >>> ds = vc.simulate(vc.Sphere(0.01), rubber, load, grid, times, errors=False)
+    >>> axes = hysteresis(ds).axes[0]
+    >>> axes.get_xlabel(), axes.get_ylabel()
+    ('Approach [µm]', 'Force [mN]')
     """
     figure = compare_hysteresis({"": results}, times=times, width=width)
     if loss := _last_loss(results, times):
@@ -82,6 +93,13 @@ def compare_hysteresis(
     ------
     ValueError
         If there are no runs, or one has fewer than two steps in the span.
+
+    Examples
+    --------
+    >>> compare_hysteresis({})
+    Traceback (most recent call last):
+    ...
+    ValueError: hysteresis: needs at least one run to compare, got none
     """
     if not runs:
         raise ValueError(f"{_NAME}: needs at least one run to compare, got none")

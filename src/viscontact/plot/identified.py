@@ -129,6 +129,18 @@ def fitted_indentation(fit: IndentationFit, *, width: Width | None = None) -> Fi
     matplotlib.figure.Figure
         Force over approach; beside it, below it on a narrow page, what was fitted, and the
         residuals relative to its largest value, over time.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from viscontact.identification import IndentationRecord, fit_indentation
+    >>> from viscontact.indenters import Sphere
+    >>> depth = 1e-6 * np.concatenate([np.linspace(0, 1, 11), np.linspace(0.9, 0, 10)])
+    >>> force = 16 / 3 * 2e6 * np.sqrt(5e-6) * depth**1.5
+    >>> record = IndentationRecord(Sphere(5e-6), np.linspace(0, 2, 21), depth, force)
+    >>> fit = fit_indentation(record, "elastic", poisson_ratio=0.5)
+    >>> [axes.get_ylabel() for axes in fitted_indentation(fit).axes]
+    ['Force [µN]', 'Force [µN]', 'Residual [%]']
     """
     wide = page_width(width, style.TWO_COLUMNS)
     if wide > NARROW:
@@ -202,6 +214,19 @@ def master_curve(
     matplotlib.figure.Figure
         The sets as measured and their shift factors above, the master curve below; colours go
         from cold (dark) to warm (light). Of an oscillation, storage has circles and loss squares.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from viscontact.identification import Isotherm, build_master_curve
+    >>> times = np.geomspace(1.0, 100.0, 9)
+    >>> sets = [
+    ...     Isotherm(283.15 + 10 * k, times, {"compliance": 1e-9 * (10**k * times) ** 0.2})
+    ...     for k in (1, 2, 3)
+    ... ]
+    >>> figure = master_curve(build_master_curve(sets, 293.15))
+    >>> [axes.get_ylabel() for axes in figure.axes][:2]
+    ['Creep compliance [1/GPa]', 'log₁₀ of shift factor $a_T$']
     """
     wide = page_width(width, style.TWO_COLUMNS)
     figure = style.new_figure(wide, 5.4 if wide > NARROW else 7.4)

@@ -66,6 +66,13 @@ def draw_indenter(
     ------
     ValueError
         If an extent is not positive, or none of the body lies within them.
+
+    Examples
+    --------
+    >>> from viscontact.indenters import Sphere
+    >>> figure = draw_indenter(Sphere(0.01), (4e-3, 4e-3))
+    >>> [axes.get_xlabel() for axes in figure.axes]
+    ['x [mm]', 'y [mm]', 'x [mm]', '']
     """
     if not all(math.isfinite(extent) and extent > 0 for extent in size):
         raise ValueError(f"size must hold positive extents in m, got {size}")

@@ -43,6 +43,17 @@ def indenter(
     ValueError
         If the result carries no case, or the indenter is a measured map, which is not kept with
         it; or `times` are no finite numbers.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(0.1), grid, [1.0], errors=False)
+    >>> indenter(ds, times=[float("nan")])
+    Traceback (most recent call last):
+    ...
+    ValueError: indenter: times must be finite numbers of seconds, got [nan]
     """
     body = recorded_noun(results, "indenter", _NAME)
     if times is not None and not np.isfinite(np.atleast_1d(np.asarray(times, float))).all():

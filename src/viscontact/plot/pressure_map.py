@@ -61,6 +61,15 @@ def pressure_map(
     ------
     ValueError
         If no fields are stored or the bodies do not touch at these instants.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(0.1), grid, [1.0], errors=False)
+    >>> [axes.get_title() or axes.get_xlabel() for axes in pressure_map(ds).axes]
+    ['x [µm]', '']
     """
     snapshots = take_snapshots(results, times, _NAME, count=4)
     labels = time_labels(snapshot.time for snapshot in snapshots)
@@ -91,6 +100,13 @@ def compare_pressure_maps(
     ------
     ValueError
         If there are no runs, or one of them cannot be drawn.
+
+    Examples
+    --------
+    >>> compare_pressure_maps({})
+    Traceback (most recent call last):
+    ...
+    ValueError: pressure-map: needs at least one run to compare, got none
     """
     snapshots, headings = snapshots_of_runs(runs, times, _NAME)
     note = peak_note(runs.values(), [snapshot.time for snapshot in snapshots])

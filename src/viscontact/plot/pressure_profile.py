@@ -58,6 +58,16 @@ def pressure_profile(
     ValueError
         If no fields are stored, the bodies do not touch at these instants, or the line
         misses the grid.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(0.1), grid, [1.0], errors=False)
+    >>> axes = pressure_profile(ds).axes[0]
+    >>> axes.get_xlabel(), axes.get_ylabel()
+    ('x [µm]', 'Pressure [kPa]')
     """
     snapshots = take_snapshots(results, times, _NAME)
     if axes is None:
@@ -109,6 +119,21 @@ def compare_pressure_profiles(
     ------
     ValueError
         If there are no runs, or one of them cannot be drawn.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ball = vc.Sphere(0.01)
+    >>> one, two = (
+    ...     vc.simulate(ball, rubber, vc.step(force), grid, [0.0, 1.0], errors=False)
+    ...     for force in (0.1, 0.2)
+    ... )
+    >>> runs = {"0.1 N": one, "0.2 N": two}
+    >>> axes = compare_pressure_profiles(runs, along="y").axes[0]
+    >>> axes.get_xlabel(), axes.get_ylabel()
+    ('', 'Pressure [kPa]')
     """
     if not runs:
         raise ValueError(f"{_NAME}: needs at least one run to compare, got none")

@@ -63,6 +63,16 @@ def pressure_radial(
     -----
     Lee and Radok, like Hertz, take the sphere for the paraboloid of its radius R. That alone
     makes a difference of some (a/R)²/10 of the peak, 0.1 % for a contact of radius a = R/10.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(0.1), grid, [1.0], errors=False)
+    >>> figure = pressure_radial(ds)
+    >>> figure.axes[0].get_ylabel(), figure.axes[-1].get_xlabel()
+    ('Pressure [kPa]', 'Distance from the axis [µm]')
     """
     snapshots = take_snapshots(results, times, _NAME)
     _require_round(results, snapshots)

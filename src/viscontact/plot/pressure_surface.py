@@ -56,6 +56,16 @@ def pressure_surface(
     ------
     ValueError
         If no fields are stored or the bodies do not touch at these instants.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(0.1), grid, [1.0], errors=False)
+    >>> figure = pressure_surface(ds)
+    >>> figure.axes[1].get_ylabel()
+    'Pressure [kPa]'
     """
     snapshots = take_snapshots(results, times, _NAME, count=2)
     labels = [f"t = {label}" for label in time_labels(s.time for s in snapshots)]
@@ -86,6 +96,13 @@ def compare_pressure_surfaces(
     ------
     ValueError
         If there are no runs, or one of them cannot be drawn.
+
+    Examples
+    --------
+    >>> compare_pressure_surfaces({})
+    Traceback (most recent call last):
+    ...
+    ValueError: pressure-3d: needs at least one run to compare, got none
     """
     snapshots, labels = snapshots_of_runs(runs, times, _NAME)
     note = peak_note(runs.values(), [snapshot.time for snapshot in snapshots])

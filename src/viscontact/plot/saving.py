@@ -36,6 +36,15 @@ def save_figure(figure: Figure, path: str | PathLike[str]) -> None:
         If the suffix is another one.
     OSError
         If the file cannot be written.
+
+    Examples
+    --------
+    >>> from viscontact.plot import style
+    >>> figure = style.new_figure(2.0, 1.0)
+    >>> save_figure(figure, "ball.doc")
+    Traceback (most recent call last):
+    ...
+    ValueError: path must end in .png, .pdf or .svg, got 'ball.doc'; choose one of these formats
     """
     _write(figure, path, require_suffix(path, FIGURE_SUFFIXES)[1:])
 

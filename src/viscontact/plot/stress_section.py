@@ -100,6 +100,15 @@ def stress_section(
     ------
     ValueError
         If no fields are stored, the bodies do not touch, or Poisson's ratio is not known.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(0.1), grid, [1.0], errors=False)
+    >>> [axes.get_ylabel() for axes in stress_section(ds).axes]
+    ['Depth [mm]', 'Von Mises stress [kPa]']
     """
     ratio = recorded_poisson_ratio(results)
     snapshots = take_snapshots(results, times, _NAME, count=2)

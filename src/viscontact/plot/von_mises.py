@@ -49,6 +49,15 @@ def von_mises_history(
     ------
     ValueError
         If no fields are stored, the bodies do not touch, or Poisson's ratio is not known.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(0.1), grid, [0.0, 1.0], errors=False)
+    >>> [axes.get_ylabel() for axes in von_mises_history(ds).axes]
+    ['Von Mises stress [kPa]', 'Depth [µm]']
     """
     return compare_von_mises({"": results}, times=times, width=width)
 
@@ -76,6 +85,13 @@ def compare_von_mises(
     ------
     ValueError
         If there are no runs, or as `von_mises_history` does.
+
+    Examples
+    --------
+    >>> compare_von_mises({})
+    Traceback (most recent call last):
+    ...
+    ValueError: von-mises: needs at least one run to compare, got none
     """
     if not runs:
         raise ValueError(f"{_NAME}: needs at least one run to compare, got none")
