@@ -21,8 +21,6 @@ TimeFunction: TypeAlias = Callable[[NDArray[np.float64]], ArrayLike]
 _DEGREE = 16
 _NODES: NDArray[np.float64] = np.sin(np.linspace(-0.5, 0.5, _DEGREE + 1) * np.pi)
 _FIT = np.linalg.inv(chebyshev.chebvander(_NODES, _DEGREE))
-#: From values at the nodes to the coefficients of the integral from a panel's begin.
-_PRIMITIVE = chebyshev.chebint(np.eye(_DEGREE + 1), lbnd=-1) @ _FIT
 _GAUSS, _WEIGHTS = legendre.leggauss(_DEGREE)
 
 
@@ -110,7 +108,8 @@ def accumulated(function: TimeFunction, times: ArrayLike) -> NDArray[np.float64]
     times = np.asarray(times, dtype=np.float64)
     edges = max(float(times.max()), np.finfo(float).tiny) * _TO_ZERO
     half = np.diff(edges) / 2
-    coefficients = _PRIMITIVE @ evaluate(function, _panels(edges, _NODES)).T * half
+    fitted = (evaluate(function, _panels(edges, _NODES)) @ _FIT.T).T
+    coefficients = chebyshev.chebint(fitted, lbnd=-1) * half
     whole = coefficients.sum(axis=0)  # every Chebyshev polynomial is 1 at the panel's end
     before = np.cumsum(whole) - whole
     panel = np.clip(np.searchsorted(edges, times, side="right") - 1, 0, len(half) - 1)
