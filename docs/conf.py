@@ -87,6 +87,7 @@ sphinx_gallery_conf = {
 # --- looks --------------------------------------------------------------------------------------
 
 html_theme = "pydata_sphinx_theme"
+html_context = {"default_mode": "auto"}  # else the theme complains of none at a first visit
 html_title = "viscontact"
 html_static_path = ["_static"]
 html_css_files = ["viscontact.css"]
