@@ -1,15 +1,19 @@
-"""Docstrings as pages: bars such as those of |x| are bars, not reStructuredText."""
+"""Docstrings as pages: bars such as those of |x| and initials are no reStructuredText."""
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 from sphinx.application import Sphinx
 from sphinx.util.typing import ExtensionMetadata
 
+#: At the beginning of a line, or of a reference, where "M. L. Williams" would be item 13 of a list.
+_INITIAL = re.compile(r"^(\s*(?:\.\. \[\d+\] )?)([A-Z]\. )")
 
-def with_bars(lines: list[str]) -> list[str]:
-    r"""Return a docstring whose bars are escaped, but for those in examples.
+
+def as_written(lines: list[str]) -> list[str]:
+    r"""Return a docstring whose bars and first initials are escaped, but for those in examples.
 
     Parameters
     ----------
@@ -23,20 +27,20 @@ def with_bars(lines: list[str]) -> list[str]:
 
     Examples
     --------
-    >>> with_bars(["R for |x| <= L", ">>> 1 | 2", "3"])
-    ['R for \\|x\\| <= L', '>>> 1 | 2', '3']
+    >>> as_written(["R for |x| <= L", ">>> 1 | 2", "3", "", "K. L. Johnson"])
+    ['R for \\|x\\| <= L', '>>> 1 | 2', '3', '', '\\K. L. Johnson']
     """
     escaped, is_example = [], False
     for line in lines:
         is_example = line.lstrip().startswith(">>>") or (is_example and bool(line.strip()))
-        escaped.append(line if is_example else line.replace("|", r"\|"))
+        escaped.append(line if is_example else _INITIAL.sub(r"\1\\\2", line.replace("|", r"\|")))
     return escaped
 
 
 def _escape(
     app: Sphinx, what: str, name: str, documented: Any, options: Any, lines: list[str]
 ) -> None:
-    lines[:] = with_bars(lines)
+    lines[:] = as_written(lines)
 
 
 def setup(app: Sphinx) -> ExtensionMetadata:
