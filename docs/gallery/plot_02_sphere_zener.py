@@ -37,7 +37,7 @@ ds = vc.simulate(
 # -----------
 #
 # The pressure along x, with the domes of Hertz for the compliance at the start and in the end
-# (dashed), and the peak over time with its error bar.
+# (dashed), and the peak over time, with a band for its error that the line hides.
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(7.2, 3.0), layout="constrained")
 middle = len(ds.y) // 2

@@ -38,7 +38,7 @@ ds = vc.simulate(
 # ------------
 #
 # Force against approach; the arrows go with time, and the area of the loop is lost as heat. The
-# band is the error bar.
+# error bar would be a band, but is thinner than the line.
 
 figure = plot.hysteresis(ds)
 
