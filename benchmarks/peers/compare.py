@@ -233,6 +233,8 @@ def main() -> None:
     parser.add_argument("--points", action="store_true", help="print the ladder, rung by rung")
     parser.add_argument("--limit", type=float, default=900.0, help="seconds for one program")
     options = parser.parse_args()
+    if unknown := [name for name in options.problems if name not in PROBLEMS]:
+        parser.error(f"no problem is called {', '.join(unknown)}; there are {', '.join(PROBLEMS)}")
     wanted = [p for p in PROGRAMS if not options.programs or p.name in options.programs]
     print(f"one thread; peers that can be built: {', '.join(PACKAGES)}")
     said = [
