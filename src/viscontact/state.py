@@ -14,6 +14,8 @@ from viscontact.grid import Grid
 class Outcome(IntEnum):
     """How an instant ended.
 
+    ``CONVERGED`` (0), ``NO_CONTACT`` (1) or ``NOT_CONVERGED`` (2): short of the tolerance.
+
     Examples
     --------
     >>> Outcome(1).name

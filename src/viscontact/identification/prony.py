@@ -72,9 +72,10 @@ def fit_creep(
     terms : int, optional
         How many terms at most, in place of as few as needed.
     excess : float, optional
-        The residual accepted, in multiples of the best that any number of terms can reach.
+        The residual accepted, in multiples of the best that any number of terms can reach;
+        1.05 if left out.
     tolerance : float, optional
-        A relative residual that is good enough in any case.
+        A relative residual that is good enough in any case; 1e-3 if left out.
 
     Returns
     -------

@@ -24,7 +24,7 @@ class AxisymmetricContact:
 
     Attributes
     ----------
-    profile : Profile
+    profile : SphereProfile, ConeProfile or PunchProfile
         The indenter.
     creep_compliance : callable
         J(t) [1/Pa].

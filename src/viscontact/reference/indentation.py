@@ -43,8 +43,8 @@ def press_axisymmetric(
 
     Parameters
     ----------
-    profile : Profile
-        `SphereProfile`, `ConeProfile` or `PunchProfile`.
+    profile : SphereProfile, ConeProfile or PunchProfile
+        The indenter.
     times : array_like, shape (n,)
         Instants of the history; a repeated one is a jump. Before the first there is no
         contact, and the indenter just touches: a first value other than 0 is a jump [s].
