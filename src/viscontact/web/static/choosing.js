@@ -35,7 +35,7 @@ export function mended(problems) {
     aside.set(`${group}.${key}`, { group, key, value: valueAt([...path, key]) });
     setValue([...path, key], undefined);
   }
-  if (loose.length) chosen(path, anew);
+  if (loose.length) chosen(path);
   else if (anew && within.length && JSON.stringify(anew) !== text) setValue(path, anew);
   else return false;
   changed("structure");
