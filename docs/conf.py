@@ -62,6 +62,7 @@ numpydoc_xref_aliases = {
     name: f"viscontact.{name}" for name in viscontact.__all__ if name[0].isupper()
 }
 add_module_names = False
+toc_object_entries_show_parents = "hide"  # the page says whose they are
 
 # --- the gallery --------------------------------------------------------------------------------
 
