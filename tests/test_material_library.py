@@ -245,3 +245,15 @@ def test_a_law_that_cannot_jump_is_drawn_without_its_impulse() -> None:
 def test_curves_refuse_times_out_of_order() -> None:
     with pytest.raises(ValueError, match="two, above 0 s and increasing"):
         material_curves(vc.Elastic(1e9), (1.0, 0.1))
+
+
+def test_a_loss_that_has_gone_beyond_the_data_does_not_come_back_in_the_picture() -> None:
+    times = np.array([1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000])
+    law = vc.TabulatedCreep(times, 1e-9 * (0.40 + 0.04 * times**0.25))
+    beyond = 1.0 / np.geomspace(0.1, 1.0, 200)
+    assert (np.diff(np.sign(law.complex_modulus(beyond).imag)) != 0).sum() > 1  # of no meaning
+    figure = material_curves(law, (0.1, 1e5), measured=(1.0, 1e4))
+    storage, _, loss, _ = (line.get_ydata() for line in figure.axes[-1].lines)
+    shown = np.isfinite(np.asarray(loss, dtype=float))
+    assert np.count_nonzero(np.diff(shown)) == 1  # one end, at the high frequencies
+    assert np.isfinite(np.asarray(storage, dtype=float)).all()

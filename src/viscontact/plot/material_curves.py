@@ -147,9 +147,9 @@ def _line(
     **how: Any,
 ) -> Any:
     """Draw a curve dashed, and again solid within the range; return the solid line."""
-    shown = np.where(_worth_showing(values), values, np.nan)
-    axes.plot(at, shown, linewidth=style.LINE_WIDTH, linestyle=(0, (3, 2)), alpha=0.7, **how)
     inside = (at >= solid[0] * (1 - 1e-9)) & (at <= solid[1] * (1 + 1e-9))
+    shown = np.where(_goes_on(_worth_showing(values), inside), values, np.nan)
+    axes.plot(at, shown, linewidth=style.LINE_WIDTH, linestyle=(0, (3, 2)), alpha=0.7, **how)
     return axes.plot(at[inside], shown[inside], linewidth=style.LINE_WIDTH, **how)[0]
 
 
@@ -173,6 +173,18 @@ def _worth_showing(values: NDArray[np.float64]) -> NDArray[np.bool_]:
     # What a liquid has left after ten of its longest times, or an elastic body as its loss, is
     # nothing: it must not press the rest of the curve together.
     return np.asarray(values > _DEPTH * values.max(initial=0.0))
+
+
+def _goes_on(shown: NDArray[np.bool_], inside: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Where a curve goes on from its range: once it is nothing, what comes back is not of it."""
+    within = np.flatnonzero(inside)
+    if not within.size:
+        return shown
+    first, last = int(within[0]), int(within[-1])
+    shown = shown.copy()
+    shown[first::-1] = np.logical_and.accumulate(shown[first::-1])
+    shown[last:] = np.logical_and.accumulate(shown[last:])
+    return shown
 
 
 def _shade(axes: Axes, measured: tuple[float, float], *, frequency: bool) -> None:
