@@ -204,6 +204,8 @@ def _simple(value: Schema) -> str:
         return "`true` or `false`"
     if "pattern" in value:
         return _quantity(value)
+    if "x-dimension" in value:
+        return " or ".join(value["x-dimension"]) + _example(value)
     return _WORDS[kind] + _bounds(value) + _example(value)
 
 

@@ -11,6 +11,10 @@ from viscontact.cli.showing import RunDirectory
 
 Picture = Annotated[
     Path | None,
+    typer.Option("-o", "--output", metavar="FIG.png", help="Where to: .png, .pdf or .svg."),
+]
+PictureOrFilm = Annotated[
+    Path | None,
     typer.Option(
         "-o",
         "--output",
@@ -54,7 +58,7 @@ def plot(
         ),
     ],
     times: Instants = None,
-    output: Picture = None,
+    output: PictureOrFilm = None,
     width: Width = None,
     along: Along = None,
     at: At = None,
