@@ -62,7 +62,7 @@ def contents(directory: str) -> dict[str, bytes]:
 def command(heading: str = "") -> list[str]:
     """The words of the page's first command below a heading."""
     part = PAGE.partition(heading)[2]
-    return shlex.split(re.findall(r"```\nviscontact (.*)\n```", part)[0])
+    return shlex.split(re.findall(r"```(?:sh)?\nviscontact (.*)\n```", part)[0])
 
 
 def test_runs_at_once_end_in_the_bits_of_runs_alone(
