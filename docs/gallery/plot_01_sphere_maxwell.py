@@ -2,9 +2,9 @@
 Sphere on a body that flows
 ===========================
 
-A ball of 10 mm is put on a Maxwell body, a spring and a dashpot in series, and left there: Fig. 6
-of Spinu & Cerlinca (2018). The contact grows without end. The pressure begins as Hertz's dome,
-and is lowest in the middle in the end, for the rim is always new and the middle has relaxed.
+A ball of 10 mm radius is put on a Maxwell body, a spring and a dashpot in series, and left there:
+Fig. 6 of Spinu & Cerlinca (2018). The contact grows without end. The pressure begins as Hertz's
+dome, and is lowest in the middle in the end, for the rim is always new and the middle has relaxed.
 """
 
 # %%

@@ -4,7 +4,8 @@ The paper's rollers, on and off centre
 
 A steel roller with rounded ends lies on PMMA under 10 kN, with the load in the middle, halfway to
 the end of its straight part, and at that end. Shape, load and creep law are those of Spinu &
-Cerlinca (2018), the crown is rounder (75 mm, of which their figures look).
+Cerlinca (2018), but for the crown: its radius is 75 mm here, as their figures suggest, in place of
+the printed 7500 mm.
 """
 
 # %%

@@ -26,7 +26,7 @@ line_load = force / (2 * half_length)
 
 profiles = {
     "cylindrical": vc.CylindricalProfile(),
-    "crowned": vc.FullCrown(crown_radius=2.0),
+    "crowned": vc.FullCrown(crown_radius=0.6),
     "logarithmic": vc.LogarithmicProfile(line_load / (math.pi * modulus), end_drop=30e-6),
 }
 grid = vc.Grid((192, 40), (20e-3, 1.1e-3))
@@ -62,7 +62,7 @@ for axes, time in zip(panels, (0.0, 1000.0), strict=True):
     hertz = reference.hertz_line(line_load, radius, here)
     even = {"color": "k", "linestyle": "--", "linewidth": 0.8, "label": "even (Hertz)"}
     axes.axhline(hertz.peak_pressure / 1e6, **even)
-    axes.set(xlabel="x [mm]", title=f"after {time:g} s" if time else "at once", ylim=(60, 120))
+    axes.set(xlabel="x [mm]", title=f"after {time:g} s" if time else "at once", ylim=(0, 140))
 panels[0].set_ylabel("pressure [MPa]")
 panels[1].legend(frameon=False, loc="upper left", bbox_to_anchor=(1, 1))
 
@@ -70,8 +70,8 @@ panels[1].legend(frameon=False, loc="upper left", bbox_to_anchor=(1, 1))
 # The check
 # ---------
 #
-# Lundberg's amplitude w/(π E*) is made so that every section bears the same: the middle then has
-# Hertz's pressure of a line contact, p₀ = sqrt(w E*/(π R)).
+# Lundberg's amplitude F′/(π E*), for a force F′ per length, is made so that every section bears the
+# same: the middle then has Hertz's pressure of a line contact, p₀ = sqrt(F′ E*/(π R)).
 
 exact = (line_load * modulus / (math.pi * radius)) ** 0.5
 crept = runs["logarithmic"].pressure.sel(field_time=1000.0)[:, middle]

@@ -2,9 +2,9 @@
 A probe pushed into a gel and pulled out
 ========================================
 
-The piezo of an atomic force microscope drives a bead of 5 µm 400 nm into a soft gel in a second,
-and pulls it out as fast. The gel is slower than the bead: on the way back contact is lost before
-the bead has left the dent. There is no adhesion here, so nothing pulls.
+The piezo of an atomic force microscope drives a bead of 5 µm radius into a soft gel, 400 nm deep in
+a second, and pulls it out as fast. The gel is slower than the bead: on the way back contact is lost
+before the bead has left the dent. There is no adhesion here, so nothing pulls.
 """
 
 # %%

@@ -11,8 +11,8 @@ scatter added.
 # The record
 # ----------
 #
-# A sphere of 5 µm is pressed in within a second, held for three, and drawn back. One's own would
-# come from a CSV, ``viscontact fit record.csv --indenter "sphere 5 um"``.
+# A sphere of 5 µm radius is pressed in within a second, held for three, and drawn back. One's own
+# would come from a CSV, ``viscontact fit record.csv --indenter "sphere 5 um"``.
 
 import numpy as np
 

@@ -2,8 +2,9 @@
 A measured surface
 ==================
 
-A ball with a rough surface is pressed on PMMA for a quarter of an hour. It touches where its
-peaks are. As the PMMA creeps, the spots grow and join.
+A ball with a rough surface is pressed on PMMA within a second and left there for a quarter of an
+hour. It touches where its peaks are. As the force rises the spots grow and join; as the PMMA creeps
+the contact spreads on, and its pit shrinks.
 """
 
 # %%
@@ -52,7 +53,8 @@ ds = vc.simulate(
 # The pictures
 # ------------
 #
-# The outline of the contact: a few spots at first, one patch with pits in the end.
+# The outline of the contact: two spots when the force begins to rise, one patch with a pit under
+# all of it, and a wider patch with a smaller pit after 1000 s.
 
 times = ds.field_time.values  # of the instants stored
 figure = plot.contact_outline(ds, times=times)

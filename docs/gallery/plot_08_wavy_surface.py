@@ -66,8 +66,8 @@ right.legend(frameon=False)
 # The check
 # ---------
 #
-# Full contact needs the mean pressure π E* A/λ; under less of it the strip has the width a with
-# sin²(π a/(2 λ)) = (mean pressure)/(that of full contact).
+# Full contact needs the mean pressure p* = π E* Δ/λ, with Δ the amplitude; under less, p, the strip
+# is 2 a wide with sin²(π a/λ) = p/p*.
 
 full = np.pi * moduli[-1] * amplitude / wavelength
 width = 2 * wavelength / np.pi * np.arcsin(np.sqrt(mean_pressure / full))

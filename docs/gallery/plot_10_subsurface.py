@@ -11,7 +11,7 @@ the stress falls.
 # The run
 # -------
 #
-# A steel ball of 10 mm on a glassy polymer that creeps to three times its compliance.
+# A steel ball of 10 mm radius on a glassy polymer that creeps to three times its compliance.
 
 import matplotlib.pyplot as plt
 

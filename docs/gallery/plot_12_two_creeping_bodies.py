@@ -10,7 +10,7 @@ each does to the other is computed with no more effort than one.
 # Ball and plate
 # --------------
 #
-# The ball comes to rest, the plate flows. The third run has a rigid ball, for comparison.
+# The ball comes to rest, the plate flows. The second run has a rigid ball, for comparison.
 
 import matplotlib.pyplot as plt
 import numpy as np

@@ -51,8 +51,8 @@ print(f"{steps.size} steps, from {steps.min() * 1e3:.1f} ms to {steps.max():.1f}
 # The check
 # ---------
 #
-# Until the force turns, approach^(3/2) = (3/4) R^(-1/2) times the integral of J(t - t') dF(t') (Lee
-# & Radok 1960).
+# Until the force turns, the approach is a²/R with a³ = (3/4) R ∫ J(t - t′) dF(t′) (Lee & Radok
+# 1960).
 
 mean_compliance = 0.5 / (2 * 10e6) * (2 - (1 - np.exp(-1.0)))
 exact = (0.75 * force * mean_compliance / np.sqrt(radius)) ** (2 / 3)
