@@ -162,6 +162,15 @@ def test_maxwell_radius_under_a_ramp_follows_its_closed_form(t):
     assert contact.approach(t) == pytest.approx(cubed ** (2 / 3) / RADIUS, rel=1e-13)
 
 
+def test_under_a_maxwell_body_the_peak_leaves_the_axis_at_1_54_relaxation_times():
+    """From there on it lies at 0.87 of the radius: the integral taken by quadrature elsewhere."""
+    contact = reference.lee_radok_step(FORCE, RADIUS, *maxwell(3.0))
+    for t, place in ((1.53, 0.0), (1.55, 0.866)):
+        radius = contact.contact_radius(3.0 * t)
+        r = radius * np.linspace(0.0, 1.0, 501)
+        assert r[contact.pressure(r, 3.0 * t).argmax()] / radius == pytest.approx(place, abs=0.01)
+
+
 def test_elastic_law_gives_hertz():
     sphere = reference.hertz_sphere(FORCE, RADIUS, MODULUS)
     law = (lambda t: 1 / MODULUS), (lambda t: MODULUS)

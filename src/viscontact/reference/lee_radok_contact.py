@@ -150,7 +150,8 @@ class LeeRadokContact:
 
         Examples
         --------
-        The pressure under a Maxwell body flows outwards: at t = 2 tau its peak leaves the axis.
+        The pressure under a Maxwell body flows outwards: from t = 1.54 tau on its peak is off the
+        axis.
 
         >>> from viscontact import reference
         >>> creep, relaxation = lambda t: (1 + t) / 2e9, lambda t: 2e9 * np.exp(-t)
