@@ -76,6 +76,20 @@ def test_a_master_curve_shows_sets_factors_and_the_curve(tmp_path):
     save_figure(figure, tmp_path / "master.pdf")
 
 
+def test_a_master_curve_of_oscillations_says_which_markers_are_storage_and_loss():
+    omega = np.geomspace(0.1, 10.0, 5)
+    sets = []
+    for temperature, factor in ((290.0, 3.0), (300.0, 1.0)):
+        modulus = LAW.complex_modulus(factor * omega)
+        measured = {"storage": modulus.real, "loss": modulus.imag}
+        sets.append(Isotherm(temperature, omega, measured))
+    panel = master_curve(build_master_curve(sets, 300.0)).axes[0]
+    assert panel.get_title(loc="left") == "As measured: ● storage, □ loss"
+    storage, loss = panel.lines[:2]
+    assert (storage.get_marker(), loss.get_marker()) == ("o", "s")
+    assert loss.get_markerfacecolor() == "none"
+
+
 @pytest.mark.parametrize("given", ["approach", "force"])
 def test_an_indentation_fit_shows_record_and_residuals(given, tmp_path):
     t = np.linspace(0.0, 2.0, 21)

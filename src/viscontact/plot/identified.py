@@ -283,7 +283,9 @@ def _dress_sets(
         style.dress(axes)
     sets.set_xlabel(_abscissa(curve.measured))
     master.set_xlabel("Reduced " + _abscissa(curve.measured, reduced=True))
-    style.add_heading(sets, "As measured")
+    # Markers are told in the heading: a legend would lie on the sets, which fill their panel.
+    markers = ": ● storage, □ loss" if len(names) > 1 else ""
+    style.add_heading(sets, f"As measured{markers}")
     at = f"{in_celsius(curve.reference_temperature):.4g} °C"
     apart = ", " if style.figure_of(master).get_figwidth() > NARROW else "\n"
     said = f"{apart}{_count(fit)}, residual {_rms(fit)}" if fit else ""
