@@ -103,6 +103,8 @@ def test_the_reference_of_case_files_tells_values_bounds_and_what_is_required() 
     assert "above -1, at most 0.5" in rows["| `poisson_ratio`"]
     assert "`uniform` or `log` or `adaptive` | `uniform` |" in rows["| `spacing`"]
     assert "e.g. `10 kN`" in rows["| `force`"]
+    assert "A name, one of `pmma-paper`" in page
+    assert "; or one of the kinds below.\n" in page
 
 
 def test_every_key_of_a_case_file_says_what_it_means() -> None:

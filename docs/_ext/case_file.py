@@ -80,7 +80,8 @@ def _section(defs: Schema, path: str, value: Schema, depth: int) -> Iterator[str
     kinds = {name: defs[name] for name in names}
     shipped = _names_of_no_kind(value, kinds)
     if shipped:
-        yield from ("A name, one of " + ", ".join(f"`{name}`" for name in shipped), "or one of", "")
+        names = ", ".join(f"`{name}`" for name in shipped)
+        yield from (f"A name, one of {names}; or one of the kinds below.", "")
     alike = _alike(kinds)
     if alike:
         yield from ("Of every kind:", "", *_table(alike, []))

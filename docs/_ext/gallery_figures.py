@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from textwrap import indent
 from typing import Any
 from weakref import WeakSet
 
@@ -12,6 +13,9 @@ from matplotlib.figure import Figure
 from sphinx_gallery.scrapers import figure_rst
 
 _shown: WeakSet[Figure] = WeakSet()
+
+#: Wider than this [inch] a figure has panels side by side, whose letters are too small on a phone.
+WIDE = 6.5
 
 #: Drawings that examples make by themselves look like those of the package: open at the top and at
 #: the right, with thin lines and small letters.
@@ -56,7 +60,7 @@ def pictures(block: Any, block_vars: dict[str, Any], gallery_conf: dict[str, Any
     str
         The pictures in reStructuredText.
     """
-    paths = []
+    paths, wide = [], False
     for figure in _figures(block_vars["example_globals"].values()):
         if figure in _shown:
             continue
@@ -64,7 +68,9 @@ def pictures(block: Any, block_vars: dict[str, Any], gallery_conf: dict[str, Any
         path = next(block_vars["image_path_iterator"])
         figure.savefig(path, dpi=110, bbox_inches="tight", facecolor="white")
         paths.append(path)
-    return str(figure_rst(paths, gallery_conf["src_dir"]))
+        wide = wide or figure.get_figwidth() > WIDE
+    shown = str(figure_rst(paths, gallery_conf["src_dir"]))
+    return f".. container:: wide-figure\n\n{indent(shown, '    ')}" if wide else shown
 
 
 def _figures(values: Any) -> Iterator[Figure]:
