@@ -20,6 +20,9 @@ from viscontact.sharpness import is_sharp, touches_end
 #: for a body without a radius approach / half width, which a cone of that slope has at 0.47.
 STEEP_SLOPE, WIDE_CONTACT, DEEP_APPROACH, DEEP_PUNCH = 0.3, 0.3, 0.1, 0.5
 
+#: Where slopes stay so far below steep a tilt up to this makes none too steep [rad].
+LITTLE_TILT = 0.03
+
 #: Cells across a contact whose extents can be measured against the approach.
 FEW_CELLS = 4
 
@@ -82,6 +85,11 @@ class Geometry:
     def steepest(self) -> float:
         """The largest of these slopes [-]."""
         return float(self.steepness.max())
+
+    @cached_property
+    def nearly_steep(self) -> NDArray[np.bool_]:
+        """Cells from which the body rises so steeply that a little tilt makes it too steep."""
+        return self.steepness > STEEP_SLOPE - LITTLE_TILT
 
     @cached_property
     def ends(self) -> bool:
@@ -295,13 +303,12 @@ def _around(lines: NDArray[np.intp], distance: int, grid: Grid, axis: int) -> ND
 
 
 def _steepest_slope(geometry: Geometry, rim: Rim, motion: NDArray[np.float64]) -> float:
-    """Steepest slope in contact; a bound, of the block or the grid, where that is not steep."""
+    """Steepest slope in contact; a bound where that is not steep."""
     tilt = float(np.abs(motion[1:]).max())
     if geometry.steepest + tilt <= STEEP_SLOPE:
         return geometry.steepest + tilt
-    around = float(rim.cut(geometry.steepness).max()) + tilt
-    if around <= STEEP_SLOPE:
-        return around
+    if tilt <= LITTLE_TILT and not (rim.cut(geometry.nearly_steep) & rim.contact).any():
+        return STEEP_SLOPE
     steepest, cell_size = 0.0, geometry.grid.cell_size
     for axis in (0, 1):
         shape = np.moveaxis(rim.cut(geometry.open_gap), axis, 0)

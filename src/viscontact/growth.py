@@ -37,8 +37,9 @@ def overrun(pressure: NDArray[np.float64], free: int = 1) -> tuple[bool, bool]:
     >>> overrun(np.eye(5)[:, 1:4])
     (False, True)
     """
-    ends = (*range(free), *range(-free, 0))
-    return bool(pressure[ends, :].any()), bool(pressure[:, ends].any())
+    both = (slice(0, free), slice(-free, None))
+    along = any(bool(pressure[ends, :].any()) for ends in both)
+    return along, any(bool(pressure[:, ends].any()) for ends in both)
 
 
 def next_grid(grid: Grid, along: bool, across: bool) -> Grid | None:

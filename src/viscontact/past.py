@@ -178,7 +178,7 @@ class Past:
         self._force_memory.accept(_force(trial.point))
         time_error = self._errors.after(step, trial.values, trial.error)
         instant = _whole(self._half_space, trial, time_error)
-        self._scale = max(self._scale, HISTORY_COUNTS * float(instant.displacement.max()))
+        self._scale = max(self._scale, HISTORY_COUNTS * float(trial.twin.fields[1].max()))
         return instant
 
     def _known(self, step: Step) -> list[Twin]:

@@ -53,6 +53,8 @@ class Measure:
     ----------
     contact : ndarray of bool
         Cells under pressure.
+    weight : ndarray
+        One for these, zero elsewhere.
     inverse_gram : ndarray, shape (3, 3)
         Of the planes over these cells.
     motion : ndarray, shape (3,)
@@ -66,6 +68,7 @@ class Measure:
     """
 
     contact: NDArray[np.bool_]
+    weight: NDArray[np.float64]
     inverse_gram: NDArray[np.float64]
     motion: NDArray[np.float64]
     gap: NDArray[np.float64]
@@ -96,13 +99,14 @@ def measure(problem: ContactProblem, patch: Patch, now: Guess) -> Measure:
     gap += problem.open_gap
     gap -= patch.plane.field(now.motion)
     gap_in_contact = np.where(contact, gap, 0.0)
-    inverse = patch.plane.inverse_gram(contact.astype(float), problem.support.free)
+    weight = contact.astype(float)
+    inverse = patch.plane.inverse_gram(weight, problem.support.free)
     # A correction, so that a motion the contact does not determine stays as it was.
     correction = inverse @ patch.plane.sums(gap_in_contact)
     gap -= patch.plane.field(correction)
     np.copyto(gap_in_contact, gap, where=contact)
     error = max(float(gap_in_contact.max()), -float(gap.min()), 0.0) / scale
-    return Measure(contact, inverse, now.motion + correction, gap, gap_in_contact, error)
+    return Measure(contact, weight, inverse, now.motion + correction, gap, gap_in_contact, error)
 
 
 class Search:
@@ -155,18 +159,19 @@ class Search:
         """Steps 2 to 5: precondition, project, conjugate, step exactly, cut and rebalance."""
         released = checked.gap < 0
         released &= ~checked.contact
-        active, residual, inverse = checked.contact, checked.gap_in_contact, checked.inverse_gram
+        active, weight, residual = checked.contact, checked.weight, checked.gap_in_contact
+        inverse = checked.inverse_gram
         if released.any():
             active = active | released
-            residual = np.where(active, checked.gap, 0.0)
-            inverse = self.patch.plane.inverse_gram(active.astype(float), self.problem.support.free)
-        direction = self._project(self.patch.preconditioner.apply(residual), active, inverse)
+            weight, residual = active.astype(float), np.where(active, checked.gap, 0.0)
+            inverse = self.patch.plane.inverse_gram(weight, self.problem.support.free)
+        direction = self._project(self.patch.preconditioner.apply(residual), weight, inverse)
         slope = _inner(direction, residual)
         if self._slope > 0:
             change = slope - _inner(direction, self._residual)
             before = self._direction
             if not np.array_equal(active, self._active):
-                before = self._project(before, active, inverse)
+                before = self._project(before, weight, inverse)
             # The sign: directions lead downhill, the preconditioned residual uphill.
             direction -= max(change / self._slope, 0.0) * before
         self._active, self._residual, self._slope = active, residual, slope
@@ -175,12 +180,12 @@ class Search:
         self._step()
 
     def _project(
-        self, vector: NDArray[np.float64], active: NDArray[np.bool_], inverse: NDArray[np.float64]
+        self, vector: NDArray[np.float64], weight: NDArray[np.float64], inverse: NDArray[np.float64]
     ) -> NDArray[np.float64]:
         """Remove from a direction what lies outside the active cells or changes resultants."""
         plane = self.patch.plane
-        vector = np.where(active, vector, 0.0)
-        vector -= active * plane.field(inverse @ plane.sums(vector))
+        vector = weight * vector
+        vector -= weight * plane.field(inverse @ plane.sums(vector))
         return vector
 
     def _step(self) -> None:
