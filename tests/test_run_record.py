@@ -19,7 +19,6 @@ import xarray as xr
 import viscontact as vc
 from viscontact import past, transforms
 from viscontact.contact import ContactSolution
-from viscontact.contact_problem import Guess
 from viscontact.recording.checkpoint import STATE_NAME, Checkpoint, load_checkpoint, save_checkpoint
 from viscontact.recording.plain_file import read_plain, write_plain
 from viscontact.recording.recorded import PROGRESS_NAME, ChangedCaseError, Recorded
@@ -152,8 +151,10 @@ def test_pickled_objects_are_never_loaded() -> None:
 
 def solved(number: int) -> SolvedStep:
     random = np.random.default_rng(number)
-    found = Guess(random.random((4, 3)), random.random((4, 3)), random.random(3))
-    solution = ContactSolution(found, random.random((4, 3)), 1e-7, number, 2, converged=True)
+    values, motion = random.random((2, 4, 3)), random.random(3)
+    solution = ContactSolution(
+        values, motion, random.random((4, 3)), 1e-7, number, 2, converged=True
+    )
     return SolvedStep(
         number / 7, (0.5,) * number, solution, Outcome.CONVERGED, (0, 4, 0, 3), (4, 3)
     )

@@ -162,7 +162,6 @@ def test_step_whose_error_this_run_does_not_allow_is_refused() -> None:
     for taken in whole[:-1]:
         march.repeat(taken.solved)
     last = whole[-1].solved
-    found = last.solution.found
-    wrong = replace(found, pressure=9 * found.pressure, deflection=9 * found.deflection)
+    wrong = replace(last.solution, values=9 * last.solution.values)
     with pytest.raises(ValueError, match="is not one that this run takes"):
-        march.repeat(replace(last, solution=replace(last.solution, found=wrong)))
+        march.repeat(replace(last, solution=wrong))

@@ -33,8 +33,10 @@ class ContactSolution:
 
     Attributes
     ----------
-    found : Guess
-        Pressure, deflection by a fresh convolution, and rigid motion.
+    values : ndarray, shape (2, nx, ny)
+        Pressure [Pa], and deflection by a fresh convolution [Pa m].
+    motion : ndarray, shape (3,)
+        Approach [m] and tilts [rad].
     gap : ndarray, shape (nx, ny)
         Gap [m], +inf where the body has no surface.
     residual : float
@@ -46,12 +48,18 @@ class ContactSolution:
         Whether residual and balances are within the tolerance.
     """
 
-    found: Guess
+    values: NDArray[np.float64]
+    motion: NDArray[np.float64]
     gap: NDArray[np.float64]
     residual: float
     iterations: int
     convolutions: int
     converged: bool
+
+    @property
+    def found(self) -> Guess:
+        """Both together, for another solve to start from."""
+        return Guess(self.values[0], self.values[1], self.motion)
 
 
 def solve_contact(
@@ -131,10 +139,12 @@ def _solve_from(
         iterations += search.iterations
         convolutions += search.convolutions + 1
         # Certify what is returned, by a fresh convolution: not what the recurrence believes.
-        pressure = patch.embed(search.now.pressure, half_space.shape)
-        start = Guess(pressure, half_space.convolution.apply(pressure), search.now.motion)
-        checked = measure(problem, half_space.whole, start)
-        start = Guess(start.pressure, start.deflection, checked.motion)
+        values = np.zeros((2, *half_space.shape))
+        pressure, deflection = values
+        patch.cut(pressure)[...] = search.now.pressure
+        half_space.convolution.apply(pressure, into=deflection)
+        checked = measure(problem, half_space.whole, Guess(pressure, deflection, search.now.motion))
+        start = Guess(pressure, deflection, checked.motion)
         converged = checked.error <= tolerance and _is_balanced(
             problem, half_space, pressure, tolerance
         )
@@ -143,7 +153,9 @@ def _solve_from(
             break
         error = checked.error
         cells = (pressure > 0) | (checked.gap < 0)
-    return ContactSolution(start, checked.gap, checked.error, iterations, convolutions, converged)
+    return ContactSolution(
+        values, start.motion, checked.gap, checked.error, iterations, convolutions, converged
+    )
 
 
 def _is_balanced(

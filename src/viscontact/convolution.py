@@ -85,13 +85,17 @@ class Convolution:
         self._spectrum = np.zeros(symbol.shape, kind)
         self._symbol = for_numbers(symbol, kind)
 
-    def apply(self, pressure: NDArray[np.float64]) -> NDArray[np.float64]:
+    def apply(
+        self, pressure: NDArray[np.float64], into: NDArray[np.float64] | None = None
+    ) -> NDArray[np.float64]:
         """Displacement of every cell under a pressure, per unit contact compliance.
 
         Parameters
         ----------
         pressure : ndarray, shape (nx, ny)
             Pressure on the cells that are worked with [Pa], positive in compression.
+        into : ndarray, shape (nx, ny), optional
+            Where the displacement is put; a new array when left out.
 
         Returns
         -------
@@ -102,7 +106,7 @@ class Convolution:
         size = fill_of_order_one(self._block[:nx, :ny], pressure)
         _beyond(self._block, self.shape, self._first)[...] = 0
         moved = self._back(self._forth(self._block))
-        return np.asarray(np.multiply(moved[:nx, :ny], size, dtype=np.float64))
+        return np.asarray(np.multiply(moved[:nx, :ny], size, out=into, dtype=np.float64))
 
     def _forth(self, block: NDArray[Any]) -> NDArray[Any]:
         transforms, spectrum, second = self._transforms, self._spectrum, self._second

@@ -60,12 +60,6 @@ class Patch:
         """The patch's part of a field."""
         return field[self.rows, self.columns]
 
-    def embed(self, field: NDArray[np.float64], shape: tuple[int, int]) -> NDArray[np.float64]:
-        """A field that is zero outside the patch."""
-        whole = np.zeros(shape)
-        whole[self.rows, self.columns] = field
-        return whole
-
     def holds(self, rows: slice, columns: slice) -> bool:
         """Whether a block of cells lies within the patch."""
         return _within(rows, self.rows) and _within(columns, self.columns)
@@ -146,7 +140,9 @@ class HalfSpace:
         return np.ascontiguousarray(field[self._first_row :, self._first_column :])
 
     def unfold(self, field: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The field on the grid whose part is worked with."""
+        """The field on the grid whose part is worked with, in memory of its own."""
+        if not any(self.mirrored):  # a view would keep the pair it is taken from
+            return field.copy()
         for axis in (0, 1):
             if self.mirrored[axis]:
                 field = np.concatenate([np.flip(field, axis), field], axis)

@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.balance import RigidPlane
 from viscontact.carried import Carried
 from viscontact.cycles import Cycles
 from viscontact.errors import DomainError
@@ -56,7 +55,6 @@ class Observer:
         self._work = 0.0
         self._before: Instant | None = None
         self._point: LoadPoint | None = None
-        self._resultants = np.zeros(3)
         self._cycles = Cycles(run.load.load_cycles)
         self._largest_area, self._cells_at_largest = 0.0, 0
         self._largest: NDArray[np.bool_] | None = None  # the contact whose spots are not told yet
@@ -66,7 +64,6 @@ class Observer:
 
     def _look_at(self, run: Run) -> None:
         self._run = run
-        self._plane = RigidPlane(run.grid.x, run.grid.y, run.grid.cell_size)
         self._outline = trace_outline(run.indenter, run.grid)
         self._geometry = Geometry(
             run.indenter,
@@ -109,17 +106,16 @@ class Observer:
         """
         contact = instant.pressure > 0
         rim = trace_rim(self._run.grid, contact, instant.gap, self._outline)
-        resultants = self._plane.sums(instant.pressure) * self._run.grid.cell_area
-        self._work += self._work_of(point, instant, resultants)
+        self._work += self._work_of(point, instant)
         self._cycles.pass_by(step, self._work)
         self._collect_doubts(step, instant, rim)
-        state = _state(step, instant, rim, resultants, self._work, self._cycles.last_loss)
+        state = _state(step, instant, rim, self._work, self._cycles.last_loss)
         if state.contact_area > self._largest_area:
             self._largest_area, self._cells_at_largest = state.contact_area, state.cells_across
             self._largest = contact
         if state.peak_pressure > self._peak and step.time >= self._run.times[0]:
             self._peak, self._peak_time = state.peak_pressure, step.time
-        self._before, self._resultants = instant, resultants
+        self._before = instant
         return state
 
     def judge(self, state: ContactState, *, last: bool) -> ContactState:
@@ -170,7 +166,6 @@ class Observer:
             "work": self._work,
             "before": before and vars(before) | {"outcome": int(before.outcome)},
             "point": self._point and vars(self._point),
-            "resultants": self._resultants,
             "cycles": self._cycles.carried(),
             "largest_area": self._largest_area,
             "cells_at_largest": self._cells_at_largest,
@@ -188,7 +183,6 @@ class Observer:
             None if before is None else Instant(**before | {"outcome": Outcome(before["outcome"])})
         )
         self._point = None if point is None else LoadPoint(**point)
-        self._resultants = carried["resultants"]
         self._cycles.restore(carried["cycles"])
         self._largest_area = carried["largest_area"]
         self._cells_at_largest = carried["cells_at_largest"]
@@ -225,9 +219,7 @@ class Observer:
         strain = strain_of(peak, float(self._run.compliance(time)))
         return corner_doubts(self._geometry, place, strain)
 
-    def _work_of(
-        self, point: LoadPoint, instant: Instant, resultants: NDArray[np.float64]
-    ) -> float:
+    def _work_of(self, point: LoadPoint, instant: Instant) -> float:
         """Work over a step: exact while the load is held, and for all that is elastic.
 
         Under a held load the force is constant, or nothing travels: force times approach is exact.
@@ -242,7 +234,7 @@ class Observer:
             return self._run.compliance.instant * instant.energy
         if point == point_before:
             travel = instant.motion - before.motion
-            return float((self._resultants + resultants) @ travel / 2)
+            return float((before.resultants + instant.resultants) @ travel / 2)
         mean = (before.pressure + instant.pressure) / 2
         moved = instant.displacement - before.displacement
         return float(np.einsum("ij,ij->", mean, moved)) * self._run.grid.cell_area
@@ -252,11 +244,10 @@ def _state(
     step: Step,
     instant: Instant,
     rim: Rim,
-    resultants: NDArray[np.float64],
     work: float,
     loss: float,
 ) -> ContactState:
-    force, moment_x, moment_y = (float(resultant) for resultant in resultants)
+    force, moment_x, moment_y = (float(resultant) for resultant in instant.resultants)
     touching = force > 0
     # Where the surface goes on without end there is no middle that a force could be off.
     centred = touching and not rim.grid.periodic

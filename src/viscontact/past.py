@@ -62,8 +62,6 @@ class Trial:
         The load at its end.
     solution : ContactSolution
         Equilibrium there.
-    values : ndarray, shape (2, nx, ny)
-        Pressure [Pa] and deflection [Pa m] there.
     response : Response
         Of the memory to the step.
     twin : Twin
@@ -76,7 +74,6 @@ class Trial:
 
     point: LoadPoint
     solution: ContactSolution
-    values: NDArray[np.float64]
     response: Response
     twin: Twin
     outcome: Outcome
@@ -162,21 +159,21 @@ class Past:
     def _tried(
         self, step: Step, posed: Posed, solution: ContactSolution, outcome: Outcome
     ) -> Trial:
-        values = np.stack([solution.found.pressure, solution.found.deflection])
+        values = solution.values
         values.flags.writeable = False  # it will be remembered, without a copy
         response = posed.response
-        twin = Twin(step.time, posed.drive, response.of(values), solution.found.motion)
+        twin = Twin(step.time, posed.drive, response.of(values), solution.motion)
         error = self._errors.of_step(step, posed.point, values, response)
-        return Trial(posed.point, solution, values, response, twin, outcome, error)
+        return Trial(posed.point, solution, response, twin, outcome, error)
 
     def accept(self, step: Step, trial: Trial) -> Instant:
         """Take a step that has been solved."""
         known = self._known(step)[1 - POINTS :] if not step.is_jump else []
         self._twins = [] if trial.outcome is Outcome.NO_CONTACT else [*known, trial.twin]
-        self._motion = trial.solution.found.motion
-        self._memory.accept(trial.values)
+        self._motion = trial.solution.motion
+        self._memory.accept(trial.solution.values)
         self._force_memory.accept(_force(trial.point))
-        time_error = self._errors.after(step, trial.values, trial.error)
+        time_error = self._errors.after(step, trial.solution.values, trial.error)
         instant = _whole(self._half_space, trial, time_error)
         self._scale = max(self._scale, HISTORY_COUNTS * float(trial.twin.fields[1].max()))
         return instant
@@ -198,7 +195,7 @@ class Past:
         solution = solve_contact(problem, self._half_space, guess, tolerance=tolerance)
         if not solution.converged:
             return solution, Outcome.NOT_CONVERGED
-        touches = bool(solution.found.pressure.any())
+        touches = bool(solution.values[0].any())
         return solution, Outcome.CONVERGED if touches else Outcome.NO_CONTACT
 
     def _is_clear(self, problem: ContactProblem, motion: NDArray[np.float64]) -> bool:
@@ -235,23 +232,23 @@ def _guess(twin: Twin | None, response: Response) -> Guess | None:
 def _without_pressure(
     problem: ContactProblem, half_space: HalfSpace, motion: NDArray[np.float64]
 ) -> ContactSolution:
-    nothing = np.zeros(half_space.shape)
+    nothing = np.zeros((2, *half_space.shape))
     gap = problem.open_gap - half_space.whole.plane.field(motion)
-    return ContactSolution(Guess(nothing, nothing, motion), gap, 0.0, 0, 0, converged=True)
+    return ContactSolution(nothing, motion, gap, 0.0, 0, 0, converged=True)
 
 
 def _at_lowest_point(run: Run, apart: ContactSolution) -> ContactSolution:
     """A flat surface is touched by the body's lowest point, not by the nearest cell centre."""
-    tilts = apart.found.motion[1:]
+    tilts = apart.motion[1:]
     cells = run.open_gap - np.add.outer(tilts[0] * run.grid.x, tilts[1] * run.grid.y)
     i, j = np.unravel_index(int(cells.argmin()), cells.shape)
     part = np.linspace(-1.0, 1.0, 2 * TOUCH_SAMPLES + 1)
     x = run.grid.x[i] + part[:, None] * run.grid.cell_size[0]
     y = run.grid.y[j] + part[None, :] * run.grid.cell_size[1]
     lowest = float((run.indenter.gap(x, y) - tilts[0] * x - tilts[1] * y).min())
-    below = apart.found.motion[0] - lowest
-    motion = apart.found.motion - np.array([below, 0.0, 0.0])
-    return replace(apart, found=replace(apart.found, motion=motion), gap=apart.gap + below)
+    below = apart.motion[0] - lowest
+    motion = apart.motion - np.array([below, 0.0, 0.0])
+    return replace(apart, motion=motion, gap=apart.gap + below)
 
 
 def _whole(half_space: HalfSpace, trial: Trial, time_error: float) -> Instant:
@@ -266,11 +263,13 @@ def _whole(half_space: HalfSpace, trial: Trial, time_error: float) -> Instant:
     }
     for field in fields.values():
         field.flags.writeable = False  # the run goes on from them
-    energy = half_space.fold_count * np.einsum("ij,ij->", found.pressure, found.deflection) / 2
+    cell_area = half_space.fold_count * half_space.grid.cell_area  # with its mirror images
+    energy = float(np.einsum("ij,ij->", found.pressure, found.deflection)) / 2
     return Instant(
         **fields,
         motion=found.motion,
-        energy=float(energy) * half_space.grid.cell_area,
+        resultants=half_space.whole.plane.sums(found.pressure) * cell_area,
+        energy=energy * cell_area,
         residual=solution.residual,
         iterations=solution.iterations,
         outcome=trial.outcome,

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from viscontact.carried import Carried
 from viscontact.contact import ContactSolution
-from viscontact.contact_problem import Guess
 from viscontact.state import Outcome
 
 
@@ -43,9 +44,9 @@ class SolvedStep:
         return {
             "time": self.time,
             "refused": list(self.refused),
-            "pressure": solution.found.pressure,
-            "deflection": solution.found.deflection,
-            "motion": solution.found.motion,
+            "pressure": solution.values[0],
+            "deflection": solution.values[1],
+            "motion": solution.motion,
             "gap": solution.gap,
             "residual": float(solution.residual),
             "iterations": int(solution.iterations),
@@ -60,7 +61,8 @@ class SolvedStep:
         """The step that was made `plain`."""
         outcome = Outcome(plain["outcome"])
         solution = ContactSolution(
-            Guess(plain["pressure"], plain["deflection"], plain["motion"]),
+            np.stack([plain["pressure"], plain["deflection"]]),
+            plain["motion"],
             plain["gap"],
             plain["residual"],
             plain["iterations"],

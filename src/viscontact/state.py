@@ -42,6 +42,8 @@ class Instant:
         the cells that are worked with.
     motion : ndarray, shape (3,)
         Approach [m] and tilts [rad].
+    resultants : ndarray, shape (3,)
+        Force [N] and moments [N m] of the pressure about the origin.
     energy : float
         Elastic energy of this pressure in a half-space of unit compliance [J Pa].
     residual : float
@@ -61,6 +63,7 @@ class Instant:
     displacement: NDArray[np.float64]
     twin: NDArray[np.float64]
     motion: NDArray[np.float64]
+    resultants: NDArray[np.float64]
     energy: float
     residual: float
     iterations: int

@@ -71,13 +71,17 @@ class PeriodicConvolution:
         half[0, 0] = np.inf
         self._symbol = self._spectra.symbol(1 / half)
 
-    def apply(self, pressure: NDArray[np.float64]) -> NDArray[np.float64]:
+    def apply(
+        self, pressure: NDArray[np.float64], into: NDArray[np.float64] | None = None
+    ) -> NDArray[np.float64]:
         """Displacement of every cell under a pressure, per unit contact compliance.
 
         Parameters
         ----------
         pressure : ndarray, shape (nx, ny)
             Pressure on the cells [Pa], positive in compression.
+        into : ndarray, shape (nx, ny), optional
+            Where the displacement is put; a new array when left out.
 
         Returns
         -------
@@ -85,7 +89,7 @@ class PeriodicConvolution:
             Displacement over contact compliance [Pa m], positive into the half-space; its mean
             is zero.
         """
-        return self._spectra.filtered(pressure, self._symbol)
+        return self._spectra.filtered(pressure, self._symbol, into)
 
 
 class Preconditioner:
@@ -161,12 +165,17 @@ class _Spectra:
         kind = self._spectrum.dtype if self._fourier else self._block.dtype
         return for_numbers(values.astype(self._block.dtype), kind)
 
-    def filtered(self, field: NDArray[np.float64], symbol: NDArray[Any]) -> NDArray[np.float64]:
+    def filtered(
+        self,
+        field: NDArray[np.float64],
+        symbol: NDArray[Any],
+        into: NDArray[np.float64] | None = None,
+    ) -> NDArray[np.float64]:
         """The field whose spectrum is that of another one times a symbol."""
         size = fill_of_order_one(self._block, field)
         spectrum = self._forth(self._block)
         spectrum = multiplied(spectrum, symbol)
-        return np.asarray(np.multiply(self._back(spectrum), size, dtype=np.float64))
+        return np.asarray(np.multiply(self._back(spectrum), size, out=into, dtype=np.float64))
 
     def _forth(self, block: NDArray[Any]) -> NDArray[Any]:
         for axis in self._even:
