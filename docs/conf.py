@@ -24,6 +24,7 @@ extensions = [
     "myst_parser",
     "sphinx_gallery.gen_gallery",
     "equations",
+    "line_breaks",
     "docstrings",
     "offline",
     "made_pages",

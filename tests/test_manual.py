@@ -192,3 +192,25 @@ def test_equations_become_mathml() -> None:
 def test_equations_that_would_be_drawn_wrongly_are_refused(wrong: str) -> None:
     with pytest.raises(ExtensionError, match="equation"):
         extension("equations").mathml(wrong)
+
+
+def test_numbers_keep_their_units() -> None:
+    keep = extension("line_breaks").keeping_units
+    for whole in ("10 kN", "0.5 %", "26 675 values", "3 µm", "4 mm²"):
+        assert " " not in keep(whole).removesuffix(" values")
+    for words in ("two cores", "95 of 100", "4 meshes", "1280 pixels", "t = 0"):
+        assert keep(words) == words
+
+
+def test_lines_end_where_a_reader_would_end_them() -> None:
+    well = extension("line_breaks").breaking_well
+    alone, block = "<p>of <math>t</math> is</p>", '<math display="block">t</math>.'
+    assert well(alone) == alone
+    assert well(block) == block
+    assert well("(<code>-o</code>), or") == '<span class="whole">(<code>-o</code>),</span> or'
+    name = '<code><span class="pre">test_kill.py::test_run_that_is_killed</span></code>'
+    assert well(name).count("<wbr>") == name.count("_") + 1
+    commands = '<div class="highlight-sh notranslate"><div class="highlight"><pre>{}\n</pre></div>'
+    assert well(commands.format("plot -o a-map.png a")) == commands.format(
+        'plot <span class="whole">-o</span> <span class="whole">a-map.png</span> a'
+    )
