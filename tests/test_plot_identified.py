@@ -32,7 +32,7 @@ def test_a_fitted_series_shows_measured_values_and_residuals_in_per_cent(tmp_pat
     np.testing.assert_allclose(above.lines[0].get_ydata(), 1e9 * compliance)
     residuals = 100 * (fit.law(T) * 2 / compliance - 1)
     np.testing.assert_allclose(below.lines[0].get_ydata(), residuals, atol=1e-9)
-    assert above.get_ylabel() == "Creep compliance 1/G [1/GPa]"
+    assert above.get_ylabel() == "Creep compliance J [1/GPa]"
     assert below.get_xlabel() == "Time [s]"
     save_figure(figure, tmp_path / "fit.png")
 

@@ -342,7 +342,7 @@ def _unit_of(fit: Fit) -> DisplayUnit:
 def _symbol(fit: Fit) -> str:
     """Return how the fitted quantity is written, by what the data are."""
     if "compliance" in fit.measured:
-        return {"deviatoric": "Φ", "shear": "1/G", "uniaxial": "1/E"}[fit.data]
+        return {"deviatoric": "Φ", "shear": "J", "uniaxial": "D"}[fit.data]
     letter = "E" if fit.data == "uniaxial" else "G"
     return letter if "modulus" in fit.measured else f"{letter}′, {letter}″"
 
