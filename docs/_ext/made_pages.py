@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 from case_file import case_file_reference
 from command_line import command_line_reference
@@ -15,6 +16,7 @@ from sphinx.application import Sphinx
 from sphinx.environment import BuildEnvironment
 from sphinx.util.typing import ExtensionMetadata
 
+import viscontact
 from viscontact.case.sections import case_schema
 from viscontact.materials.entry import Entry, entry, names
 from viscontact.units import in_words
@@ -26,7 +28,7 @@ ROOT = Path(__file__).parents[2]
 def _changes() -> str:
     text = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
     # Names of pages are links here.
-    return re.sub(r"\(`docs/([\w/-]+)\.md`\)", r"({doc}`/\1`)", text)
+    return re.sub(r"`docs/([\w/-]+)\.md`", r"{doc}`/\1`", text)
 
 
 def _contributing() -> str:
@@ -77,6 +79,23 @@ def _material(shipped: Entry) -> Iterator[str]:
     yield "```"
 
 
+def _in_a_notebook(noun: Any) -> str:
+    return f'```{{raw}} html\n<div class="in-a-notebook">{noun._repr_html_()}</div>\n```'
+
+
+def _roller() -> str:
+    """What the first cell on the page on notebooks shows."""
+    return _in_a_notebook(viscontact.Roller(radius=5e-3, half_length=9.565e-3, crown_radius=75e-3))
+
+
+def _result() -> str:
+    """What its second cell shows."""
+    rubber = viscontact.Material(viscontact.Zener(1e6, 1e6, 1e6), poisson_ratio=0.5)
+    times = viscontact.uniform_times(5.0, 20)
+    ds = viscontact.simulate(viscontact.Sphere(0.01), rubber, viscontact.step(0.1), times=times)
+    return _in_a_notebook(ds.viscontact)
+
+
 PARTS: dict[str, Callable[[], str]] = {
     "case file": lambda: case_file_reference(case_schema()),
     "command line": command_line_reference,
@@ -87,6 +106,8 @@ PARTS: dict[str, Callable[[], str]] = {
     "changes": _changes,
     "contributing": _contributing,
     "citation": _citation,
+    "a roller in a notebook": _roller,
+    "a result in a notebook": _result,
 }
 
 _MARK = re.compile(r"^\{\{ made: (.+?) \}\}$", re.MULTILINE)
