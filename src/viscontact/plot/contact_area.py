@@ -88,6 +88,7 @@ def contact_area(
     # Above the dots, which are many where all instants are stored.
     smooth = axes.plot(instants, unit(area), zorder=3, **look)[0]
     dots = axes.plot(time_unit(stored[shown]), unit(counted), "o", color=_COUNTED)[0]
+    dots.set_clip_on(False)  # the first and the last lie on the frame
     dots.set(markersize=3.5 if len(counted) <= _APART else 2.0)
     bar = None if error is None else unit(error)
     band = draw_band(axes, instants, unit(area), bar, style.LINE)
