@@ -10,6 +10,8 @@ sys.path.insert(0, str(Path(__file__).parent / "_ext"))
 import numpydoc.xref
 
 import viscontact
+import viscontact.verify
+from viscontact import identification
 
 project = "viscontact"
 author = "The viscontact developers"
@@ -46,11 +48,7 @@ myst_dmath_double_inline = True
 # --- the API ------------------------------------------------------------------------------------
 
 default_role = "autolink"  # names in docstrings, linked where they are public
-# What docstrings point to by a name that is not its public one, and what is none of ours.
-nitpick_ignore_regex = [
-    ("py:obj", r"viscontact\.(tables|identification|subsurface|plot$)\b.*|functools\..*"),
-    ("py:obj", r"fit_\w+|build_master_curve"),
-]
+nitpick_ignore_regex = [("py:obj", r"functools\..*")]  # the manual points to no other one
 autosummary_generate = True
 autodoc_preserve_defaults = True  # as they are written: some are long
 autodoc_typehints = "none"  # numpydoc's sections say it
@@ -60,8 +58,11 @@ numpydoc_xref_param_type = True
 numpydoc_xref_ignore = "all"
 numpydoc.xref.DEFAULT_LINKS.clear()
 numpydoc_xref_aliases = {
-    name: f"viscontact.{name}" for name in viscontact.__all__ if name[0].isupper()
-}
+    name: f"{package.__name__}.{name}"
+    for package in (viscontact.verify, viscontact.reference, identification, viscontact)
+    for name in package.__all__
+    if name[0].isupper()
+} | {"Film": "viscontact.plot.Film", "Richardson": "viscontact.richardson.Richardson"}
 add_module_names = False
 toc_object_entries_show_parents = "hide"  # the page says whose they are
 

@@ -73,6 +73,26 @@ def test_the_python_reference_lists_nothing_that_is_not_there() -> None:
         assert pydoc.locate(name) is not None, name
 
 
+def test_defaults_of_a_signature_are_shown_by_their_values_unless_these_are_long() -> None:
+    constants = {"_EXCESS": 1.05, "CASES": tuple(range(99))}
+    shown = extension("docstrings").by_value("(cases=CASES, excess=_EXCESS)", constants)
+    assert shown == "(cases=CASES, excess=1.05)"
+
+
+def test_a_source_links_back_to_the_package_that_documents_a_name() -> None:
+    page = "../reference/generated/viscontact.identification.MasterCurve.html"
+    mended = extension("docstrings").linked_back(f"{page}#viscontact.MasterCurve.fit_wlf")
+    assert mended == f"{page}#viscontact.identification.MasterCurve.fit_wlf"
+    same = "../generated/viscontact.richardson.richardson.html#viscontact.richardson.richardson"
+    assert extension("docstrings").linked_back(same) == same
+
+
+def test_a_module_without_a_page_is_told_of_on_one_that_is_there() -> None:
+    for module, page in extension("docstrings").TOLD_IN.items():
+        assert pydoc.locate(module) is not None, module
+        assert list(DOCS.glob(f"{page}.*")), page
+
+
 # --- pages that are made ------------------------------------------------------------------------
 
 

@@ -1,15 +1,35 @@
-"""Docstrings as pages: bars such as those of |x| and initials are no reStructuredText."""
+"""Docstrings as pages: what is no reStructuredText, defaults by value, links to public names."""
 
 from __future__ import annotations
 
 import re
+import sys
+from collections.abc import Mapping
 from typing import Any
 
+from docutils import nodes
+from sphinx.addnodes import pending_xref
 from sphinx.application import Sphinx
+from sphinx.environment import BuildEnvironment
+from sphinx.util.nodes import make_refnode
 from sphinx.util.typing import ExtensionMetadata
+
+import viscontact
 
 #: At the beginning of a line, or of a reference, where "M. L. Williams" would be item 13 of a list.
 _INITIAL = re.compile(r"^(\s*(?:\.\. \[\d+\] )?)([A-Z]\. )")
+
+_CONSTANT = re.compile(r"(?<==)_?[A-Z_]{2,}\b")
+_SHOWN = 60  # characters of a default; what is longer keeps its name
+_BACK = re.compile(r"(?<=/generated/)([\w.]+)\.html#([\w.]+)")
+
+#: Modules that have no page of their own, and the pages that tell what they do.
+TOLD_IN = {
+    "viscontact.identification.overlap": "theory/identification",
+    "viscontact.identification.spectrum": "theory/identification",
+    "viscontact.plot": "reference/python/plotting",
+    "viscontact.subsurface": "theory/stresses",
+}
 
 
 def as_written(lines: list[str]) -> list[str]:
@@ -43,7 +63,95 @@ def _escape(
     lines[:] = as_written(lines)
 
 
+def by_value(arguments: str, constants: Mapping[str, Any]) -> str:
+    """Return a signature with the values of defaults that the source gives by name.
+
+    Parameters
+    ----------
+    arguments : str
+        The signature.
+    constants : mapping of str to object
+        Values by name.
+
+    Returns
+    -------
+    str
+        The signature; a value that is long keeps its name.
+
+    Examples
+    --------
+    >>> by_value("(law, excess=_EXCESS)", {"_EXCESS": 1.05})
+    '(law, excess=1.05)'
+    """
+
+    def value(found: re.Match[str]) -> str:
+        name = found[0]
+        shown = repr(constants[name]) if name in constants else name
+        return shown if len(shown) <= _SHOWN else name
+
+    return _CONSTANT.sub(value, arguments)
+
+
+def _show_defaults(
+    app: Sphinx, what: str, name: str, documented: Any, options: Any, arguments: str, returns: str
+) -> tuple[str, str] | None:
+    module = sys.modules.get(getattr(documented, "__module__", ""))
+    return (by_value(arguments, vars(module)), returns) if arguments and module else None
+
+
+def _public(
+    app: Sphinx, env: BuildEnvironment, node: pending_xref, shown: nodes.Element
+) -> nodes.Element | None:
+    # A name that is public elsewhere than where the docstring stands, or a module.
+    target = str(node["reftarget"])
+    if target in TOLD_IN:
+        return make_refnode(app.builder, node["refdoc"], TOLD_IN[target], "", shown)
+    name = target.rpartition(".")[2]
+    if node.get("refdomain") != "py" or name not in viscontact.__all__:
+        return None
+    return env.domains.python_domain.resolve_xref(
+        env, node["refdoc"], app.builder, "obj", f"viscontact.{name}", node, shown
+    )
+
+
+def linked_back(body: str) -> str:
+    """Return a source's page whose links point to where its names are documented.
+
+    Parameters
+    ----------
+    body : str
+        The page, made from one module; Sphinx takes all its names for documented in the one
+        package that documents the first of them.
+
+    Returns
+    -------
+    str
+        The page, each anchor in the package that its page is named after.
+
+    Examples
+    --------
+    >>> linked_back("../generated/viscontact.plot.Film.html#viscontact.Film.seconds")
+    '../generated/viscontact.plot.Film.html#viscontact.plot.Film.seconds'
+    """
+
+    def mended(found: re.Match[str]) -> str:
+        page, anchor = found.groups()
+        if anchor.startswith(page):
+            return found[0]
+        return f"{page}.html#{page}{anchor.partition(page.rpartition('.')[2])[2]}"
+
+    return _BACK.sub(mended, body)
+
+
+def _link_back(app: Sphinx, page: str, template: str, context: dict[str, Any], tree: Any) -> None:
+    if page.startswith("_modules/"):
+        context["body"] = linked_back(context["body"])
+
+
 def setup(app: Sphinx) -> ExtensionMetadata:
-    """Escape before numpydoc takes docstrings apart."""
+    """Escape before numpydoc takes docstrings apart, and link what Sphinx does not find."""
     app.connect("autodoc-process-docstring", _escape, priority=100)
+    app.connect("autodoc-process-signature", _show_defaults)
+    app.connect("missing-reference", _public)
+    app.connect("html-page-context", _link_back)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

@@ -8,8 +8,7 @@ from typing import Literal
 
 Data = Literal["deviatoric", "shear", "uniaxial"]
 
-#: The quantities a table can hold, with what their unit measures (a key of
-#: `viscontact.units.DIMENSIONS`); None for those without a unit.
+#: The quantities a table can hold, with what their unit measures; None for those without a unit.
 QUANTITIES: dict[str, str | None] = {
     "time": "time",
     "angular_frequency": "angular frequency",

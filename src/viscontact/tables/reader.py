@@ -25,8 +25,9 @@ def read_table(path: str | PathLike[str], columns: Mapping[str, str | None] | No
         The file. Its header names columns and units in one row (``time [s], E' (MPa)``) or two
         (names, then units).
     columns : mapping, optional
-        What columns mean whose names do not say: heading to a quantity (a key of `QUANTITIES`,
-        or ``"frequency"``), or to None to leave the column out.
+        What columns mean whose names do not say: heading to a quantity (a key of
+        `viscontact.tables.names.QUANTITIES`, or ``"frequency"``), or to None to leave the
+        column out.
 
     Returns
     -------

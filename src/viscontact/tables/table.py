@@ -23,7 +23,7 @@ _SAME_TEMPERATURE, _WIDEST_SET = 1.0, 5.0
 class Table:
     r"""A measured table.
 
-    Made by `viscontact.tables.read_table`.
+    Made by `read_table`.
 
     Attributes
     ----------
@@ -31,7 +31,7 @@ class Table:
         The file.
     columns : mapping of str to ndarray, each of shape (rows,)
         By quantity, in the file's order, in SI units: a key of
-        `viscontact.tables.QUANTITIES`.
+        `viscontact.tables.names.QUANTITIES`.
     data : str or None
         The test that the headings tell: ``"shear"`` (G, J), ``"uniaxial"`` (E, D) or
         ``"deviatoric"`` (Phi); None if they do not.
