@@ -94,8 +94,8 @@ class Material(Shown):
 
         Notes
         -----
-        With a constant Poisson's ratio J(t) = (1 - nu) Phi(t). With an elastic bulk modulus,
-        (1 - nu)/(2G) in terms of K and G is, after the correspondence principle with
+        With a constant Poisson's ratio J(t) = (1 - ν) Phi(t). With an elastic bulk modulus,
+        (1 - ν)/(2G) in terms of K and G is, after the correspondence principle with
         G~ = s L[G],
 
             s L[J] = (3K + 4G~) / (4 G~ (3K + G~)) = 1/(4 G~) + (3/4) / (3K + G~).
@@ -105,7 +105,7 @@ class Material(Shown):
 
         Examples
         --------
-        With K and G of nu = 0.25 both ways agree:
+        With K and G of ν = 0.25 both ways agree:
 
         >>> from viscontact.laws import Elastic
         >>> law = Elastic(shear_modulus=3e9)

@@ -36,7 +36,7 @@ class Twin:
         What the twin moves with: the twin force ∫ J dW [m²], or a prescribed approach [m], which
         is the twin's as well.
     fields : ndarray, shape (2, nx, ny)
-        Twin pressure ∫ J dp [1], and displacement ∫ J dq [m], which belong to each other.
+        Twin pressure ∫ J dp [-], and displacement ∫ J dq [m], which belong to each other.
     motion : ndarray, shape (3,)
         Approach [m] and tilts [rad].
     """

@@ -132,7 +132,7 @@ class Preconditioner:
         Returns
         -------
         ndarray, shape (nx, ny)
-            Pressure times contact compliance [1]; its mean is zero.
+            Pressure times contact compliance [-]; its mean is zero.
         """
         return self._spectra.filtered(displacement, self._symbol)
 

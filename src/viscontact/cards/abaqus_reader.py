@@ -65,7 +65,7 @@ def read_abaqus(
 
     Notes
     -----
-    ``*ELASTIC`` (E, nu; isotropic, one temperature), which is of the long term unless
+    ``*ELASTIC`` (E, ν; isotropic, one temperature), which is of the long term unless
     ``MODULI=INSTANTANEOUS``; ``*VISCOELASTIC`` with ``TIME=PRONY`` (lines of g_i, k_i, τ_i),
     ``TIME=CREEP TEST DATA`` or ``TIME=RELAXATION TEST DATA``, which are used as measured; ``*TRS``
     with ``DEFINITION=WLF``. Other keywords are noted. Abaqus 2016 Keywords Reference Guide under

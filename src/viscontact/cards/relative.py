@@ -1,7 +1,7 @@
 """Relative Prony terms and two elastic constants: what Abaqus and Ansys both make laws of.
 
 With G_0 the modulus at once, G(t) = G_0 [1 - sum g_i (1 - exp(-t/τ_i))], and likewise the bulk
-modulus with k_i. The elastic constants E and nu belong to the modulus at once, or to the one
+modulus with k_i. The elastic constants E and ν belong to the modulus at once, or to the one
 left after all relaxation, G_inf = G_0 (1 - sum g_i).
 """
 

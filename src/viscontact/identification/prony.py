@@ -205,7 +205,7 @@ def fit_dynamic(
     Parameters
     ----------
     angular_frequency : array_like, shape (n,)
-        Angular frequencies ω > 0, in any order [rad/s]: 2 pi times those in Hz.
+        Angular frequencies ω > 0, in any order [rad/s]: 2π times those in Hz.
     storage, loss : array_like, shape (n,)
         Measured moduli in phase, G', and out of phase, G'', each > 0 [Pa].
     data, poisson_ratio, bulk_modulus, fluid, terms, excess, tolerance

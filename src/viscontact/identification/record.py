@@ -107,7 +107,7 @@ class IndentationRecord(Shown):
         Returns
         -------
         ndarray
-            4/3 sqrt(R) d^1.5 (Hertz), 2/pi tan(half angle) d² (Sneddon) or 2 a d (Boussinesq).
+            4/3 sqrt(R) d^1.5 (Hertz), 2/π tan(half angle) d² (Sneddon) or 2 a d (Boussinesq).
         """
         match self.profile:
             case SphereProfile(radius=radius):

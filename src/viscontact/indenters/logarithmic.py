@@ -181,9 +181,9 @@ class LogarithmicProfile(Profile):
         half_length, force, effective_modulus : float
             As for `lundberg`.
         load_factor : float
-            K_1, by which the design load is multiplied, to allow for tilt [1].
+            K_1, by which the design load is multiplied, to allow for tilt [-].
         crown_ratio : float
-            K_2, the part of the half length that either crown takes [1].
+            K_2, the part of the half length that either crown takes [-].
         end_drop : float
             z_m, the drop at the end of the effective length [m].
 

@@ -122,7 +122,7 @@ class TabulatedCreep(Law):
         times, compliance, before, beyond
             As in the class, but in terms of D, with D(0) = 1/E_0 [1/Pa].
         poisson_ratio : float, optional
-            Constant Poisson's ratio, above -1 and up to 0.5: Phi = (1 + nu) D.
+            Constant Poisson's ratio, above -1 and up to 0.5: Phi = (1 + ν) D.
         bulk_modulus : float, optional
             Elastic bulk modulus K [Pa]: Phi = (3/2) (D - 1/(9K)). Exactly one of the two.
 

@@ -48,8 +48,8 @@ class FractionalMaxwell(Law):
 
     Notes
     -----
-    G(t) = G (t/τ)^-b E_a-b,1-b(-(t/τ)^(a-b)) with the Mittag-Leffler function (Schiessel, Metzler,
-    Blumen & Nonnenmacher 1995, J. Phys. A 28, 6567).
+    G(t) = G (t/τ)^-b E_(a-b, 1-b)(-(t/τ)^(a-b)) with the Mittag-Leffler function (Schiessel,
+    Metzler, Blumen & Nonnenmacher 1995, J. Phys. A 28, 6567).
 
     Examples
     --------
@@ -118,7 +118,7 @@ class FractionalMaxwell(Law):
         time, exponent, second_exponent
             As in the class, but in tension.
         poisson_ratio : float, optional
-            Constant Poisson's ratio: G = E / (2 (1 + nu)).
+            Constant Poisson's ratio: G = E / (2 (1 + ν)).
         bulk_modulus : float, optional
             Elastic bulk modulus K [Pa], above E/9, for a spring and a spring-pot only:
             1/G = 3/E - 1/(3K), with another time. Exactly one of the two.

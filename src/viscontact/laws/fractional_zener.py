@@ -43,7 +43,7 @@ class FractionalZener(Law):
     -----
     The creep compliance is Phi = [1/G_g + (1/G_e - 1/G_g) (1 - E_a(-(t/λ)^a))] / 2 with
     λ = τ (G_g/G_e)^(1/a) (Mainardi 2010, Fractional Calculus and Waves in Linear Viscoelasticity,
-    section 3.3), computed as X E_a,1+a(-X), which neither cancels at short times nor lacks a
+    section 3.3), computed as X E_(a, 1+a)(-X), which neither cancels at short times nor lacks a
     limit at G_e = 0.
 
     Examples
@@ -115,7 +115,7 @@ class FractionalZener(Law):
         time, exponent
             As in the class, but in tension.
         poisson_ratio : float, optional
-            Constant Poisson's ratio: both moduli are divided by 2 (1 + nu).
+            Constant Poisson's ratio: both moduli are divided by 2 (1 + ν).
         bulk_modulus : float, optional
             Elastic bulk modulus K [Pa], above E_g/9: 1/G = 3/E - 1/(3K) for both moduli, with
             another time. Exactly one of the two.

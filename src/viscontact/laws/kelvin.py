@@ -14,7 +14,7 @@ from viscontact.laws.uniaxial import uniaxial
 class Zener(SeriesLaw):
     """A spring in series with a Kelvin unit, the standard linear solid.
 
-    Phi(t) = [1/G_1 + (1 - exp(-t/τ))/G_2] / 2 with τ = eta/G_2.
+    Phi(t) = [1/G_1 + (1 - exp(-t/τ))/G_2] / 2 with τ = η/G_2.
 
     Parameters
     ----------
@@ -23,7 +23,7 @@ class Zener(SeriesLaw):
     delayed_modulus : float
         G_2 > 0 of the Kelvin unit's spring [Pa].
     viscosity : float
-        eta > 0 of the Kelvin unit's dashpot [Pa s].
+        η > 0 of the Kelvin unit's dashpot [Pa s].
 
     Raises
     ------
@@ -75,7 +75,7 @@ class Zener(SeriesLaw):
         poisson_ratio: float | None = None,
         bulk_modulus: float | None = None,
     ) -> Zener:
-        """Return the law from tensile data, D(t) = 1/E_1 + (1 - exp(-t E_2/eta_E))/E_2.
+        """Return the law from tensile data, D(t) = 1/E_1 + (1 - exp(-t E_2/η_E))/E_2.
 
         Parameters
         ----------
@@ -84,9 +84,9 @@ class Zener(SeriesLaw):
         delayed_modulus : float
             E_2 > 0 of the Kelvin unit [Pa].
         viscosity : float
-            eta_E > 0 of the Kelvin unit in tension [Pa s].
+            η_E > 0 of the Kelvin unit in tension [Pa s].
         poisson_ratio : float, optional
-            Constant Poisson's ratio: every argument is divided by 2 (1 + nu).
+            Constant Poisson's ratio: every argument is divided by 2 (1 + ν).
         bulk_modulus : float, optional
             Elastic bulk modulus K [Pa], above E_1/9: 1/G_1 = 3/E_1 - 1/(3K), and the Kelvin
             unit is divided by 3. Exactly one of the two.
@@ -131,18 +131,18 @@ class Zener(SeriesLaw):
 class Burgers(SeriesLaw):
     """A Maxwell and a Kelvin unit in series: instant, delayed and steady creep.
 
-    Phi(t) = [1/G_1 + t/eta_1 + (1 - exp(-t/τ))/G_2] / 2 with τ = eta_2/G_2.
+    Phi(t) = [1/G_1 + t/η_1 + (1 - exp(-t/τ))/G_2] / 2 with τ = η_2/G_2.
 
     Parameters
     ----------
     shear_modulus : float
         G_1 > 0 of the Maxwell unit [Pa].
     viscosity : float
-        eta_1 > 0 of the Maxwell unit, the steady flow [Pa s].
+        η_1 > 0 of the Maxwell unit, the steady flow [Pa s].
     delayed_modulus : float
         G_2 > 0 of the Kelvin unit [Pa].
     delayed_viscosity : float
-        eta_2 > 0 of the Kelvin unit [Pa s].
+        η_2 > 0 of the Kelvin unit [Pa s].
 
     Raises
     ------
@@ -210,20 +210,20 @@ class Burgers(SeriesLaw):
     ) -> Burgers:
         """Return the law from tensile data.
 
-        D(t) = 1/E_1 + t/eta_E1 + (1 - exp(-t E_2/eta_E2))/E_2.
+        D(t) = 1/E_1 + t/η_E1 + (1 - exp(-t E_2/η_E2))/E_2.
 
         Parameters
         ----------
         youngs_modulus : float
             E_1 > 0 of the Maxwell unit [Pa].
         viscosity : float
-            eta_E1 > 0 of the Maxwell unit in tension [Pa s].
+            η_E1 > 0 of the Maxwell unit in tension [Pa s].
         delayed_modulus : float
             E_2 > 0 of the Kelvin unit [Pa].
         delayed_viscosity : float
-            eta_E2 > 0 of the Kelvin unit in tension [Pa s].
+            η_E2 > 0 of the Kelvin unit in tension [Pa s].
         poisson_ratio : float, optional
-            Constant Poisson's ratio: every argument is divided by 2 (1 + nu).
+            Constant Poisson's ratio: every argument is divided by 2 (1 + ν).
         bulk_modulus : float, optional
             Elastic bulk modulus K [Pa], above E_1/9: 1/G_1 = 3/E_1 - 1/(3K), and all else is
             divided by 3. Exactly one of the two.

@@ -98,12 +98,12 @@ class Law(Shown, ABC):
         Parameters
         ----------
         angular_frequency : float or array_like
-            omega > 0 [rad/s]; 2 pi times the frequency in Hz.
+            ω > 0 [rad/s]; 2π times the frequency in Hz.
 
         Returns
         -------
         complex or ndarray
-            Stress amplitude per amplitude of the shear angle exp(i omega t) [Pa]: the storage
+            Stress amplitude per amplitude of the shear angle exp(i ω t) [Pa]: the storage
             modulus G' and the loss modulus G'', both >= 0.
 
         Raises
@@ -113,7 +113,7 @@ class Law(Shown, ABC):
 
         Notes
         -----
-        G*(omega) = i omega L[G](i omega) = 1 / (2 i omega L[Phi](i omega)) (Tschoegl 1989,
+        G*(ω) = i ω L[G](i ω) = 1 / (2 i ω L[Phi](i ω)) (Tschoegl 1989,
         The Phenomenological Theory of Linear Viscoelastic Behavior, section 2.2).
         """
         omega = np.asarray(angular_frequency, dtype=np.float64)

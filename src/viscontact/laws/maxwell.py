@@ -72,7 +72,7 @@ class Elastic(SeriesLaw):
         youngs_modulus : float
             E > 0 [Pa].
         poisson_ratio : float, optional
-            Above -1 and up to 0.5: G = E / (2 (1 + nu)).
+            Above -1 and up to 0.5: G = E / (2 (1 + ν)).
         bulk_modulus : float, optional
             K [Pa], above E/9: G = 3 K E / (9 K - E). Exactly one of the two.
 
@@ -107,14 +107,14 @@ class Elastic(SeriesLaw):
 
 @dataclass(frozen=True)
 class Maxwell(SeriesLaw):
-    """A spring and a dashpot in series: Phi(t) = [1/G + t/eta] / 2, G(t) = G exp(-t G/eta).
+    """A spring and a dashpot in series: Phi(t) = [1/G + t/η] / 2, G(t) = G exp(-t G/η).
 
     Parameters
     ----------
     shear_modulus : float
         G > 0 of the spring [Pa].
     viscosity : float
-        eta > 0 of the dashpot [Pa s].
+        η > 0 of the dashpot [Pa s].
 
     Raises
     ------
@@ -164,18 +164,18 @@ class Maxwell(SeriesLaw):
         poisson_ratio: float | None = None,
         bulk_modulus: float | None = None,
     ) -> Maxwell:
-        """Return the law from tensile data, D(t) = 1/E + t/eta_E.
+        """Return the law from tensile data, D(t) = 1/E + t/η_E.
 
         Parameters
         ----------
         youngs_modulus : float
             E > 0 of the spring [Pa].
         viscosity : float
-            Tensile viscosity eta_E > 0, stress per rate of strain in steady flow [Pa s].
+            Tensile viscosity η_E > 0, stress per rate of strain in steady flow [Pa s].
         poisson_ratio : float, optional
-            Constant Poisson's ratio: G = E / (2 (1 + nu)), eta = eta_E / (2 (1 + nu)).
+            Constant Poisson's ratio: G = E / (2 (1 + ν)), η = η_E / (2 (1 + ν)).
         bulk_modulus : float, optional
-            Elastic bulk modulus K [Pa], above E/9: 1/G = 3/E - 1/(3K), eta = eta_E / 3.
+            Elastic bulk modulus K [Pa], above E/9: 1/G = 3/E - 1/(3K), η = η_E / 3.
             Exactly one of the two.
 
         Returns

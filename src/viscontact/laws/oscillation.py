@@ -1,6 +1,6 @@
 """Series under a steady oscillation: complex compliance and modulus, each part kept accurate.
 
-With x = omega τ a relaxing term gives i x/(1 + i x) and a delayed one 1/(1 + i x). Their real and
+With x = ω τ a relaxing term gives i x/(1 + i x) and a delayed one 1/(1 + i x). Their real and
 imaginary parts are summed apart, where all terms have one sign, so that a loss far below the
 storage (or the other way round) keeps its digits.
 """
@@ -39,7 +39,7 @@ def half_inverse(storage: NDArray[np.float64], loss: NDArray[np.float64]) -> NDA
 def _debye(
     omega: NDArray[np.float64], times: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return 1/(1 + x²) and x/(1 + x²) of x = omega τ, with one more axis for the times."""
+    """Return 1/(1 + x²) and x/(1 + x²) of x = ω τ, with one more axis for the times."""
     x = omega[..., None] * times
     size = np.hypot(1.0, x)
     return 1.0 / size**2, (x / size) / size

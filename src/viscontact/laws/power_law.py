@@ -42,10 +42,13 @@ class PowerLaw(Law):
 
     Notes
     -----
-    L[Phi] = J_0/s + J Γ(1+n) τ^-n s^-(1+n), so that
+    L[Phi] = J_0/s + J Γ(1+n) τ^-n s^-(1+n), so that without instant compliance
 
-        G(t) = (t/τ)^-n / (2 J Γ(1+n) Γ(1-n))          without instant compliance,
-        G(t) = E_n(-Γ(1+n) (J/J_0) (t/τ)^n) / (2 J_0)   with it,
+        G(t) = (t/τ)^-n / (2 J Γ(1+n) Γ(1-n)),
+
+    and with it
+
+        G(t) = E_n(-Γ(1+n) (J/J_0) (t/τ)^n) / (2 J_0),
 
     E_n being the Mittag-Leffler function (Mainardi 2010, Fractional Calculus and Waves in Linear
     Viscoelasticity, section 3.2).
@@ -112,7 +115,7 @@ class PowerLaw(Law):
         compliance, exponent, reference_time, instant
             As in the class, but the compliances in terms of D [1/Pa].
         poisson_ratio : float, optional
-            Constant Poisson's ratio, above -1 and up to 0.5: Phi = (1 + nu) D.
+            Constant Poisson's ratio, above -1 and up to 0.5: Phi = (1 + ν) D.
         bulk_modulus : float, optional
             Elastic bulk modulus K [Pa]: Phi = (3/2) (D - 1/(9K)). Exactly one of the two.
 

@@ -120,7 +120,7 @@ class TabulatedRelaxation(Law):
         times, modulus, before, beyond
             As in the class, but in terms of E [Pa].
         poisson_ratio : float
-            Constant Poisson's ratio, above -1 and up to 0.5: G = E / (2 (1 + nu)).
+            Constant Poisson's ratio, above -1 and up to 0.5: G = E / (2 (1 + ν)).
         bulk_modulus : float, optional
             Refused: G(t) is then no function of E(t) at the same instant alone.
 

@@ -38,7 +38,7 @@ class CreepSeries(SeriesLaw):
     times : sequence of float
         Retardation times τ_i > 0 [s], one for each amplitude, in any order.
     fluidity : float, optional
-        Rate of steady flow, φ = 1/(2 eta) >= 0 [1/(Pa s)].
+        Rate of steady flow, φ = 1/(2 η) >= 0 [1/(Pa s)].
 
     Raises
     ------
@@ -124,7 +124,7 @@ class CreepSeries(SeriesLaw):
         instant, amplitudes, times, fluidity
             As in the class, but in terms of D, with D(0) = 1/E_0 [1/Pa].
         poisson_ratio : float, optional
-            Constant Poisson's ratio, above -1 and up to 0.5: Phi = (1 + nu) D.
+            Constant Poisson's ratio, above -1 and up to 0.5: Phi = (1 + ν) D.
         bulk_modulus : float, optional
             Elastic bulk modulus K [Pa]: Phi = (3/2) (D - 1/(9K)). Exactly one of the two.
 
@@ -269,7 +269,7 @@ class RelaxationSeries(SeriesLaw):
         equilibrium, moduli, times
             As in the class, but in terms of E [Pa].
         poisson_ratio : float, optional
-            Constant Poisson's ratio, above -1 and up to 0.5: G = E / (2 (1 + nu)).
+            Constant Poisson's ratio, above -1 and up to 0.5: G = E / (2 (1 + ν)).
         bulk_modulus : float, optional
             Elastic bulk modulus K [Pa], above E(0)/9; G(t) is then the exact inverse of
             3 D(t) - 1/(3K), with other times than E(t). Exactly one of the two.

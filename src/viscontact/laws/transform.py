@@ -1,9 +1,9 @@
 """How a curve through points answers an oscillation: its transform, with no fit.
 
-i omega L[f](i omega) = f(0) + ∫ exp(-i omega t) f'(t) dt is taken piece by piece. While the phase
-omega t is small, Gauss-Legendre panels in ln t follow it. Later the integrand swings through
+i ω L[f](i ω) = f(0) + ∫ exp(-i ω t) f'(t) dt is taken piece by piece. While the phase
+ω t is small, Gauss-Legendre panels in ln t follow it. Later the integrand swings through
 nearly nothing, so that each piece, whose f' is an analytic function of t, is integrated along
-paths of steepest descent from its two ends, where exp(-i omega t) only decays (Huybrechs &
+paths of steepest descent from its two ends, where exp(-i ω t) only decays (Huybrechs &
 Vandewalle 2006, SIAM J. Numer. Anal. 44, 1026): Gauss-Laguerre quadrature.
 """
 
@@ -26,7 +26,7 @@ _DESCENTS, _DECAYED = np.polynomial.laguerre.laggauss(24)
 
 
 def oscillating(curve: LogCurve, omega: Floats) -> NDArray[np.complex128]:
-    """Return i omega L[f](i omega) of a curve f at angular frequencies > 0 [rad/s].
+    """Return i ω L[f](i ω) of a curve f at angular frequencies > 0 [rad/s].
 
     For the creep compliance Phi it is the complex compliance, for G the complex modulus.
     """
@@ -44,7 +44,7 @@ def _at(curve: LogCurve, omega: float) -> complex:
 
 
 def _followed(curve: LogCurve, omega: float, start: float, end: float) -> complex:
-    """Return ∫ exp(-i omega t) f' dt while the phase is small, on panels between the points."""
+    """Return ∫ exp(-i ω t) f' dt while the phase is small, on panels between the points."""
     count = int(_PANELS * np.log10(end / start)) + 2
     points = curve.times[(curve.times > start) & (curve.times < end)]
     edges = np.log(np.unique(np.concatenate([np.geomspace(start, end, count), points])))
@@ -56,7 +56,7 @@ def _followed(curve: LogCurve, omega: float, start: float, end: float) -> comple
 
 
 def _descended(curve: LogCurve, omega: float, start: float) -> complex:
-    """Return ∫ exp(-i omega t) f' dt from a late phase on, to the end of time."""
+    """Return ∫ exp(-i ω t) f' dt from a late phase on, to the end of time."""
     edges = np.append(start, curve.times[curve.times > start])
     middles = np.append(np.sqrt(edges[:-1]) * np.sqrt(edges[1:]), 2 * edges[-1])
     # From the start of each piece down, and from its end up again; the last one has no end.

@@ -11,7 +11,7 @@ from viscontact.readable import in_words
 class Uniaxial(NamedTuple):
     """The conversion Phi(t) = factor (D(t) - volumetric) of a tensile compliance D.
 
-    With a constant Poisson's ratio, Phi = (1 + nu) D. With an elastic bulk modulus K,
+    With a constant Poisson's ratio, Phi = (1 + ν) D. With an elastic bulk modulus K,
     D = (2/3) Phi + 1/(9K), so Phi = (3/2) (D - 1/(9K)): only the instant part of D changes by
     more than the factor.
     """

@@ -47,7 +47,7 @@ class AxisymmetricContact:
     places : ndarray, shape (m,)
         Radii s of the transforms [m].
     transformed_pressure : ndarray, shape (n, m)
-        chi(s) = 2 integral of r p(r)/sqrt(r² - s²) over r > s [N/m].
+        χ(s) = 2 integral of r p(r)/sqrt(r² - s²) over r > s [N/m].
     transformed_displacement : ndarray, shape (n, m)
         v(s) = d/ds integral of r u(r)/sqrt(s² - r²) over r < s [m].
     """
@@ -90,8 +90,8 @@ class AxisymmetricContact:
 
         Notes
         -----
-        p(r) = -(1/pi) integral of chi'(s)/sqrt(s² - r²) over r < s < a, and for a punch
-        chi(a)/(pi sqrt(a² - r²)).
+        p(r) = -(1/π) integral of χ'(s)/sqrt(s² - r²) over r < s < a, and for a punch
+        χ(a)/(π sqrt(a² - r²)).
 
         Examples
         --------
@@ -134,7 +134,7 @@ class AxisymmetricContact:
 
         Notes
         -----
-        u(r) = (2/pi) integral of v(s)/sqrt(r² - s²) over s < r, v(s) = J * dchi for every s that
+        u(r) = (2/π) integral of v(s)/sqrt(r² - s²) over s < r, v(s) = J * dχ for every s that
         was ever pressed, and 0 beyond.
 
         Examples
@@ -191,7 +191,7 @@ def _slopes(depths: Array, values: Array) -> Array:
 
 
 def _under_punch(r: Array, edge: float, chi: float) -> Values:
-    """Pressure under a flat punch, chi/(pi sqrt(a² - r²)) [Pa]."""
+    """Pressure under a flat punch, χ/(π sqrt(a² - r²)) [Pa]."""
     with np.errstate(divide="ignore", invalid="ignore"):
         p = np.where(r <= edge, chi / (math.pi * np.sqrt(edge**2 - r**2)), 0.0)
     return np.where(np.isnan(p), 0.0, p)[()]

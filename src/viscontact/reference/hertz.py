@@ -1,6 +1,6 @@
 """Hertz's elastic point contacts: the circle under a sphere and the ellipse.
 
-``contact_modulus`` is E* [Pa] in u = 1/(pi E*) * integral of p/r: 1/E* is the sum over both
+``contact_modulus`` is E* [Pa] in u = 1/(π E*) * integral of p/r: 1/E* is the sum over both
 bodies of (1 - nu²)/E, or the contact compliance J of a law at one instant.
 """
 
@@ -85,7 +85,7 @@ def hertz_sphere(force: float, radius: float, contact_modulus: float) -> SphereC
 
     Notes
     -----
-    a³ = 3 F R / (4 E*), approach = a²/R, p0 = 2 E* a / (pi R) = 3 F / (2 pi a²): exact for the
+    a³ = 3 F R / (4 E*), approach = a²/R, p0 = 2 E* a / (π R) = 3 F / (2 π a²): exact for the
     paraboloid r²/(2R), which stands for the sphere while a is small against R.
 
     References
@@ -184,8 +184,8 @@ def hertz_elliptical(
     -----
     The displacement under p0 sqrt(1 - x²/a_x² - y²/a_y²) (Johnson 1985, eqs. 3.58-3.64) is
     written with Carlson's symmetric integrals, free of cancellation at every axis ratio:
-    1/R_x = F/(pi E*) R_D(0, a_y², a_x²), 1/R_y = F/(pi E*) R_D(0, a_x², a_y²),
-    approach = 3 F/(2 pi E*) R_F(0, a_x², a_y²). The ratio of the first two gives a_x/a_y.
+    1/R_x = F/(π E*) R_D(0, a_y², a_x²), 1/R_y = F/(π E*) R_D(0, a_x², a_y²),
+    approach = 3 F/(2 π E*) R_F(0, a_x², a_y²). The ratio of the first two gives a_x/a_y.
 
     References
     ----------

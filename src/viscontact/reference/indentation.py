@@ -74,25 +74,25 @@ def press_axisymmetric(
 
     Notes
     -----
-    The displacement u = integral of J(t - t') d(Kp), Kp = (1/pi) integral of p/r, separates in
-    the transform chi(s) = 2 integral of r p(r)/sqrt(r² - s²) over r > s of the pressure (Green
-    and Collins; Sneddon 1965). Its inverse, p(r) = -(1/pi) integral of chi'(s)/sqrt(s² - r²) over
-    s > r, vanishes outside the circle with chi; F = 2 integral of chi over s > 0. The
-    displacement is u(r) = (2/pi) integral of v(s)/sqrt(r² - s²) over s < r, where for each s by
-    itself v(s, t) = integral of J(t - t') dchi(s, t'). Under the indenter u = w - f(r) is
-    v = w - g(s), g(s) = s integral of f'(r)/sqrt(s² - r²) over r < s. Outside chi = 0 and
-    v >= w - g, with which u >= w - f. A smooth edge carries no infinite pressure: chi(a) = 0. So
-    an s loses contact when its chi falls to 0, and takes it when w - g(s) meets its own recovery.
-    On the first way in chi(s, t) = integral of M(t - t') dw(t') from t_s, where w = g(s), to t;
+    The displacement u = integral of J(t - t') d(Kp), Kp = (1/π) integral of p/r, separates in
+    the transform χ(s) = 2 integral of r p(r)/sqrt(r² - s²) over r > s of the pressure (Green
+    and Collins; Sneddon 1965). Its inverse, p(r) = -(1/π) integral of χ'(s)/sqrt(s² - r²) over
+    s > r, vanishes outside the circle with χ; F = 2 integral of χ over s > 0. The
+    displacement is u(r) = (2/π) integral of v(s)/sqrt(r² - s²) over s < r, where for each s by
+    itself v(s, t) = integral of J(t - t') dχ(s, t'). Under the indenter u = w - f(r) is
+    v = w - g(s), g(s) = s integral of f'(r)/sqrt(s² - r²) over r < s. Outside χ = 0 and
+    v >= w - g, with which u >= w - f. A smooth edge carries no infinite pressure: χ(a) = 0. So
+    an s loses contact when its χ falls to 0, and takes it when w - g(s) meets its own recovery.
+    On the first way in χ(s, t) = integral of M(t - t') dw(t') from t_s, where w = g(s), to t;
     that it falls to 0 is Ting's equation for t_1 = t_s.
 
-    Each s is a scalar Volterra equation. Chi is linear in time within a step, with the instants
-    of contact and loss found inside it, and linear in g(s) between the elements' ends: on an
-    elastic body the force is exact, otherwise the error is of second order in both. Under a
+    Each s is a scalar Volterra equation. The transform is linear in time within a step, with the
+    instants of contact and loss found inside it, and linear in g(s) between the elements' ends: on
+    an elastic body the force is exact, otherwise the error is of second order in both. Under a
     rising force the approach begins like t^(2/3), and ends so under a falling one, which evenly
     spaced `times` follow with order 5/3 only: see `clustered_times`. With J(0) = 0, J like t^n,
     the order in time is 2 - n. Steps must resolve the law: where J grows by many times J(0)
-    within one, linear chi may ring; `resolution_error` tells.
+    within one, linear χ may ring; `resolution_error` tells.
 
     References
     ----------

@@ -32,7 +32,7 @@ def lee_radok_step(
     radius : float
         Radius of the sphere [m].
     creep_compliance : callable
-        Contact compliance J(t), taking an array of times [s], giving [1/Pa]; (1 - nu) Phi(t)
+        Contact compliance J(t), taking an array of times [s], giving [1/Pa]; (1 - ν) Phi(t)
         for a constant Poisson's ratio. J(0) > 0, since the load jumps.
     relaxation_modulus : callable
         M(t), its convolution inverse, s² L[J] L[M] = 1, so that J(0) M(0) = 1 [Pa].

@@ -142,7 +142,7 @@ class LeeRadokContact:
 
         Notes
         -----
-        p = 2/(pi R) integral of M(t - t') ds(t'), s(t') = Re sqrt(a(t')² - r²), the jump of s
+        p = 2/(π R) integral of M(t - t') ds(t'), s(t') = Re sqrt(a(t')² - r²), the jump of s
         at 0 included: the hereditary integral with M(0) s(t) and M', integrated by parts.
         Relative to the peak the error is about 1e-13 for a law that is smooth on a logarithmic
         scale of time and whose M(0) is finite, 1e-10 where M grows as t**-0.5 towards 0, 1e-7
@@ -150,7 +150,7 @@ class LeeRadokContact:
 
         Examples
         --------
-        The pressure under a Maxwell body flows outwards: from t = 1.54 tau on its peak is off the
+        The pressure under a Maxwell body flows outwards: from t = 1.54 τ on its peak is off the
         axis.
 
         >>> from viscontact import reference

@@ -78,7 +78,7 @@ def hertz_line(force_per_length: float, radius: float, contact_modulus: float) -
 
     Notes
     -----
-    b² = 4 F' R / (pi E*), p0 = 2 F' / (pi b).
+    b² = 4 F' R / (π E*), p0 = 2 F' / (π b).
 
     References
     ----------

@@ -34,7 +34,7 @@ class Profile(Protocol):
         """Integral of g from 0 to s [m²]."""
 
     def outer_integral(self, s: NDArray[np.float64], r: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Integral of g'(x)/sqrt(x² - r²) over r < x < s; 0 for s <= r [1]."""
+        """Integral of g'(x)/sqrt(x² - r²) over r < x < s; 0 for s <= r [-]."""
 
     def inner_integral(self, s: NDArray[np.float64], r: NDArray[np.float64]) -> NDArray[np.float64]:
         """Integral of g(x)/sqrt(r² - x²) over 0 < x < min(s, r) [m]."""
@@ -84,7 +84,7 @@ class SphereProfile:
         return s**3 / (3 * self.radius)
 
     def outer_integral(self, s: NDArray[np.float64], r: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Integral of g'(x)/sqrt(x² - r²) over r < x < s: (2/R) sqrt(s² - r²) [1]."""
+        """Integral of g'(x)/sqrt(x² - r²) over r < x < s: (2/R) sqrt(s² - r²) [-]."""
         height: NDArray[np.float64] = np.sqrt(np.maximum((s - r) * (s + r), 0.0))
         return 2 / self.radius * height
 
@@ -98,17 +98,17 @@ class SphereProfile:
 
 @dataclass(frozen=True)
 class ConeProfile:
-    """A cone, point down: gap r cot(half_angle), g(s) = (pi/2) s cot(half_angle).
+    """A cone, point down: gap r cot(half_angle), g(s) = (π/2) s cot(half_angle).
 
     Parameters
     ----------
     half_angle : float
-        Angle from the axis to the flank, between 0 and pi/2 [rad].
+        Angle from the axis to the flank, between 0 and π/2 [rad].
 
     Raises
     ------
     ValueError
-        If the angle is not between 0 and pi/2.
+        If the angle is not between 0 and π/2.
 
     Examples
     --------
@@ -135,7 +135,7 @@ class ConeProfile:
         return math.pi / 2 / math.tan(self.half_angle)
 
     def depth(self, s: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Transform g(s) = (pi/2) s cot(half_angle) of the gap [m]."""
+        """Transform g(s) = (π/2) s cot(half_angle) of the gap [m]."""
         return self._slope * s
 
     def reach(self, depth: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -147,7 +147,7 @@ class ConeProfile:
         return self._slope * s**2 / 2
 
     def outer_integral(self, s: NDArray[np.float64], r: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Integral of g'(x)/sqrt(x² - r²) over r < x < s, infinite on the axis [1]."""
+        """Integral of g'(x)/sqrt(x² - r²) over r < x < s, infinite on the axis [-]."""
         with np.errstate(divide="ignore", invalid="ignore"):
             ratio = np.where(s > r, s / r, 1.0)
         return self._slope * np.arccosh(ratio)
@@ -202,7 +202,7 @@ class PunchProfile:
         return np.zeros_like(s)
 
     def outer_integral(self, s: NDArray[np.float64], r: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Integral of g'(x)/sqrt(x² - r²): none [1]."""
+        """Integral of g'(x)/sqrt(x² - r²): none [-]."""
         return np.zeros(np.broadcast_shapes(s.shape, r.shape))
 
     def inner_integral(self, s: NDArray[np.float64], r: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -211,7 +211,7 @@ class PunchProfile:
 
 
 def arcsine(x: NDArray[np.float64], r: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Angle whose sine is x/r, the integral of 1/sqrt(r² - x²) from 0; pi/2 where r = 0.
+    """Angle whose sine is x/r, the integral of 1/sqrt(r² - x²) from 0; π/2 where r = 0.
 
     Parameters
     ----------

@@ -1,6 +1,6 @@
 """Rigid axisymmetric punches on an elastic half-space: the flat-ended cylinder and the cone.
 
-``contact_modulus`` is E* [Pa] in u = 1/(pi E*) * integral of p/r, as in `hertz`.
+``contact_modulus`` is E* [Pa] in u = 1/(π E*) * integral of p/r, as in `hertz`.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ class FlatPunchContact:
         Returns
         -------
         float or ndarray
-            F/(2 pi a) (1 + 3 e x/a²)/sqrt(a² - r²); infinite at the edge, zero outside [Pa].
+            F/(2 π a) (1 + 3 e x/a²)/sqrt(a² - r²); infinite at the edge, zero outside [Pa].
 
         Examples
         --------
@@ -99,7 +99,7 @@ def flat_punch(
     Notes
     -----
     approach = F/(2 a E*), tilt = 3 F e/(4 a³ E*). The tilt follows from the pressure
-    2 E* tilt x / (pi sqrt(a² - r²)): along every chord it integrates to pi times its numerator at
+    2 E* tilt x / (π sqrt(a² - r²)): along every chord it integrates to π times its numerator at
     mid-chord, so its displacement is tilt * x; its moment is 4 E* a³ tilt / 3.
 
     References
@@ -184,7 +184,7 @@ def cone(force: float, half_angle: float, contact_modulus: float) -> ConeContact
     force : float
         Load, positive into the half-space [N].
     half_angle : float
-        Angle from the axis to the flank, between 0 and pi/2 [rad].
+        Angle from the axis to the flank, between 0 and π/2 [rad].
     contact_modulus : float
         E* [Pa].
 
@@ -196,11 +196,11 @@ def cone(force: float, half_angle: float, contact_modulus: float) -> ConeContact
     Raises
     ------
     ValueError
-        If force or modulus is not positive and finite, or the angle not between 0 and pi/2.
+        If force or modulus is not positive and finite, or the angle not between 0 and π/2.
 
     Notes
     -----
-    For the gap r cot(half_angle): F = pi E* cot a² / 2, approach = pi a cot / 2,
+    For the gap r cot(half_angle): F = π E* cot a² / 2, approach = π a cot / 2,
     p = (E* cot / 2) arccosh(a/r).
 
     References

@@ -24,7 +24,7 @@ class PunchOscillation:
     force_amplitude, approach_amplitude : float
         Amplitudes about the means [N], [m].
     phase_lag : float
-        Angle by which the approach lags behind the force, 0 to pi/2 [rad].
+        Angle by which the approach lags behind the force, 0 to π/2 [rad].
     loss_per_cycle : float
         Work the load does in each cycle, all of it lost [J].
 
@@ -55,7 +55,7 @@ def punch_harmonic(
     radius : float
         Radius of the punch [m].
     complex_compliance : complex
-        J*(omega) = J' - i J'', i omega times the Fourier transform of the contact compliance
+        J*(ω) = J' - i J'', i ω times the Fourier transform of the contact compliance
         J(t), at the frequency of the oscillation [1/Pa].
     force_amplitude : float, optional
         Amplitude of the force [N].
@@ -76,7 +76,7 @@ def punch_harmonic(
     Notes
     -----
     w = J* F/(2 a): the amplitudes are in the ratio |J*|/(2 a), the lag is arctan(J''/J') and the
-    loss, the area of the loop, pi F1² J''/(2 a).
+    loss, the area of the loop, π F1² J''/(2 a).
 
     References
     ----------
@@ -124,7 +124,7 @@ def series_complex_compliance(
     Parameters
     ----------
     angular_frequency : float
-        omega [rad/s].
+        ω [rad/s].
     instant : float
         J(0) [1/Pa].
     amplitudes, times : array_like, optional
@@ -135,7 +135,7 @@ def series_complex_compliance(
     Returns
     -------
     complex
-        J* = instant + sum amplitudes/(1 + i omega times) + fluidity/(i omega) [1/Pa].
+        J* = instant + sum amplitudes/(1 + i ω times) + fluidity/(i ω) [1/Pa].
 
     Raises
     ------
@@ -164,7 +164,7 @@ def punch_harmonic_start(
     times: ArrayLike = (),
     fluidity: float = 0.0,
 ) -> Values:
-    """Approach of a round flat punch under mean + amplitude sin(omega t), from rest at time 0.
+    """Approach of a round flat punch under mean + amplitude sin(ω t), from rest at time 0.
 
     Parameters
     ----------
@@ -174,7 +174,7 @@ def punch_harmonic_start(
         Mean and amplitude of the force; the punch stays in contact while the first is larger
         and the body recovers less than the punch presses [N].
     angular_frequency : float
-        omega [rad/s].
+        ω [rad/s].
     radius : float
         Radius of the punch [m].
     instant, amplitudes, times, fluidity : float, array_like, array_like, float
@@ -193,10 +193,10 @@ def punch_harmonic_start(
 
     Notes
     -----
-    2 a w = mean J(t) + amplitude integral of J(t - t') omega cos(omega t') dt' over 0 < t' < t,
-    where each retardation time contributes, with x = omega tau,
-    sin(omega t) - x (cos(omega t) + x sin(omega t) - exp(-t/tau))/(1 + x²), and flow
-    (1 - cos(omega t))/omega.
+    2 a w = mean J(t) + amplitude integral of J(t - t') ω cos(ω t') dt' over 0 < t' < t,
+    where each retardation time contributes, with x = ω τ,
+    sin(ω t) - x (cos(ω t) + x sin(ω t) - exp(-t/τ))/(1 + x²), and flow
+    (1 - cos(ω t))/ω.
 
     Examples
     --------

@@ -1,7 +1,7 @@
 """An axisymmetric contact as independent rods: one elastic step of the viscoelastic march.
 
 In the transform of `AxisymmetricContact` the half-space falls apart into rods, one at each
-radius s, which do not know of each other: each is pressed by chi(s), gives way by J * dchi,
+radius s, which do not know of each other: each is pressed by χ(s), gives way by J * dχ,
 and is either in touch with the indenter or free of load.
 """
 

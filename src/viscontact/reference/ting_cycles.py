@@ -34,7 +34,7 @@ class TingCycles:
     modulus : float
         M(0) [Pa].
     relaxation_time : float
-        tau of M(t) = M(0) exp(-t/tau) [s].
+        τ of M(t) = M(0) exp(-t/τ) [s].
 
     Examples
     --------
@@ -127,7 +127,7 @@ class TingCycles:
         Returns
         -------
         float or ndarray
-            2 integral of chi(s) over 0 < s < a [N].
+            2 integral of χ(s) over 0 < s < a [N].
         """
         times = np.asarray(t, dtype=np.float64)
         found = [self._force(float(now)) for now in times.ravel()]
@@ -196,7 +196,7 @@ def ting_cycles(
     modulus : float
         M(0), the contact modulus at once, 1/J(0) [Pa].
     relaxation_time : float
-        tau of M(t) = M(0) exp(-t/tau) [s].
+        τ of M(t) = M(0) exp(-t/τ) [s].
 
     Returns
     -------
@@ -211,9 +211,9 @@ def ting_cycles(
     Notes
     -----
     A Maxwell body left alone stays as it is: a radius s of `press_axisymmetric` is touched again
-    at the approach it was lost at. Between, chi = integral of M(t - t') dw(t') from when it was
+    at the approach it was lost at. Between, χ = integral of M(t - t') dw(t') from when it was
     touched, so in cycle k, with the peak at b_k, it is lost at
-    tau ln(2 exp(b_k/tau) - exp(touched/tau)).
+    τ ln(2 exp(b_k/τ) - exp(touched/τ)).
 
     References
     ----------

@@ -118,7 +118,7 @@ class TingForceTriangle:
         -------
         float or ndarray
             a²/R while the contact grows; then it falls short of its largest value by the integral
-            of exp((t' - t(t'))/tau) dw(t') from t_1 on, t(t') the later instant of equal contact
+            of exp((t' - t(t'))/τ) dw(t') from t_1 on, t(t') the later instant of equal contact
             [m].
         """
         times = np.asarray(t, dtype=np.float64)
@@ -179,7 +179,7 @@ def ting_force_triangle(
     modulus : float
         M(0), the contact modulus at once, 1/J(0) [Pa].
     relaxation_time : float
-        tau of M(t) = M(0) exp(-t/tau) [s].
+        τ of M(t) = M(0) exp(-t/τ) [s].
 
     Returns
     -------
@@ -195,9 +195,9 @@ def ting_force_triangle(
     -----
     While the contact grows, F = integral of M(t - t') d(4 a³/(3 R)) from 0 to t, and afterwards
     the same up to t_1 (Ting 1966). For a Maxwell body, whose M is one exponential, both together
-    are F(t) exp(t/tau) = F(t_1) exp(t_1/tau): Lambert's W gives t_1. That the rods at the edge
-    are free, integral of M(t - t') dw from t_1 to t = 0, gives dw(t) = exp((t_1 - t)/tau)
-    dw(t_1). The contact grows beyond the peak of the force if that is later than tau.
+    are F(t) exp(t/τ) = F(t_1) exp(t_1/τ): Lambert's W gives t_1. That the rods at the edge
+    are free, integral of M(t - t') dw from t_1 to t = 0, gives dw(t) = exp((t_1 - t)/τ)
+    dw(t_1). The contact grows beyond the peak of the force if that is later than τ.
 
     References
     ----------

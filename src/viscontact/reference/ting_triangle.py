@@ -84,7 +84,7 @@ class TingTriangle:
         Notes
         -----
         With M the integral of M and b the rise, M(t - t_1) - 2 M(t - b) = 0: for a Maxwell body
-        t_1 = tau ln(2 exp(b/tau) - exp(t/tau)).
+        t_1 = τ ln(2 exp(b/τ) - exp(t/τ)).
         """
         times = np.asarray(t, dtype=np.float64)
         found = [self._earlier(float(now)) for now in times.ravel()]
@@ -121,8 +121,8 @@ class TingTriangle:
 
         Notes
         -----
-        Integral of exp(-(t - t')/tau) t'^p from 0 to x = exp(-(t - x)/tau) x^(1+p)/(1+p)
-        1F1(1; 2+p; -x/tau) (DLMF 13.4.1 and 13.2.39), p = 1/2 for a sphere and 1 for a cone.
+        Integral of exp(-(t - t')/τ) t'^p from 0 to x = exp(-(t - x)/τ) x^(1+p)/(1+p)
+        1F1(1; 2+p; -x/τ) (DLMF 13.4.1 and 13.2.39), p = 1/2 for a sphere and 1 for a cone.
         """
         now, x = np.asarray(t, dtype=np.float64), np.asarray(self.earlier(t))
         p = 0.5 if isinstance(self.profile, SphereProfile) else 1.0

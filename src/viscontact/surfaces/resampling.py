@@ -46,7 +46,7 @@ def resampled(
         The surface.
     cell : float or pair of float
         New spacing, along x and y [m].
-    filter : str
+    filter : {"mean", "gaussian", "spline"}, optional
         ``"mean"``: each new height is the mean over its cell, for coarser meshes;
         ``"gaussian"``: the weighted mean of ISO 16610 around the new point, for coarser meshes;
         ``"spline"``: cubic splines through the points, for finer meshes.
@@ -68,7 +68,7 @@ def resampled(
 
     Notes
     -----
-    The Gaussian passes exp(-pi (ALPHA cutoff/wavelength)^2) of a wave's height. Near the border
+    The Gaussian passes exp(-ln 2 (cutoff/wavelength)²) of a wave's height. Near the border
     it is normalised by the weights within the map.
 
     Examples
