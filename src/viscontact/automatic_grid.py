@@ -32,9 +32,9 @@ def auto_grid(
         Material of the half-space.
     load : LoadHistory
         Force or approach, eccentricity and prescribed tilts over time.
-    tolerance : float
+    tolerance : float, optional
         Aimed-at relative error of the named quantities, between 1e-4 and 0.5 [-].
-    quantities : sequence of str
+    quantities : sequence of str, optional
         What has to be that exact, as in `AutomaticGrid`.
     end : float, optional
         Last instant of the run [s]; the load's last point, or the end of all creep, when left

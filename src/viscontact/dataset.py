@@ -72,16 +72,16 @@ def simulate(
         those it took.
     indenter_material : Material, optional
         Material of the indenter; rigid when left out.
-    tolerance : float
+    tolerance : float, optional
         Relative error of gap and balances at every instant.
-    fields : "all", "none" or sequence of float
+    fields : {"all", "none"} or sequence of float, optional
         Instants [s] whose pressure, gap and displacement are kept: all on the dimension
         ``time``, some on ``field_time``.
-    threads : int
+    threads : int, optional
         Threads of one Fourier transform.
     progress : callable, optional
         Called with (state, done, total) after each instant.
-    errors : bool
+    errors : bool, optional
         Whether errors of the scalars are estimated, ``peak_pressure_error`` and so on: two
         coarser companions of the run are marched for that, which takes about two thirds of its
         own time.
@@ -116,7 +116,7 @@ def simulate(
 
     See Also
     --------
-    march : the generator underneath, with its equations.
+    march : the generator underneath, which yields one state after the other.
 
     Examples
     --------

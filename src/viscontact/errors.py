@@ -40,6 +40,12 @@ class RunError(RuntimeError):
 class ConvergenceError(RunError):
     """The contact solver stopped short of the tolerance at some step.
 
+    Attributes
+    ----------
+    partial : xarray.Dataset or None
+        The steps until then, or None if there are none. The last may be the failed one; its
+        ``outcome`` says so.
+
     Examples
     --------
     >>> error = ConvergenceError("stopped at t = 2 s")
@@ -50,6 +56,11 @@ class ConvergenceError(RunError):
 
 class DomainError(RunError):
     """The grid does not fit the contact: pressure at its rim, or too few cells across.
+
+    Attributes
+    ----------
+    partial : xarray.Dataset or None
+        The steps until then, or None if there are none.
 
     Examples
     --------

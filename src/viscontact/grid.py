@@ -190,9 +190,9 @@ class AutomaticGrid(Shown):
 
     Parameters
     ----------
-    tolerance : float
+    tolerance : float, optional
         Relative error of the named quantities that the mesh may cause, between 1e-4 and 0.5 [-].
-    quantities : sequence of str
+    quantities : sequence of str, optional
         What has to be that exact: of ``"peak_pressure"``, ``"contact_area"``, ``"approach"``.
 
     Raises

@@ -43,7 +43,7 @@ def simulate_many(
         So many processes at once; as many as there are cores when left out, fewer if so many runs
         do not fit into the memory that is free. Each computes on one thread if the run's own
         ``threads`` does not say otherwise.
-    return_exceptions : bool
+    return_exceptions : bool, optional
         Let what a run raises take the place of its result, so that the others are not lost.
 
     Returns

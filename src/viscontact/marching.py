@@ -55,11 +55,11 @@ def march(
         `fields`.
     indenter_material : Material, optional
         Material of the indenter; rigid when left out.
-    tolerance : float
+    tolerance : float, optional
         Relative error of gap and balances at every instant.
-    fields : str or sequence of float
+    fields : {"all", "none"} or sequence of float, optional
         As in `simulate`, checked but not needed here: states carry their fields.
-    threads : int
+    threads : int, optional
         Threads of one Fourier transform.
     progress : callable, optional
         Called with (state, done, total) after each instant.

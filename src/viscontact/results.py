@@ -19,7 +19,7 @@ def save(ds: xr.Dataset, path: str | Path) -> None:
     ----------
     ds : xarray.Dataset
         From `simulate`.
-    path : path
+    path : path-like
         The file, by custom ending in ``.nc``; replaced if it is there.
 
     Examples
@@ -39,7 +39,7 @@ def open_results(path: str | Path) -> xr.Dataset:
 
     Parameters
     ----------
-    path : path
+    path : path-like
         A run directory or a ``.nc`` file.
 
     Returns

@@ -47,7 +47,7 @@ class Instant:
     energy : float
         Elastic energy of this pressure in a half-space of unit compliance [J Pa].
     residual : float
-        Relative violation of the contact conditions.
+        Relative violation of the contact conditions [-].
     iterations : int
         Search directions of the solver.
     outcome : Outcome
@@ -116,7 +116,7 @@ class ContactState:
     iterations : int
         Search directions of the contact solver.
     residual : float
-        Largest gap under pressure or penetration elsewhere, over the largest displacement.
+        Largest gap under pressure or penetration elsewhere, over the largest displacement [-].
     cells_across : int
         Cells across the contact along its shorter way, counted in cells.
     outcome : Outcome

@@ -21,7 +21,7 @@ class Card(Shown):
         Its name, or with Ansys its number.
     material : Material
         The law in shear, and what the volume does.
-    shift : Shift, optional
+    shift : WLF, Arrhenius or TabulatedShift, optional
         How its times shift with temperature; the law holds at the reference temperature.
     notes : tuple of str, optional
         What stood in the file and was not used.

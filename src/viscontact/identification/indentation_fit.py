@@ -27,7 +27,7 @@ class IndentationFit(Shown):
     Attributes
     ----------
     material : Material
-        The material, ready for `simulate`.
+        The material, ready for `viscontact.simulate`.
     parameters : dict of str to float
         The fitted parameters by the names of the law's constructor, in SI units.
     intervals : dict of str to (float, float)

@@ -115,7 +115,7 @@ class MasterCurve(Shown):
     mismatches : ndarray, shape (sets - 1,) or None
         Root mean square relative difference of each two neighbours where they overlap, NaN
         where they do not [-]; None where the factors were given.
-    shift : Shift
+    shift : WLF, Arrhenius or TabulatedShift
         The rule given, or the table of the factors found.
 
     Examples
@@ -188,7 +188,7 @@ def build_master_curve(
     reference_temperature : float
         Where the master curve is to hold [K]; within the temperatures of the sets unless
         `shift` is given.
-    shift : Shift, optional
+    shift : WLF, Arrhenius or TabulatedShift, optional
         The rule for the shift factors; found when left out.
 
     Returns

@@ -110,7 +110,7 @@ class LoadHistory(Shown, ABC):
 
     @property
     def load_cycles(self) -> tuple[Cycle, ...]:
-        """Cycles of the load, in order: where each begins and where it ends."""
+        """Cycles of the load, in order: where each begins and ends [s], before or after a jump."""
         return ()
 
     @property

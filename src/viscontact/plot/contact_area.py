@@ -39,7 +39,7 @@ def contact_area(
     Parameters
     ----------
     results : xarray.Dataset
-        What ``simulate`` or ``open_results`` returned, with fields stored.
+        What `viscontact.simulate` or `viscontact.open_results` returned, with fields stored.
     times : array_like, optional
         Draw only the span between the least and the largest of these instants [s]; by
         default all of it.

@@ -34,7 +34,7 @@ def contact_outline(
     Parameters
     ----------
     results : xarray.Dataset
-        What ``simulate`` or ``open_results`` returned, with fields stored.
+        What `viscontact.simulate` or `viscontact.open_results` returned, with fields stored.
     times : array_like, optional
         Instants [s]; the nearest stored ones are drawn and named. By default five, from the
         first in contact to the last.

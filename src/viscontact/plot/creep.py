@@ -27,7 +27,7 @@ def creep(
     Parameters
     ----------
     results : xarray.Dataset
-        What ``simulate`` or ``open_results`` returned.
+        What `viscontact.simulate` or `viscontact.open_results` returned.
     times : array_like, optional
         Draw the span between the least and the largest of these instants [s]; by default
         the time simulated.

@@ -72,12 +72,12 @@ def deformed_surface(
     Parameters
     ----------
     results : xarray.Dataset
-        What ``simulate`` or ``open_results`` returned, with fields stored.
+        What `viscontact.simulate` or `viscontact.open_results` returned, with fields stored.
     times : array_like, optional
         Instants [s]; the nearest stored ones are drawn and named. By default the first in
         contact and the last.
     width : {"single", "double"} or float, optional
-        One or two columns of a journal, or a width [m].
+        One or two columns of a journal (89 and 183 mm), or a width [m].
 
     Returns
     -------

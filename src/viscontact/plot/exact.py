@@ -35,8 +35,8 @@ def exact(
     Parameters
     ----------
     results : xarray.Dataset
-        What ``simulate`` or ``open_results`` returned, of a sphere or round paraboloid under a
-        central load of straight pieces: steps, ramps, triangles, tables.
+        What `viscontact.simulate` or `viscontact.open_results` returned, of a sphere or round
+        paraboloid under a central load of straight pieces: steps, ramps, triangles, tables.
     times : array_like, optional
         Draw only the span between the least and the largest of these instants [s]; by
         default all of it.

@@ -54,7 +54,7 @@ def exact_history(results: xr.Dataset, figure: str) -> ExactHistory:
     Parameters
     ----------
     results : xarray.Dataset
-        What ``simulate`` or ``open_results`` returned.
+        What `viscontact.simulate` or `viscontact.open_results` returned.
     figure : str
         Name of the figure, for messages.
 

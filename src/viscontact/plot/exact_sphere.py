@@ -18,7 +18,7 @@ def exact_sphere(results: xr.Dataset, figure: str) -> LeeRadokContact | None:
     Parameters
     ----------
     results : xarray.Dataset
-        What ``simulate`` or ``open_results`` returned.
+        What `viscontact.simulate` or `viscontact.open_results` returned.
     figure : str
         Name of the figure, for messages.
 

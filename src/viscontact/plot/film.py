@@ -57,7 +57,7 @@ class Film:
     instants : ndarray
         The stored instant that each frame shows, shape (frames,) [s].
     frames_per_second : float
-        [1/s].
+        How many are shown in a second [1/s].
     show : callable
         ``show(instant)`` draws a stored instant [s].
 
@@ -113,8 +113,8 @@ def animation(
     Parameters
     ----------
     results : xarray.Dataset
-        What ``simulate`` or ``open_results`` returned, with fields stored; at all instants for
-        a film that runs smoothly.
+        What `viscontact.simulate` or `viscontact.open_results` returned, with fields stored; at
+        all instants for a film that runs smoothly.
     times : array_like, optional
         Show the span between the least and the largest of these instants [s]; by default all of
         the run.

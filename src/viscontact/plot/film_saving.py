@@ -61,15 +61,16 @@ def save_film(
 
     Examples
     --------
+    >>> import tempfile
     >>> import viscontact as vc
     >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
     >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
     >>> ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(0.1), grid, [0.0, 1.0], errors=False)
-    >>> from viscontact.plot.film import animation
-    >>> save_film(animation(ds), "ball.doc")
-    Traceback (most recent call last):
-    ...
-    ValueError: path must end in .gif or .mp4, got 'ball.doc'; choose one of these formats
+    >>> from viscontact.plot import animation
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     save_film(animation(ds, seconds=1.0, fps=2.0), Path(folder) / "ball.gif")
+    ...     (Path(folder) / "ball.gif").read_bytes()[:6]
+    b'GIF89a'
     """
     suffix = require_suffix(path, FILM_SUFFIXES)
     write = {".gif": _write_gif, ".mp4": _write_mp4}[suffix]

@@ -62,7 +62,7 @@ def history(
     Parameters
     ----------
     results : xarray.Dataset
-        What ``simulate`` or ``open_results`` returned.
+        What `viscontact.simulate` or `viscontact.open_results` returned.
     times : array_like, optional
         Draw only the span between the least and the largest of these instants [s]; by
         default all of it.

@@ -35,7 +35,7 @@ def hysteresis(
     Parameters
     ----------
     results : xarray.Dataset
-        What ``simulate`` or ``open_results`` returned.
+        What `viscontact.simulate` or `viscontact.open_results` returned.
     times : array_like, optional
         Draw only the span between the least and the largest of these instants [s]; by
         default all of it.
@@ -96,10 +96,18 @@ def compare_hysteresis(
 
     Examples
     --------
-    >>> compare_hysteresis({})
-    Traceback (most recent call last):
-    ...
-    ValueError: hysteresis: needs at least one run to compare, got none
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ball = vc.Sphere(0.01)
+    >>> one, two = (
+    ...     vc.simulate(ball, rubber, vc.step(force), grid, [0.0, 1.0], errors=False)
+    ...     for force in (0.1, 0.2)
+    ... )
+    >>> runs = {"0.1 N": one, "0.2 N": two}
+    >>> axes = compare_hysteresis(runs).axes[0]
+    >>> axes.get_xlabel(), axes.get_ylabel()
+    ('Approach [µm]', 'Force [mN]')
     """
     if not runs:
         raise ValueError(f"{_NAME}: needs at least one run to compare, got none")

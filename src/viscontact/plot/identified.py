@@ -40,7 +40,8 @@ def fitted_series(fit: Fit, *, width: Width | None = None) -> Figure:
     Parameters
     ----------
     fit : Fit
-        What `fit_creep`, `fit_relaxation` or `fit_dynamic` returned.
+        What `viscontact.fit_creep`, `viscontact.fit_relaxation` or
+        `viscontact.fit_dynamic` returned.
     width : {"single", "double"} or float, optional
         One or two columns of a journal (89 and 183 mm), or a width [m].
 
@@ -120,7 +121,7 @@ def fitted_indentation(fit: IndentationFit, *, width: Width | None = None) -> Fi
     Parameters
     ----------
     fit : IndentationFit
-        What `fit_indentation` returned.
+        What `viscontact.fit_indentation` returned.
     width : {"single", "double"} or float, optional
         One or two columns of a journal (89 and 183 mm), or a width [m].
 
@@ -201,7 +202,7 @@ def master_curve(
     Parameters
     ----------
     curve : MasterCurve
-        What `build_master_curve` returned.
+        What `viscontact.build_master_curve` returned.
     fit : Fit, optional
         The series fitted to it.
     rules : sequence of ShiftFit, optional

@@ -43,7 +43,7 @@ def pressure_map(
     Parameters
     ----------
     results : xarray.Dataset
-        What ``simulate`` or ``open_results`` returned, with fields stored.
+        What `viscontact.simulate` or `viscontact.open_results` returned, with fields stored.
     times : array_like, optional
         Instants [s]; the nearest stored ones are drawn and named. By default four, from the
         first in contact to the last.
@@ -68,8 +68,9 @@ def pressure_map(
     >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
     >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
     >>> ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(0.1), grid, [1.0], errors=False)
-    >>> [axes.get_title() or axes.get_xlabel() for axes in pressure_map(ds).axes]
-    ['x [µm]', '']
+    >>> panel, scale = pressure_map(ds).axes
+    >>> panel.get_xlabel(), scale.get_ylabel()
+    ('x [µm]', 'Pressure [kPa]')
     """
     snapshots = take_snapshots(results, times, _NAME, count=4)
     labels = time_labels(snapshot.time for snapshot in snapshots)
@@ -103,10 +104,17 @@ def compare_pressure_maps(
 
     Examples
     --------
-    >>> compare_pressure_maps({})
-    Traceback (most recent call last):
-    ...
-    ValueError: pressure-map: needs at least one run to compare, got none
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ball = vc.Sphere(0.01)
+    >>> one, two = (
+    ...     vc.simulate(ball, rubber, vc.step(force), grid, [1.0], errors=False)
+    ...     for force in (0.1, 0.2)
+    ... )
+    >>> runs = {"0.1 N": one, "0.2 N": two}
+    >>> len(compare_pressure_maps(runs).axes)  # a panel for each, and the scale of both
+    3
     """
     snapshots, headings = snapshots_of_runs(runs, times, _NAME)
     note = peak_note(runs.values(), [snapshot.time for snapshot in snapshots])

@@ -34,7 +34,7 @@ def pressure_profile(
     Parameters
     ----------
     results : xarray.Dataset
-        What ``simulate`` or ``open_results`` returned, with fields stored.
+        What `viscontact.simulate` or `viscontact.open_results` returned, with fields stored.
     times : array_like, optional
         Instants [s]; the nearest stored ones are drawn and named. By default five, from the
         first in contact to the last.
@@ -105,7 +105,7 @@ def compare_pressure_profiles(
     times : array_like, optional
         Instants [s]; of each run the nearest stored ones are drawn. By default the first in
         contact and the last of the first run.
-    along, at
+    along, at : optional
         Where the line runs, as for `pressure_profile`.
     width : {"single", "double"} or float, optional
         One or two columns of a journal (89 and 183 mm), or a width [m].
@@ -131,9 +131,9 @@ def compare_pressure_profiles(
     ...     for force in (0.1, 0.2)
     ... )
     >>> runs = {"0.1 N": one, "0.2 N": two}
-    >>> axes = compare_pressure_profiles(runs, along="y").axes[0]
+    >>> axes = compare_pressure_profiles(runs, along="y").axes[-1]
     >>> axes.get_xlabel(), axes.get_ylabel()
-    ('', 'Pressure [kPa]')
+    ('y [µm]', 'Pressure [kPa]')
     """
     if not runs:
         raise ValueError(f"{_NAME}: needs at least one run to compare, got none")

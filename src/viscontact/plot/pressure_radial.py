@@ -37,8 +37,8 @@ def pressure_radial(
     Parameters
     ----------
     results : xarray.Dataset
-        What ``simulate`` or ``open_results`` returned, with fields stored, of an indenter
-        that is a body of revolution under a central load.
+        What `viscontact.simulate` or `viscontact.open_results` returned, with fields stored, of an
+        indenter that is a body of revolution under a central load.
     times : array_like, optional
         Instants [s]; the nearest stored ones are drawn and named. By default five, from the
         first in contact to the last.

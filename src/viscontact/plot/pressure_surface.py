@@ -37,12 +37,12 @@ def pressure_surface(
     Parameters
     ----------
     results : xarray.Dataset
-        What ``simulate`` or ``open_results`` returned, with fields stored.
+        What `viscontact.simulate` or `viscontact.open_results` returned, with fields stored.
     times : array_like, optional
         Instants [s]; the nearest stored ones are drawn and named. By default the first in
         contact and the last.
     width : {"single", "double"} or float, optional
-        One or two columns of a journal, or a width [m].
+        One or two columns of a journal (89 and 183 mm), or a width [m].
 
     Returns
     -------
@@ -85,7 +85,7 @@ def compare_pressure_surfaces(
     times : array_like, optional
         Instants [s]; of each run the nearest stored ones are drawn. By default the last of each.
     width : {"single", "double"} or float, optional
-        One or two columns of a journal, or a width [m].
+        One or two columns of a journal (89 and 183 mm), or a width [m].
 
     Returns
     -------
@@ -99,10 +99,17 @@ def compare_pressure_surfaces(
 
     Examples
     --------
-    >>> compare_pressure_surfaces({})
-    Traceback (most recent call last):
-    ...
-    ValueError: pressure-3d: needs at least one run to compare, got none
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ball = vc.Sphere(0.01)
+    >>> one, two = (
+    ...     vc.simulate(ball, rubber, vc.step(force), grid, [1.0], errors=False)
+    ...     for force in (0.1, 0.2)
+    ... )
+    >>> runs = {"0.1 N": one, "0.2 N": two}
+    >>> len(compare_pressure_surfaces(runs).axes)  # a panel for each, and the scale of both
+    3
     """
     snapshots, labels = snapshots_of_runs(runs, times, _NAME)
     note = peak_note(runs.values(), [snapshot.time for snapshot in snapshots])

@@ -16,7 +16,7 @@ def recorded_noun(results: xr.Dataset, part: str, figure: str) -> Any:
     Parameters
     ----------
     results : xarray.Dataset
-        What ``simulate`` or ``open_results`` returned.
+        What `viscontact.simulate` or `viscontact.open_results` returned.
     part : str
         ``"indenter"``, ``"material"``, ``"indenter_material"`` or ``"load"``.
     figure : str

@@ -36,15 +36,15 @@ Panels = Axes | NDArray[np.object_]
 class ResultPlots:
     """Figures of a result, for notebooks and scripts.
 
-    Each method draws the figure of its name in `viscontact.plot`, takes the same keywords, and
-    returns its axes: one `Axes`, or an array of them where there are several panels. pyplot knows
-    the figure, as it knows those of pandas and xarray, so that a notebook shows it and
-    ``pyplot.show()`` opens it; ``axes.figure`` is the figure.
+    Each method draws a figure of `viscontact.plot`, takes its keywords, and returns its axes: one
+    ``Axes``, or an array of them where there are several panels. pyplot knows the figure, as it
+    knows those of pandas and xarray, so that a notebook shows it and ``pyplot.show()`` opens it;
+    ``axes.figure`` is the figure.
 
     Parameters
     ----------
     result : xarray.Dataset
-        What ``simulate`` or ``open_results`` returned.
+        What `viscontact.simulate` or `viscontact.open_results` returned.
 
     Examples
     --------
@@ -59,63 +59,63 @@ class ResultPlots:
     result: xr.Dataset
 
     def pressure_map(self, **how: Any) -> Panels:
-        """Draw contours of pressure, one panel an instant."""
+        """Draw contours of pressure: `viscontact.plot.pressure_map`."""
         return self._panels(pressure_map, how)
 
     def pressure_3d(self, **how: Any) -> Panels:
-        """Draw the pressure as a surface in space, one panel an instant."""
+        """Draw the pressure as a surface in space: `viscontact.plot.pressure_surface`."""
         return self._panels(pressure_surface, how)
 
     def surface_3d(self, **how: Any) -> Panels:
-        """Draw the deformed surface in space, with the indenter on it, one panel an instant."""
+        """Draw the surface under the indenter, in space: `viscontact.plot.deformed_surface`."""
         return self._panels(deformed_surface, how)
 
     def pressure_profile(self, **how: Any) -> Panels:
-        """Draw sections through the pressure; ``along=`` and ``at=`` say where."""
+        """Draw sections through the pressure: `viscontact.plot.pressure_profile`."""
         return self._panels(pressure_profile, how)
 
     def pressure_radial(self, **how: Any) -> Panels:
-        """Draw pressure against distance from the axis, beside the exact one if there is one."""
+        """Draw pressure against distance from the axis: `viscontact.plot.pressure_radial`."""
         return self._panels(pressure_radial, how)
 
     def contact_outline(self, **how: Any) -> Panels:
-        """Draw the rim of the contact at several instants."""
+        """Draw the rim of the contact at several instants: `viscontact.plot.contact_outline`."""
         return self._panels(contact_outline, how)
 
     def contact_area(self, **how: Any) -> Panels:
-        """Draw the contact area over time, and that of the cells counted."""
+        """Draw the contact area over time: `viscontact.plot.contact_area`."""
         return self._panels(contact_area, how)
 
     def history(self, **how: Any) -> Panels:
-        """Draw area, approach, tilts and peak pressure over time."""
+        """Draw area, approach, tilts and peak pressure over time: `viscontact.plot.history`."""
         return self._panels(history, how)
 
     def hysteresis(self, **how: Any) -> Panels:
-        """Draw force over approach."""
+        """Draw force over approach: `viscontact.plot.hysteresis`."""
         return self._panels(hysteresis, how)
 
     def creep(self, **how: Any) -> Panels:
-        """Draw creep compliance and relaxation modulus of the half-space."""
+        """Draw creep and relaxation of the half-space: `viscontact.plot.creep`."""
         return self._panels(creep, how)
 
     def exact(self, **how: Any) -> Panels:
-        """Draw contact radius, approach and peak pressure of a sphere beside the exact ones."""
+        """Draw the history of a sphere beside the exact one: `viscontact.plot.exact`."""
         return self._panels(exact, how)
 
     def stress_section(self, **how: Any) -> Panels:
-        """Draw von Mises stress below the contact."""
+        """Draw von Mises stress below the contact: `viscontact.plot.stress_section`."""
         return self._panels(stress_section, how)
 
     def von_mises(self, **how: Any) -> Panels:
-        """Draw the largest von Mises stress and its depth over time."""
+        """Draw the largest von Mises stress over time: `viscontact.plot.von_mises_history`."""
         return self._panels(von_mises_history, how)
 
     def indenter(self, **how: Any) -> Panels:
-        """Draw sections and plan of the indenter."""
+        """Draw sections and plan of the indenter: `viscontact.plot.indenter`."""
         return self._panels(indenter, how)
 
     def animation(self, **how: Any) -> Film:
-        """Make a film, which `viscontact.plot.save_film` writes."""
+        """Make a film: `viscontact.plot.animation`. `viscontact.plot.save_film` writes it."""
         return animation(self.result, **how)
 
     def _panels(self, draw: Callable[..., Figure], how: dict[str, Any]) -> Panels:

@@ -39,12 +39,14 @@ def save_figure(figure: Figure, path: str | PathLike[str]) -> None:
 
     Examples
     --------
-    >>> from viscontact.plot import style
-    >>> figure = style.new_figure(2.0, 1.0)
-    >>> save_figure(figure, "ball.doc")
-    Traceback (most recent call last):
-    ...
-    ValueError: path must end in .png, .pdf or .svg, got 'ball.doc'; choose one of these formats
+    >>> import tempfile
+    >>> import viscontact as vc
+    >>> from viscontact.plot import draw_load
+    >>> figure = draw_load(vc.step(10e3), 60.0)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     save_figure(figure, Path(folder) / "load.svg")
+    ...     (Path(folder) / "load.svg").read_text(encoding="utf-8")[:5]
+    '<?xml'
     """
     _write(figure, path, require_suffix(path, FIGURE_SUFFIXES)[1:])
 

@@ -24,7 +24,7 @@ def field_times(results: xr.Dataset, figure: str) -> NDArray[np.float64]:
     Parameters
     ----------
     results : xarray.Dataset
-        What ``simulate`` or ``open_results`` returned.
+        What `viscontact.simulate` or `viscontact.open_results` returned.
     figure : str
         Name of the figure, for the message.
 
@@ -59,7 +59,7 @@ def take_snapshots(
     Parameters
     ----------
     results : xarray.Dataset
-        What ``simulate`` or ``open_results`` returned.
+        What `viscontact.simulate` or `viscontact.open_results` returned.
     times : array_like or None
         Instants asked for [s]. None: the first instant in contact, the last one, and some in
         between that are spread evenly on a logarithmic scale.
@@ -139,7 +139,7 @@ def snapshot_reader(results: xr.Dataset) -> Callable[[int], Snapshot]:
     Parameters
     ----------
     results : xarray.Dataset
-        What ``simulate`` or ``open_results`` returned, with fields stored.
+        What `viscontact.simulate` or `viscontact.open_results` returned, with fields stored.
 
     Returns
     -------
@@ -160,7 +160,7 @@ def field_at(results: xr.Dataset, name: str, time: float, figure: str) -> NDArra
     Parameters
     ----------
     results : xarray.Dataset
-        What ``simulate`` or ``open_results`` returned.
+        What `viscontact.simulate` or `viscontact.open_results` returned.
     name : str
         Such as ``"displacement"``.
     time : float

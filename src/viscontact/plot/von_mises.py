@@ -33,7 +33,7 @@ def von_mises_history(
     Parameters
     ----------
     results : xarray.Dataset
-        What ``simulate`` or ``open_results`` returned, with fields stored.
+        What `viscontact.simulate` or `viscontact.open_results` returned, with fields stored.
     times : array_like, optional
         Instants [s]; by default all that are stored.
     width : {"single", "double"} or float, optional
@@ -88,10 +88,17 @@ def compare_von_mises(
 
     Examples
     --------
-    >>> compare_von_mises({})
-    Traceback (most recent call last):
-    ...
-    ValueError: von-mises: needs at least one run to compare, got none
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ball = vc.Sphere(0.01)
+    >>> one, two = (
+    ...     vc.simulate(ball, rubber, vc.step(force), grid, [0.0, 1.0], errors=False)
+    ...     for force in (0.1, 0.2)
+    ... )
+    >>> runs = {"0.1 N": one, "0.2 N": two}
+    >>> [axes.get_ylabel() for axes in compare_von_mises(runs).axes]
+    ['Von Mises stress [kPa]', 'Depth [µm]']
     """
     if not runs:
         raise ValueError(f"{_NAME}: needs at least one run to compare, got none")

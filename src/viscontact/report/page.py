@@ -37,8 +37,8 @@ def write_report(ds: xr.Dataset, path: str | Path, *, label: str = "") -> None:
     Parameters
     ----------
     ds : xarray.Dataset
-        What ``simulate`` or ``open_results`` returned.
-    path : path
+        What `viscontact.simulate` or `viscontact.open_results` returned.
+    path : path-like
         The file, by custom ending in ``.html``; replaced if it is there.
     label : str, optional
         What the run is called among others whose cases have the same title.
@@ -71,7 +71,7 @@ def report_page(ds: xr.Dataset, *, label: str = "") -> str:
     Parameters
     ----------
     ds : xarray.Dataset
-        What ``simulate`` or ``open_results`` returned.
+        What `viscontact.simulate` or `viscontact.open_results` returned.
     label : str, optional
         What the run is called among others whose cases have the same title; it stands in the
         heading beside that title, or alone if it begins with it.

@@ -87,8 +87,8 @@ def flipped(surface: Surface) -> Surface:
 
     Examples
     --------
-    >>> flipped(Surface([[0.0, 1e-6], [0.0, 0.0]], 1e-6)).heights.min()
-    np.float64(-1e-06)
+    >>> flipped(Surface([[0.0, 1e-6], [0.0, 0.0]], 1e-6)).heights[0].tolist()
+    [-0.0, -1e-06]
     """
     return surface.with_heights(-surface.heights)
 

@@ -28,7 +28,7 @@ def levelled(surface: Surface, level: Level = "plane") -> Surface:
     ----------
     surface : Surface
         The surface.
-    level : str
+    level : {"none", "mean", "plane", "quadratic"}, optional
         ``"none"``, ``"mean"``: the mean height; ``"plane"``: the plane of tilt, too;
         ``"quadratic"``: the paraboloid of form, too.
 

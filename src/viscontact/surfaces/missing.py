@@ -20,7 +20,7 @@ def filled(surface: Surface, by: Filling = "smooth") -> Surface:
     ----------
     surface : Surface
         The surface.
-    by : str
+    by : {"smooth", "lowest"}, optional
         ``"smooth"``: like a soap film between the known neighbours, nowhere higher or lower
         than they are; ``"lowest"``: the lowest known height, so that they never touch first.
 

@@ -14,7 +14,7 @@ def indenter_of(surface: Surface, *, holes: bool = False) -> HeightMap:
     ----------
     surface : Surface
         The surface, levelled.
-    holes : bool
+    holes : bool, optional
         Whether missing points are holes, which never touch; without it they are refused.
 
     Returns
@@ -30,8 +30,8 @@ def indenter_of(surface: Surface, *, holes: bool = False) -> HeightMap:
 
     Examples
     --------
-    >>> indenter_of(Surface([[0.0, 1e-6], [0.0, 0.0]], 1e-5)).gap(5e-6, -5e-6)
-    array(1.e-06)
+    >>> float(indenter_of(Surface([[0.0, 1e-6], [0.0, 0.0]], 1e-5)).gap(5e-6, -5e-6))
+    1e-06
     """
     require_map(surface)
     if not holes:

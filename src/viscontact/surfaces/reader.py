@@ -36,7 +36,7 @@ def read_surface(
     spacing : float or pair of float, optional
         Distance of the points along x and y, where the file does not tell [m].
     height_unit : str, optional
-        Unit of the heights, where the file does not tell: ``"um"``.
+        Unit of the heights, where the file does not tell, e.g. ``"um"``.
     height_factor : float, optional
         What the heights are multiplied by, to mend a wrong unit or sign.
     channel : str, optional
