@@ -33,7 +33,7 @@ _COMMANDS = re.compile(
 _WORD = re.compile(r"(?<=[>\s])[^<>\s]*[-/][^<>\s]*(?=[<\s])")
 _LITERAL = re.compile(r"<code\b.*?</code>", re.DOTALL)
 _LONG_NAME = re.compile(r'(?<=<span class="pre">)[^<]{25,}(?=</span>)')
-_JOINT = re.compile(r"(::|[_/=]+|\.(?!py\b))(?=\w)")
+_JOINT = re.compile(r"(::|[_/=]+|\.(?=\w{4}))(?=\w)")
 
 #: Where spaces are part of what is shown.
 _AS_THEY_STAND = (
