@@ -83,6 +83,9 @@ class FixedSteps:
         wanted = _instants_wanted(times, load)
         _refuse_endless_span(list(wanted))
         self.steps = list(_steps(wanted, load))
+        asked = [step.asked is not None for step in self.steps]
+        #: How many of the first steps end at instants asked for.
+        self._told = list(itertools.accumulate(asked, initial=0))
         self._taken = 0
 
     @property
@@ -93,7 +96,7 @@ class FixedSteps:
     @property
     def left(self) -> int:
         """Instants asked for that are still to come."""
-        return sum(step.asked is not None for step in self.steps[self._taken :])
+        return self._told[-1] - self._told[self._taken]
 
     def upcoming(self) -> Step | None:
         """The next step; None at the end."""
