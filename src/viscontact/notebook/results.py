@@ -28,6 +28,9 @@ _ROWS = {
     "mean_pressure": "mean pressure",
 }
 
+#: A contact no longer along y than so many times its extent along x is round, but for a cell.
+ROUND = 1.05
+
 
 def result_card(ds: xr.Dataset) -> Card:
     """Make the card of a result.
@@ -105,7 +108,7 @@ def _section(ds: xr.Dataset) -> list[Element]:
         return []
     at_last = ends[touched[-1]] > 0
     extents = [np.ptp(ds[axis].values[at_last.any(axis=1 - k)]) for k, axis in enumerate("xy")]
-    axis = int(extents[1] > extents[0])
+    axis = int(extents[1] > ROUND * extents[0])
     position = ds["xy"[axis]].values
     lines = [ends[k].take(ends[k].sum(axis=axis).argmax(), axis=1 - axis) for k in touched]
     half = 1.15 * max(float(np.abs(position[line > 0]).max(initial=0.0)) for line in lines)
