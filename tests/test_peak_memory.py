@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 import viscontact as vc
+from viscontact.cli import main
 
 CASE = Path(vc.__file__).parent / "examples" / "roller-dogbone-e05.yaml"
 
@@ -23,11 +24,16 @@ print(Path("/proc/self/status").read_text())
 """
 
 
-def peak_of(directory: Path, cells: str, steps: int) -> float:
-    """Largest resident set of a run that writes all its fields [bytes]."""
+def settings_of(cells: str, steps: int, *more: str) -> list[str]:
+    """Words for a run that writes all its fields."""
+    settings = (f"grid.shape={cells}", f"time.steps={steps}", "output.fields=all", *more)
+    return [word for setting in settings for word in ("--set", setting)]
+
+
+def peak_of(directory: Path, cells: str, steps: int, *more: str) -> float:
+    """Largest resident set of such a run [bytes]."""
     words = ["run", str(CASE), "-q", "-o", str(directory / f"{steps}")]
-    for setting in (f"grid.shape={cells}", f"time.steps={steps}", "output.fields=all"):
-        words += ["--set", setting]
+    words += settings_of(cells, steps, *more)
     command = [sys.executable, "-c", RUN, *words]
     done = subprocess.run(command, check=True, text=True, capture_output=True)
     found = re.search(r"VmHWM:\s*(\d+) kB", done.stdout)
@@ -43,3 +49,16 @@ def test_a_run_of_many_cells_and_steps_takes_300_mb_beyond_its_output(tmp_path: 
     output = sum(file.stat().st_size for file in (tmp_path / "120").rglob("*") if file.is_file())
     assert output > 300e6, "the output would have to be held to be told from what is not"
     assert taken < 300e6
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="asks Linux for its memory")
+def test_a_run_without_mirror_images_takes_no_more_than_is_foretold(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    # The most arrays of the grid's size: nothing is halved, and all fields are written.
+    sizes = "[1280, 1280]", 3, "load.eccentricity_y=0.01 mm"
+    assert main(["check", str(CASE), *settings_of(*sizes)]) == 0
+    foretold = re.search(r"([\d.]+) GB", capsys.readouterr().out)
+    assert foretold is not None
+    assert 0.7e9 * float(foretold[1]) < peak_of(tmp_path, *sizes) < 1.01e9 * float(foretold[1])

@@ -14,8 +14,6 @@ from viscontact.transforms import (
     as_reals,
     fastest_transforms,
     fill_of_order_one,
-    for_numbers,
-    multiplied,
     transforms_by,
 )
 
@@ -79,11 +77,10 @@ class Convolution:
         self._second = 1 - self._first
         self._even = mirrored
         number = np.float32 if single else np.float64
-        symbol = _symbol(coefficients, padded, mirrored, self._first).astype(number)
+        self._symbol = _symbol(coefficients, padded, mirrored, self._first).astype(number)
         self._block = np.zeros(_put(self.shape, self._first, padded[self._first]), number)
         kind = number if mirrored[self._first] else np.result_type(number, np.complex64)
-        self._spectrum = np.zeros(symbol.shape, kind)
-        self._symbol = for_numbers(symbol, kind)
+        self._spectrum = np.zeros(self._symbol.shape, kind)
 
     def apply(
         self, pressure: NDArray[np.float64], into: NDArray[np.float64] | None = None
@@ -117,7 +114,8 @@ class Convolution:
             transforms.real_forth(block, lines, self._first)
         _beyond(spectrum, self.shape, second)[...] = 0
         spectrum = self._along_second(transforms.cosine_forth, transforms.complex_forth, spectrum)
-        return multiplied(spectrum, self._symbol)
+        spectrum *= self._symbol
+        return spectrum
 
     def _back(self, spectrum: NDArray[Any]) -> NDArray[Any]:
         transforms = self._transforms

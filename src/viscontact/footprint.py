@@ -12,10 +12,11 @@ from viscontact.material import Material
 from viscontact.run import Run
 from viscontact.schedule import FixedSteps
 
-#: Bytes of the program itself, and arrays of the grid's size that a run holds at a time, both
-#: measured; two arrays more for each term of the law. The program takes 150 to 190 MB: what the
-#: linear algebra library sets aside for itself differs between processors.
-PROGRAM, WORK_ARRAYS, ARRAYS_PER_TERM = 2.2e8, 40, 2
+#: Bytes of the program itself, and arrays of the grid's size that a run holds at a time and writes,
+#: both measured, of a body without mirror images; two arrays more for each term of the law. The
+#: program takes 150 to 190 MB: what the linear algebra library sets aside for itself differs
+#: between processors.
+PROGRAM, WORK_ARRAYS, ARRAYS_PER_TERM = 2.2e8, 62, 2
 
 #: What is kept of each step besides fields: when it is, and the scalars it ends with; measured.
 BYTES_PER_STEP = 2000.0
@@ -65,7 +66,7 @@ def needed_memory(grid: Grid, fields_kept: int) -> float:
     Examples
     --------
     >>> round(needed_memory(Grid((1000, 1000), (1.0, 1.0)), fields_kept=2) / 1e6)
-    572
+    748
     """
     nx, ny = grid.shape
     return PROGRAM + 8.0 * float(nx) * float(ny) * (WORK_ARRAYS + ARRAYS_PER_TERM * fields_kept)
@@ -91,7 +92,7 @@ def least_memory(grid: Grid, material: Material) -> float:
     >>> from viscontact.laws import Zener
     >>> rubber = Material(Zener(1e6, 1e6, 1e6), poisson_ratio=0.5)
     >>> round(least_memory(Grid((1000, 1000), (1.0, 1.0)), rubber) / 1e6)
-    556
+    732
     """
     compliance = material.contact_compliance()
     # What any other law keeps depends on the steps, of which nothing is known yet.

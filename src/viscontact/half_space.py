@@ -142,7 +142,7 @@ class HalfSpace:
     def unfold(self, field: NDArray[np.float64]) -> NDArray[np.float64]:
         """The field on the grid whose part is worked with, in memory of its own."""
         if not any(self.mirrored):  # a view would keep the pair it is taken from
-            return field.copy()
+            return field if field.base is None else field.copy()
         for axis in (0, 1):
             if self.mirrored[axis]:
                 field = np.concatenate([np.flip(field, axis), field], axis)

@@ -272,32 +272,6 @@ def as_reals(spectrum: Field) -> Field:
     return spectrum.view(spectrum.real.dtype).reshape(*spectrum.shape, 2)
 
 
-def for_numbers(symbol: Field, kind: Any) -> Field:
-    """A real symbol for spectra of a kind of numbers: of complex ones, each value twice.
-
-    NumPy would make it complex at each product first.
-
-    Examples
-    --------
-    >>> for_numbers(np.array([[1.0, 2.0]]), np.complex128).tolist()
-    [[1.0, 1.0, 2.0, 2.0]]
-    """
-    return np.repeat(symbol, 2, axis=1) if np.issubdtype(kind, np.complexfloating) else symbol
-
-
-def multiplied(spectrum: Field, symbol: Field) -> Field:
-    """A spectrum times a symbol `for_numbers` of its kind, in place.
-
-    Examples
-    --------
-    >>> multiplied(np.array([[1 + 2j]]), np.array([[3.0, 3.0]])).tolist()
-    [[(3+6j)]]
-    """
-    reals = spectrum.view(symbol.dtype)
-    np.multiply(reals, symbol, out=reals)
-    return spectrum
-
-
 def fill_of_order_one(block: Field, field: NDArray[np.float64]) -> float:
     """Put a field into a block, by its largest value into one of single precision.
 

@@ -21,8 +21,6 @@ from viscontact.transforms import (
     Transforms,
     fastest_transforms,
     fill_of_order_one,
-    for_numbers,
-    multiplied,
     transforms_by,
 )
 
@@ -69,7 +67,7 @@ class PeriodicConvolution:
         self._spectra = _Spectra(shape, cell_size, (False, False), number, transforms)
         half = self._spectra.half_wave_numbers
         half[0, 0] = np.inf
-        self._symbol = self._spectra.symbol(1 / half)
+        self._symbol = (1 / half).astype(number)
 
     def apply(
         self, pressure: NDArray[np.float64], into: NDArray[np.float64] | None = None
@@ -119,7 +117,7 @@ class Preconditioner:
         transforms: Transforms | None = None,
     ) -> None:
         self._spectra = _Spectra(shape, cell_size, mirrored, np.float32, transforms)
-        self._symbol = self._spectra.symbol(self._spectra.half_wave_numbers)
+        self._symbol = self._spectra.half_wave_numbers.astype(np.float32)
 
     def apply(self, displacement: NDArray[np.float64]) -> NDArray[np.float64]:
         """Pressure that would cause about this displacement, per unit contact compliance.
@@ -160,11 +158,6 @@ class _Spectra:
             self.half_wave_numbers.shape, np.result_type(number, np.complex64)
         )
 
-    def symbol(self, values: NDArray[np.float64]) -> NDArray[Any]:
-        """A symbol at these wave numbers, as spectra are `filtered` by it."""
-        kind = self._spectrum.dtype if self._fourier else self._block.dtype
-        return for_numbers(values.astype(self._block.dtype), kind)
-
     def filtered(
         self,
         field: NDArray[np.float64],
@@ -174,7 +167,7 @@ class _Spectra:
         """The field whose spectrum is that of another one times a symbol."""
         size = fill_of_order_one(self._block, field)
         spectrum = self._forth(self._block)
-        spectrum = multiplied(spectrum, symbol)
+        spectrum *= symbol
         return np.asarray(np.multiply(self._back(spectrum), size, out=into, dtype=np.float64))
 
     def _forth(self, block: NDArray[Any]) -> NDArray[Any]:
