@@ -276,7 +276,7 @@ def test_simulations_that_do_not_fit_into_memory_wait_for_one_another(
     with warnings.catch_warnings(record=True) as warned, pytest.raises(InterruptedError):
         vc.simulate_many([sizes[n] for n in (100, 2000, 100, 2000)], workers=4)
     assert asked == [at_once]
-    said = f"about 3.45 GB of memory, {free / 1e9:.3g} GB are free; {at_once} at a time"
+    said = f"about 4.86 GB of memory, {free / 1e9:.3g} GB are free; {at_once} at a time"
     assert [said in str(each.message) for each in warned] == [True] * (at_once < 4)
 
 
