@@ -29,10 +29,10 @@ import os, sys, time
 from viscontact.recording.lock import locked
 with locked(sys.argv[1]):
     if os.fork() == 0:
+        print("locked", flush=True)  # by the child, which lets go of the lock before fork returns
         os.close(1)
         time.sleep(60)
         os._exit(0)
-    print("locked", flush=True)
     sys.stdin.readline()
 """
 
