@@ -25,6 +25,7 @@ from matplotlib.figure import Figure
 import viscontact as vc
 from viscontact.cli import main
 from viscontact.cli.summary import print_summary
+from viscontact.error_bars import TRUSTS
 from viscontact.plot import COMPARISONS, FIGURES
 from viscontact.report import report_page
 from viscontact.report.accuracy import error_rows
@@ -493,3 +494,8 @@ def test_check_says_of_which_bodies_the_peak_depends_on_the_mesh(
     printed = capsys.readouterr().out
     [line] = [line for line in printed.splitlines() if line.startswith("  peak pressure")]
     assert ("depends on the mesh" in line) == is_singular
+
+
+def test_scalars_that_promise_an_error_are_those_whose_error_is_estimated() -> None:
+    promised = {name for name, variable in SCALARS.items() if variable.has_error}
+    assert promised == set(TRUSTS)

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from viscontact.error_bars import TRUSTS
 from viscontact.state import Outcome
 
 
@@ -25,12 +24,15 @@ class Variable:
         NumPy's name of its type.
     comment : str
         What else has to be known of it.
+    has_error : bool
+        Whether its error is estimated, and kept beside it.
     """
 
     units: str
     long_name: str
     kind: str = "f8"
     comment: str = ""
+    has_error: bool = False
 
     @property
     def attributes(self) -> dict[str, Any]:
@@ -57,19 +59,27 @@ FIELDS = {
 }
 
 SCALARS = {
-    "force": Variable("N", "force on the contact"),
-    "eccentricity_x": Variable("m", "position of the resultant along x"),
-    "eccentricity_y": Variable("m", "position of the resultant along y"),
-    "approach": Variable("m", "rigid approach, positive when the bodies come closer"),
-    "tilt_x": Variable("rad", "rigid slope along x, positive when the +x end is deeper"),
-    "tilt_y": Variable("rad", "rigid slope along y, positive when the +y end is deeper"),
-    "contact_area": Variable("m2", "contact area"),
-    "contact_length": Variable("m", "extent of the contact along x"),
-    "contact_width": Variable("m", "extent of the contact along y"),
-    "peak_pressure": Variable("Pa", "largest pressure"),
-    "mean_pressure": Variable("Pa", "force over contact area"),
-    "work": Variable("J", "work of the load on the contact since the start"),
-    "loss_per_cycle": Variable("J", "work that the last whole cycle of the load has cost"),
+    "force": Variable("N", "force on the contact", has_error=True),
+    "eccentricity_x": Variable("m", "position of the resultant along x", has_error=True),
+    "eccentricity_y": Variable("m", "position of the resultant along y", has_error=True),
+    "approach": Variable(
+        "m", "rigid approach, positive when the bodies come closer", has_error=True
+    ),
+    "tilt_x": Variable(
+        "rad", "rigid slope along x, positive when the +x end is deeper", has_error=True
+    ),
+    "tilt_y": Variable(
+        "rad", "rigid slope along y, positive when the +y end is deeper", has_error=True
+    ),
+    "contact_area": Variable("m2", "contact area", has_error=True),
+    "contact_length": Variable("m", "extent of the contact along x", has_error=True),
+    "contact_width": Variable("m", "extent of the contact along y", has_error=True),
+    "peak_pressure": Variable("Pa", "largest pressure", has_error=True),
+    "mean_pressure": Variable("Pa", "force over contact area", has_error=True),
+    "work": Variable("J", "work of the load on the contact since the start", has_error=True),
+    "loss_per_cycle": Variable(
+        "J", "work that the last whole cycle of the load has cost", has_error=True
+    ),
     "time_error": Variable("1", "estimated relative error of pressure owed to the time steps"),
     "iterations": Variable("1", "iterations of the contact solver", "i4"),
     "residual": Variable("1", "relative violation of the contact conditions"),
@@ -105,9 +115,10 @@ def error_name(name: str) -> str:
 #: The errors of scalars, by their own names.
 ERRORS = {
     error_name(name): Variable(
-        SCALARS[name].units, f"estimated error of: {SCALARS[name].long_name}", comment=_BAR
+        variable.units, f"estimated error of: {variable.long_name}", comment=_BAR
     )
-    for name in TRUSTS
+    for name, variable in SCALARS.items()
+    if variable.has_error
 }
 
 
@@ -127,6 +138,6 @@ def scalar_attributes(name: str, *, errors: bool) -> dict[str, Any]:
     'force_error'
     """
     attributes = SCALARS[name].attributes
-    if errors and name in TRUSTS:
+    if errors and SCALARS[name].has_error:
         attributes["ancillary_variables"] = error_name(name)
     return attributes
