@@ -94,6 +94,8 @@ FLOORS = (
         "outgrown",
         "variables",
         "dataset",
+        "run_description",
+        "single",
         "many_runs",
         "results",
         "stated_errors",
@@ -279,6 +281,12 @@ NEIGHBOURS = {
     ("cli", "processes"),  # several runs
     ("web", "processes"),
     ("cli", "web"),  # the command that serves it
+    ("many_runs", "single"),
+    ("recording", "run_description"),
+    ("run_description", "description"),
+    ("single", "dataset"),
+    ("single", "outgrown"),
+    ("single", "run_description"),
     ("__main__", "cli"),  # python -m viscontact
 }
 # Who may ask the front door, which loads names from any floor when they are used: nouns that are

@@ -13,12 +13,12 @@ import viscontact as vc
 from measured_swing import write_swing
 from test_run_record import finish, same_bits, stop_after
 from test_step_by_step import differing, through_a_file
-from viscontact.dataset import to_dataset
 from viscontact.grid import AutomaticGrid
 from viscontact.growth import next_grid
 from viscontact.recording.recorded import Recorded
 from viscontact.recording.run_record import RunRecord
 from viscontact.run import Run, prepare_run
+from viscontact.single import labelled
 from viscontact.state import ContactState
 from viscontact.step_by_step import March
 
@@ -158,7 +158,7 @@ def test_result_holds_what_is_known_on_the_last_grid_and_tells_when_it_grew() ->
     prepare, small = RUNS["sphere"]
     run = growing(prepare(small))
     states = states_of(run)
-    ds = to_dataset(run, states, "all", 0.0)
+    ds = labelled(run, states, "all", 0.0)
     large = states[-1].grid
     assert ds.x.values.tolist() == large.x.tolist()
     assert ds.sizes["y"] == large.shape[1]
@@ -213,7 +213,7 @@ def test_recorded_result_is_the_one_that_is_returned(
     states = states_of(of.run)
     if fields != "all":
         states = [each if each.time in fields else each.without_fields() for each in states]
-    expected = to_dataset(of.run, states, fields, 0.0)
+    expected = labelled(of.run, states, fields, 0.0)
     with vc.open_results(tmp_path) as ds:
         assert ds.attrs["grid_enlarged"] == expected.attrs["grid_enlarged"] != ""
         assert set(ds.variables) == set(expected.variables)

@@ -84,7 +84,7 @@ __getattr__, __dir__, __all__ = _lazy.attach(
         "automatic_grid": ["auto_grid"],
         "state": ["ContactState", "Outcome"],
         "marching": ["march"],
-        "dataset": ["simulate"],
+        "single": ["simulate"],
         "many_runs": ["simulate_many"],
         "results": ["open_results", "save"],
         "report": ["write_report"],

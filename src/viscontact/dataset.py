@@ -1,33 +1,18 @@
-"""Labels begin here: from states to an xarray dataset, and `simulate`."""
+"""From states to a labelled xarray dataset."""
 
 from __future__ import annotations
 
-import json
-import time as clock
-import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from viscontact import __version__
 from viscontact.accessor import ResultAccessor as ResultAccessor
-from viscontact.companions import history_of
-from viscontact.description import describe_run
-from viscontact.error_bars import ErrorBars, error_bars, unknown_bars
-from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
-from viscontact.grid import AutomaticGrid, Grid
-from viscontact.indenters import Indenter
-from viscontact.instants import field_instants
-from viscontact.load import LoadHistory
-from viscontact.marching import Progress, march_run
-from viscontact.material import Material
-from viscontact.outgrown import enlargements, on_wider
-from viscontact.run import Run, prepare_run
+from viscontact.grid import Grid
+from viscontact.outgrown import on_wider
 from viscontact.state import ContactState
-from viscontact.stepping import AdaptiveTimes
 from viscontact.variables import (
     COORDINATES,
     ERRORS,
@@ -39,149 +24,24 @@ from viscontact.variables import (
 )
 
 
-def simulate(
-    indenter: Indenter,
-    material: Material,
-    load: LoadHistory,
-    grid: Grid | AutomaticGrid | None = None,
-    times: ArrayLike | AdaptiveTimes | None = None,
-    *,
-    indenter_material: Material | None = None,
-    tolerance: float = 1e-6,
-    fields: str | Sequence[float] = "all",
-    threads: int = 1,
-    progress: Progress | None = None,
-    errors: bool = True,
-) -> xr.Dataset:
-    """Press an indenter on a creeping half-space and return what happens over time.
-
-    Parameters
-    ----------
-    indenter : Indenter
-        Shape of the pressed body.
-    material : Material
-        Material of the half-space.
-    load : LoadHistory
-        Force or approach, eccentricity and prescribed tilts over time.
-    grid : Grid or AutomaticGrid, optional
-        Cells that carry the pressure, or what is asked of them: then, and when left out, the
-        run chooses them.
-    times : array_like or AdaptiveTimes, optional
-        Instants of the result, strictly increasing, none before 0 [s]; chosen from load and
-        law when left out. With `adaptive_times` the run chooses its steps, and ``time`` holds
-        those it took.
-    indenter_material : Material, optional
-        Material of the indenter; rigid when left out.
-    tolerance : float, optional
-        Relative error of gap and balances at every instant.
-    fields : {"all", "none"} or sequence of float, optional
-        Instants [s] whose pressure, gap and displacement are kept: all on the dimension
-        ``time``, some on ``field_time``.
-    threads : int, optional
-        Threads of one Fourier transform.
-    progress : callable, optional
-        Called with (state, done, total) after each instant.
-    errors : bool, optional
-        Whether errors of the scalars are estimated, ``peak_pressure_error`` and so on: two
-        coarser companions of the run are marched for that, which takes about two thirds of its
-        own time.
-
-    Returns
-    -------
-    xarray.Dataset
-        Scalars over ``time``, fields over (time or field_time, x, y), all in SI units, each
-        with ``units`` and ``long_name``; the case, warnings and tolerance as attributes.
-
-        Where errors are estimated, a scalar has ``<name>_error`` beside it, over ``time`` and in
-        its own unit: the half width of an error bar, which 95 of 100 true errors do not exceed.
-        It is inf for a peak pressure without a limit (at a sharp edge or point), NaN where
-        nothing is known, 0 for what is zero because nothing touches, and some three times
-        `tolerance` of what is prescribed.
-
-        If the run has enlarged its grid, fields are on the last one: beyond the grid of an
-        earlier instant pressure is 0, and gap and displacement are NaN. The attribute
-        ``grid_enlarged`` says when.
-
-    Raises
-    ------
-    ValueError
-        If an argument makes no sense, with a remedy.
-    ConvergenceError, DomainError
-        If the run stops; ``partial`` holds the completed steps as a dataset.
-
-    Warns
-    -----
-    AccuracyWarning
-        If the result is coarser than one would expect; kept in the attribute ``warnings``.
-
-    See Also
-    --------
-    march : the generator underneath, which yields one state after the other.
-
-    Examples
-    --------
-    >>> import viscontact as vc
-    >>> rubber = vc.Material(vc.Zener(1e6, 1e6, 1e6), poisson_ratio=0.5)
-    >>> ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(0.1), times=vc.uniform_times(5.0, 20))
-    >>> round(float(ds.approach[-1] / ds.approach[0]), 2)  # (J(5 s)/J(0))**(2/3)
-    1.58
-    """
-    run = prepare_run(
-        indenter,
-        material,
-        load,
-        grid,
-        times,
-        indenter_material=indenter_material,
-        tolerance=tolerance,
-        fields=fields,
-        threads=threads,
-    )
-    started = clock.perf_counter()
-    states: list[ContactState] = []
-    keep = set(field_instants(fields, run.times).tolist())
-    keeps_all = field_axis(fields) == "time"
-    try:
-        for state in march_run(run, progress):
-            kept = keeps_all or state.time in keep
-            states.append(state if kept else state.without_fields())
-    except (ConvergenceError, DomainError) as stop:
-        if states:
-            bars = unknown_bars(len(states)) if errors else None
-            stop.partial = to_dataset(run, states, fields, clock.perf_counter() - started, bars)
-        raise
-    bars = _bars(run, states) if errors else None
-    return to_dataset(run, states, fields, clock.perf_counter() - started, bars)
-
-
-def _bars(run: Run, states: Sequence[ContactState]) -> ErrorBars:
-    bars = error_bars(run.on(states[-1].grid), history_of(states))
-    for text in bars.warnings:
-        warnings.warn(text, AccuracyWarning, stacklevel=3)
-    return bars
-
-
 def to_dataset(
-    run: Run,
     states: Sequence[ContactState],
     fields: str | Sequence[float],
-    wall_time: float,
-    bars: ErrorBars | None = None,
+    attributes: Mapping[str, Any],
+    errors: Mapping[str, NDArray[np.float64]] | None = None,
 ) -> xr.Dataset:
     """Label the states of a run.
 
     Parameters
     ----------
-    run : Run
-        The run.
     states : sequence of ContactState
-        Its states so far; fields are needed only where they are kept.
+        At least one; fields are needed only where they are kept.
     fields : str or sequence of float
         As in `simulate`.
-    wall_time : float
-        What it took [s].
-    bars : ErrorBars, optional
-        Errors of the scalars.
+    attributes : mapping
+        Global attributes of the result.
+    errors : mapping of str to ndarray, optional
+        Errors by the scalar's name, over the states, in the scalar's unit.
 
     Returns
     -------
@@ -193,29 +53,21 @@ def to_dataset(
         name: (
             "time",
             np.array([getattr(state, name) for state in states], dtype=variable.kind),
-            scalar_attributes(name, errors=bars is not None),
+            scalar_attributes(name, errors=errors is not None),
         )
         for name, variable in SCALARS.items()
     }
-    if bars is not None:
-        scalars |= {
-            error_name(name): ("time", errors, ERRORS[error_name(name)].attributes)
-            for name, errors in bars.values.items()
-        }
+    scalars |= {
+        error_name(name): ("time", values, ERRORS[error_name(name)].attributes)
+        for name, values in (errors or {}).items()
+    }
     grid = states[-1].grid  # the widest: a grid is enlarged only
     dataset = xr.Dataset(scalars, coords=_coordinates(grid, times))
     dataset["outcome"].attrs.update(OUTCOME_FLAGS)
     kept = [state for state in states if state.pressure.size]
     if kept:
         dataset = dataset.assign(_field_arrays(kept, grid, field_axis(fields)))
-    said = [text for state in states for text in state.warnings]
-    said += bars.warnings if bars is not None else ()
-    return dataset.assign_attrs(
-        run_attributes(run),
-        wall_time=wall_time,
-        warnings="\n".join(said),
-        grid_enlarged="\n".join(enlargements(run.grid, states)),
-    )
+    return dataset.assign_attrs(attributes)
 
 
 def field_axis(fields: str | Sequence[float]) -> str:
@@ -233,32 +85,6 @@ def field_axis(fields: str | Sequence[float]) -> str:
     """
     # An array is not to be compared with a word.
     return "time" if isinstance(fields, str) and fields == "all" else "field_time"
-
-
-def run_attributes(run: Run) -> dict[str, Any]:
-    """Attributes that every result of a run carries.
-
-    Parameters
-    ----------
-    run : Run
-        The run.
-
-    Returns
-    -------
-    dict
-        Conventions, version, the case as JSON, tolerance, whose Fourier transforms, memory.
-    """
-    return {
-        "Conventions": "CF-1.11",
-        "source": f"viscontact {__version__}",
-        "version": __version__,
-        "case": json.dumps(describe_run(run)),
-        "tolerance": run.tolerance,
-        "transforms": run.transforms,
-        "memory": run.memory.method,
-        "memory_error": run.memory.error,
-        "inversion_error": run.compliance.inversion_error,
-    }
 
 
 def _coordinates(grid: Grid, times: NDArray[np.float64]) -> dict[str, Any]:

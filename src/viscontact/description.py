@@ -50,7 +50,6 @@ from viscontact.laws import (
 )
 from viscontact.load import ApproachHistory, ForceHistory, HarmonicHistory
 from viscontact.material import Material
-from viscontact.run import Run
 
 NOUNS = {
     noun.__name__: noun
@@ -142,33 +141,6 @@ def rebuild(description: Any) -> Any:
             f"no noun is called {description.get('type')!r}; known are {sorted(NOUNS)}"
         )
     return noun(**{key: rebuild(value) for key, value in description.items() if key != "type"})
-
-
-def describe_run(run: Run) -> dict[str, Any]:
-    """Describe a whole run.
-
-    Parameters
-    ----------
-    run : Run
-        The run.
-
-    Returns
-    -------
-    dict
-        Indenter, materials, load, grid (and what was asked of it if it is automatic), times [s]
-        and tolerance.
-    """
-    return {
-        "indenter": describe(run.indenter),
-        "material": describe(run.material),
-        "indenter_material": describe(run.indenter_material),
-        "load": describe(run.load),
-        "grid": describe(run.grid),
-        "automatic": describe(run.automatic),
-        "times": describe(run.times),
-        "adaptive": describe(run.adaptive),
-        "tolerance": run.tolerance,
-    }
 
 
 def _fingerprint(array: np.ndarray[Any, Any]) -> dict[str, Any]:

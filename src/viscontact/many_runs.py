@@ -15,11 +15,11 @@ from typing import Any
 
 import xarray as xr
 
-from viscontact.dataset import simulate
 from viscontact.footprint import PROGRAM, fitting, least_memory
 from viscontact.free_memory import available_memory
 from viscontact.grid import Grid
 from viscontact.material import Material
+from viscontact.single import simulate
 
 #: What a run is given as: the arguments of `simulate` by name, or what makes its result.
 Recipe = Mapping[str, Any] | Callable[[], xr.Dataset]

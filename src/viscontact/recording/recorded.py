@@ -11,8 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from viscontact.carried import Carried
-from viscontact.dataset import run_attributes
-from viscontact.description import describe, describe_run
+from viscontact.description import describe
 from viscontact.recording.checkpoint import STATE_NAME, Checkpoint, is_checkpoint, load_checkpoint
 from viscontact.recording.contents import Contents
 from viscontact.recording.differences import Difference, differences
@@ -24,6 +23,7 @@ from viscontact.recording.stored_run import stored_run
 from viscontact.recording.two_copies import hidden_copies
 from viscontact.results import RESULT_NAME
 from viscontact.run import Run
+from viscontact.run_description import describe_run, run_attributes
 from viscontact.step_by_step import March
 from viscontact.transforms import transforms_by
 
