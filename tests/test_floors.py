@@ -161,7 +161,6 @@ NEIGHBOURS = {
     ("instants", "schedule"),  # what is meant to be a kink
     ("run", "stepping"),
     ("run", "instants"),
-    ("admission", "extent"),  # where a load is largest
     ("run", "admission"),  # what is refused
     ("run", "period"),  # what is no period
     ("run", "schedule"),  # where its steps come from
@@ -171,12 +170,10 @@ NEIGHBOURS = {
     ("automatic_grid", "mesh"),  # as a run has it
     ("mesh", "extent"),  # holds the contact
     ("facets", "estimate"),
-    ("facets", "sampling_doubts"),  # how far apart a map's points are
     ("mesh", "facets"),
     ("resolution", "mesh_trial"),  # after trial
     ("mesh", "mesh_trial"),  # of an elastic contact
     ("mesh", "resolution"),  # and resolves it,
-    ("mesh", "sampling_doubts"),  # its waves and a map's points among it
     ("observation", "run"),  # which instants are kept
     ("observation", "schedule"),  # the step that ended
     ("observation", "material_doubts"),
@@ -231,9 +228,7 @@ NEIGHBOURS = {
     ("dataset", "variables"),
     ("history_csv", "variables"),  # which are written, and in which units
     ("stated_errors", "variables"),  # what an error is called
-    ("dataset", "description"),  # the case travels with the result
     ("recording", "variables"),
-    ("many_runs", "dataset"),  # each of them is simulated
     ("recording", "dataset"),  # the file is laid out as the dataset is
     ("recording", "description"),  # whose a record is
     ("recording", "results"),  # what the result is called

@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.compliance import ContactCompliance
-from viscontact.extent import largest_load
 from viscontact.grid import AutomaticGrid, Grid
 from viscontact.hull import Reach
 from viscontact.indenters import Indenter
 from viscontact.load import LoadHistory
+from viscontact.load.largest_load import largest_load
 from viscontact.load.points import TAIL
 from viscontact.material import Material
 from viscontact.readable import in_words

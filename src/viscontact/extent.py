@@ -13,6 +13,7 @@ from viscontact.compliance import ContactCompliance, SeriesCompliance
 from viscontact.estimate import ContactEstimate, estimate_contact
 from viscontact.indenters import Indenter
 from viscontact.load import LoadHistory, LoadPoint
+from viscontact.load.largest_load import largest_load
 
 #: More cells than these are no choice to make for somebody.
 MOST_CELLS = 2**22
@@ -25,9 +26,6 @@ AS_LARGE = 0.9
 
 #: Instants between which a load is followed to its crest.
 CREST_INSTANTS = 200
-
-#: A load that swings shows its crest within so many of its longest steps.
-SWING_STEPS = 128
 
 
 @dataclass(frozen=True, eq=False)
@@ -225,35 +223,3 @@ def largest_compliance(compliance: ContactCompliance, end: float | None) -> floa
     if isinstance(compliance, SeriesCompliance):
         return compliance.instant + float(np.sum(compliance.amplitudes))
     return float(compliance(latest))
-
-
-def largest_load(load: LoadHistory, end: float) -> tuple[float, LoadPoint]:
-    """Return when a load is largest, and what it prescribes there.
-
-    Parameters
-    ----------
-    load : LoadHistory
-        The load.
-    end : float
-        Later instants do not count [s].
-
-    Returns
-    -------
-    time : float
-        One of its kinks, the end, or a step within its first swings [s].
-    point : LoadPoint
-        What is prescribed there, on the side of a jump where it is more.
-
-    Examples
-    --------
-    >>> from viscontact.load import harmonic
-    >>> largest_load(harmonic(mean=2.0, amplitude=1.0, period=4.0, cycles=4), end=16.0)[0]
-    1.0
-    """
-    instants: list[float] = [*load.kinks[load.kinks <= end].tolist(), end]
-    if math.isfinite(load.longest_step):
-        steps = np.arange(1, SWING_STEPS + 1) * load.longest_step
-        instants += steps[steps < end].tolist()
-    levels = np.stack([load.level_at(instants, side=side) for side in ("left", "right")], axis=1)
-    first, side = divmod(int(levels.argmax()), 2)
-    return instants[first], load.at(instants[first], side=("left", "right")[side])

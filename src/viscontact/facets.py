@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from viscontact.estimate import ContactEstimate
 from viscontact.indenters import Indenter
-from viscontact.sampling_doubts import map_spacing
 
 
 def facet_error(indenter: Indenter, found: ContactEstimate, compliance: float) -> float:
@@ -48,7 +47,7 @@ def facet_error(indenter: Indenter, found: ContactEstimate, compliance: float) -
     >>> round(facet_error(ball, found, 1e-9), 2)
     0.05
     """
-    steps = map_spacing(indenter)
+    steps = indenter.sample_spacing
     if min(steps) <= 0:
         return 0.0
     x, y = (

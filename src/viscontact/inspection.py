@@ -8,9 +8,9 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from viscontact.estimate import ContactEstimate
-from viscontact.extent import largest_load
 from viscontact.forecast import Forecast, forecast
 from viscontact.geometry_doubts import SINGULAR_KINDS
+from viscontact.load.largest_load import largest_load
 from viscontact.plausibility import DOUBTFUL_CELLS
 from viscontact.preparation import Prepared
 from viscontact.run import Run

@@ -19,11 +19,11 @@ from viscontact.extent import (
 from viscontact.facets import facet_error
 from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
+from viscontact.indenters.textures import CELLS_OF_A_WAVE
 from viscontact.load import LoadHistory
 from viscontact.mesh_trial import RIM_SCATTER, Pressing
 from viscontact.readable import in_words
 from viscontact.resolution import PEAK, USUAL_ORDER, Resolution, resolve
-from viscontact.sampling_doubts import CELLS_OF_A_WAVE, map_spacing
 
 #: No more cells are spent on a contact that is small at first and large for most of the run.
 MOST_CELLS_EARLY = 2**18
@@ -168,7 +168,7 @@ def _fewest(
 ) -> NDArray[np.float64]:
     """Cells along x and y that a contact on a grid of this size begins with."""
     across = size / contact.estimate.extents
-    steps = np.array(map_spacing(indenter))
+    steps = np.array(indenter.sample_spacing)
     points = np.divide(size, steps, out=np.full(2, math.inf), where=steps > 0)
     cells = np.minimum(_across(wish) * across, np.maximum(FEWEST_ACROSS * across, points))
     return np.asarray(np.maximum(cells, CELLS_OF_A_WAVE * size / indenter.period))
@@ -250,7 +250,7 @@ def _resolved(
     """Cells for one contact on a grid of this size; a map tells nothing between its points."""
     extents = (float(size[0]), float(size[1]))
     pressing = Pressing(indenter, contact.compliance, contact.point, extents)
-    steps = np.array(map_spacing(indenter))
+    steps = np.array(indenter.sample_spacing)
     finest = np.divide(size, steps, out=np.full(2, math.inf), where=steps > 0)
     return resolve(
         pressing,

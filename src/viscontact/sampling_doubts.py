@@ -12,7 +12,8 @@ import scipy
 from numpy.typing import NDArray
 
 from viscontact.grid import Grid
-from viscontact.indenters import CombinedIndenter, HeightMap, Indenter, PlacedIndenter
+from viscontact.indenters import Indenter
+from viscontact.indenters.textures import CELLS_OF_A_WAVE
 from viscontact.readable import in_words
 from viscontact.rim import Rim
 
@@ -22,9 +23,6 @@ from viscontact.rim import Rim
 #: A sphere on 10 cells across is below it.
 MISSED_PEAK = 0.1
 
-#: Cells that a wave or a dimple is to have: the points of a cosine then miss (pi/10)^2/2 = 5 % of
-#: its height at most.
-CELLS_OF_A_WAVE = 10
 
 #: Where a body is looked for beyond the grid, as part of its size: evenly near it, then ever wider.
 NEAR, FAR = np.linspace(0.0, 1.5, 25), np.geomspace(1.6, 30.0, 32)
@@ -88,22 +86,21 @@ class Sampling:
 
         As the amplitude of a wave of two cells; 0 for other bodies, whose tips and edges are meant.
         """
-        maps = list(_map_points(self.indenter))
-        missed = self._jagged() if maps else np.zeros(self.grid.shape)
-        for x, y in maps:
-            places = [
-                (along - lines[0]) / cell
-                for along, lines, cell in zip(
-                    (x, y), (self.grid.x, self.grid.y), self.grid.cell_size, strict=True
-                )
-            ]
-            # Outside the grid, and beside the body's end, nothing can be said.
-            seen = scipy.ndimage.map_coordinates(
-                np.nan_to_num(self.open_gap, posinf=np.nan), places, order=1, cval=np.nan
+        x, y = self.indenter.sample_points
+        missed = self._jagged() if x.size else np.zeros(self.grid.shape)
+        places = [
+            (along - lines[0]) / cell
+            for along, lines, cell in zip(
+                (x, y), (self.grid.x, self.grid.y), self.grid.cell_size, strict=True
             )
-            known = np.isfinite(seen)
-            cells = tuple(np.rint(place[known]).astype(np.intp) for place in places)
-            np.maximum.at(missed, cells, seen[known] - self.indenter.gap(x[known], y[known]))
+        ]
+        # Outside the grid, and beside the body's end, nothing can be said.
+        seen = scipy.ndimage.map_coordinates(
+            np.nan_to_num(self.open_gap, posinf=np.nan), places, order=1, cval=np.nan
+        )
+        known = np.isfinite(seen)
+        cells = tuple(np.rint(place[known]).astype(np.intp) for place in places)
+        np.maximum.at(missed, cells, seen[known] - self.indenter.gap(x[known], y[known]))
         return missed
 
     @cached_property
@@ -127,7 +124,7 @@ class Sampling:
         one_side = np.concatenate([NEAR, FAR])
         part = np.concatenate([-one_side[:0:-1], one_side])
         yield _mesh(lx * part, ly * part)
-        yield from _map_points(self.indenter)
+        yield self.indenter.sample_points
 
 
 def map_doubts(missed: float, cell: float, strain: float) -> dict[str, str]:
@@ -243,47 +240,6 @@ def _outside(grid: Grid, x: NDArray[np.float64], y: NDArray[np.float64]) -> Poin
     lx, ly = grid.size
     outside = (np.abs(x) > lx / 2) | (np.abs(y) > ly / 2)
     return x[outside], y[outside]
-
-
-def _map_points(indenter: Indenter) -> Iterator[Points]:
-    """Points of each height map in a body, where they lie."""
-    if isinstance(indenter, HeightMap):
-        yield _mesh(indenter.x, indenter.y)
-    elif isinstance(indenter, PlacedIndenter):
-        yield from (indenter.place(*points) for points in _map_points(indenter.body))
-    elif isinstance(indenter, CombinedIndenter):
-        for part in indenter.parts:
-            yield from _map_points(part)
-
-
-def map_spacing(indenter: Indenter) -> tuple[float, float]:
-    """Return the smallest steps along x and y of the height maps in a body.
-
-    Parameters
-    ----------
-    indenter : Indenter
-        The body.
-
-    Returns
-    -------
-    tuple of float
-        Steps [m]; 0 without a map, and the smaller one both ways if it is turned.
-
-    Examples
-    --------
-    >>> map_spacing(HeightMap([0.0, 1.0, 3.0], [0.0, 2.0], np.zeros((3, 2))))
-    (1.0, 2.0)
-    """
-    if isinstance(indenter, HeightMap):
-        return float(np.diff(indenter.x).min()), float(np.diff(indenter.y).min())
-    if isinstance(indenter, PlacedIndenter):
-        steps = map_spacing(indenter.body)
-        return steps if indenter.angle == 0 else (min(steps), min(steps))
-    parts = indenter.parts if isinstance(indenter, CombinedIndenter) else ()
-    found = [steps for steps in map(map_spacing, parts) if min(steps) > 0]
-    if not found:
-        return 0.0, 0.0
-    return min(along for along, _ in found), min(across for _, across in found)
 
 
 def _mesh(x: NDArray[np.float64], y: NDArray[np.float64]) -> Points:

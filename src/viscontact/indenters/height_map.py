@@ -75,6 +75,17 @@ class HeightMap(Indenter):
         gap = _between(near, far, along_x)
         return np.where(within_x & within_y & ~np.isnan(gap), gap, np.inf)
 
+    @property
+    def sample_spacing(self) -> tuple[float, float]:
+        """Smallest steps between the mesh lines along x and y [m]."""
+        return float(np.diff(self.x).min()), float(np.diff(self.y).min())
+
+    @property
+    def sample_points(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Points of the mesh, row by row [m]."""
+        x, y = np.meshgrid(self.x, self.y, indexing="ij")
+        return x.ravel(), y.ravel()
+
     @cached_property
     def _highest(self) -> float:
         return float(np.nanmax(self.height))

@@ -59,6 +59,23 @@ class Indenter(Shown, ABC):
         """Shortest length over which the shape repeats itself, inf if it does not [m]."""
         return math.inf
 
+    @property
+    def sample_spacing(self) -> tuple[float, float]:
+        """Smallest steps along x and y between given points of the surface, 0 without any [m].
+
+        Examples
+        --------
+        >>> from viscontact.indenters import HeightMap
+        >>> HeightMap([0.0, 1.0, 3.0], [0.0, 2.0], np.zeros((3, 2))).sample_spacing
+        (1.0, 2.0)
+        """
+        return 0.0, 0.0
+
+    @property
+    def sample_points(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Given points of the surface: x and y, empty for a shape that is a formula [m]."""
+        return np.empty(0), np.empty(0)
+
     def rotated(self, angle: float) -> PlacedIndenter:
         """Return the indenter turned about z by an angle from +x towards +y [rad]."""
         return PlacedIndenter(self, angle=angle)
@@ -123,6 +140,20 @@ class CombinedIndenter(Indenter):
     def period(self) -> float:
         """The shortest of the parts' [m]."""
         return min(part.period for part in self.parts)
+
+    @property
+    def sample_spacing(self) -> tuple[float, float]:
+        """The smallest steps of the parts [m]."""
+        found = [part.sample_spacing for part in self.parts if min(part.sample_spacing) > 0]
+        if not found:
+            return 0.0, 0.0
+        return min(along for along, _ in found), min(across for _, across in found)
+
+    @property
+    def sample_points(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Points of all parts [m]."""
+        x, y = zip(*(part.sample_points for part in self.parts), strict=True)
+        return np.concatenate(x), np.concatenate(y)
 
 
 @dataclass(frozen=True)
@@ -193,6 +224,17 @@ class PlacedIndenter(Indenter):
     def period(self) -> float:
         """That of the body [m]."""
         return self.body.period
+
+    @property
+    def sample_spacing(self) -> tuple[float, float]:
+        """Steps of the body; the smaller one both ways if it is turned [m]."""
+        steps = self.body.sample_spacing
+        return steps if self.angle == 0 else (min(steps), min(steps))
+
+    @property
+    def sample_points(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Points of the body where it now stands [m]."""
+        return self.place(*self.body.sample_points)
 
     @property
     def curvatures(self) -> tuple[float, float]:

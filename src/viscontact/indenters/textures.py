@@ -15,6 +15,11 @@ from viscontact.readable import in_words
 PATTERNS = ("square", "hexagonal")
 
 
+#: Cells that a wave or a dimple is to have: the points of a cosine then miss (pi/10)^2/2 = 5 % of
+#: its height at most.
+CELLS_OF_A_WAVE = 10
+
+
 @dataclass(frozen=True)
 class Waviness(Indenter):
     """A wavy surface, along x, along y, or crests in both directions; it has no end.
