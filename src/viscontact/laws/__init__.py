@@ -5,11 +5,11 @@ from viscontact.laws.creep_table import TabulatedCreep
 from viscontact.laws.fractional_maxwell import FractionalMaxwell
 from viscontact.laws.fractional_zener import FractionalZener
 from viscontact.laws.kelvin import Burgers, Zener
-from viscontact.laws.law import Law, SeriesLaw
+from viscontact.laws.law import Law
 from viscontact.laws.maxwell import Elastic, Maxwell
 from viscontact.laws.power_law import PowerLaw
 from viscontact.laws.relaxation_table import TabulatedRelaxation
-from viscontact.laws.series import CreepSeries, RelaxationSeries
+from viscontact.laws.series import CreepSeries, RelaxationSeries, SeriesLaw
 from viscontact.laws.temperature import WLF, Arrhenius, Shift, TabulatedShift
 
 __all__ = [

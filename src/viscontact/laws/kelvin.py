@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from viscontact.laws.arguments import make_positive
-from viscontact.laws.law import SeriesLaw, slowing
-from viscontact.laws.series import CreepSeries
+from viscontact.laws.law import slowing
+from viscontact.laws.series import CreepSeries, SeriesLaw
 from viscontact.laws.uniaxial import uniaxial
 
 

@@ -1,4 +1,4 @@
-"""What every creep law can do, and what those that are finite series can do besides."""
+"""Base class of creep laws."""
 
 from __future__ import annotations
 
@@ -6,19 +6,13 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
-from typing import TYPE_CHECKING, Self, overload
+from typing import overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.laws.arguments import positive
-from viscontact.laws.interconversion import creep_mean
-from viscontact.laws.oscillation import modulus_of_creep
 from viscontact.shown import Shown
-
-if TYPE_CHECKING:  # only names for type checkers: the series know laws, not laws the series
-    from viscontact.laws.series import CreepSeries, RelaxationSeries
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -206,41 +200,6 @@ class Law(Shown, ABC):
 
     @abstractmethod
     def _complex_modulus(self, omega: NDArray[np.float64]) -> NDArray[np.complex128]: ...
-
-
-class SeriesLaw(Law):
-    """A law whose compliance and modulus are finite sums of exponentials."""
-
-    @abstractmethod
-    def creep_series(self) -> CreepSeries:
-        """Return the same law as a series in Phi."""
-
-    def relaxation_series(self) -> RelaxationSeries:
-        """Return the same law as a series in G; ValueError without instant compliance."""
-        return self._series.relaxation_series()
-
-    @abstractmethod
-    def slowed(self, factor: float) -> Self:
-        """Return the law with every time multiplied by a factor > 0: Phi(t/factor)."""
-
-    @cached_property
-    def _series(self) -> CreepSeries:
-        # Kept, because a series in turn keeps its inverse, which takes a root search.
-        return self.creep_series()
-
-    def _creep(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
-        return self._series._creep(t)
-
-    def _relaxation(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
-        return self._series._relaxation(t)
-
-    def _mean_creep(
-        self, start: NDArray[np.float64], end: NDArray[np.float64]
-    ) -> NDArray[np.float64]:
-        return creep_mean(self._series._terms, start, end)
-
-    def _complex_modulus(self, omega: NDArray[np.float64]) -> NDArray[np.complex128]:
-        return modulus_of_creep(self._series._terms, omega)
 
 
 def _as_times(name: str, given: ArrayLike) -> NDArray[np.float64]:

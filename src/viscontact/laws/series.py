@@ -1,10 +1,12 @@
-"""Laws given as sums of exponentials, in creep or in relaxation."""
+"""Laws that are sums of exponentials (Prony series), in creep or in relaxation."""
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,13 +17,49 @@ from viscontact.laws.interconversion import (
     SeriesTerms,
     creep_from_relaxation,
     creep_function,
+    creep_mean,
     merged,
     relaxation_from_creep,
     relaxation_function,
 )
-from viscontact.laws.law import SeriesLaw, slowing
-from viscontact.laws.oscillation import modulus_of_relaxation
+from viscontact.laws.law import Law, slowing
+from viscontact.laws.oscillation import modulus_of_creep, modulus_of_relaxation
 from viscontact.laws.uniaxial import uniaxial
+
+
+class SeriesLaw(Law):
+    """A law whose compliance and modulus are finite sums of exponentials."""
+
+    @abstractmethod
+    def creep_series(self) -> CreepSeries:
+        """Return the same law as a series in Phi."""
+
+    def relaxation_series(self) -> RelaxationSeries:
+        """Return the same law as a series in G; ValueError without instant compliance."""
+        return self._series.relaxation_series()
+
+    @abstractmethod
+    def slowed(self, factor: float) -> Self:
+        """Return the law with every time multiplied by a factor > 0: Phi(t/factor)."""
+
+    @cached_property
+    def _series(self) -> CreepSeries:
+        # Kept, because a series in turn keeps its inverse, which takes a root search.
+        return self.creep_series()
+
+    def _creep(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
+        return self._series._creep(t)
+
+    def _relaxation(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
+        return self._series._relaxation(t)
+
+    def _mean_creep(
+        self, start: NDArray[np.float64], end: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        return creep_mean(self._series._terms, start, end)
+
+    def _complex_modulus(self, omega: NDArray[np.float64]) -> NDArray[np.complex128]:
+        return modulus_of_creep(self._series._terms, omega)
 
 
 @dataclass(frozen=True)
