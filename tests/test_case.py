@@ -17,7 +17,7 @@ from pydantic import ValidationError
 import viscontact as vc
 from viscontact.case import CaseError, case_schema, read_case
 from viscontact.case.schedule import Cells
-from viscontact.units import parse_quantity
+from viscontact.units.quantities import parse_quantity
 
 ROLLER = """\
 title: Crowned roller on PMMA, load off centre

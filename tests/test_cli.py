@@ -23,9 +23,10 @@ import viscontact as vc
 from viscontact import footprint, past
 from viscontact.cli import execution, figures, main, progress
 from viscontact.errors import ConvergenceError
+from viscontact.readable import in_words
 from viscontact.recording.step_log import StepLog
 from viscontact.run import prepare_run
-from viscontact.units import in_percent, in_words
+from viscontact.units.error_bars import in_percent
 
 SPHERE = """\
 title: Zener sphere

@@ -12,7 +12,8 @@ from scipy.special import gamma
 from viscontact.laws import Maxwell as MaxwellLaw
 from viscontact.laws import PowerLaw, TabulatedCreep, TabulatedRelaxation, Zener
 from viscontact.material import Material
-from viscontact.memory import as_exponentials, plan_memory
+from viscontact.memory.choice import plan_memory
+from viscontact.memory.exponentials import as_exponentials
 
 ZENER = Zener(1e9, 5e8, 1e9)
 GUM = PowerLaw(1e-7, 0.4, 1.0)

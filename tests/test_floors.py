@@ -232,7 +232,6 @@ NEIGHBOURS = {
     ("recording", "dataset"),  # the file is laid out as the dataset is
     ("recording", "description"),  # whose a record is
     ("recording", "results"),  # what the result is called
-    ("particulars", "units"),
     ("told", "units"),
     ("notebook", "units"),
     ("notebook", "particulars"),  # are its tables
@@ -247,12 +246,10 @@ NEIGHBOURS = {
     ("case", "cards"),  # materials of other programs
     ("case", "tables"),  # loads and materials may be measured ones
     ("preparation", "case"),  # makes a run of it
-    ("preparation", "units"),
     ("summary", "told"),
     ("summary", "units"),
     ("inspection", "preparation"),
     ("inspection", "forecast"),  # in words
-    ("inspection", "units"),
     ("surfaces", "tables"),  # maps in text files
     ("surfaces", "units"),
     ("case", "surfaces"),  # which may be pressed
@@ -262,7 +259,6 @@ NEIGHBOURS = {
     ("materials", "units"),
     ("plot", "units"),
     ("plot", "particulars"),  # what is told beside an indenter
-    ("verify", "units"),
     ("plot", "identification"),  # data, what was fitted, and what is left
     ("plot", "cross_section"),
     ("report", "plot"),  # has drawings of it

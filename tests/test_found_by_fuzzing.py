@@ -21,7 +21,7 @@ from viscontact.cli import main
 from viscontact.forecast import forecast
 from viscontact.run import prepare_run
 from viscontact.schedule import MOST_STEPS, FixedSteps
-from viscontact.units import parse_quantity
+from viscontact.units.quantities import parse_quantity
 
 #: Each of these took minutes, or would have taken hours; now they take tenths of a second [s].
 AT_ONCE = 5.0

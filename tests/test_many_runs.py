@@ -27,7 +27,7 @@ from viscontact.processes.job import Job, Standing
 from viscontact.processes.request import RunRequest
 from viscontact.recording.lock import DirectoryInUse, locked
 from viscontact.stated_errors import largest_error
-from viscontact.units import in_percent
+from viscontact.units.error_bars import in_percent
 
 PAGE = (Path(__file__).parent.parent / "docs" / "many-runs.md").read_text(encoding="utf-8")
 CASE = (

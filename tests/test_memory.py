@@ -10,7 +10,9 @@ from hypothesis import strategies as st
 from verification.independent import superposed
 from viscontact.compliance import LawCompliance, SeriesCompliance
 from viscontact.laws import PowerLaw
-from viscontact.memory import RecursiveMemory, SuperposedMemory, as_exponentials
+from viscontact.memory.exponentials import as_exponentials
+from viscontact.memory.recursion import RecursiveMemory
+from viscontact.memory.superposition import SuperposedMemory
 
 ELASTIC = SeriesCompliance(2.0, (), ())
 KELVIN = SeriesCompliance(2.0, [1.5], [3.0])

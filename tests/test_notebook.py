@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 import viscontact as vc
 from synthetic_results import maxwell_sphere
 from viscontact.case import read_case
-from viscontact.units import parse_quantity
+from viscontact.units.quantities import parse_quantity
 
 _EXAMPLES = Path(vc.__file__).parent / "examples"
 _AXIS = np.linspace(-50e-6, 50e-6, 40)

@@ -31,7 +31,7 @@ from viscontact.report import report_page
 from viscontact.report.accuracy import error_rows
 from viscontact.summary import summary_rows
 from viscontact.told import headline
-from viscontact.units import in_error_digits, in_percent, in_supported_digits
+from viscontact.units.error_bars import in_error_digits, in_percent, in_supported_digits
 from viscontact.variables import SCALARS
 
 CASE = """\

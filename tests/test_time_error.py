@@ -9,7 +9,8 @@ import pytest
 
 from viscontact.compliance import SeriesCompliance
 from viscontact.load import ramp, step
-from viscontact.memory import RecursiveMemory, plan_memory
+from viscontact.memory.choice import plan_memory
+from viscontact.memory.recursion import RecursiveMemory
 from viscontact.schedule import Step
 from viscontact.time_error import ALONE, FIRST, SAFETY, TimeErrors
 

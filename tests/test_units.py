@@ -15,14 +15,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import viscontact
-from viscontact.units import (
-    DIMENSIONS,
-    in_digits,
-    in_words,
-    is_rounding_tilt,
-    parse_quantity,
-    readable_unit,
-)
+from viscontact.readable import in_digits, in_words, readable_unit
+from viscontact.units.dimensions import DIMENSIONS
+from viscontact.units.quantities import parse_quantity
+from viscontact.units.rounding import is_rounding_tilt
 
 
 # Values from the definitions of the units (SI brochure, 9th edition; the inch is 25.4 mm and the

@@ -19,7 +19,7 @@ from sphinx.util.typing import ExtensionMetadata
 import viscontact
 from viscontact.case.sections import case_schema
 from viscontact.materials.entry import Entry, entry, names
-from viscontact.units import in_words
+from viscontact.readable import in_words
 from viscontact.variables import COORDINATES, FIELDS, SCALARS, Variable
 
 ROOT = Path(__file__).parents[2]

@@ -12,7 +12,7 @@ from viscontact.compliance import ContactCompliance
 from viscontact.errors import ConvergenceError, DomainError
 from viscontact.grid import Grid
 from viscontact.looser_load import LooserLoad
-from viscontact.memory import plan_memory
+from viscontact.memory.choice import plan_memory
 from viscontact.plausibility import cells_across_spots
 from viscontact.run import Run
 from viscontact.schedule import FixedSteps

@@ -13,9 +13,9 @@ from viscontact.geometry_doubts import SINGULAR_KINDS
 from viscontact.load.largest_load import largest_load
 from viscontact.plausibility import DOUBTFUL_CELLS
 from viscontact.preparation import Prepared
+from viscontact.readable import in_digits, in_words
 from viscontact.run import Run
 from viscontact.stated_errors import MESH_DEPENDENT
-from viscontact.units import in_digits, in_words
 
 #: A load is as large as the largest from this part of it on.
 AS_LARGE = 0.999

@@ -10,7 +10,7 @@ import numpy as np
 
 from viscontact.description import NOUNS
 from viscontact.laws import Law
-from viscontact.units import in_words
+from viscontact.readable import in_words
 
 _LENGTHS = (
     "radius half_length half_width crown_radius crown_length corner_radius depth end_drop "

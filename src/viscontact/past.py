@@ -14,7 +14,8 @@ from viscontact.contact_problem import ContactProblem, Guess
 from viscontact.growth import Enlargement
 from viscontact.half_space import HalfSpace
 from viscontact.load import LoadPoint
-from viscontact.memory import Memory, RecursiveMemory, Response
+from viscontact.memory.recursion import RecursiveMemory
+from viscontact.memory.response import Memory, Response
 from viscontact.prediction import POINTS, Twin, predict
 from viscontact.run import Run
 from viscontact.schedule import Step

@@ -8,8 +8,8 @@ from viscontact.case import Case
 from viscontact.footprint import least_memory, needed_memory
 from viscontact.free_memory import available_memory
 from viscontact.grid import Grid
+from viscontact.readable import in_digits
 from viscontact.run import Run, prepare_run
-from viscontact.units import in_digits
 
 
 @dataclass(frozen=True, eq=False)

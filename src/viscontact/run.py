@@ -24,7 +24,7 @@ from viscontact.indenters import Indenter
 from viscontact.instants import field_instants, run_instants
 from viscontact.load import LoadHistory
 from viscontact.material import Material
-from viscontact.memory import MemoryPlan, plan_memory
+from viscontact.memory.choice import MemoryPlan, plan_memory
 from viscontact.mesh import Mesh, choose_mesh
 from viscontact.period import check_period
 from viscontact.schedule import FixedSteps

@@ -8,16 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
+from viscontact.readable import ReadableUnit, in_words, readable_unit
 from viscontact.stated_errors import MESH_DEPENDENT, LargestError, largest_error
 from viscontact.told import NEGLIGIBLE, errors_of, told_in
-from viscontact.units import (
-    ReadableUnit,
-    in_error_digits,
-    in_percent,
-    in_words,
-    is_rounding_tilt,
-    readable_unit,
-)
+from viscontact.units.error_bars import in_error_digits, in_percent
+from viscontact.units.rounding import is_rounding_tilt
 from viscontact.variables import SCALARS
 
 _ROWS = (

@@ -16,7 +16,9 @@ from numpy.typing import NDArray
 
 from viscontact.carried import Carried
 from viscontact.load import LoadHistory, LoadPoint
-from viscontact.memory import Enlarging, MemoryPlan, Response, ramp_weights
+from viscontact.memory.choice import MemoryPlan
+from viscontact.memory.recursion import ramp_weights
+from viscontact.memory.response import Enlarging, Response
 from viscontact.schedule import Step
 
 #: The bulge of a first step after a kink is guessed from the curvature in its successor, which is

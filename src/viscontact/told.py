@@ -8,15 +8,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from viscontact.readable import ReadableUnit, in_digits, in_words, readable_unit
 from viscontact.stated_errors import MESH_DEPENDENT, stated_error
-from viscontact.units import (
-    ReadableUnit,
-    in_digits,
-    in_error_digits,
-    in_supported_digits,
-    in_words,
-    readable_unit,
-)
+from viscontact.units.error_bars import in_error_digits, in_supported_digits
 from viscontact.variables import SCALARS
 
 #: Digits of a number at most, whatever its error.

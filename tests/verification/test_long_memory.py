@@ -14,7 +14,9 @@ from verification.creeping_bodies import BODIES
 from verification.indenting import deviation
 from verification.pressing import BALL, FORCE, RADIUS, grid_around, over_time
 from viscontact.compliance import SeriesCompliance
-from viscontact.memory import RecursiveMemory, SuperposedMemory, choice
+from viscontact.memory import choice
+from viscontact.memory.recursion import RecursiveMemory
+from viscontact.memory.superposition import SuperposedMemory
 from viscontact.run import prepare_run
 
 

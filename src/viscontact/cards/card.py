@@ -8,7 +8,7 @@ from decimal import Decimal
 from viscontact.laws import Shift
 from viscontact.material import Material
 from viscontact.shown import Shown
-from viscontact.units import Scale, parse_scale, parse_unit
+from viscontact.units.quantities import Scale, parse_scale, parse_unit
 
 
 @dataclass(frozen=True)

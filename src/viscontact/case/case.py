@@ -17,9 +17,9 @@ from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.load import LoadHistory
 from viscontact.material import Material
+from viscontact.readable import in_words
 from viscontact.shown import Shown, ShownWhole
 from viscontact.stepping import AdaptiveTimes
-from viscontact.units import in_words
 
 # What a run writes beside its case; names that begin with a dot are its own, too.
 _RUN_NAMES = ("case.yaml", "result.nc", "progress.jsonl", "state.npz", "steps.log")

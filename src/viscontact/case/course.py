@@ -12,7 +12,7 @@ from viscontact.case.phrases import Rate, Reading
 from viscontact.case.sentences import EXAMPLE, Sentence
 from viscontact.load.harmonic import STEPS_PER_CYCLE
 from viscontact.load.history import Control
-from viscontact.units import in_words
+from viscontact.readable import in_words
 
 #: A history of more points than this is a slip of the pen: each is a step of the run.
 MOST_POINTS = 100_000

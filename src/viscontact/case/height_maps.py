@@ -16,9 +16,9 @@ from viscontact import indenters, surfaces
 from viscontact.case.data_file import DataFile
 from viscontact.case.quantities import Length, NotNegativeLength, Section
 from viscontact.case.shape import Shape
+from viscontact.readable import in_words
 from viscontact.surfaces.doubts import described, levelling_note
 from viscontact.surfaces.pressing import require_complete, require_map
-from viscontact.units import in_words
 
 
 def _as_pair(given: Any) -> Any:

@@ -11,7 +11,7 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from viscontact.case.quantities import Quantity
 from viscontact.load.history import Control
-from viscontact.units import DIMENSIONS
+from viscontact.units.dimensions import DIMENSIONS
 
 #: How an approach is written; a length's own example would be a deep one.
 APPROACH_EXAMPLE = "0.1 mm"

@@ -28,7 +28,8 @@ from viscontact.case.quantities import (
 from viscontact.case.sentences import Sentences
 from viscontact.load import ApproachHistory, ForceHistory, LoadHistory
 from viscontact.load.history import Control
-from viscontact.units import DIMENSIONS, in_words
+from viscontact.readable import in_words
+from viscontact.units.dimensions import DIMENSIONS
 
 #: How a mean pressure is written; a modulus' example would be a high one.
 PRESSURE_EXAMPLE = "2 MPa"

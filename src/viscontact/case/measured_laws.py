@@ -16,7 +16,8 @@ from viscontact.case.medium import Medium
 from viscontact.laws import Law
 from viscontact.material import Material
 from viscontact.tables import Table, read_table
-from viscontact.units import in_celsius, parse_scale
+from viscontact.units.quantities import parse_scale
+from viscontact.units.temperatures import in_celsius
 
 # Of the temperature that a table tells and the one that its shift refers to [K].
 _SAME_TEMPERATURE = 1.0

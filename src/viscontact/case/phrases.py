@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 from viscontact.case.levels import Level, read_level
 from viscontact.case.quantities import POSITIVE, Quantity
-from viscontact.units import parse_unit
+from viscontact.units.quantities import parse_unit
 
 _ARTICLES = frozenset({"a", "an", "the"})
 _WITHIN = "in|within|over|during"

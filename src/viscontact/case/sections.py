@@ -13,7 +13,7 @@ from viscontact.case.quantities import Section
 from viscontact.case.schedule import Cells, Output, Time
 from viscontact.grid import Grid
 from viscontact.load import LoadHistory
-from viscontact.units import DIMENSIONS
+from viscontact.units.dimensions import DIMENSIONS
 
 
 class CaseFile(Section):

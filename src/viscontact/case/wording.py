@@ -14,7 +14,7 @@ from viscontact.case import indenters, loads, materials, profiles, schedule, shi
 from viscontact.case.document import Document
 from viscontact.case.problems import KeyPath, dotted
 from viscontact.case.sections import CaseFile
-from viscontact.units import DIMENSIONS
+from viscontact.units.dimensions import DIMENSIONS
 
 # The sections by name; where a value of shape, law or kind says which, by that.
 _SECTIONS: dict[str | int, type[BaseModel]] = {

@@ -13,7 +13,7 @@ from viscontact.stated_errors import (
     WHY_MESH_DEPENDENT,
     largest_error,
 )
-from viscontact.units import at_most
+from viscontact.units.error_bars import at_most
 from viscontact.variables import error_name
 
 #: How the memory of a series law begins to describe itself; there is nothing to doubt about it.

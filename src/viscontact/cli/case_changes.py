@@ -11,7 +11,8 @@ from viscontact.case import Case, CaseError
 from viscontact.case.document import read_document
 from viscontact.case.yaml_source import parse
 from viscontact.recording.differences import Difference, differences
-from viscontact.units import DIMENSIONS, parse_quantity
+from viscontact.units.dimensions import DIMENSIONS
+from viscontact.units.quantities import parse_quantity
 
 #: So many lines say enough.
 _MOST = 12

@@ -18,13 +18,13 @@ from viscontact.cli.taking_up import refuse_changed
 from viscontact.errors import ConvergenceError, DomainError
 from viscontact.processes.job import Standing
 from viscontact.processes.request import RunRequest
+from viscontact.readable import in_words
 from viscontact.recording.checkpoint import STATE_NAME
 from viscontact.recording.lock import DirectoryInUse, locked
 from viscontact.recording.recorded import ChangedCaseError, remove_traces
 from viscontact.recording.run_record import RunRecord, Undisturbed
 from viscontact.recording.step_log import LOG_NAME
 from viscontact.results import RESULT_NAME
-from viscontact.units import in_words
 
 
 def execute(

@@ -15,7 +15,8 @@ import xarray as xr
 from viscontact.cli.messages import refuse, say
 from viscontact.cli.progress import frames_shown
 from viscontact.cli.stored import early_end, opened
-from viscontact.units import in_words, parse_quantity
+from viscontact.readable import in_words
+from viscontact.units.quantities import parse_quantity
 
 #: The figure that moves; it is written by its own means.
 ANIMATION = "animation"

@@ -30,7 +30,7 @@ from viscontact.identification import (
 from viscontact.laws import WLF
 from viscontact.material import Material
 from viscontact.tables import Table, read_table
-from viscontact.units import in_celsius
+from viscontact.units.temperatures import in_celsius
 
 _ROOM = 293.15  # [K]
 

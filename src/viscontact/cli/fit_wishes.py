@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from viscontact.identification.prony import FitOptions
 from viscontact.indenters import Cone, FlatPunch, Indenter, Sphere
 from viscontact.tables import Table
-from viscontact.units import parse_quantity
+from viscontact.units.quantities import parse_quantity
 
 
 @dataclass(frozen=True)

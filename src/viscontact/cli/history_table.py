@@ -26,16 +26,10 @@ from viscontact.cli.accuracy import (
 from viscontact.cli.messages import refuse
 from viscontact.cli.stored import early_end
 from viscontact.history_csv import write_history
+from viscontact.readable import in_digits, in_words, readable_unit
 from viscontact.stated_errors import LargestError, largest_error, stated_error
-from viscontact.units import (
-    in_digits,
-    in_error_digits,
-    in_percent,
-    in_supported_digits,
-    in_words,
-    is_rounding_tilt,
-    readable_unit,
-)
+from viscontact.units.error_bars import in_error_digits, in_percent, in_supported_digits
+from viscontact.units.rounding import is_rounding_tilt
 
 _COLUMNS = (
     *("force", "approach", "tilt_x", "tilt_y", "contact_area", "contact_length"),

@@ -20,8 +20,8 @@ from viscontact.cli.variations import as_typed
 from viscontact.free_memory import available_memory
 from viscontact.processes.job import Job
 from viscontact.processes.request import RunRequest
+from viscontact.readable import in_digits
 from viscontact.recording.lock import LOCK_NAME, DirectoryInUse, locked
-from viscontact.units import in_digits
 
 
 def checked_jobs(request: ManyRequest, interruption: Interruption) -> list[Job]:

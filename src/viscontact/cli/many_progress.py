@@ -20,7 +20,7 @@ from rich.progress import (
 from viscontact.cli.messages import say
 from viscontact.processes.child import Child, Ended
 from viscontact.processes.job import Job
-from viscontact.units import in_words
+from viscontact.readable import in_words
 
 #: Plain lines come at this part of all the work, or after so many seconds.
 _LINE_PART, _LINE_SECONDS = 0.1, 30.0

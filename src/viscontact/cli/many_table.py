@@ -14,9 +14,10 @@ from rich.markup import escape
 from rich.table import Table
 
 from viscontact.processes.child import Ended
+from viscontact.readable import in_digits, in_words, readable_unit
 from viscontact.results import open_results
 from viscontact.stated_errors import largest_error
-from viscontact.units import in_digits, in_percent, in_words, readable_unit
+from viscontact.units.error_bars import in_percent
 from viscontact.variables import SCALARS
 
 #: Of each the largest over time: what a design is judged by.

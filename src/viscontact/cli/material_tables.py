@@ -19,7 +19,8 @@ from viscontact.cli.shown_material import Shown
 from viscontact.laws import WLF, Arrhenius, Elastic, Shift
 from viscontact.material import Material
 from viscontact.materials import Entry
-from viscontact.units import in_celsius, in_digits, in_words, readable_unit
+from viscontact.readable import in_digits, in_words, readable_unit
+from viscontact.units.temperatures import in_celsius
 
 _WIDTH = 78
 _DEPTH = 1e-6

@@ -15,7 +15,7 @@ from viscontact.cli.messages import refuse, say
 from viscontact.cli.shown_material import Shown
 from viscontact.laws import TabulatedCreep, TabulatedRelaxation
 from viscontact.material import Material
-from viscontact.units import parse_unit
+from viscontact.units.quantities import parse_unit
 
 FORMS = ("abaqus", "ansys", "csv")
 _ROWS_PER_DECADE = 20

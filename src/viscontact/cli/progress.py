@@ -12,8 +12,8 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from viscontact.cli.messages import say
 from viscontact.marching import Progress as Report
+from viscontact.readable import in_words
 from viscontact.state import ContactState
-from viscontact.units import in_words
 
 #: Plain lines come at this part of the run, or after so many seconds.
 _LINE_PART, _LINE_SECONDS = 0.1, 30.0

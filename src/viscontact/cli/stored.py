@@ -12,11 +12,11 @@ import xarray as xr
 
 from viscontact.cli.messages import refuse
 from viscontact.processes.request import RunRequest
+from viscontact.readable import in_words
 from viscontact.recording.checkpoint import STATE_NAME
 from viscontact.recording.lock import LOCK_NAME, DirectoryInUse, locked
 from viscontact.results import RESULT_NAME, open_results
 from viscontact.state import Outcome
-from viscontact.units import in_words
 from viscontact.variables import SCALARS
 
 #: The case as it is run, in its directory.

@@ -15,10 +15,10 @@ from rich.markup import escape
 from rich.table import Table
 
 from viscontact.cli.accuracy import accuracy_lines, knows_errors, mesh_lines, unknown_lines
+from viscontact.readable import in_words
 from viscontact.recording.recorded import PROGRESS_NAME
 from viscontact.results import RESULT_NAME, open_results
 from viscontact.summary import LEGEND, SummaryRow, summary_rows
-from viscontact.units import in_words
 
 #: Blanks between columns.
 _GAP = 2

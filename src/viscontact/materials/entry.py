@@ -12,7 +12,7 @@ from typing import Any
 from ruamel.yaml import YAML
 
 from viscontact.materials.points import Points, read_points
-from viscontact.units import parse_quantity
+from viscontact.units.quantities import parse_quantity
 
 #: They lead the list: the paper's material in its two readings.
 _FIRST = ("pmma-paper", "pmma-kumar-2004")

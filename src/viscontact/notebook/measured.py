@@ -14,7 +14,9 @@ from viscontact.notebook.card import Card
 from viscontact.notebook.panel import BLUE, ORANGE, Mark, panel
 from viscontact.notebook.scales import Scale, linear, logarithmic
 from viscontact.particulars import in_plain_words
-from viscontact.units import in_celsius, in_digits, in_percent, in_words
+from viscontact.readable import in_digits, in_words
+from viscontact.units.error_bars import in_percent
+from viscontact.units.temperatures import in_celsius
 
 Floats = NDArray[np.float64]
 

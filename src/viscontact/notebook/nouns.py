@@ -28,9 +28,9 @@ from viscontact.notebook.results import result_card
 from viscontact.notebook.shapes import grid_drawings, indenter_drawings
 from viscontact.notebook.surface_map import surface_card
 from viscontact.particulars import in_plain_words, particulars
+from viscontact.readable import in_words
 from viscontact.shown import Shown, ShownWhole
 from viscontact.surfaces import Surface
-from viscontact.units import in_words
 
 
 def noun_html(noun: Shown) -> str:

@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 from viscontact.notebook.card import Card
 from viscontact.notebook.panel import ORANGE, Mark, panel
 from viscontact.notebook.scales import Scale, linear, logarithmic
+from viscontact.readable import in_words
 from viscontact.told import errors_of, headline, told_at
-from viscontact.units import in_words, is_rounding_tilt
+from viscontact.units.rounding import is_rounding_tilt
 
 Floats = NDArray[np.float64]
 

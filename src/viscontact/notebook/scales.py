@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from viscontact.units import in_words, readable_unit
+from viscontact.readable import in_words, readable_unit
 
 #: Steps between ticks, of a decade.
 _STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)

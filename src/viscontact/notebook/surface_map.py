@@ -12,8 +12,9 @@ from viscontact.markup import element
 from viscontact.notebook.card import Card
 from viscontact.notebook.panel import BLUE, WIDTH, Mark, panel
 from viscontact.notebook.scales import linear
+from viscontact.readable import in_digits, in_words
 from viscontact.surfaces import Surface
-from viscontact.units import in_digits, in_percent, in_words
+from viscontact.units.error_bars import in_percent
 
 Floats = NDArray[np.float64]
 

@@ -25,7 +25,7 @@ from viscontact.plot.readable import DisplayUnit, display_unit
 from viscontact.plot.span import within_span
 from viscontact.plot.time_axis import scale_time
 from viscontact.stated_errors import stated_error
-from viscontact.units import is_rounding_tilt
+from viscontact.units.rounding import is_rounding_tilt
 from viscontact.variables import error_name
 
 _NAME = "history"

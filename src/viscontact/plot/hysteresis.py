@@ -17,8 +17,8 @@ from viscontact.plot.error_band import Band, band_key, draw_band
 from viscontact.plot.page import Width, page_width
 from viscontact.plot.readable import display_unit
 from viscontact.plot.span import within_span
+from viscontact.readable import in_words
 from viscontact.stated_errors import stated_error
-from viscontact.units import in_words
 from viscontact.variables import error_name
 
 _NAME = "hysteresis"

@@ -18,7 +18,7 @@ from viscontact.laws import Shift
 from viscontact.plot import style
 from viscontact.plot.page import NARROW, Width, page_width
 from viscontact.plot.readable import DisplayUnit, display_unit
-from viscontact.units import in_celsius
+from viscontact.units.temperatures import in_celsius
 
 Array = NDArray[np.float64]
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from viscontact import units
+from viscontact.readable import readable_unit
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ def display_unit(si_unit: str, *values: ArrayLike) -> DisplayUnit:
     Parameters
     ----------
     si_unit : str
-        The SI unit of the values, as `viscontact.units.readable_unit` takes it.
+        The SI unit of the values, as `viscontact.readable.readable_unit` takes it.
     *values : array_like
         Everything that shares the axis [SI]; what is not finite is disregarded.
 
@@ -64,7 +64,7 @@ def display_unit(si_unit: str, *values: ArrayLike) -> DisplayUnit:
     """
     finite = [np.abs(array[np.isfinite(array)]) for array in map(np.asarray, values)]
     largest = max((float(array.max(initial=0.0)) for array in finite), default=0.0)
-    unit = units.readable_unit(largest, si_unit)
+    unit = readable_unit(largest, si_unit)
     return DisplayUnit(unit.symbol, unit.factor)
 
 

@@ -8,10 +8,11 @@ from collections.abc import Iterator
 import numpy as np
 import xarray as xr
 
+from viscontact.readable import in_words
 from viscontact.report.inputs import case_of, prescribes_approach
 from viscontact.stated_errors import WHY_MESH_DEPENDENT, largest_error
 from viscontact.summary import SummaryRow, summary_rows, told_scalars
-from viscontact.units import at_most, in_words
+from viscontact.units.error_bars import at_most
 
 
 def error_rows(ds: xr.Dataset) -> list[tuple[str, ...]]:

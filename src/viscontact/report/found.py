@@ -13,12 +13,12 @@ import xarray as xr
 
 from viscontact.history_csv import write_history
 from viscontact.markup import element
+from viscontact.readable import in_words
 from viscontact.report.limits import notices
 from viscontact.report.map_data import MOST_CELLS, section_csv, section_place, strides_of
 from viscontact.report.shown_fields import ShownFields
 from viscontact.stated_errors import MESH_DEPENDENT
 from viscontact.told import headline, told_at
-from viscontact.units import in_words
 
 _FACTS = {
     "contact_area": "Contact area",

@@ -15,10 +15,10 @@ import xarray as xr
 
 from viscontact import __version__
 from viscontact.markup import element
+from viscontact.readable import in_words
 from viscontact.report import accuracy, citation, drawings, limits
 from viscontact.report.inputs import Input, case_file, inputs
 from viscontact.summary import LEGEND
-from viscontact.units import in_words
 
 
 def inputs_chapter(ds: xr.Dataset) -> Iterator[Element]:

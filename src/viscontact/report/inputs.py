@@ -11,8 +11,8 @@ from typing import Any
 import xarray as xr
 
 from viscontact.particulars import particulars
+from viscontact.readable import in_words
 from viscontact.results import RESULT_NAME
-from viscontact.units import in_words
 
 _PARTS = {
     "indenter": "Indenter",

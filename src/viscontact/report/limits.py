@@ -10,9 +10,9 @@ import numpy as np
 import xarray as xr
 
 from viscontact.plot.recorded import recorded_noun
+from viscontact.readable import in_digits, in_words
 from viscontact.report.inputs import case_of
 from viscontact.state import Outcome
-from viscontact.units import in_digits, in_words
 
 
 def notices(ds: xr.Dataset) -> list[str]:

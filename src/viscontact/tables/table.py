@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.tables.names import Data
-from viscontact.units import in_celsius
+from viscontact.units.temperatures import in_celsius
 
 Array = NDArray[np.float64]
 

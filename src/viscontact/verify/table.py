@@ -10,7 +10,7 @@ from dataclasses import fields
 from itertools import pairwise
 from pathlib import Path
 
-from viscontact.units import in_digits, readable_unit
+from viscontact.readable import in_digits, readable_unit
 from viscontact.verify.case import Result
 
 HEADINGS = (

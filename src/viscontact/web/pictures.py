@@ -14,8 +14,9 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from viscontact.plot.saving import written
+from viscontact.readable import in_words
 from viscontact.results import RESULT_NAME, open_results
-from viscontact.units import in_words, parse_quantity
+from viscontact.units.quantities import parse_quantity
 from viscontact.web.problems import RequestError
 
 Kind = Literal["svg", "png", "pdf"]

@@ -14,9 +14,9 @@ import numpy as np
 import xarray as xr
 
 from viscontact.plot import FIGURES
+from viscontact.readable import in_words
 from viscontact.results import RESULT_NAME, open_results
 from viscontact.summary import summary_rows
-from viscontact.units import in_words
 from viscontact.variables import SCALARS
 from viscontact.web.pictures import DAMAGED
 from viscontact.web.problems import Problem, lines_of, problem_of
