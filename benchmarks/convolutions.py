@@ -13,8 +13,8 @@ from run import reference_convolution, seconds_of
 
 from viscontact.convolution import Convolution
 from viscontact.influence import influence_table
+from viscontact.preconditioner import Preconditioner
 from viscontact.transforms import Transforms, transforms_by
-from viscontact.waves import Preconditioner
 
 REPEATS = 40
 MIRRORED = ((False, False), (False, True), (True, True))

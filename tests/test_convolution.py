@@ -5,8 +5,9 @@ import pytest
 
 from viscontact.convolution import Convolution
 from viscontact.influence import influence_coefficient, influence_table
+from viscontact.preconditioner import Preconditioner
 from viscontact.transforms import as_reals, transforms_by
-from viscontact.waves import PeriodicConvolution, Preconditioner
+from viscontact.waves import PeriodicConvolution
 
 SHAPES = [(1, 1), (2, 3), (7, 11), (8, 8), (13, 16), (31, 6), (5, 37)]
 CELL = (0.7, 1.9)

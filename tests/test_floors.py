@@ -33,6 +33,7 @@ FLOORS = (
         "stress_influence",
         "memory",
         "state",
+        "step_solution",
         "outline",
         "rim",
         "hull",
@@ -43,6 +44,7 @@ FLOORS = (
         "transforms",
         "convolution",
         "waves",
+        "preconditioner",
         "subsurface",
         "balance",
         "bedding",
@@ -57,6 +59,8 @@ FLOORS = (
         "adaptive",
         "prediction",
         "plausibility",
+        "mesh_doubts",
+        "doubts",
         "material_doubts",
         "sampling_doubts",
         "sharpness",
@@ -215,7 +219,6 @@ NEIGHBOURS = {
     ("dataset", "outgrown"),  # fields on a grid that has been enlarged meanwhile
     ("recording", "outgrown"),
     ("companions", "looser_load"),
-    ("companions", "plausibility"),  # of how small the spots are
     ("companions", "run"),
     ("companions", "schedule"),  # coarser steps
     ("companions", "sharpness"),
@@ -278,6 +281,19 @@ NEIGHBOURS = {
     ("single", "dataset"),
     ("single", "outgrown"),
     ("single", "run_description"),
+    ("companions", "mesh_doubts"),
+    ("growth", "step_solution"),
+    ("half_space", "preconditioner"),
+    ("inspection", "mesh_doubts"),
+    ("loading_doubts", "step_solution"),
+    ("observation", "doubts"),
+    ("observation", "mesh_doubts"),
+    ("observation", "step_solution"),
+    ("past", "step_solution"),
+    ("step_by_step", "step_solution"),
+    ("preconditioner", "transforms"),
+    ("preconditioner", "waves"),
+    ("step_solution", "state"),
     ("__main__", "cli"),  # python -m viscontact
 }
 # Who may ask the front door, which loads names from any floor when they are used: nouns that are

@@ -6,15 +6,11 @@ import numpy as np
 import pytest
 
 import viscontact as vc
+from viscontact.doubts import Doubts
 from viscontact.laws import TabulatedCreep, TabulatedRelaxation, Zener
 from viscontact.material_doubts import passivity_doubts
-from viscontact.plausibility import (
-    DOUBTFUL_CELLS,
-    Doubts,
-    cells_across_spots,
-    mesh_doubts,
-    relative_change,
-)
+from viscontact.mesh_doubts import DOUBTFUL_CELLS, cells_across_spots, mesh_doubts
+from viscontact.plausibility import relative_change
 
 rubber = vc.Material(vc.Elastic(1e6), 0.5)  # J = 1/(4 MPa)
 

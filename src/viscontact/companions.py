@@ -13,7 +13,7 @@ from viscontact.errors import ConvergenceError, DomainError
 from viscontact.grid import Grid
 from viscontact.looser_load import LooserLoad
 from viscontact.memory.choice import plan_memory
-from viscontact.plausibility import cells_across_spots
+from viscontact.mesh_doubts import cells_across_spots
 from viscontact.run import Run
 from viscontact.schedule import FixedSteps
 from viscontact.sharpness import is_sharp, strain_of, touches_end

@@ -12,7 +12,7 @@ from scipy import fft
 from viscontact.extent import MOST_CELLS
 from viscontact.grid import Grid
 from viscontact.half_space import HalfSpace
-from viscontact.state import Instant
+from viscontact.step_solution import Instant
 
 #: How much longer a grid becomes along an axis on which it is overrun.
 FACTOR = 1.5

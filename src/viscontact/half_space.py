@@ -12,8 +12,9 @@ from viscontact.balance import RigidPlane, Support
 from viscontact.convolution import Convolution
 from viscontact.grid import Grid
 from viscontact.influence import influence_table
+from viscontact.preconditioner import Preconditioner
 from viscontact.transforms import Transforms, fastest_transforms, transforms_by
-from viscontact.waves import PeriodicConvolution, Preconditioner
+from viscontact.waves import PeriodicConvolution
 
 #: From pressure to displacement, on cells.
 Operator = Convolution | PeriodicConvolution

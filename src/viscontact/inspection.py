@@ -11,7 +11,7 @@ from viscontact.estimate import ContactEstimate
 from viscontact.forecast import Forecast, forecast
 from viscontact.geometry_doubts import SINGULAR_KINDS
 from viscontact.load.largest_load import largest_load
-from viscontact.plausibility import DOUBTFUL_CELLS
+from viscontact.mesh_doubts import DOUBTFUL_CELLS
 from viscontact.preparation import Prepared
 from viscontact.readable import in_digits, in_words
 from viscontact.run import Run

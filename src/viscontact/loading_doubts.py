@@ -7,7 +7,8 @@ import numpy as np
 from viscontact.plausibility import relative_change, release_doubts, step_doubts, touch_doubts
 from viscontact.run import Run
 from viscontact.schedule import SAME, Step
-from viscontact.state import Instant, Outcome
+from viscontact.state import Outcome
+from viscontact.step_solution import Instant
 
 
 def loading_doubts(run: Run, step: Step, before: Instant | None, after: Instant) -> dict[str, str]:

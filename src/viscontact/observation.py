@@ -10,25 +10,22 @@ from numpy.typing import NDArray
 
 from viscontact.carried import Carried
 from viscontact.cycles import Cycles
+from viscontact.doubts import Doubts
 from viscontact.errors import DomainError
 from viscontact.geometry_doubts import Geometry, corner_doubts, geometry_doubts
 from viscontact.growth import Enlargement
 from viscontact.load.history import LoadPoint
 from viscontact.loading_doubts import loading_doubts
 from viscontact.material_doubts import data_doubts, early_doubts, law_doubts, passivity_doubts
+from viscontact.mesh_doubts import REFUSED_CELLS, cells_across_spots, mesh_doubts
 from viscontact.outline import trace_outline
-from viscontact.plausibility import (
-    REFUSED_CELLS,
-    Doubts,
-    cells_across_spots,
-    mesh_doubts,
-    untold_doubts,
-)
+from viscontact.plausibility import untold_doubts
 from viscontact.rim import Rim, trace_rim
 from viscontact.run import Run
 from viscontact.schedule import Step
 from viscontact.sharpness import strain_of
-from viscontact.state import ContactState, Instant, Outcome
+from viscontact.state import ContactState, Outcome
+from viscontact.step_solution import Instant
 
 #: By how much a pressure exceeds the one before that is looked at for corners.
 HIGHER = 1.1

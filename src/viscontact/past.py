@@ -19,7 +19,8 @@ from viscontact.memory.response import Memory, Response
 from viscontact.prediction import POINTS, Twin, predict
 from viscontact.run import Run
 from viscontact.schedule import Step
-from viscontact.state import Instant, Outcome
+from viscontact.state import Outcome
+from viscontact.step_solution import Instant
 from viscontact.time_error import StepError, TimeErrors
 
 #: Errors are measured against the displacement that the pressure causes, but never against less

@@ -2,20 +2,9 @@
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass, field
-
 import numpy as np
-from numpy.typing import NDArray
 
 from viscontact.readable import in_words
-
-#: Fewer cells across the largest contact than this are doubtful, or refused.
-DOUBTFUL_CELLS, REFUSED_CELLS = 10, 4
-
-#: Fewer cells across the spots that a contact consists of, in the mean, are doubtful. Counted
-#: along grid lines, where a disc of d cells has a mean chord of pi/4 d: 4 are a disc of 5 cells.
-DOUBTFUL_SPOTS = 4.0
 
 #: The largest pressure may exceed the largest that is told by this part.
 UNTOLD = 0.1
@@ -158,104 +147,3 @@ def untold_doubts(peak: float, time: float, told: float) -> dict[str, str]:
 def relative_change(before: float, after: float) -> float:
     """Change over the larger of two values; zero if both are."""
     return abs(after - before) / max(abs(after), abs(before), np.finfo(float).tiny)
-
-
-def mesh_doubts(cells_across: int, across_spots: float = math.inf) -> dict[str, str]:
-    """Doubt about a coarse mesh.
-
-    Parameters
-    ----------
-    cells_across : int
-        Cells across the run's largest contact, along its shorter way.
-    across_spots : float
-        Cells across the spots that it consists of, from `cells_across_spots`.
-
-    Returns
-    -------
-    dict of str to str
-        Sentences by kind of doubt; empty if there is none.
-
-    Examples
-    --------
-    >>> list(mesh_doubts(8)), list(mesh_doubts(30)), list(mesh_doubts(30, across_spots=1.5))
-    (['mesh'], [], ['spots'])
-    """
-    if cells_across < DOUBTFUL_CELLS:
-        return {
-            "mesh": (
-                f"only {cells_across} cells lie across the largest contact, "
-                f"{DOUBTFUL_CELLS} or more are wanted; use a finer or smaller grid"
-            )
-        }
-    if across_spots >= DOUBTFUL_SPOTS:
-        return {}
-    return {
-        "spots": (
-            f"the largest contact consists of spots or strips that are {across_spots:.1f} cells "
-            f"across in the mean, {DOUBTFUL_SPOTS:g} or more are wanted: their pressure and area "
-            "depend on the mesh; use a finer grid"
-        )
-    }
-
-
-def cells_across_spots(contact: NDArray[np.bool_], *, periodic: bool = False) -> float:
-    """Mean number of cells in a row within a contact, along the axis where it is smaller.
-
-    Parameters
-    ----------
-    contact : ndarray of bool, shape (nx, ny)
-        Cells under pressure.
-    periodic : bool
-        Whether rows and columns go on where they began.
-
-    Returns
-    -------
-    float
-        Cells; 0 without contact, as many as a row or column has where no contact ends.
-
-    Notes
-    -----
-    The mean chord. It sees what the extents of a contact hide: a rough surface's spots, or a
-    strip that lies askew on the grid.
-
-    Examples
-    --------
-    >>> spots = np.zeros((8, 8), dtype=bool)
-    >>> spots[1:3, 1:6] = spots[5:7, 1:6] = True
-    >>> cells_across_spots(spots)
-    2.0
-    """
-    cells = int(np.count_nonzero(contact))
-    if not cells:
-        return 0.0
-    begun = []
-    for lines in (contact, contact.T):
-        before = lines[-1:] if periodic else np.zeros_like(lines[:1])
-        begun.append(int(np.count_nonzero(lines & ~np.concatenate([before, lines[:-1]]))))
-    return cells / max(begun) if any(begun) else float(max(contact.shape))
-
-
-@dataclass
-class Doubts:
-    """Each kind of doubt once: what has been said already, and what is new."""
-
-    said: dict[str, str] = field(default_factory=dict)
-
-    def new(self, *found: dict[str, str]) -> tuple[str, ...]:
-        """Keep what has not been said, and return it.
-
-        Parameters
-        ----------
-        *found : dict of str to str
-            Sentences by kind of doubt.
-
-        Returns
-        -------
-        tuple of str
-            The sentences of kinds met for the first time.
-        """
-        fresh = {
-            kind: text for doubts in found for kind, text in doubts.items() if kind not in self.said
-        }
-        self.said.update(fresh)
-        return tuple(fresh.values())

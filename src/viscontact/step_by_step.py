@@ -16,7 +16,8 @@ from viscontact.readable import in_words
 from viscontact.run import Run
 from viscontact.schedule import Step
 from viscontact.solved_step import SolvedStep
-from viscontact.state import ContactState, Instant, Outcome
+from viscontact.state import ContactState, Outcome
+from viscontact.step_solution import Instant
 from viscontact.transforms import transforms_by
 
 

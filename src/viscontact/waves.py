@@ -64,7 +64,7 @@ class PeriodicConvolution:
     ) -> None:
         self.shape = shape
         number = np.float32 if single else np.float64
-        self._spectra = _Spectra(shape, cell_size, (False, False), number, transforms)
+        self._spectra = Spectra(shape, cell_size, (False, False), number, transforms)
         half = self._spectra.half_wave_numbers
         half[0, 0] = np.inf
         self._symbol = (1 / half).astype(number)
@@ -90,52 +90,7 @@ class PeriodicConvolution:
         return self._spectra.filtered(pressure, self._symbol, into)
 
 
-class Preconditioner:
-    """A cheap rough inverse of the convolution: |q|/2, the half-space's exact inverse symbol.
-
-    It works on the unpadded block and in single precision. Neither spoils the solution, for a
-    preconditioner only shapes the search directions.
-
-    Parameters
-    ----------
-    shape : tuple of int
-        Cells (nx, ny).
-    cell_size : tuple of float
-        Edge lengths (dx, dy) of a cell [m].
-    mirrored : tuple of bool
-        Whether the block is one half of a problem that is even across x = 0, and across y = 0.
-    transforms : Transforms, optional
-        Who transforms; the fastest that are installed when left out.
-    """
-
-    def __init__(
-        self,
-        shape: tuple[int, int],
-        cell_size: tuple[float, float],
-        *,
-        mirrored: tuple[bool, bool] = (False, False),
-        transforms: Transforms | None = None,
-    ) -> None:
-        self._spectra = _Spectra(shape, cell_size, mirrored, np.float32, transforms)
-        self._symbol = self._spectra.half_wave_numbers.astype(np.float32)
-
-    def apply(self, displacement: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Pressure that would cause about this displacement, per unit contact compliance.
-
-        Parameters
-        ----------
-        displacement : ndarray, shape (nx, ny)
-            Displacement of the cells [m].
-
-        Returns
-        -------
-        ndarray, shape (nx, ny)
-            Pressure times contact compliance [-]; its mean is zero.
-        """
-        return self._spectra.filtered(displacement, self._symbol)
-
-
-class _Spectra:
+class Spectra:
     """Spectra of a block that repeats itself, or across whose first line it is even."""
 
     def __init__(
