@@ -67,7 +67,6 @@ FLOORS = (
         "geometry_doubts",
         "estimate",
         "extent",
-        "period_estimate",
         "mesh_trial",
         "facets",
         "resolution",
@@ -88,7 +87,6 @@ FLOORS = (
         "marching",
         "looser_load",
         "companions",
-        "nearby",
         "grid_levels",
         "error_bars",
     ),
@@ -104,6 +102,7 @@ FLOORS = (
         "results",
         "stated_errors",
         "history_csv",
+        "recorded_case",
         "stresses",
         "recording",
     ),  # 5 labels and files
@@ -186,7 +185,6 @@ NEIGHBOURS = {
     ("observation", "sharpness"),
     ("geometry_doubts", "sampling_doubts"),  # what the grid does not see
     ("extent", "estimate"),  # of the contact that has to fit
-    ("period_estimate", "estimate"),  # whose answer it gives as well
     ("forecast", "foresight"),  # of doubts
     ("footprint", "adaptive"),  # which steps are likely
     ("footprint", "run"),
@@ -225,7 +223,6 @@ NEIGHBOURS = {
     ("companions", "step_by_step"),  # are marched as any run
     ("grid_levels", "companions"),  # beside their run
     ("error_bars", "grid_levels"),
-    ("error_bars", "nearby"),
     ("error_bars", "companions"),
     ("error_bars", "run"),
     ("dataset", "variables"),
@@ -294,6 +291,10 @@ NEIGHBOURS = {
     ("preconditioner", "transforms"),
     ("preconditioner", "waves"),
     ("step_solution", "state"),
+    ("plot", "recorded_case"),
+    ("report", "recorded_case"),
+    ("stresses", "recorded_case"),
+    ("recorded_case", "description"),
     ("__main__", "cli"),  # python -m viscontact
 }
 # Who may ask the front door, which loads names from any floor when they are used: nouns that are

@@ -15,8 +15,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.companions import FEWEST_ACROSS, Course, History, companions_of, marched
-from viscontact.grid_levels import Levels, end_flags, spots_across
-from viscontact.nearby import largest_around, least_around, mean_around
+from viscontact.grid_levels import (
+    Levels,
+    end_flags,
+    largest_around,
+    least_around,
+    mean_around,
+    spots_across,
+)
 from viscontact.richardson import richardson
 from viscontact.run import Run
 

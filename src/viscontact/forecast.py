@@ -10,14 +10,13 @@ import numpy as np
 from scipy import fft
 
 from viscontact.companions import usual_companions
-from viscontact.estimate import ContactEstimate, estimate_contact
+from viscontact.estimate import ContactEstimate, estimate_contact, estimate_period
 from viscontact.footprint import run_memory, step_count
 from viscontact.foresight import foreseen_doubts
 from viscontact.free_memory import available_memory
 from viscontact.grid import Grid
 from viscontact.load import LoadPoint
 from viscontact.load.largest_load import largest_load
-from viscontact.period_estimate import estimate_period
 from viscontact.run import Run
 
 #: Plain convolutions' time that the first step and each later one take at tolerance 1e-6, and

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from typing import Any
 
@@ -10,7 +9,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from viscontact.grid import Grid
+from viscontact.recorded_case import recorded_grid, recorded_poisson_ratio
 from viscontact.stress_influence import COMPONENTS
 from viscontact.subsurface import Stress, stress_on_section
 
@@ -90,62 +89,12 @@ def _chosen(pressure: xr.DataArray, times: Sequence[float] | None) -> xr.DataArr
     return pressure if times is None else pressure.sel(time=list(times), method="nearest")
 
 
-def recorded_poisson_ratio(results: xr.Dataset) -> float:
-    """Poisson's ratio of the half-space that a result belongs to.
-
-    Parameters
-    ----------
-    results : xarray.Dataset
-        What `simulate` or `open_results` returned.
-
-    Returns
-    -------
-    float
-        [-].
-
-    Raises
-    ------
-    ValueError
-        If it varies in time, or is not told.
-    """
-    material = json.loads(results.attrs.get("case", "{}")).get("material", {})
-    ratio = material.get("poisson_ratio")
-    if ratio is not None:
-        return float(ratio)
-    if material.get("bulk_modulus") is not None:
-        raise ValueError(
-            "with an elastic bulk modulus Poisson's ratio varies in time, and the stresses depend "
-            "on more than the present pressure; for an estimate give poisson_ratio="
-        )
-    raise ValueError("the result does not tell Poisson's ratio; give poisson_ratio=")
-
-
 def _usual_depths(results: xr.Dataset) -> NDArray[np.float64]:
     extents = np.minimum(results["contact_length"], results["contact_width"])
     half_width = float(extents.max()) / 2
     if not half_width > 0:
         raise ValueError("there is no contact at any instant; give depths=")
     return np.linspace(0.0, REACH * half_width, DEPTHS)
-
-
-def recorded_grid(results: xr.Dataset) -> Grid:
-    """Grid that a result belongs to.
-
-    Parameters
-    ----------
-    results : xarray.Dataset
-        What `simulate` or `open_results` returned.
-
-    Returns
-    -------
-    Grid
-        From its coordinates, and whether it is periodic from its case.
-    """
-    x, y = results["x"].values, results["y"].values
-    shape = (x.size, y.size)
-    size = (float(x[1] - x[0]) * shape[0], float(y[1] - y[0]) * shape[1])
-    told = json.loads(results.attrs.get("case", "{}")).get("grid") or {}
-    return Grid(shape, size, bool(told.get("periodic", False)))
 
 
 def _labelled(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
@@ -13,6 +12,7 @@ import xarray as xr
 from viscontact.cli.messages import refuse
 from viscontact.processes.request import RunRequest
 from viscontact.readable import in_words
+from viscontact.recorded_case import case_of
 from viscontact.recording.checkpoint import STATE_NAME
 from viscontact.recording.lock import LOCK_NAME, DirectoryInUse, locked
 from viscontact.results import RESULT_NAME, open_results
@@ -70,7 +70,7 @@ def early_end(ds: xr.Dataset) -> str:
         complete, or does not say what it was to be.
     """
     try:
-        case = json.loads(ds.attrs["case"])
+        case = case_of(ds)
         times, adaptive = case["times"], case.get("adaptive")
         end = float(times[-1])
     except (KeyError, IndexError, TypeError, ValueError):  # a dataset of the user's own making

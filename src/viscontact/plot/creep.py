@@ -14,7 +14,7 @@ from viscontact.laws import Law
 from viscontact.plot import style
 from viscontact.plot.page import NARROW, Width, page_width
 from viscontact.plot.readable import display_unit
-from viscontact.plot.recorded import recorded_noun
+from viscontact.recorded_case import recorded_noun
 
 _NAME = "creep"
 

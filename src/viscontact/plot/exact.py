@@ -15,9 +15,9 @@ from viscontact.plot import style
 from viscontact.plot.exact_history import ExactHistory, exact_history, what_is_exact
 from viscontact.plot.page import NARROW, Width, page_width
 from viscontact.plot.readable import display_unit
-from viscontact.plot.recorded import recorded_noun
 from viscontact.plot.span import within_span
 from viscontact.plot.time_axis import scale_time
+from viscontact.recorded_case import recorded_noun
 
 _NAME = "exact"
 _MARKERS_AT_MOST = 26

@@ -13,7 +13,7 @@ from viscontact.indenters import Indenter, Sphere
 from viscontact.laws import Elastic
 from viscontact.load import ApproachHistory, ForceHistory
 from viscontact.plot.exact_sphere import exact_sphere, sphere_radius
-from viscontact.plot.recorded import recorded_noun
+from viscontact.recorded_case import recorded_grid, recorded_noun
 from viscontact.reference import (
     AxisymmetricContact,
     LeeRadokContact,
@@ -21,7 +21,6 @@ from viscontact.reference import (
     clustered_times,
     press_axisymmetric,
 )
-from viscontact.stresses import recorded_grid
 
 Array = NDArray[np.float64]
 

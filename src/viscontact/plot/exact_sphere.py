@@ -8,7 +8,7 @@ import xarray as xr
 
 from viscontact.indenters import Indenter, Paraboloid, Sphere
 from viscontact.load import ForceHistory
-from viscontact.plot.recorded import recorded_noun
+from viscontact.recorded_case import recorded_noun
 from viscontact.reference import LeeRadokContact, lee_radok_ramp, lee_radok_step
 
 

@@ -10,9 +10,8 @@ from numpy.typing import ArrayLike
 from viscontact.plot.indenter_drawing import draw_indenter
 from viscontact.plot.page import Width
 from viscontact.plot.readable import time_labels
-from viscontact.plot.recorded import recorded_noun
 from viscontact.plot.snapshots import take_snapshots
-from viscontact.stresses import recorded_grid
+from viscontact.recorded_case import recorded_grid, recorded_noun
 
 _NAME = "indenter"
 

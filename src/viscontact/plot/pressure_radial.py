@@ -19,9 +19,9 @@ from viscontact.plot.error_band import peak_note
 from viscontact.plot.exact_sphere import exact_sphere
 from viscontact.plot.page import NARROW, Width, page_width
 from viscontact.plot.readable import DisplayUnit, display_unit, time_labels
-from viscontact.plot.recorded import recorded_noun
 from viscontact.plot.snapshots import Snapshot, take_snapshots
 from viscontact.readable import in_words
+from viscontact.recorded_case import recorded_noun
 from viscontact.reference import LeeRadokContact
 
 _NAME = "pressure-radial"

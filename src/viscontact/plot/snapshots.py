@@ -12,10 +12,9 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact.grid import Grid
 from viscontact.outline import Outline, trace_outline
 from viscontact.plot.readable import time_labels
-from viscontact.plot.recorded import recorded_noun
 from viscontact.plot.snapshot import Snapshot as Snapshot
 from viscontact.readable import in_words
-from viscontact.stresses import recorded_grid
+from viscontact.recorded_case import recorded_grid, recorded_noun
 
 
 def field_times(results: xr.Dataset, figure: str) -> NDArray[np.float64]:

@@ -21,7 +21,7 @@ from viscontact.plot.page import Width, page_width
 from viscontact.plot.readable import DisplayUnit, display_unit, time_labels
 from viscontact.plot.snapshots import Snapshot, take_snapshots
 from viscontact.readable import in_words
-from viscontact.stresses import recorded_grid, recorded_poisson_ratio
+from viscontact.recorded_case import recorded_grid, recorded_poisson_ratio
 from viscontact.subsurface import stress_on_section
 
 _NAME = "stress-section"

@@ -18,7 +18,7 @@ from viscontact.plot.readable import display_unit
 from viscontact.plot.snapshots import field_times, take_snapshots
 from viscontact.plot.stress_section import stress_sections
 from viscontact.plot.time_axis import scale_time
-from viscontact.stresses import recorded_grid, recorded_poisson_ratio
+from viscontact.recorded_case import recorded_grid, recorded_poisson_ratio
 
 _NAME = "von-mises"
 #: More instants than this make a line of their markers.

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from viscontact.readable import in_words
-from viscontact.report.inputs import case_of, prescribes_approach
+from viscontact.recorded_case import case_of, prescribes_approach
 from viscontact.stated_errors import WHY_MESH_DEPENDENT, largest_error
 from viscontact.summary import SummaryRow, summary_rows, told_scalars
 from viscontact.units.error_bars import at_most

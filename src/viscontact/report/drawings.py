@@ -16,9 +16,8 @@ from viscontact.markup import element
 from viscontact.notebook.curves import law_drawings
 from viscontact.notebook.shapes import indenter_drawings
 from viscontact.plot import creep_curve, draw_indenter
-from viscontact.plot.recorded import recorded_noun
 from viscontact.plot.saving import as_svg
-from viscontact.report.inputs import case_of
+from viscontact.recorded_case import case_of, recorded_noun
 from viscontact.report.surface import is_left_out, recorded_surface
 
 #: A law is drawn from so much earlier than the end on [-]: how it comes to where the run begins.

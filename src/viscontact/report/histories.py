@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from viscontact.plot.readable import display_number, display_unit
 from viscontact.plot.time_axis import suits_log_time
 from viscontact.readable import in_words
-from viscontact.report.inputs import prescribes_approach
+from viscontact.recorded_case import prescribes_approach
 from viscontact.report.map_data import rounded
 from viscontact.stated_errors import MESH_DEPENDENT
 from viscontact.told import errors_of, told

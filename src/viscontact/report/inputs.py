@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,6 +11,7 @@ import xarray as xr
 
 from viscontact.particulars import particulars
 from viscontact.readable import in_words
+from viscontact.recorded_case import case_of
 from viscontact.results import RESULT_NAME
 
 _PARTS = {
@@ -65,21 +65,6 @@ def inputs(ds: xr.Dataset) -> list[Input]:
         place = sum(each.part in ("Indenter", _PARTS["material"]) for each in found)
         found.insert(place, Input(_PARTS["indenter_material"], "law", "rigid"))
     return [*found, *_steps(case)]
-
-
-def case_of(ds: xr.Dataset) -> dict[str, Any]:
-    """Return the case that a result keeps; empty where it keeps none."""
-    try:
-        case = json.loads(str(ds.attrs.get("case", "")))
-    except ValueError:
-        return {}
-    return case if isinstance(case, dict) else {}
-
-
-def prescribes_approach(ds: xr.Dataset) -> bool:
-    """Tell whether a run's load is an approach, which the force answers."""
-    load = case_of(ds).get("load") or {}
-    return load.get("control") == "approach" or load.get("type") == "ApproachHistory"
 
 
 def case_file(ds: xr.Dataset) -> str:

@@ -9,9 +9,8 @@ from collections.abc import Iterator
 import numpy as np
 import xarray as xr
 
-from viscontact.plot.recorded import recorded_noun
 from viscontact.readable import in_digits, in_words
-from viscontact.report.inputs import case_of
+from viscontact.recorded_case import case_of, recorded_noun
 from viscontact.state import Outcome
 
 
