@@ -11,10 +11,10 @@ from collections.abc import Callable
 import numpy as np
 from run import reference_convolution, seconds_of
 
-from viscontact.convolution import Convolution
-from viscontact.influence import influence_table
-from viscontact.preconditioner import Preconditioner
-from viscontact.transforms import Transforms, transforms_by
+from viscontact.fourier import Transforms, transforms_by
+from viscontact.halfspace.convolution import Convolution
+from viscontact.halfspace.influence import influence_table
+from viscontact.halfspace.preconditioner import Preconditioner
 
 REPEATS = 40
 MIRRORED = ((False, False), (False, True), (True, True))

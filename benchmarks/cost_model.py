@@ -31,27 +31,32 @@ from passes import counted
 from run import reference_convolution, seconds_of
 
 import viscontact as vc
-from viscontact import bedding, contact, convolution, half_space, past, search, waves
-from viscontact.marching import march_run
-from viscontact.memory.recursion import RecursiveMemory
-from viscontact.observation import Observer
-from viscontact.run import prepare_run
+from viscontact.contact import conjugate_gradients, domain, equilibrium, winkler
+from viscontact.halfspace import convolution, spectral
+from viscontact.simulation import stepper
+from viscontact.simulation.observer import Observer
+from viscontact.simulation.setup import prepare_run
+from viscontact.simulation.state_generator import march_run
+from viscontact.time_integration.internal_variables import RecursiveMemory
 
 #: Part of a step, and the functions that make it up: where they are looked up, and their names.
 PARTS: tuple[tuple[str, tuple[tuple[Any, str], ...]], ...] = (
-    ("operators: made", ((half_space.HalfSpace, "__init__"), (half_space.HalfSpace, "_patch"))),
+    ("operators: made", ((domain.HalfSpace, "__init__"), (domain.HalfSpace, "_patch"))),
     ("convolution", ((convolution.Convolution, "apply"),)),
-    ("preconditioner", ((waves.Preconditioner, "apply"),)),
-    ("measure: gap and error", ((search, "measure"), (contact, "measure"))),
-    ("directions: project, inner products", ((search.Search, "_advance"),)),
-    ("step: move, cut, balance", ((search.Search, "_step"), (search.Search, "__init__"))),
-    ("solve: embed, certify, balance", ((past, "solve_contact"),)),
-    ("cold start", ((contact, "settle_on_bedding"), (bedding, "settle_on_bedding"))),
+    ("preconditioner", ((spectral.Preconditioner, "apply"),)),
+    ("measure: gap and error", ((conjugate_gradients, "measure"), (equilibrium, "measure"))),
+    ("directions: project, inner products", ((conjugate_gradients.Search, "_advance"),)),
+    (
+        "step: move, cut, balance",
+        ((conjugate_gradients.Search, "_step"), (conjugate_gradients.Search, "__init__")),
+    ),
+    ("solve: embed, certify, balance", ((stepper, "solve_contact"),)),
+    ("cold start", ((equilibrium, "settle_on_bedding"), (winkler, "settle_on_bedding"))),
     ("memory: ask", ((RecursiveMemory, "ramp"), (RecursiveMemory, "jump"))),
     ("memory: accept", ((RecursiveMemory, "accept"),)),
-    ("prediction", ((past, "predict"), (past, "_guess"))),
-    ("twin and time error", ((past.Past, "_tried"), (past.Past, "accept"))),
-    ("state: unfold", ((past, "_whole"),)),
+    ("prediction", ((stepper, "predict"), (stepper, "_guess"))),
+    ("twin and time error", ((stepper.Past, "_tried"), (stepper.Past, "accept"))),
+    ("state: unfold", ((stepper, "_whole"),)),
     ("state: rim, area, work, doubts", ((Observer, "observe"), (Observer, "judge"))),
     ("preparation", ((vc.march.__globals__["prepare_run"].__globals__, "prepare_run"),)),
 )

@@ -17,7 +17,7 @@ import time
 import numpy as np
 
 import viscontact as vc
-from viscontact.run import prepare_run
+from viscontact.simulation.setup import prepare_run
 
 RADIUS, FORCE, PERIOD = 0.01, 10.0, 100.0
 LAW = vc.FractionalZener(1.5e9, 5e8, 100.0, 0.5)

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from viscontact.transforms import Transforms
+from viscontact.fourier import Transforms
 
 #: What makes arrays of nothing, or hands them back without their kind.
 MADE = ("zeros", "empty", "ones", "full", "array", "asarray", "ascontiguousarray", "empty_like")

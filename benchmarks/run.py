@@ -28,9 +28,9 @@ from cases import Case, roller
 from published import estimate
 from scipy import fft
 
-from viscontact.marching import march_run
-from viscontact.run import Run, prepare_run
-from viscontact.transforms import fastest_transforms
+from viscontact.fourier import fastest_transforms
+from viscontact.simulation.setup import Run, prepare_run
+from viscontact.simulation.state_generator import march_run
 
 CELLS, LARGE = (256, 256), (512, 512)
 STEPS = 120

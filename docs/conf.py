@@ -62,7 +62,7 @@ numpydoc_xref_aliases = {
     for package in (viscontact.verify, viscontact.reference, identification, viscontact)
     for name in package.__all__
     if name[0].isupper()
-} | {"Film": "viscontact.plot.Film", "Richardson": "viscontact.richardson.Richardson"}
+} | {"Film": "viscontact.plot.Film", "Richardson": "viscontact.accuracy.richardson.Richardson"}
 add_module_names = False
 toc_object_entries_show_parents = "hide"  # the page says whose they are
 

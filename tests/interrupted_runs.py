@@ -11,7 +11,8 @@ import pytest
 import xarray as xr
 
 import viscontact as vc
-from viscontact.cli import execution, main
+from viscontact.cli import main
+from viscontact.cli.run import execution
 
 #: The bodies of a case; load, time and grid are up to who uses them.
 BODIES = """\

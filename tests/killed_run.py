@@ -28,15 +28,16 @@ import numpy as np
 import xarray as xr
 
 import viscontact
-from viscontact import preparation
-from viscontact.cli import execution, main
+from viscontact.cli import main
+from viscontact.cli.run import execution
 from viscontact.grid import AutomaticGrid, Grid
-from viscontact.recording import run_record
-from viscontact.run import Run, prepare_run
-from viscontact.variables import ERRORS
+from viscontact.results.variables import ERRORS
+from viscontact.runs import preparation
+from viscontact.runs.directory import recorder
+from viscontact.simulation.setup import Run, prepare_run
 
 SOURCES = Path(viscontact.__file__).parent
-WATCHED = (str(SOURCES / "recording"), str(SOURCES / "cli" / "run_directory.py"))
+WATCHED = (str(SOURCES / "runs" / "directory"), str(SOURCES / "cli" / "run" / "run_directory.py"))
 #: Runs that are killed at a line, of each kind; the lines are spread evenly.
 KILLS = 30
 STEP = 6144  # by which the limit grows [bytes]
@@ -250,7 +251,7 @@ def judge(mode: str, folder: Path, seed: int, *, growing: bool) -> None:
         campaign = Campaign(ds.load(), lines_of(Path("whole")))
     chance = random.Random(seed)
     for kind, pause in (("always", 0.0), ("once", 1e9)):
-        run_record.PAUSE, run_record.SHARE = pause, 0.0
+        recorder.PAUSE, recorder.SHARE = pause, 0.0
         at_lines(campaign, kind, chance) if mode == "lines" else at_limits(campaign, kind)
     enlarged = campaign.whole.attrs["grid_enlarged"]
     found = {"killed": campaign.killed, "faults": campaign.faults, "grid_enlarged": enlarged}

@@ -20,8 +20,8 @@ import numpy as np
 import xarray as xr
 
 import viscontact as vc
-from viscontact.recording.contents import Contents
-from viscontact.recording.result_writer import ResultWriter
+from viscontact.runs.directory.result_spec import Contents
+from viscontact.runs.directory.result_writer import ResultWriter
 from written_states import GRID, faults_of, state
 
 ROWS = 3000

@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact import Grid
-from viscontact.recording.contents import Contents
-from viscontact.recording.result_writer import ResultWriter
+from viscontact.results.variables import FIELDS, SCALARS
+from viscontact.runs.directory.result_spec import Contents
+from viscontact.runs.directory.result_writer import ResultWriter
 from viscontact.state import ContactState, Outcome
-from viscontact.variables import FIELDS, SCALARS
 
 GRID = Grid((6, 5), (2e-3, 1e-3))
 TIMES = np.arange(12) / 7.0

@@ -10,10 +10,10 @@ from ladder import Problem, climb
 from problems import PROBLEMS, RECORDED, STEPS, SharedProblem
 
 import viscontact as vc
-from viscontact.balance import Support
-from viscontact.contact import solve_contact
-from viscontact.contact_problem import ContactProblem
-from viscontact.half_space import HalfSpace
+from viscontact.contact.domain import HalfSpace
+from viscontact.contact.equilibrium import solve_contact
+from viscontact.contact.problem import ContactProblem
+from viscontact.contact.rigid_balance import Support
 
 
 def elastic(problem: Problem, tolerance: float) -> np.ndarray:

@@ -28,7 +28,7 @@ TOLD_IN = {
     "viscontact.identification.overlap": "theory/identification",
     "viscontact.identification.spectrum": "theory/identification",
     "viscontact.plot": "reference/python/plotting",
-    "viscontact.subsurface": "theory/stresses",
+    "viscontact.halfspace.stress": "theory/stresses",
 }
 
 

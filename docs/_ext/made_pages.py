@@ -18,9 +18,9 @@ from sphinx.util.typing import ExtensionMetadata
 
 import viscontact
 from viscontact.case.sections import case_schema
-from viscontact.materials.entry import Entry, entry, names
-from viscontact.readable import in_words
-from viscontact.variables import COORDINATES, FIELDS, SCALARS, Variable
+from viscontact.materials.library.entry import Entry, entry, names
+from viscontact.results.variables import COORDINATES, FIELDS, SCALARS, Variable
+from viscontact.units.formatting import in_words
 
 ROOT = Path(__file__).parents[2]
 

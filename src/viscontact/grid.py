@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.real import as_real
-from viscontact.shown import Shown
+from viscontact.display import Shown
+from viscontact.units.numbers import as_real
 
 #: What a mesh can be chosen for.
 GRID_QUANTITIES = ("peak_pressure", "contact_area", "approach")

@@ -175,6 +175,6 @@ def refuses(call: Callable[[], Any]) -> str:
 
 def told_room(monkeypatch: pytest.MonkeyPatch, room: float = ROOM) -> None:
     """Let commands believe that so much memory is free, on every machine the same."""
-    import viscontact.preparation
+    import viscontact.runs.preparation
 
-    monkeypatch.setattr(viscontact.preparation, "available_memory", lambda: room)
+    monkeypatch.setattr(viscontact.runs.preparation, "available_memory", lambda: room)

@@ -13,9 +13,9 @@ import numpy as np
 
 import viscontact as vc
 from verification.hard_bodies import hard_body
-from viscontact.extent import estimate_contact
 from viscontact.laws import SeriesLaw
-from viscontact.load import LoadPoint
+from viscontact.loads import LoadPoint
+from viscontact.meshing.contact_extent import estimate_contact
 
 #: Cells of a grid, about; and least and most of them along a side.
 CELLS, FEWEST, MOST = 1600, 12, 400

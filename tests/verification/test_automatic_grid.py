@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 
 import viscontact as vc
-from viscontact import mesh as meshes
 from viscontact import reference
-from viscontact.resolution import EXACT
-from viscontact.run import prepare_run
+from viscontact.meshing import mesh_choice as meshes
+from viscontact.meshing.refinement import EXACT
+from viscontact.simulation.setup import prepare_run
 
 STIFF = vc.Material(vc.Elastic(1e9), 0.4)
 #: J(inf)/J(0) = 10.

@@ -15,10 +15,10 @@ import pytest
 
 import viscontact as vc
 from verification.exact_contacts import ExactRun, drawn
-from viscontact.companions import companions_of, history_of, marched
-from viscontact.error_bars import SINGULAR, bars_from, error_bars
-from viscontact.marching import march_run
-from viscontact.run import prepare_run
+from viscontact.accuracy.coarser_runs import companions_of, history_of, marched
+from viscontact.accuracy.error_bars import SINGULAR, bars_from, error_bars
+from viscontact.simulation.setup import prepare_run
+from viscontact.simulation.state_generator import march_run
 
 COVERED, MEDIAN = 0.95, 5.0  # what the bars promise
 COVERED_EACH = 0.90  # of each quantity by itself

@@ -13,11 +13,11 @@ import viscontact as vc
 from verification.creeping_bodies import BODIES
 from verification.indenting import deviation
 from verification.pressing import BALL, FORCE, RADIUS, grid_around, over_time
-from viscontact.compliance import SeriesCompliance
-from viscontact.memory import choice
-from viscontact.memory.recursion import RecursiveMemory
-from viscontact.memory.superposition import SuperposedMemory
-from viscontact.run import prepare_run
+from viscontact.materials.compliance import SeriesCompliance
+from viscontact.simulation.setup import prepare_run
+from viscontact.time_integration import plan as choice
+from viscontact.time_integration.boltzmann_sum import SuperposedMemory
+from viscontact.time_integration.internal_variables import RecursiveMemory
 
 
 @st.composite

@@ -1,8 +1,8 @@
 """Case files: a run described in words, read, checked and turned into nouns."""
 
 from viscontact.case.case import Case
+from viscontact.case.errors import CaseError
 from viscontact.case.parts import Parts, read_parts
-from viscontact.case.problems import CaseError
 from viscontact.case.reader import read_case, read_case_text
 from viscontact.case.sections import case_schema
 from viscontact.case.single_material import read_material, read_section, shipped_material

@@ -10,16 +10,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.case.document import Document
-from viscontact.case.problems import CaseError, KeyPath
-from viscontact.case.wording import noun_problem
+from viscontact.case.error_messages import noun_problem
+from viscontact.case.errors import CaseError, KeyPath
 from viscontact.case.yaml_source import with_overrides
+from viscontact.display import Shown, ShownWhole
 from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
-from viscontact.load import LoadHistory
-from viscontact.material import Material
-from viscontact.readable import in_words
-from viscontact.shown import Shown, ShownWhole
-from viscontact.stepping import AdaptiveTimes
+from viscontact.loads import LoadHistory
+from viscontact.materials.material import Material
+from viscontact.time_integration.requested_times import AdaptiveTimes
+from viscontact.units.formatting import in_words
 
 # What a run writes beside its case; names that begin with a dot are its own, too.
 _RUN_NAMES = ("case.yaml", "result.nc", "progress.jsonl", "state.npz", "steps.log")

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from viscontact.case import toml_source, yaml_source
-from viscontact.case.problems import CaseError, KeyPath, SourceError, dotted
+from viscontact.case.errors import CaseError, KeyPath, SourceError, dotted
 
 # A case file is a page of text; histories of ten thousand points belong in a CSV. The parser
 # reads a megabyte in ten seconds.

@@ -10,7 +10,7 @@ from typing import Any
 
 from viscontact.case import yaml_source
 from viscontact.case.document import Document
-from viscontact.case.problems import CaseError, KeyPath, SourceError, dotted
+from viscontact.case.errors import CaseError, KeyPath, SourceError, dotted
 
 _STEP = re.compile(r"\.?([^.\[\]=]+)|\[(\d+)\]")
 

@@ -11,13 +11,13 @@ from typing import Any, TypeVar
 from pydantic import TypeAdapter
 
 from viscontact.case.document import document_of
-from viscontact.case.indenters import Shapes, combined
-from viscontact.case.loads import AnyLoad
-from viscontact.case.materials import AnyMaterial
-from viscontact.case.schedule import Time
+from viscontact.case.indenters.shapes import Shapes, combined
+from viscontact.case.loads.load import AnyLoad
+from viscontact.case.materials.material import AnyMaterial
+from viscontact.case.time_grid_output import Time
 from viscontact.indenters import Indenter
-from viscontact.load import LoadHistory
-from viscontact.material import Material
+from viscontact.loads import LoadHistory
+from viscontact.materials.material import Material
 
 _SHAPES: TypeAdapter[Any] = TypeAdapter(Shapes)
 _MATERIAL: TypeAdapter[Any] = TypeAdapter(AnyMaterial)

@@ -17,9 +17,9 @@ from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from viscontact.grid import COARSEST, FINEST
-from viscontact.load.shapes import MOST_CYCLES
+from viscontact.loads.standard import MOST_CYCLES
 from viscontact.units.dimensions import DIMENSIONS
-from viscontact.units.quantities import parse_quantity
+from viscontact.units.parsing import parse_quantity
 
 # Squares and products of these are still numbers.
 _SMALLEST, _LARGEST = 1e-100, 1e100

@@ -12,12 +12,12 @@ from pydantic import ValidationError
 
 from viscontact.case.case import Case
 from viscontact.case.document import Document, document_of, read_document
-from viscontact.case.indenters import combined
+from viscontact.case.error_messages import corrected, problem
+from viscontact.case.errors import CaseError, KeyPath
+from viscontact.case.indenters.shapes import combined
 from viscontact.case.overrides import override
-from viscontact.case.problems import CaseError, KeyPath
-from viscontact.case.schedule import kept_fields, with_instants
 from viscontact.case.sections import CaseFile
-from viscontact.case.wording import corrected, problem
+from viscontact.case.time_grid_output import kept_fields, with_instants
 
 # Of so many problems each is told; who has more mends these first.
 _MOST_PROBLEMS = 200

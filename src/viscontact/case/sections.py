@@ -6,13 +6,13 @@ from typing import Annotated, Any
 
 from pydantic import Field, model_validator
 
-from viscontact.case.indenters import Shapes
-from viscontact.case.loads import AnyLoad
-from viscontact.case.materials import AnyMaterial
+from viscontact.case.indenters.shapes import Shapes
+from viscontact.case.loads.load import AnyLoad
+from viscontact.case.materials.material import AnyMaterial
 from viscontact.case.quantities import Section
-from viscontact.case.schedule import Cells, Output, Time
+from viscontact.case.time_grid_output import Cells, Output, Time
 from viscontact.grid import Grid
-from viscontact.load import LoadHistory
+from viscontact.loads import LoadHistory
 from viscontact.units.dimensions import DIMENSIONS
 
 

@@ -11,13 +11,13 @@ from typing import Any
 from pydantic import ConfigDict, ValidationError
 
 from viscontact.case.document import Document, read_document
-from viscontact.case.library import MATERIALS
-from viscontact.case.materials import AnyMaterial
-from viscontact.case.medium import Medium
-from viscontact.case.problems import CaseError
+from viscontact.case.error_messages import problem
+from viscontact.case.errors import CaseError
+from viscontact.case.materials.base import Medium
+from viscontact.case.materials.library import MATERIALS
+from viscontact.case.materials.material import AnyMaterial
 from viscontact.case.quantities import Section
-from viscontact.case.wording import problem
-from viscontact.material import Material
+from viscontact.materials.material import Material
 
 
 class _Alone(Section):

@@ -7,7 +7,7 @@ import tomllib
 from collections import Counter
 from typing import Any
 
-from viscontact.case.problems import KeyPath, SourceError
+from viscontact.case.errors import KeyPath, SourceError
 
 __all__ = ["SourceError", "parse"]
 

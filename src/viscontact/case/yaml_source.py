@@ -12,7 +12,7 @@ from ruamel.yaml.comments import CommentedMap, CommentedSeq
 from ruamel.yaml.constructor import DuplicateKeyError
 from ruamel.yaml.error import MarkedYAMLError, ReusedAnchorWarning
 
-from viscontact.case.problems import KeyPath, SourceError
+from viscontact.case.errors import KeyPath, SourceError
 
 __all__ = ["SourceError", "parse", "parse_value", "with_overrides"]
 

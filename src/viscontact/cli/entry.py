@@ -7,9 +7,9 @@ import os
 from collections.abc import Sequence
 from contextlib import suppress
 
-from viscontact.cli.interruption import Interruption, watched_interruption
-from viscontact.cli.messages import INTERRUPTED, REFUSED, STOPPED, say
-from viscontact.cli.streams import occupy_streams, remember_output, unwritten
+from viscontact.cli.terminal.interruption import Interruption, watched_interruption
+from viscontact.cli.terminal.messages import INTERRUPTED, REFUSED, STOPPED, say
+from viscontact.cli.terminal.streams import occupy_streams, remember_output, unwritten
 
 #: The libraries take so much before a case has been looked at [bytes]. With a little less some of
 #: them hang, or end the process, instead of saying so.

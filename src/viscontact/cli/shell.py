@@ -7,15 +7,15 @@ from typing import Annotated
 import typer
 
 from viscontact import __version__
-from viscontact.cli.cases import demo, example, schema
-from viscontact.cli.drawing import compare, plot
-from viscontact.cli.fitting import fit
-from viscontact.cli.materials import material
-from viscontact.cli.reporting import report
-from viscontact.cli.running import check, run
-from viscontact.cli.serving import serve
-from viscontact.cli.showing import export, show
-from viscontact.cli.verification import verify
+from viscontact.cli.commands.cases import demo, example, schema
+from viscontact.cli.commands.drawing import compare, plot
+from viscontact.cli.commands.fitting import fit
+from viscontact.cli.commands.materials import material
+from viscontact.cli.commands.reporting import report
+from viscontact.cli.commands.running import check, run
+from viscontact.cli.commands.serving import serve
+from viscontact.cli.commands.showing import export, show
+from viscontact.cli.commands.verification import verify
 
 app = typer.Typer(
     name="viscontact",

@@ -8,8 +8,8 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from viscontact.display import Shown
 from viscontact.laws import CreepSeries, RelaxationSeries
-from viscontact.shown import Shown
 
 Array = NDArray[np.float64]
 

@@ -17,7 +17,7 @@ from viscontact.identification.candidates import Candidate, candidate
 from viscontact.identification.indentation_fit import IndentationFit, compared
 from viscontact.identification.record import IndentationRecord
 from viscontact.laws import Elastic
-from viscontact.material import Material
+from viscontact.materials.material import Material
 
 Array = NDArray[np.float64]
 

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.display import Shown
 from viscontact.identification.record import IndentationRecord
 from viscontact.laws import Law
-from viscontact.material import Material
-from viscontact.readable import in_words
-from viscontact.shown import Shown
+from viscontact.materials.material import Material
+from viscontact.units.formatting import in_words
 
 Array = NDArray[np.float64]
 

@@ -10,13 +10,13 @@ from typing import Unpack
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.display import Shown
 from viscontact.identification.columns import positive_column, require_rows, require_trend
 from viscontact.identification.fit import Fit
 from viscontact.identification.overlap import Curve, log_shift
 from viscontact.identification.prony import FitOptions, fit_creep, fit_dynamic, fit_relaxation
 from viscontact.identification.shift_fit import ShiftFit, fit_arrhenius, fit_wlf
 from viscontact.laws import Shift, TabulatedShift
-from viscontact.shown import Shown
 
 Array = NDArray[np.float64]
 

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.display import Shown
 from viscontact.indenters import Cone, FlatPunch, Indenter, Sphere
-from viscontact.readable import in_words
 from viscontact.reference import ConeProfile, PunchProfile, SphereProfile
-from viscontact.shown import Shown
+from viscontact.units.formatting import in_words
 
 Array = NDArray[np.float64]
 

@@ -10,7 +10,7 @@ from scipy.optimize import least_squares
 
 from viscontact.identification.columns import positive_column, require_rows
 from viscontact.laws import WLF, Arrhenius
-from viscontact.laws.temperature import GAS_CONSTANT
+from viscontact.laws.time_temperature import GAS_CONSTANT
 
 # What a fit starts from: the universal constants, should nothing better be seen in the factors.
 _UNIVERSAL = (17.44, 51.6)

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.indenters.arc import arc_drop
-from viscontact.indenters.lengths import acute_angle, length_or_zero, positive_length
+from viscontact.indenters.arguments import acute_angle, length_or_zero, positive_length
 from viscontact.indenters.profile import Profile
-from viscontact.readable import in_words
+from viscontact.units.formatting import in_words
 
 
 @dataclass(frozen=True)

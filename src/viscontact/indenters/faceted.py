@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from viscontact.indenters.arguments import acute_angle, positions, positive_length
 from viscontact.indenters.indenter import Indenter
-from viscontact.indenters.lengths import acute_angle, positions, positive_length
-from viscontact.real import as_real
+from viscontact.units.numbers import as_real
 
 
 @dataclass(frozen=True)

@@ -8,9 +8,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from viscontact.indenters.arguments import positions
 from viscontact.indenters.indenter import Indenter
-from viscontact.indenters.lengths import positions
-from viscontact.readable import in_words
+from viscontact.units.formatting import in_words
 
 #: Squares of gaps are still numbers that the solver can compare [m].
 _HIGHEST = 1e30

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from viscontact.indenters.lengths import positions, real_number
-from viscontact.shown import Shown
+from viscontact.display import Shown
+from viscontact.indenters.arguments import positions, real_number
 
 
 class Indenter(Shown, ABC):

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from viscontact.indenters.lengths import positive_length, real_number
+from viscontact.indenters.arguments import positive_length, real_number
 from viscontact.indenters.profile import Profile
-from viscontact.readable import in_words
+from viscontact.units.formatting import in_words
 
 #: ISO/TS 16281's profile: its amplitude over the roller's diameter on short rollers and on long
 #: ones, those beyond so many diameters, whose crowns take half of that at either end.

@@ -7,7 +7,7 @@ from abc import ABC, abstractmethod
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from viscontact.shown import Shown
+from viscontact.display import Shown
 
 
 class Profile(Shown, ABC):

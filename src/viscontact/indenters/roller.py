@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.indenters.arc import arc_drop
+from viscontact.indenters.arguments import positions, positive_length
 from viscontact.indenters.crowns import CylindricalProfile, PartialCrown
 from viscontact.indenters.indenter import Indenter
-from viscontact.indenters.lengths import positions, positive_length
 from viscontact.indenters.named_profiles import named_profile, profile_from_table
 from viscontact.indenters.profile import Profile
 

@@ -8,9 +8,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from viscontact.indenters.point_line import TableLine, mirrored, numbers
 from viscontact.indenters.profile import Profile
-from viscontact.indenters.table_line import TableLine, mirrored, numbers
-from viscontact.readable import in_words
+from viscontact.units.formatting import in_words
 
 
 @dataclass(frozen=True, init=False)

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from viscontact.indenters.arguments import positions, positive_length, real_number
 from viscontact.indenters.indenter import Indenter
-from viscontact.indenters.lengths import positions, positive_length, real_number
-from viscontact.readable import in_words
+from viscontact.units.formatting import in_words
 
 PATTERNS = ("square", "hexagonal")
 

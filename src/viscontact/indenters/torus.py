@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.indenters.arc import arc_drop
+from viscontact.indenters.arguments import positions, positive_length
 from viscontact.indenters.indenter import Indenter
-from viscontact.indenters.lengths import positions, positive_length
 
 
 @dataclass(frozen=True)

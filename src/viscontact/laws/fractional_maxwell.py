@@ -14,10 +14,10 @@ import scipy
 from numpy.typing import NDArray
 
 from viscontact.laws import arguments
-from viscontact.laws.curve import mean_power
+from viscontact.laws.interconversion.log_curve import mean_power
+from viscontact.laws.interconversion.mittag_leffler import mittag_leffler
+from viscontact.laws.interconversion.oscillation import half_inverse
 from viscontact.laws.law import Law, slowing
-from viscontact.laws.mittag_leffler import mittag_leffler
-from viscontact.laws.oscillation import half_inverse
 from viscontact.laws.uniaxial import uniaxial
 
 Floats = NDArray[np.float64]

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.laws import arguments
-from viscontact.laws.curve import narrow_mean
+from viscontact.laws.interconversion.log_curve import narrow_mean
+from viscontact.laws.interconversion.mittag_leffler import mittag_leffler
 from viscontact.laws.law import Law, slowing
-from viscontact.laws.mittag_leffler import mittag_leffler
 from viscontact.laws.uniaxial import uniaxial
 
 Floats = NDArray[np.float64]

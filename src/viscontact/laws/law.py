@@ -11,8 +11,8 @@ from typing import overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from viscontact.display import Shown
 from viscontact.laws.arguments import positive
-from viscontact.shown import Shown
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -11,13 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.laws.arguments import one_of, store
-from viscontact.laws.curve import LogCurve
-from viscontact.laws.inverse import Inverse
+from viscontact.laws.interconversion.cached_inverse import Inverse
+from viscontact.laws.interconversion.curve_transform import oscillating
+from viscontact.laws.interconversion.log_curve import LogCurve
+from viscontact.laws.interconversion.volterra import first_node
 from viscontact.laws.law import Law, slowing
-from viscontact.laws.measured import measured
-from viscontact.laws.transform import oscillating
+from viscontact.laws.table_columns import measured
 from viscontact.laws.uniaxial import uniaxial
-from viscontact.laws.volterra import first_node
 
 Floats = NDArray[np.float64]
 

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.laws import arguments
-from viscontact.laws.interconversion import (
+from viscontact.laws.interconversion.oscillation import modulus_of_creep, modulus_of_relaxation
+from viscontact.laws.interconversion.series import (
     RelaxationTerms,
     SeriesTerms,
     creep_from_relaxation,
@@ -23,7 +24,6 @@ from viscontact.laws.interconversion import (
     relaxation_function,
 )
 from viscontact.laws.law import Law, slowing
-from viscontact.laws.oscillation import modulus_of_creep, modulus_of_relaxation
 from viscontact.laws.uniaxial import uniaxial
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from viscontact.laws.arguments import compressibility, positive
-from viscontact.readable import in_words
+from viscontact.units.formatting import in_words
 
 
 class Uniaxial(NamedTuple):

@@ -1,9 +1,1 @@
-"""The shipped library of materials: a YAML file each, with source, range and measured points.
-
-`README.md` beside the files says what an entry holds, and what was refused and why.
-"""
-
-from viscontact.materials.entry import Entry, entry, names
-from viscontact.materials.points import Points
-
-__all__ = ["Entry", "Points", "entry", "names"]
+"""Materials: elastic constants and creep law, J(t), the shipped library, cards."""

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from xml.etree.ElementTree import Element
 
-from viscontact.markup import element, written
+from viscontact.notebook.html import element, written
 
 _BOX = "display:flex;flex-wrap:wrap;gap:4px 20px;align-items:flex-start;margin:2px 0 8px"
 _TABLE = "border-collapse:collapse;font-size:13px;margin:0"

@@ -10,11 +10,11 @@ from xml.etree.ElementTree import Element
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.description import describe
 from viscontact.laws import Elastic, Law, SeriesLaw, TabulatedCreep, TabulatedRelaxation
-from viscontact.load import HarmonicHistory, LoadHistory
-from viscontact.notebook.panel import ORANGE, Mark, panel
-from viscontact.notebook.scales import Scale, linear, logarithmic
+from viscontact.loads import HarmonicHistory, LoadHistory
+from viscontact.notebook.svg_axes import Scale, linear, logarithmic
+from viscontact.notebook.svg_panel import ORANGE, Mark, panel
+from viscontact.results.provenance import describe
 
 _POINTS = 121
 #: A formula is drawn over its own times and so many times shorter and longer ones.

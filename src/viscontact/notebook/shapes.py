@@ -8,12 +8,12 @@ from xml.etree.ElementTree import Element
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.cross_section import Section, cut, lines_through
 from viscontact.grid import Grid
 from viscontact.indenters import Indenter
-from viscontact.markup import element
-from viscontact.notebook.panel import ROOM, WIDTH, Mark, panel
-from viscontact.notebook.scales import linear
+from viscontact.indenters.cross_section import Section, cut, lines_through
+from viscontact.notebook.html import element
+from viscontact.notebook.svg_axes import linear
+from viscontact.notebook.svg_panel import ROOM, WIDTH, Mark, panel
 
 _POINTS, _MESH = 241, 121
 #: Of the smallest radius of curvature: bodies are drawn where their gap is below it.

@@ -8,13 +8,13 @@ from xml.etree.ElementTree import Element
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.markup import element
 from viscontact.notebook.card import Card
-from viscontact.notebook.panel import BLUE, WIDTH, Mark, panel
-from viscontact.notebook.scales import linear
-from viscontact.readable import in_digits, in_words
+from viscontact.notebook.html import element
+from viscontact.notebook.svg_axes import linear
+from viscontact.notebook.svg_panel import BLUE, WIDTH, Mark, panel
 from viscontact.surfaces import Surface
-from viscontact.units.error_bars import in_percent
+from viscontact.units.error_digits import in_percent
+from viscontact.units.formatting import in_digits, in_words
 
 Floats = NDArray[np.float64]
 

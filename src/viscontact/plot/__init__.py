@@ -15,28 +15,28 @@ except ModuleNotFoundError as error:
         name="matplotlib",
     ) from error
 
-from viscontact.plot.contact_area import contact_area
-from viscontact.plot.contact_outline import compare_contact_outlines, contact_outline
-from viscontact.plot.creep import compare_creep, creep, creep_curve
-from viscontact.plot.deformed_surface import deformed_surface
-from viscontact.plot.exact import exact
-from viscontact.plot.film import Film, animation
-from viscontact.plot.film_saving import FILM_SUFFIXES, save_film
-from viscontact.plot.history import compare_histories, history
-from viscontact.plot.hysteresis import compare_hysteresis, hysteresis
-from viscontact.plot.identified import fitted_indentation, fitted_series, master_curve
-from viscontact.plot.indenter_drawing import draw_indenter
-from viscontact.plot.indenter_figure import indenter
-from viscontact.plot.load_drawing import draw_load
-from viscontact.plot.material_curves import material_curves
-from viscontact.plot.pressure_map import compare_pressure_maps, pressure_map
-from viscontact.plot.pressure_profile import compare_pressure_profiles, pressure_profile
-from viscontact.plot.pressure_radial import pressure_radial
-from viscontact.plot.pressure_surface import compare_pressure_surfaces, pressure_surface
+from viscontact.plot.film.animation import Film, animation
+from viscontact.plot.film.saving import FILM_SUFFIXES, save_film
+from viscontact.plot.geometry.indenter_drawing import draw_indenter
+from viscontact.plot.geometry.indenter_figure import indenter
+from viscontact.plot.geometry.load_drawing import draw_load
+from viscontact.plot.histories.contact_area import contact_area
+from viscontact.plot.histories.exact import exact
+from viscontact.plot.histories.history import compare_histories, history
+from viscontact.plot.histories.hysteresis import compare_hysteresis, hysteresis
+from viscontact.plot.histories.von_mises import compare_von_mises, von_mises_history
+from viscontact.plot.layout.saving import FIGURE_SUFFIXES, require_suffix, save_figure
+from viscontact.plot.materials.creep import compare_creep, creep, creep_curve
+from viscontact.plot.materials.identified import fitted_indentation, fitted_series, master_curve
+from viscontact.plot.materials.material_curves import material_curves
+from viscontact.plot.pressure.contact_outline import compare_contact_outlines, contact_outline
+from viscontact.plot.pressure.deformed_surface import deformed_surface
+from viscontact.plot.pressure.pressure_map import compare_pressure_maps, pressure_map
+from viscontact.plot.pressure.pressure_profile import compare_pressure_profiles, pressure_profile
+from viscontact.plot.pressure.pressure_radial import pressure_radial
+from viscontact.plot.pressure.pressure_surface import compare_pressure_surfaces, pressure_surface
+from viscontact.plot.pressure.stress_section import stress_section
 from viscontact.plot.result_plots import ResultPlots
-from viscontact.plot.saving import FIGURE_SUFFIXES, require_suffix, save_figure
-from viscontact.plot.stress_section import stress_section
-from viscontact.plot.von_mises import compare_von_mises, von_mises_history
 
 FIGURES: dict[str, Callable[..., Figure]] = {
     "pressure-map": pressure_map,

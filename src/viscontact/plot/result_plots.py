@@ -12,21 +12,21 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from viscontact.plot.contact_area import contact_area
-from viscontact.plot.contact_outline import contact_outline
-from viscontact.plot.creep import creep
-from viscontact.plot.deformed_surface import deformed_surface
-from viscontact.plot.exact import exact
-from viscontact.plot.film import Film, animation
-from viscontact.plot.history import history
-from viscontact.plot.hysteresis import hysteresis
-from viscontact.plot.indenter_figure import indenter
-from viscontact.plot.pressure_map import pressure_map
-from viscontact.plot.pressure_profile import pressure_profile
-from viscontact.plot.pressure_radial import pressure_radial
-from viscontact.plot.pressure_surface import pressure_surface
-from viscontact.plot.stress_section import stress_section
-from viscontact.plot.von_mises import von_mises_history
+from viscontact.plot.film.animation import Film, animation
+from viscontact.plot.geometry.indenter_figure import indenter
+from viscontact.plot.histories.contact_area import contact_area
+from viscontact.plot.histories.exact import exact
+from viscontact.plot.histories.history import history
+from viscontact.plot.histories.hysteresis import hysteresis
+from viscontact.plot.histories.von_mises import von_mises_history
+from viscontact.plot.materials.creep import creep
+from viscontact.plot.pressure.contact_outline import contact_outline
+from viscontact.plot.pressure.deformed_surface import deformed_surface
+from viscontact.plot.pressure.pressure_map import pressure_map
+from viscontact.plot.pressure.pressure_profile import pressure_profile
+from viscontact.plot.pressure.pressure_radial import pressure_radial
+from viscontact.plot.pressure.pressure_surface import pressure_surface
+from viscontact.plot.pressure.stress_section import stress_section
 
 #: One panel, or those of a figure in reading order.
 Panels = Axes | NDArray[np.object_]

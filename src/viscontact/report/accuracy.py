@@ -8,11 +8,11 @@ from collections.abc import Iterator
 import numpy as np
 import xarray as xr
 
-from viscontact.readable import in_words
-from viscontact.recorded_case import case_of, prescribes_approach
-from viscontact.stated_errors import WHY_MESH_DEPENDENT, largest_error
-from viscontact.summary import SummaryRow, summary_rows, told_scalars
-from viscontact.units.error_bars import at_most
+from viscontact.results.recorded_case import case_of, prescribes_approach
+from viscontact.results.stated_errors import WHY_MESH_DEPENDENT, largest_error
+from viscontact.results.summary import SummaryRow, summary_rows, told_scalars
+from viscontact.units.error_digits import at_most
+from viscontact.units.formatting import in_words
 
 
 def error_rows(ds: xr.Dataset) -> list[tuple[str, ...]]:

@@ -12,13 +12,13 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from viscontact.indenters import Indenter
-from viscontact.markup import element
 from viscontact.notebook.curves import law_drawings
+from viscontact.notebook.html import element
 from viscontact.notebook.shapes import indenter_drawings
 from viscontact.plot import creep_curve, draw_indenter
-from viscontact.plot.saving import as_svg
-from viscontact.recorded_case import case_of, recorded_noun
-from viscontact.report.surface import is_left_out, recorded_surface
+from viscontact.plot.layout.saving import as_svg
+from viscontact.report.recorded_surface import is_left_out, recorded_surface
+from viscontact.results.recorded_case import case_of, recorded_noun
 
 #: A law is drawn from so much earlier than the end on [-]: how it comes to where the run begins.
 _BACK = 1e-4

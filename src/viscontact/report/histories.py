@@ -10,15 +10,15 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from viscontact.plot.readable import display_number, display_unit
-from viscontact.plot.time_axis import suits_log_time
-from viscontact.readable import in_words
-from viscontact.recorded_case import prescribes_approach
+from viscontact.plot.histories.time_axis import suits_log_time
 from viscontact.report.map_data import rounded
-from viscontact.stated_errors import MESH_DEPENDENT
-from viscontact.told import errors_of, told
-from viscontact.units.rounding import is_rounding_tilt
-from viscontact.variables import SCALARS
+from viscontact.results.formatting import errors_of, told
+from viscontact.results.recorded_case import prescribes_approach
+from viscontact.results.rounding import is_rounding_tilt
+from viscontact.results.stated_errors import MESH_DEPENDENT
+from viscontact.results.variables import SCALARS
+from viscontact.units.axis_units import display_number, display_unit
+from viscontact.units.formatting import in_words
 
 Floats = NDArray[np.float64]
 

@@ -9,10 +9,10 @@ from typing import Any
 
 import xarray as xr
 
-from viscontact.particulars import particulars
-from viscontact.readable import in_words
-from viscontact.recorded_case import case_of
-from viscontact.results import RESULT_NAME
+from viscontact.results.argument_table import particulars
+from viscontact.results.netcdf import RESULT_NAME
+from viscontact.results.recorded_case import case_of
+from viscontact.units.formatting import in_words
 
 _PARTS = {
     "indenter": "Indenter",

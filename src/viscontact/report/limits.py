@@ -9,9 +9,9 @@ from collections.abc import Iterator
 import numpy as np
 import xarray as xr
 
-from viscontact.readable import in_digits, in_words
-from viscontact.recorded_case import case_of, recorded_noun
+from viscontact.results.recorded_case import case_of, recorded_noun
 from viscontact.state import Outcome
+from viscontact.units.formatting import in_digits, in_words
 
 
 def notices(ds: xr.Dataset) -> list[str]:

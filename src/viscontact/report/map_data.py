@@ -10,11 +10,11 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.plot.readable import DisplayUnit, display_number, display_unit, time_labels
-from viscontact.plot.rim_polygons import rim_curves
-from viscontact.plot.snapshots import Snapshot
-from viscontact.plot.style import time_colours
+from viscontact.plot.layout.style import time_colours
+from viscontact.plot.pressure.rim_polygons import rim_curves
 from viscontact.report.shown_fields import ShownFields
+from viscontact.results.snapshots import Snapshot
+from viscontact.units.axis_units import DisplayUnit, display_number, display_unit, time_labels
 
 Floats = NDArray[np.float64]
 

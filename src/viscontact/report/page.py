@@ -13,8 +13,8 @@ import xarray as xr
 from plotly.offline import get_plotlyjs
 
 from viscontact import __version__
-from viscontact.markup import as_script, element, written
-from viscontact.report import found, given
+from viscontact.notebook.html import as_script, element, written
+from viscontact.report import input_chapters, result_chapters
 from viscontact.report.histories import answer_panels, load_panels, time_axis
 from viscontact.report.map_data import map_data, section_data
 from viscontact.report.shown_fields import ShownFields, shown_fields
@@ -92,7 +92,7 @@ def report_page(ds: xr.Dataset, *, label: str = "") -> str:
         raise ValueError("a report needs one instant at least, got a result without any; run it")
     fields = _fields(ds)
     data = _data(ds, fields)
-    folder, name = files("viscontact.report"), found.heading_of(ds, label)
+    folder, name = files("viscontact.report"), result_chapters.heading_of(ds, label)
     template = Template((folder / "page.html").read_text(encoding="utf-8"))
     return template.substitute(
         generator=f"viscontact {__version__}",
@@ -126,18 +126,18 @@ def _data(ds: xr.Dataset, fields: ShownFields | None) -> dict[str, Any]:
 def _body(
     name: str, ds: xr.Dataset, fields: ShownFields | None, data: dict[str, Any]
 ) -> Iterable[Element]:
-    histories = found.history_chapter(ds, data["time"], data["load"], data["answers"])
+    histories = result_chapters.history_chapter(ds, data["time"], data["load"], data["answers"])
     chapters: dict[str, Iterable[Element]] = {
-        "pressure": found.pressure_chapter(ds, fields),
+        "pressure": result_chapters.pressure_chapter(ds, fields),
         "histories": histories,
-        "inputs": given.inputs_chapter(ds),
-        "geometry": given.geometry_chapter(ds),
-        "material": given.material_chapter(ds),
-        "accuracy": given.accuracy_chapter(ds),
-        "limits": given.limits_chapter(ds),
-        "about": given.about_chapter(ds),
+        "inputs": input_chapters.inputs_chapter(ds),
+        "geometry": input_chapters.geometry_chapter(ds),
+        "material": input_chapters.material_chapter(ds),
+        "accuracy": input_chapters.accuracy_chapter(ds),
+        "limits": input_chapters.limits_chapter(ds),
+        "about": input_chapters.about_chapter(ds),
     }
     yield element("noscript", element("p", "The figures of this page need JavaScript."))
-    yield found.opening(name, ds, _CHAPTERS)
+    yield result_chapters.opening(name, ds, _CHAPTERS)
     for place, parts in chapters.items():
         yield element("section", element("h2", _CHAPTERS[place]), *parts, id=place)

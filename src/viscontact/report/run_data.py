@@ -9,17 +9,17 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from viscontact.plot.readable import display_unit
-from viscontact.plot.time_axis import suits_log_time
+from viscontact.plot.histories.time_axis import suits_log_time
 from viscontact.report.accuracy import accuracy_lines
-from viscontact.report.found import title_of
 from viscontact.report.histories import panel_labels
 from viscontact.report.limits import notices, warnings_of
 from viscontact.report.map_data import map_data, rounded, section_data
+from viscontact.report.result_chapters import title_of
 from viscontact.report.shown_fields import shown_fields
-from viscontact.summary import told_scalars
-from viscontact.told import errors_of
-from viscontact.variables import SCALARS
+from viscontact.results.formatting import errors_of
+from viscontact.results.summary import told_scalars
+from viscontact.results.variables import SCALARS
+from viscontact.units.axis_units import display_unit
 
 
 def run_data(ds: xr.Dataset) -> dict[str, Any]:

@@ -9,8 +9,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from viscontact.plot.snapshots import Snapshot, field_times, take_snapshots
-from viscontact.plot.window import Window, window_around
+from viscontact.plot.layout.window import Window, window_around
+from viscontact.results.snapshots import Snapshot, field_times, take_snapshots
 
 #: More instants than these make a page large and show no more.
 MOST_INSTANTS = 24

@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 
-from viscontact.readable import in_words
-from viscontact.real import as_real
 from viscontact.surfaces.surface import Surface
+from viscontact.units.formatting import in_words
+from viscontact.units.numbers import as_real
 
 #: A line scan swept across has at most so many points there.
 _MOST_ACROSS = 4096

@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 
-from viscontact.readable import in_digits, in_words
 from viscontact.surfaces.levelling import TERMS, Level, polynomial, tilt
 from viscontact.surfaces.surface import Surface
+from viscontact.units.formatting import in_digits, in_words
 
 #: Heights of a surface that is skewed by more look like valleys in a plateau.
 SKEWED = -1.0

@@ -10,7 +10,7 @@ import numpy as np
 
 from viscontact.surfaces.surface import Surface
 from viscontact.surfaces.units import Spacing, Units
-from viscontact.units.quantities import parse_unit
+from viscontact.units.parsing import parse_unit
 
 
 def read_instrument(path: Path, units: Units, channel: str | None) -> Surface:

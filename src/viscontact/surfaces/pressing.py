@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from viscontact.indenters import HeightMap
-from viscontact.readable import in_words
 from viscontact.surfaces.surface import Surface
+from viscontact.units.formatting import in_words
 
 
 def indenter_of(surface: Surface, *, holes: bool = False) -> HeightMap:

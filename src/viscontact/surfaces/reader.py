@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from os import PathLike
 
-from viscontact.real import as_real
 from viscontact.surfaces.array_files import read_array
 from viscontact.surfaces.cropping import swept
 from viscontact.surfaces.instrument_files import read_instrument
@@ -13,6 +12,7 @@ from viscontact.surfaces.surface import Surface
 from viscontact.surfaces.text_files import read_text_map
 from viscontact.surfaces.units import Units
 from viscontact.tables import require_file
+from viscontact.units.numbers import as_real
 
 _READERS = {".npy": read_array, ".npz": read_array, ".csv": read_text_map}
 

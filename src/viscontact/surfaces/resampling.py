@@ -10,9 +10,9 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from viscontact.readable import in_words
-from viscontact.real import as_real
 from viscontact.surfaces.surface import Surface
+from viscontact.units.formatting import in_words
+from viscontact.units.numbers import as_real
 
 Array = NDArray[np.float64]
 Filter = Literal["mean", "gaussian", "spline"]

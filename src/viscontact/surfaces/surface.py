@@ -8,9 +8,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from viscontact.readable import in_words
-from viscontact.real import as_real
-from viscontact.shown import Shown
+from viscontact.display import Shown
+from viscontact.units.formatting import in_words
+from viscontact.units.numbers import as_real
 
 Array = NDArray[np.float64]
 

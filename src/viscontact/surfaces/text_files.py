@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.readable import in_words
 from viscontact.surfaces.surface import Surface
 from viscontact.surfaces.units import Units
 from viscontact.tables import Row, Table, decimal_number, looks_like_number, read_rows, read_table
+from viscontact.units.formatting import in_words
 
 Array = NDArray[np.float64]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from viscontact.units.quantities import parse_unit
+from viscontact.units.parsing import parse_unit
 
 Spacing = float | tuple[float, float]
 

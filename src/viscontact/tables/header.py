@@ -12,7 +12,7 @@ from viscontact.tables.names import QUANTITIES, Data, Meaning, known_names, mean
 from viscontact.tables.numbers import looks_like_number
 from viscontact.tables.text import Row
 from viscontact.units.dimensions import DIMENSIONS
-from viscontact.units.quantities import Scale, parse_scale
+from viscontact.units.parsing import Scale, parse_scale
 
 # "time [s]", "time (s)", "time in s", "time / s"; the last two only behind a name that is known.
 _BRACKETS = (

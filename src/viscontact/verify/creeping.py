@@ -29,7 +29,7 @@ from viscontact.laws import (
     TabulatedRelaxation,
     Zener,
 )
-from viscontact.material import Material
+from viscontact.materials.material import Material
 
 Array = NDArray[np.float64]
 TimeFunction = Callable[[Array], Array]

@@ -9,7 +9,7 @@ import numpy as np
 from viscontact import reference
 from viscontact.grid import Grid
 from viscontact.indenters import FlatPunch, Roller
-from viscontact.load import step
+from viscontact.loads import step
 from viscontact.state import ContactState
 from viscontact.verify.case import Case, Comparison, Quantity, single, with_mean_error
 from viscontact.verify.elastic import BODY, MODULUS

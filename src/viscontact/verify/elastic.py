@@ -8,8 +8,8 @@ from viscontact import reference
 from viscontact.grid import Grid
 from viscontact.indenters import Cone, FlatPunch, Paraboloid, Roller
 from viscontact.laws import Elastic
-from viscontact.load import step
-from viscontact.material import Material
+from viscontact.loads import step
+from viscontact.materials.material import Material
 from viscontact.verify.case import Case, Comparison, Quantity, single, with_mean_error
 from viscontact.verify.indentation import BALL, FORCE, RADIUS, grid_around, press
 

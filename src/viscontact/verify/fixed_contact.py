@@ -15,10 +15,10 @@ from viscontact import reference
 from viscontact.grid import Grid
 from viscontact.indenters import FlatPunch, Roller
 from viscontact.laws import CreepSeries, Elastic
-from viscontact.load import ForceHistory, harmonic, step
-from viscontact.load.history import Control
-from viscontact.material import Material
-from viscontact.stepping import log_times
+from viscontact.loads import ForceHistory, harmonic, step
+from viscontact.loads.history import Control
+from viscontact.materials.material import Material
+from viscontact.time_integration.requested_times import log_times
 from viscontact.verify.case import Case, Comparison, Quantity, history, single
 from viscontact.verify.creeping import TIME, G, fractional_zener, tabulated_creep, zener
 from viscontact.verify.indentation import FORCE, RADIUS, Marched, press, press_ball

@@ -7,8 +7,8 @@ from functools import partial
 import numpy as np
 
 from viscontact import reference
-from viscontact.load import ramp, step
-from viscontact.stepping import log_times
+from viscontact.loads import ramp, step
+from viscontact.time_integration.requested_times import log_times
 from viscontact.verify.case import Case, Comparison, Quantity, history
 from viscontact.verify.creeping import Creeping, every_body, maxwell, zener
 from viscontact.verify.indentation import FORCE, RADIUS, press_ball

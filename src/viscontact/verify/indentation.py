@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from viscontact.grid import Grid
 from viscontact.indenters import Indenter, Paraboloid
-from viscontact.load import LoadHistory
-from viscontact.marching import march
-from viscontact.material import Material
+from viscontact.loads import LoadHistory
+from viscontact.materials.material import Material
+from viscontact.simulation.state_generator import march
 from viscontact.state import ContactState, Outcome
 
 Array = NDArray[np.float64]

@@ -9,10 +9,10 @@ import numpy as np
 from viscontact.grid import Grid
 from viscontact.indenters import Waviness
 from viscontact.laws import Zener
-from viscontact.load import step
-from viscontact.marching import march
-from viscontact.material import Material
+from viscontact.loads import step
+from viscontact.materials.material import Material
 from viscontact.reference import WavyContact, full_contact_pressure, westergaard
+from viscontact.simulation.state_generator import march
 from viscontact.state import ContactState
 from viscontact.verify.case import Case, Comparison, Quantity, single
 from viscontact.verify.elastic import BODY, MODULUS

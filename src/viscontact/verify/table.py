@@ -10,7 +10,7 @@ from dataclasses import fields
 from itertools import pairwise
 from pathlib import Path
 
-from viscontact.readable import in_digits, readable_unit
+from viscontact.units.formatting import in_digits, readable_unit
 from viscontact.verify.case import Result
 
 HEADINGS = (

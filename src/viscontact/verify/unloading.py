@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact import reference
-from viscontact.load import ApproachHistory, ForceHistory, harmonic, triangle
-from viscontact.stepping import uniform_times
+from viscontact.loads import ApproachHistory, ForceHistory, harmonic, triangle
+from viscontact.time_integration.requested_times import uniform_times
 from viscontact.verify.case import Case, Comparison, Quantity, history, single
 from viscontact.verify.creeping import TIME, G, maxwell, zener
 from viscontact.verify.indentation import (

@@ -16,10 +16,10 @@ from starlette.exceptions import HTTPException
 from starlette.types import ASGIApp
 
 from viscontact.case.data_file import is_plain_name
-from viscontact.web import case_routes, run_routes
 from viscontact.web.calculator import Calculator
 from viscontact.web.guard import Guard
-from viscontact.web.problems import Problem, RequestError
+from viscontact.web.routes import case_routes, run_routes
+from viscontact.web.workspace.problems import Problem, RequestError
 
 _STATIC = Path(__file__).parent / "static"
 

@@ -13,12 +13,12 @@ from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
 
 from viscontact import __version__
-from viscontact.web.desk import Desk
-from viscontact.web.folder import Folder
-from viscontact.web.problems import RequestError
-from viscontact.web.status import found_by, status_of
-from viscontact.web.work import Work
-from viscontact.web.workshop import Workshop
+from viscontact.web.cases.case_reader import Desk
+from viscontact.web.runs.queue import Workshop
+from viscontact.web.runs.run import Work
+from viscontact.web.runs.status import found_by, status_of
+from viscontact.web.workspace.folder import Folder
+from viscontact.web.workspace.problems import RequestError
 
 T = TypeVar("T")
 

@@ -12,11 +12,11 @@ from pathlib import Path
 
 import uvicorn
 
-from viscontact.recording.lock import locked
+from viscontact.runs.directory.lock import locked
 from viscontact.web.app import new_app
 from viscontact.web.calculator import LOOK, Calculator
-from viscontact.web.folder import Folder, usual_folder
-from viscontact.web.workshop import usual_at_once
+from viscontact.web.runs.queue import usual_at_once
+from viscontact.web.workspace.folder import Folder, usual_folder
 
 HOST = "127.0.0.1"
 

@@ -1,0 +1,1 @@
+"""Error bars: coarser runs of the same problem, and Richardson extrapolation."""

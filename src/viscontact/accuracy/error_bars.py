@@ -1,0 +1,296 @@
+"""How far each scalar of a run is off, estimated from coarser companions.
+
+Between grids of cells h the values differ by c (h2^p - h1^p); any two of them tell c, and the
+largest one counts, since rims between cells scatter and a single difference may be small by
+accident. Steps tell their error in the same way on one grid. What a difference is, relative to the
+value, is as good for the instants around it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.accuracy.coarser_runs import FEWEST_ACROSS, Course, History, companions_of, marched
+from viscontact.accuracy.levels import (
+    Levels,
+    end_flags,
+    largest_around,
+    least_around,
+    mean_around,
+    spots_across,
+)
+from viscontact.accuracy.richardson import richardson
+from viscontact.simulation.setup import Run
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Trust:
+    """How differences between grids are taken for errors.
+
+    Attributes
+    ----------
+    order : float
+        With which power of the cells the error falls [-].
+    factor : float
+        By which the largest difference, so reduced, is multiplied: calibrated on exact solutions
+        (tests/verification/test_error_bars.py), so that 95 of 100 errors are smaller [-].
+    """
+
+    order: float
+    factor: float
+
+    def of(self, levels: Levels) -> Array:
+        """Return what cells make, taken for errors."""
+        return self.factor * levels.by_cells(self.order)
+
+
+_BULK, _AREA, _EXTENT, _PEAK = Trust(2.0, 1.5), Trust(2.0, 2.0), Trust(1.0, 0.75), Trust(2.0, 2.0)
+
+#: Scalars that have a bar. Pressure is smooth but for the rim, which lies somewhere between cells.
+TRUSTS = {
+    "force": _BULK,
+    "eccentricity_x": _BULK,
+    "eccentricity_y": _BULK,
+    "approach": _BULK,
+    "tilt_x": _BULK,
+    "tilt_y": _BULK,
+    "contact_area": _AREA,
+    "contact_length": _EXTENT,
+    "contact_width": _EXTENT,
+    "peak_pressure": _PEAK,
+    "mean_pressure": _AREA,
+    "work": _BULK,
+    "loss_per_cycle": _BULK,
+}
+
+#: Approach, force and work where a contact reaches the end of a body: pressure is singular there,
+#: and cells make a staircase of the end.
+AT_END = Trust(0.7, 1.2)
+
+#: Area and peak where contact consists of spots of few cells, in the mean so many across: some of
+#: them come and go between grids. Calibrated on self-affine surfaces, 2 to 9 cells across.
+FEW_IN_A_SPOT = 8.0
+OF_SPOTS, PEAK_OF_SPOTS = Trust(1.0, 1.5), Trust(2.0, 4.0)
+
+#: Extents are known to no better than this part of a cell, however well two grids agree, and where
+#: the spots at the rim count or where pressure is singular, to so many cells.
+RIM_CELLS, RAGGED_RIM_CELLS = 0.25, 1.5
+
+#: Differences below this part of a value: an extent that all grids agree on is that of the body.
+AGREED = 1e-6
+
+#: The solver's tolerance is met by the gap; what follows from it is off by some times that.
+SOLVER = 3.0
+
+#: Extents of the contact along x and y, and what moments decide.
+EXTENTS = ("contact_length", "contact_width")
+MOMENTS = ("eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y")
+
+TINY = float(np.finfo(np.float64).tiny)
+
+#: Scalars that are exactly zero without contact.
+ZERO_APART = (
+    *("force", "contact_area", "contact_length", "contact_width"),
+    *("peak_pressure", "mean_pressure"),
+)
+
+#: What has no limit grows by at least this part of the mean pressure as cells shrink by a factor e:
+#: under a wedge it is 0.64, under a cone 1.
+ENDLESS_GROWTH = 0.3
+
+#: What is said where a peak has no limit.
+SINGULAR = (
+    "the peak pressure has no limit as cells become smaller: it depends on the mesh, at a sharp "
+    "edge, a point or a ridge of the body or at roughness that the grid does not resolve, and its "
+    "error is given as infinite; resultants converge"
+)
+
+
+@dataclass(frozen=True, eq=False)
+class ErrorBars:
+    """Estimated errors of a run's scalars.
+
+    Attributes
+    ----------
+    values : dict of str to ndarray
+        Half widths of the bars by the scalar's name, in its unit, over the run's instants: inf
+        where the scalar has no limit, NaN where nothing is known.
+    warnings : tuple of str
+        Doubts that the companions have raised.
+    """
+
+    values: dict[str, Array]
+    warnings: tuple[str, ...]
+
+
+def error_bars(run: Run, history: History, on_step: Callable[[], None] | None = None) -> ErrorBars:
+    """Estimate how far the scalars of a run are off, from companions that are marched for it.
+
+    Parameters
+    ----------
+    run : Run
+        The run, which is over.
+    history : mapping of str to ndarray
+        What it has come to: its scalars by name and ``time``, ``cells_across``.
+    on_step : callable, optional
+        Called after each step of a companion; what it raises ends the estimate.
+
+    Returns
+    -------
+    ErrorBars
+        For each scalar an error that 95 of 100 true ones do not exceed.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> from viscontact.accuracy.coarser_runs import history_of
+    >>> from viscontact.simulation.state_generator import march_run
+    >>> from viscontact.simulation.setup import prepare_run
+    >>> rubber = vc.Material(vc.Elastic(1e6 / 3), poisson_ratio=0.5)
+    >>> grid = vc.Grid((40, 40), (0.26, 0.26))
+    >>> run = prepare_run(vc.Paraboloid(0.75, 0.75), rubber, vc.step(2370.0), grid, [0.0])
+    >>> history = history_of(list(march_run(run)))
+    >>> bar = error_bars(run, history).values["approach"][0]
+    >>> bool(abs(history["approach"][0] - (0.75 * 2370 / (4e6 / 3) / 0.75**0.5)**(2 / 3)) < bar)
+    True
+    >>> bool(bar / history["approach"][0] < 2e-3)
+    True
+    """
+    courses = [course for each in companions_of(run, history) if (course := marched(each, on_step))]
+    return bars_from(run, history, courses)
+
+
+def bars_from(run: Run, history: History, courses: Iterable[Course]) -> ErrorBars:
+    """Estimate errors from companions that have been marched.
+
+    Parameters
+    ----------
+    run, history
+        As in `error_bars`.
+    courses : iterable of Course
+        The companions.
+
+    Returns
+    -------
+    ErrorBars
+        NaN everywhere if there is no companion.
+    """
+    found = list(courses)
+    if not found:
+        return unknown_bars(len(history["time"]))
+    at_end = largest_around(end_flags(history["time"], found)) > 0
+    of_spots = least_around(spots_across(history["time"], found)) < FEW_IN_A_SPOT
+    places = _Places(at_end, of_spots)
+    values = {
+        name: _bar(run, name, Levels.of(name, history, found), places, history) for name in TRUSTS
+    }
+    apart = _surely_apart(run, history)
+    for name in ZERO_APART:
+        values[name][apart] = 0.0
+    endless = _endless(history, found, at_end)
+    values["peak_pressure"][endless] = np.inf
+    # The run itself tells of ends and corners.
+    is_told = at_end.any() or any(course.is_sharp for course in found)
+    return ErrorBars(values, (SINGULAR,) if endless.any() and not is_told else ())
+
+
+def unknown_bars(count: int) -> ErrorBars:
+    """Return errors that are not known, of so many instants.
+
+    Parameters
+    ----------
+    count : int
+        How many.
+
+    Examples
+    --------
+    >>> unknown_bars(2).values["force"]
+    array([nan, nan])
+    """
+    return ErrorBars({name: np.full(count, np.nan) for name in TRUSTS}, ())
+
+
+@dataclass(frozen=True, eq=False)
+class _Places:
+    """At which instants a contact reaches the body's end, and consists of spots of few cells."""
+
+    at_end: NDArray[np.bool_]
+    of_spots: NDArray[np.bool_]
+
+
+def _bar(run: Run, name: str, levels: Levels, places: _Places, history: History) -> Array:
+    own = np.abs(levels.values[0])
+    scale = largest_around(own)
+    by_cells = TRUSTS[name].of(levels)
+    if TRUSTS[name] is _BULK:
+        by_cells = np.where(places.at_end, AT_END.of(levels), by_cells)
+    if TRUSTS[name] is _AREA:
+        by_cells = np.where(places.of_spots, OF_SPOTS.of(levels), by_cells)
+    if TRUSTS[name] is _PEAK:
+        by_cells = np.where(places.of_spots, PEAK_OF_SPOTS.of(levels), by_cells)
+    nothing = np.where(np.isnan(by_cells), np.nan, 0.0)
+    parts = [
+        largest_around(np.divide(part, scale, out=nothing.copy(), where=scale > 0))
+        for part in (by_cells, levels.by_steps)
+    ]
+    solver = SOLVER * run.tolerance + run.memory.error + run.compliance.inversion_error
+    bar = (parts[0] + np.nan_to_num(parts[1]) + solver) * scale
+    bar = np.maximum(bar, _least_bar(run, name, by_cells > AGREED * own, places, history))
+    return np.where(np.isnan(own), np.nan, bar)
+
+
+def _least_bar(
+    run: Run, name: str, differs: NDArray[np.bool_], places: _Places, history: History
+) -> Array | float:
+    """What no agreement of grids undercuts: parts of a cell, and the balance of moments."""
+    if name in EXTENTS:
+        cell = run.grid.cell_size[EXTENTS.index(name)]
+        ragged = places.of_spots | places.at_end
+        parts = np.where(ragged, RAGGED_RIM_CELLS, RIM_CELLS)
+        return np.asarray(np.where(differs, parts * cell, 0.0))
+    if name in MOMENTS:
+        # Balanced to a part of the force times the extent, which may turn a body that is even.
+        axis = "contact_length" if name.endswith("x") else "contact_width"
+        extent = np.nan_to_num(history[axis])
+        slope = np.abs(history["approach"]) / np.maximum(extent, TINY)
+        lever = extent if name.startswith("eccentricity") else slope
+        return np.asarray(np.where(extent > 0, SOLVER * run.tolerance * lever, 0.0))
+    return 0.0
+
+
+def _endless(
+    history: History, courses: list[Course], at_end: NDArray[np.bool_]
+) -> NDArray[np.bool_]:
+    """Where the largest pressure has no limit: by the body's shape, or by what the grids show."""
+    contact = np.asarray(history["peak_pressure"] > 0)
+    if any(course.is_sharp for course in courses):
+        return contact
+    levels = Levels.of("peak_pressure", history, courses)
+    order = np.argsort(levels.spacings)
+    if len(order) < 3:
+        return np.asarray(contact & at_end)
+    three = order[[0, 1, -1]]
+    peaks = levels.values[three]
+    spacings = np.array(levels.spacings)[three]
+    known = np.isfinite(peaks).all(axis=0)
+    verdict = richardson(np.where(known, peaks, 1.0), spacings)
+    growth = (peaks[0] - peaks[-1]) / np.log(spacings[-1])
+    grows = growth > ENDLESS_GROWTH * history["mean_pressure"]
+    # A contact of few cells is no contact on the coarsest grid.
+    fine = history["cells_across"] >= FEWEST_ACROSS * spacings[-1]
+    endless = np.where(known, ~verdict.converges & grows & fine, np.nan)
+    return np.asarray(contact & (at_end | (mean_around(endless) > 0.5)))
+
+
+def _surely_apart(run: Run, history: History) -> NDArray[np.bool_]:
+    """Where there is no contact, and none that is lost or made between two instants."""
+    apart = np.asarray(history["peak_pressure"] == 0)
+    if run.load.control == "force":
+        return apart
+    return np.asarray(apart & ~(largest_around(~apart, 1) > 0))

@@ -1,0 +1,290 @@
+"""From pydantic's findings to problems in words, each at its key."""
+
+from __future__ import annotations
+
+import difflib
+import re
+from copy import deepcopy
+from typing import Any, get_args
+
+from pydantic import BaseModel
+from pydantic_core import ErrorDetails
+
+from viscontact.case import time_grid_output
+from viscontact.case.document import Document
+from viscontact.case.errors import KeyPath, dotted
+from viscontact.case.indenters import profiles, shapes
+from viscontact.case.loads import load
+from viscontact.case.materials import material, shifts
+from viscontact.case.sections import CaseFile
+from viscontact.units.dimensions import DIMENSIONS
+
+# The sections by name; where a value of shape, law or kind says which, by that.
+_SECTIONS: dict[str | int, type[BaseModel]] = {
+    **{
+        "time": time_grid_output.Time,
+        "grid": time_grid_output.Cells,
+        "output": time_grid_output.Output,
+    },
+}
+# Shifts, like loads, say in `kind` what they are.
+_SHIFTS: dict[str | int, type[BaseModel]] = {
+    **{"wlf": shifts.Wlf, "arrhenius": shifts.Arrhenius, "factors": shifts.Factors},
+}
+_ALTERNATIVES: dict[str | int, type[BaseModel]] = {
+    **shapes.SHAPES,
+    **material.LAWS,
+    **_SHIFTS,
+    **{"step": load.Step, "ramp": load.Ramp, "triangle": load.Triangle},
+    **{"harmonic": load.Harmonic, "history": load.History},
+}
+_NO_SHIFTS = {tag: model for tag, model in _ALTERNATIVES.items() if tag not in _SHIFTS}
+# What stands in these keys says what it is in `kind`, as a load does.
+_WITHIN: dict[str | int, dict[str | int, Any]] = {"shift": _SHIFTS, "profile": profiles.PROFILES}
+
+# What others call the same, where the spelling gives no hint.
+_OTHER_NAMES = {
+    **{"cylinder": "roller", "ball": "sphere", "crowned": "partial", "straight": "cylindrical"},
+    **{"ring": "torus", "o-ring": "torus", "wave": "waviness", "wheel": "roller"},
+    **{"prony": "relaxation-series", "generalized-maxwell": "relaxation-series"},
+    **{"fractional": "fractional-zener", "spring-pot": "power-law", "csv": "table"},
+    **{"abaqus": "card", "ansys": "card", "tabulated": "table"},
+    **{"standard-linear-solid": "zener", "sls": "zener", "constant": "step"},
+    **{"sine": "harmonic", "sinusoidal": "harmonic", "cyclic": "harmonic"},
+    **{"points": "history", "sentences": "history", "file": "history"},
+    **{"depth": "approach", "indentation": "approach", "displacement": "approach"},
+    **{"force": "mean", "frequency": "period", "logarithmic": "log", "linear": "uniform"},
+}
+
+
+def problem(document: Document, error: ErrorDetails) -> str:
+    """Write one finding as a line.
+
+    Parameters
+    ----------
+    document : Document
+        The case file.
+    error : ErrorDetails
+        What pydantic found.
+
+    Returns
+    -------
+    str
+        Where, which key, why, and what to do.
+    """
+    key = _key_path(document.data, error)
+    model = _model_at(error["loc"])
+    if error["type"] == "value_error":
+        why = str(error["ctx"]["error"])
+        return noun_problem(document, key, why)
+    if error["type"].startswith("union_tag"):
+        key = (*key, _union_key(error))
+    return document.problem(key, _why(key, model, error))
+
+
+def corrected(data: dict[str, Any], errors: list[ErrorDetails]) -> dict[str, Any] | None:
+    """Return the data with misspelt shapes, laws and kinds set right.
+
+    What else is wrong in a section can be told only when it is known what it describes.
+
+    Parameters
+    ----------
+    data : dict
+        Content of the case file.
+    errors : list of ErrorDetails
+        What pydantic found in it.
+
+    Returns
+    -------
+    dict or None
+        Content with the nearest names; None if nothing is misspelt.
+    """
+    changed = None
+    for error in errors:
+        if error["type"] != "union_tag_invalid":
+            continue
+        near = _nearest(error["ctx"]["tag"], _choices(error))
+        if near is not None:
+            changed = deepcopy(data) if changed is None else changed
+            path = _key_path(data, error)
+            # A name alone may stand in the section's place.
+            if isinstance(_at(changed, path), dict):
+                path = (*path, _union_key(error))
+            _at(changed, path[:-1])[path[-1]] = near
+    return changed
+
+
+def _at(data: Any, path: KeyPath) -> Any:
+    for step in path:
+        data = data[step]
+    return data
+
+
+def noun_problem(document: Document, section: KeyPath, why: str) -> str:
+    """Write what a noun or the run refused as a line, at the key that it speaks of.
+
+    Parameters
+    ----------
+    document : Document
+        The case file.
+    section : tuple
+        Where it was refused; empty for the run as a whole.
+    why : str
+        The refusal; it begins with, or mentions, the name of an argument.
+
+    Returns
+    -------
+    str
+        Where, which key, why, and what to do.
+    """
+    if missing := re.match(r"(\w+) (?=is missing)", why):
+        return document.problem((*section, missing[1]), why[missing.end() :])
+    key = _named_key(document.data, section, why)
+    # "Roller: radius must be" and "load.force: ..." name the key a second time.
+    why = re.sub(r"^(?:[A-Z]\w+[:.]|harmonic:) ?", "", why)
+    names = [dotted(key[start:]) for start in range(len(key))]
+    for name in names:
+        behind = r"(\[\d+\])*(: |, | (?=must|has|is|stands|does|goes))"
+        why = re.sub(f"^{re.escape(name)}{behind}", "", why)
+    return document.problem(key, why)
+
+
+def _named_key(data: Any, section: KeyPath, why: str) -> KeyPath:
+    """The key that a message speaks of first, if it is one that stands in the file."""
+    lead = re.match(r"\w[\w.\[\]]*(?=:)", why)
+    steps = re.findall(r"\[(\d+)\]|([^.\[\]]+)", lead[0]) if lead else []
+    named = tuple(int(place) - 1 if place else name for place, name in steps)
+    for length in range(len(named), 0, -1):
+        for path in (named[:length], (*section, *named[:length])):
+            if _holds(data, path):
+                return path
+    words = re.findall(r"\w+", why) if section else ()
+    return next(((*section, word) for word in words if _holds(data, (*section, word))), section)
+
+
+def _holds(data: Any, path: KeyPath) -> bool:
+    for step in path:
+        known = isinstance(data, dict) and step in data
+        if not (known or (isinstance(data, list) and isinstance(step, int) and step < len(data))):
+            return False
+        data = data[step]
+    return True
+
+
+def _key_path(data: Any, error: ErrorDetails) -> KeyPath:
+    """Pydantic's location without what is not a key: names of alternatives, a list of one."""
+    path: list[str | int] = []
+    for step in error["loc"]:
+        if isinstance(data, dict) and step in data:
+            data = data[str(step)]
+        elif isinstance(data, list) and isinstance(step, int) and step < len(data):
+            data = data[step]
+        else:
+            continue
+        path.append(step)
+    return (*path, error["loc"][-1]) if error["type"] == "missing" else tuple(path)
+
+
+def _model_at(loc: tuple[str | int, ...]) -> type[BaseModel]:
+    """The section in which the last key of a location stands, or should stand."""
+    # A section's name names it only at the top: `load.time` is a key of the load.
+    section = _SECTIONS.get(loc[0], CaseFile) if len(loc) > 1 else CaseFile
+    within = reversed(loc[1:-1])
+    # A profile and a law may both be a table.
+    named = profiles.PROFILES if "profile" in loc[:-2] else _ALTERNATIVES
+    return next((named[step] for step in within if step in named), section)
+
+
+def _union_key(error: ErrorDetails) -> str:
+    return str(error["ctx"]["discriminator"]).strip("'")
+
+
+def _why(key: KeyPath, model: type[BaseModel], error: ErrorDetails) -> str:
+    kind, context = error["type"], error.get("ctx", {})
+    if kind == "extra_forbidden":
+        return _unknown_key(model, key[-1])
+    if kind == "missing":
+        return f"is missing{_example(model, str(key[-1]))}"
+    if kind == "union_tag_not_found":
+        return f"is missing; it says which: {', '.join(_choices(error))}"
+    if kind == "union_tag_invalid":
+        return _unknown("value", context["tag"], _choices(error))
+    if kind == "literal_error":
+        choices = re.findall(r"'([^']*)'", context["expected"])
+        return _unknown("value", error["input"], choices)
+    return _plain_words(error)
+
+
+def _choices(error: ErrorDetails) -> list[str]:
+    """What the key may say that tells what a section is."""
+    models = _WITHIN.get(error["loc"][-1], _NO_SHIFTS)
+    fields = {tag: model.model_fields.get(_union_key(error)) for tag, model in models.items()}
+    return [
+        str(tag) for tag, field in fields.items() if field and tag in get_args(field.annotation)
+    ]
+
+
+def _unknown(what: str, given: object, allowed: list[str]) -> str:
+    near = _nearest(given, allowed)
+    shown = "" if what == "key" else f" {str(given)[:40]!r}"
+    hint = f"; did you mean {near!r}?" if near else "."
+    return f"unknown {what}{shown}{hint} Allowed: {', '.join(allowed)}"
+
+
+def _unknown_key(model: type[BaseModel], given: object) -> str:
+    """Say what is allowed, or which other kind, law or shape has the key."""
+    unknown = _unknown("key", given, sorted(model.model_fields))
+    alike = next((each for each in _WITHIN.values() if model in each.values()), _NO_SHIFTS)
+    for discriminator in ("kind", "law", "shape"):
+        if discriminator not in model.model_fields:
+            continue
+        others = [
+            str(tag)
+            for tag, other in alike.items()
+            if str(given) in other.model_fields and discriminator in other.model_fields
+        ]
+        if others:
+            return f"{unknown}. It goes with {discriminator}: {' or '.join(others)}"
+    return unknown
+
+
+def _nearest(given: object, allowed: list[str]) -> str | None:
+    known = _OTHER_NAMES.get(str(given).lower())
+    if known in allowed:
+        return known
+    return next(iter(difflib.get_close_matches(str(given), allowed, n=1)), None)
+
+
+def _example(model: type[BaseModel], key: str) -> str:
+    """How the missing key is written, from what it takes."""
+    if key not in model.model_fields:
+        return ""
+    for annotation in model.model_fields[key].metadata:
+        if dimension := getattr(annotation, "dimension", None):
+            return f"; write e.g. '{key}: {DIMENSIONS[dimension].example}'"
+    described = model.model_fields[key].description
+    return f"; {described}" if described else ""
+
+
+def _plain_words(error: ErrorDetails) -> str:
+    given = error["input"]
+    shown = repr(given) if len(repr(given)) <= 40 else repr(given)[:37] + "..."
+    words = {
+        "int_type": "must be a whole number",
+        "float_type": "must be a plain number, without a unit",
+        "string_type": "must be a text",
+        "list_type": "must be a list",
+        "tuple_type": "must be a list",
+        "model_type": "must be a section with keys of its own",
+        "model_attributes_type": "must be a section with keys of its own",
+        "dict_type": "must be a section with keys of its own",
+        "finite_number": "must be a finite number",
+        "too_short": "has too few entries",
+        "too_long": "has too many entries",
+    }
+    if error["type"] in words:
+        return f"{words[error['type']]}, got {shown}"
+    if error["type"] in ("quantity", "library"):
+        return error["msg"]
+    bounds = error["msg"].removeprefix("Input should be ")
+    return f"must be {bounds}, got {shown}"

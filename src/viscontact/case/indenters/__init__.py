@@ -1,0 +1,1 @@
+"""The `indenter` section of a case file: shapes, profiles and height maps."""

@@ -1,0 +1,170 @@
+"""A measured surface as the `indenter` of a case file."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from functools import cached_property
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator, Field, GetJsonSchemaHandler
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema
+
+from viscontact import indenters, surfaces
+from viscontact.case.data_file import DataFile
+from viscontact.case.indenters.base import Shape
+from viscontact.case.quantities import Length, NotNegativeLength, Section
+from viscontact.surfaces.doubts import described, levelling_note
+from viscontact.surfaces.pressing import require_complete, require_map
+from viscontact.units.formatting import in_words
+
+
+def _as_pair(given: Any) -> Any:
+    return given if isinstance(given, list) else [given, given]
+
+
+class _OneOrPair:
+    """Tells editors that one length may stand for both directions."""
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        pair = handler(schema)
+        return {"anyOf": [pair["prefixItems"][0], pair]}
+
+
+LengthPair = Annotated[
+    tuple[Length, Length], Field(strict=False), BeforeValidator(_as_pair), _OneOrPair()
+]
+Range = Annotated[
+    tuple[NotNegativeLength, Length],
+    Field(strict=False, examples=[["20 um", "120 um"]]),
+]
+
+
+class Crop(Section):
+    """The part of a map that is pressed, by distances from its first corner."""
+
+    x: Range | None = Field(default=None, description="from where to where; all when left out")
+    y: Range | None = Field(default=None, description="from where to where; all when left out")
+
+
+def _period_note(surface: surfaces.Surface) -> tuple[str, ...]:
+    """How a periodic map is pressed without borders."""
+    if not surface.periodic:
+        return ()
+    nx, ny = surface.shape
+    lx, ly = (in_words(length, "m", 9) for length in surface.size)
+    return (
+        f"{surface.name} is periodic: with 'shape: [{nx}, {ny}]', 'size: [{lx}, {ly}]' and "
+        "'periodic: true' under grid it is pressed without borders",
+    )
+
+
+class HeightMap(Shape):
+    """A measured surface, turned over: its peaks touch first."""
+
+    shape: Literal["height-map"]
+    file: DataFile = Field(
+        description="NPY, NPZ or CSV; with viscontact[surfaces] also X3P, SUR, GWY, OPD, AL3D, "
+        "netCDF and others",
+        examples=["ground.x3p"],
+    )
+    spacing: LengthPair | None = Field(
+        default=None, description="distance of the points, where the file does not tell"
+    )
+    height_unit: str | None = Field(
+        default=None, description="of the heights, where the file does not tell", examples=["um"]
+    )
+    height_factor: float = Field(
+        default=1.0, description="what the heights are multiplied by, to mend a unit"
+    )
+    channel: str | None = Field(
+        default=None, description="which of several; the file's own choice when left out"
+    )
+    width: Length | None = Field(
+        default=None, description="for a line scan: how wide it is swept, as a lay of ridges"
+    )
+    flip: bool = Field(
+        default=False, description="turn a map over that was stored upside down, or of a replica"
+    )
+    crop: Crop = Field(default=Crop(), description="the part that is pressed")
+    missing: Literal["refuse", "hole", "lowest", "smooth"] = Field(
+        default="refuse",
+        description="what stands where nothing was measured: a hole that never touches, the lowest "
+        "height, or a smooth film over the neighbours",
+    )
+    level: Literal["none", "mean", "plane", "quadratic"] = Field(
+        default="plane", description="what is taken off: the tilt; quadratic: the form, too"
+    )
+    resample: LengthPair | None = Field(
+        default=None, description="spacing of the mesh that the map is brought to"
+    )
+    filter: Literal["mean", "gaussian", "spline"] | None = Field(
+        default=None,
+        description="how it is brought there: means over cells (when left out), the Gaussian of "
+        "ISO 16610, or, to a finer mesh, cubic splines",
+    )
+    cutoff: Length | None = Field(
+        default=None,
+        description="with gaussian: the wavelength of which half the height passes; 4 cells if not",
+    )
+
+    @property
+    def files(self) -> Mapping[tuple[str, ...], Path]:
+        """The file, by its key."""
+        return {("file",): Path(self.file)}
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """The map in numbers, what was taken off it, and what about it looks wrong."""
+        surface = self.surface
+        told = (levelling_note(self._raw, self.level), described(surface))
+        return (*filter(None, told), *surfaces.surface_doubts(surface), *_period_note(surface))
+
+    def noun(self) -> indenters.HeightMap:
+        """Return the map, read, repaired and levelled."""
+        return surfaces.indenter_of(self.surface, holes=self.missing == "hole")
+
+    @cached_property
+    def surface(self) -> surfaces.Surface:
+        """The surface as it is pressed."""
+        if self.missing == "refuse":
+            require_complete(self._raw)
+        found = surfaces.levelled(self._raw, self.level)
+        if self.missing in ("lowest", "smooth"):
+            found = surfaces.filled(found, self.missing)
+        if self.resample is None:
+            if self.filter is not None or self.cutoff is not None:
+                raise ValueError(
+                    "resample is missing: it says to which mesh the filter brings the map"
+                )
+            return found
+        if self.cutoff is not None and self.filter != "gaussian":
+            raise ValueError("cutoff: goes with filter: gaussian")
+        return surfaces.resampled(found, self.resample, self.filter or "mean", cutoff=self.cutoff)
+
+    @cached_property
+    def _raw(self) -> surfaces.Surface:
+        """The part of the map that is used, as it was measured."""
+        try:
+            found = surfaces.read_surface(
+                self.file,
+                spacing=self.spacing,
+                height_unit=self.height_unit,
+                height_factor=self.height_factor,
+                channel=self.channel,
+                width=self.width,
+            )
+        except ValueError as error:
+            raise ValueError(self._at_key(str(error))) from error
+        require_map(found)
+        found = surfaces.flipped(found) if self.flip else found
+        return surfaces.cropped(found, self.crop.x, self.crop.y)
+
+    def _at_key(self, why: str) -> str:
+        """Put the file's key in front of a refusal that speaks of no other."""
+        named = re.match(r"(\w+)(: | is missing)", why)
+        return why if named and named[1] in type(self).model_fields else f"file: {why}"

@@ -1,0 +1,191 @@
+"""The `indenter` of a case file."""
+
+from __future__ import annotations
+
+import functools
+import operator
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator, Field, GetJsonSchemaHandler
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema
+
+from viscontact import indenters
+from viscontact.case.indenters import more_shapes
+from viscontact.case.indenters.base import Shape
+from viscontact.case.indenters.height_maps import HeightMap
+from viscontact.case.indenters.profiles import AnyProfile
+from viscontact.case.quantities import Length, OpenAngle
+
+
+class Sphere(Shape):
+    """A sphere, with its true circular section."""
+
+    shape: Literal["sphere"]
+    radius: Length = Field(description="of the sphere")
+
+    def noun(self) -> indenters.Sphere:
+        """Return the sphere."""
+        return indenters.Sphere(self.radius)
+
+
+class Paraboloid(Shape):
+    """An elliptic paraboloid, the shape of Hertz's theory."""
+
+    shape: Literal["paraboloid"]
+    radius_x: Length = Field(description="radius of curvature along x")
+    radius_y: Length = Field(description="radius of curvature along y")
+
+    def noun(self) -> indenters.Paraboloid:
+        """Return the paraboloid."""
+        return indenters.Paraboloid(self.radius_x, self.radius_y)
+
+
+class Cone(Shape):
+    """A cone, apex down."""
+
+    shape: Literal["cone"]
+    half_angle: OpenAngle = Field(description="from the axis to the flank", examples=["70 deg"])
+
+    def noun(self) -> indenters.Cone:
+        """Return the cone."""
+        return indenters.Cone(self.half_angle)
+
+
+class FlatPunch(Shape):
+    """A punch with a flat end: round (radius) or rectangular (half_length and half_width)."""
+
+    shape: Literal["flat-punch"]
+    radius: Length | None = Field(default=None, description="radius of a round punch")
+    half_length: Length | None = Field(default=None, description="half the edge along x")
+    half_width: Length | None = Field(default=None, description="half the edge along y")
+
+    def noun(self) -> indenters.FlatPunch:
+        """Return the punch."""
+        return indenters.FlatPunch(
+            self.radius, half_length=self.half_length, half_width=self.half_width
+        )
+
+
+class Roller(Shape):
+    """A roller lying along x, with a profile along it."""
+
+    shape: Literal["roller"]
+    radius: Length = Field(description="where it is thickest")
+    half_length: Length = Field(
+        description="half the length: of the straight part where a circular crown continues it, "
+        "of the whole otherwise"
+    )
+    crown_radius: Length | None = Field(
+        default=None, description="radius of the crown that continues the straight part"
+    )
+    profile: AnyProfile | None = Field(
+        default=None, description="the generating line, where it is another"
+    )
+    cross_section: Literal["circle", "parabola"] = Field(
+        default="circle", description="across: the true circle, or the parabola of Hertz's theory"
+    )
+
+    @property
+    def files(self) -> Mapping[tuple[str, ...], Path]:
+        """Files of the profile, by their keys."""
+        found = {} if self.profile is None else self.profile.files
+        return {("profile", *key): path for key, path in found.items()}
+
+    def noun(self) -> indenters.Roller:
+        """Return the roller."""
+        others: dict[str, Any] = {"cross_section": self.cross_section}
+        if self.crown_radius is not None:
+            others["crown_radius"] = self.crown_radius
+        if self.profile is None:
+            return indenters.Roller(self.radius, self.half_length, **others)
+        return self.profile.roller(self.radius, self.half_length, others)
+
+
+#: The sections of a shape by its name.
+SHAPES: dict[str | int, type[Shape]] = {
+    "sphere": Sphere,
+    "paraboloid": Paraboloid,
+    "ellipsoid": more_shapes.Ellipsoid,
+    "cone": Cone,
+    "flat-punch": FlatPunch,
+    "roller": Roller,
+    "wedge": more_shapes.Wedge,
+    "pyramid": more_shapes.Pyramid,
+    "vickers": more_shapes.Vickers,
+    "berkovich": more_shapes.Berkovich,
+    "cube-corner": more_shapes.CubeCorner,
+    "torus": more_shapes.Torus,
+    "revolved": more_shapes.Revolved,
+    "swept": more_shapes.Swept,
+    "waviness": more_shapes.Waviness,
+    "dimples": more_shapes.Dimples,
+    "height-map": HeightMap,
+}
+
+AnyShape = Annotated[
+    Sphere
+    | Paraboloid
+    | more_shapes.Ellipsoid
+    | Cone
+    | FlatPunch
+    | Roller
+    | more_shapes.Wedge
+    | more_shapes.Pyramid
+    | more_shapes.Vickers
+    | more_shapes.Berkovich
+    | more_shapes.CubeCorner
+    | more_shapes.Torus
+    | more_shapes.Revolved
+    | more_shapes.Swept
+    | more_shapes.Waviness
+    | more_shapes.Dimples
+    | HeightMap,
+    Field(discriminator="shape"),
+]
+
+
+class _OneOrMany:
+    """Tells editors that one shape may stand without the list."""
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        many = handler(schema)
+        return {"anyOf": [many["items"], many]}
+
+
+def _as_list(given: Any) -> Any:
+    return given if isinstance(given, list) else [given]
+
+
+Shapes = Annotated[
+    list[AnyShape],
+    Field(min_length=1, description="the pressed body; a list of shapes is their sum"),
+    BeforeValidator(_as_list),
+    _OneOrMany(),
+]
+
+
+def combined(shapes: Sequence[Shape]) -> indenters.Indenter:
+    """Return the indenter that a list of shapes describes: their sum.
+
+    Parameters
+    ----------
+    shapes : list of Shape
+        One or more.
+
+    Returns
+    -------
+    Indenter
+        The only one's, or the sum, each in its place.
+
+    Examples
+    --------
+    >>> combined([Sphere(shape="sphere", radius="5 mm")])
+    Sphere(radius=0.005)
+    """
+    first, *others = [shape.placed() for shape in shapes]
+    return functools.reduce(operator.add, others, first)

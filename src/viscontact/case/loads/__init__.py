@@ -1,0 +1,1 @@
+"""The `load` section of a case file: histories, tables and sentences."""

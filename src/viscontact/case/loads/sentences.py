@@ -1,0 +1,168 @@
+"""A load history in sentences: "ramp to 10 kN in 1 s; hold for 240 s; unload in 0.1 s"."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, NamedTuple
+
+from pydantic import BeforeValidator, PlainValidator, WithJsonSchema
+from pydantic_core import PydanticCustomError
+
+from viscontact.case.loads.grammar import CAN_BE_SAID, FORMS, PhraseError, Reading, read_form
+
+#: Sentences end with these, or where the next begins with "then" or "and".
+_ENDS = re.compile(r";|\n|\.(?=\s|$)|,?\s*\b(?:and\s+)?then\b|,?\s+and\s+(?=[a-z])", re.IGNORECASE)
+
+#: Of so many sentences that cannot be understood a message tells why.
+_MOST_TOLD = 10
+
+#: More sentences than these take seconds to understand, and nobody has written them.
+_MOST_SENTENCES = 10_000
+
+#: A short history.
+EXAMPLE = "'ramp to 10 kN in 1 s; hold for 240 s; unload in 0.1 s'"
+
+
+@dataclass(frozen=True)
+class Sentence:
+    """A sentence that has been understood.
+
+    Parameters
+    ----------
+    number : int
+        Its place, from 1.
+    text : str
+        What was said.
+    entry : int
+        Its place in the list that it was given in, from 1.
+    reading : Reading
+        What it means.
+    """
+
+    number: int
+    text: str
+    entry: int
+    reading: Reading
+
+    def __str__(self) -> str:
+        return f"sentence {self.number}, {_shown(self.text)}"
+
+
+def split_sentences(text: str) -> list[str]:
+    """Split a text into its sentences.
+
+    Parameters
+    ----------
+    text : str
+        Sentences behind one another.
+
+    Returns
+    -------
+    list of str
+        One each, without what separates them.
+
+    Examples
+    --------
+    >>> split_sentences("Ramp to 1.5 N in 1 s, then hold for 2 s.")
+    ['Ramp to 1.5 N in 1 s', 'hold for 2 s']
+    """
+    # Single blanks: a pattern that looks for "and" behind blanks tries every run of them.
+    text = re.sub(r"\s+", lambda run: "\n" if "\n" in run[0] else " ", text)
+    return [part.strip(" \t\r,") for part in _ENDS.split(text) if part.strip(" \t\r,")]
+
+
+def read_sentences(texts: Sequence[str]) -> list[Sentence]:
+    """Understand sentences, each for itself.
+
+    Parameters
+    ----------
+    texts : sequence of str
+        Entries of a list, each with one sentence or more.
+
+    Returns
+    -------
+    list of Sentence
+        All of them, in order.
+
+    Raises
+    ------
+    ValueError
+        If one cannot be understood.
+
+    Examples
+    --------
+    >>> [sentence.reading.form.kind for sentence in read_sentences(["step to 1 N; wait 2 s"])]
+    ['to', 'hold for']
+    """
+    return [sentence for entry in _numbered(texts) for sentence in _understood(entry)]
+
+
+class _Entry(NamedTuple):
+    """An entry of a list of sentences: its place, its first sentence's number, its parts."""
+
+    place: int
+    first: int
+    parts: list[str]
+
+
+def _numbered(texts: Sequence[Any]) -> list[_Entry]:
+    entries: list[_Entry] = []
+    number = 1
+    for place, text in enumerate(texts, start=1):
+        parts = split_sentences(text) if isinstance(text, str) else [repr(text)]
+        entries.append(_Entry(place, number, parts))
+        number += len(parts)
+    return entries
+
+
+def _understood(entry: _Entry) -> tuple[Sentence, ...]:
+    """Sentences of an entry; one line tells of all that are refused."""
+    read: list[Sentence] = []
+    refused: list[str] = []
+    for number, text in enumerate(entry.parts, start=entry.first):
+        try:
+            read.append(Sentence(number, text, entry.place, read_form(text, FORMS)))
+        except PhraseError as error:
+            refused.append(f"sentence {number}, {_shown(text)}: {error}")
+    if not entry.parts:
+        refused.append("it is empty")
+    if refused:
+        if len(refused) > _MOST_TOLD:
+            refused[_MOST_TOLD:] = [f"and {len(refused) - _MOST_TOLD} more"]
+        said = ", ".join(repr(form) for form in CAN_BE_SAID)
+        why = f"{'; '.join(refused)}. What can be said: {said}"
+        raise PydanticCustomError("quantity", "{why}", {"why": why})
+    return tuple(read)
+
+
+def _shown(text: str) -> str:
+    return repr(text if len(text) <= 80 else f"{text[:77]}...")
+
+
+def _as_entries(given: Any) -> list[_Entry]:
+    texts = [given] if isinstance(given, str) else given
+    if not isinstance(texts, list) or not texts:
+        why = f"must be a text or a list of texts, got {_shown(str(given))}; write e.g. {EXAMPLE}"
+        raise PydanticCustomError("quantity", "{why}", {"why": why})
+    entries = _numbered(texts)
+    count = sum(len(entry.parts) for entry in entries)
+    if count > _MOST_SENTENCES:
+        why = f"holds {count} sentences, and at most {_MOST_SENTENCES} are read; repeat some"
+        raise PydanticCustomError("quantity", "{why}", {"why": why})
+    return entries
+
+
+_SCHEMA = {
+    "description": "what happens in turn, such as " + ", ".join(CAN_BE_SAID),
+    "anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}}],
+    "examples": [EXAMPLE.strip("'")],
+}
+
+#: Of a case file: a text or a list of texts, as tuples of `Sentence`.
+Sentences = Annotated[
+    list[Annotated[Any, PlainValidator(_understood)]],
+    BeforeValidator(_as_entries),
+    WithJsonSchema(_SCHEMA),
+]

@@ -1,0 +1,76 @@
+"""The `material` and `indenter_material` of a case file: any law, or a name of the library."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from pydantic import BeforeValidator, Field, GetJsonSchemaHandler
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema, PydanticCustomError
+
+from viscontact.case.materials.base import Medium
+from viscontact.case.materials.library import MATERIALS
+from viscontact.case.materials.measured_laws import CardLaw, TableLaw
+from viscontact.case.materials.series_laws import CreepSeries, PowerLaw, RelaxationSeries
+from viscontact.case.materials.spring_laws import (
+    Burgers,
+    Elastic,
+    FractionalMaxwell,
+    FractionalZener,
+    Maxwell,
+    Zener,
+)
+
+#: The sections of a material by the name of their law.
+LAWS: dict[str | int, type[Medium]] = {
+    "elastic": Elastic,
+    "maxwell": Maxwell,
+    "zener": Zener,
+    "burgers": Burgers,
+    "creep-series": CreepSeries,
+    "relaxation-series": RelaxationSeries,
+    "power-law": PowerLaw,
+    "fractional-maxwell": FractionalMaxwell,
+    "fractional-zener": FractionalZener,
+    "table": TableLaw,
+    "card": CardLaw,
+}
+
+
+def _from_library(given: Any) -> Any:
+    if not isinstance(given, str):
+        return given
+    if given not in MATERIALS:
+        names = ", ".join(MATERIALS)
+        why = f"no shipped material is called {given!r}; there are {names}"
+        raise PydanticCustomError("library", "{why}", {"why": why})
+    return MATERIALS[given]
+
+
+class _OrName:
+    """Tells editors that the name of a shipped material may stand in the section's place."""
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        return {"anyOf": [{"enum": list(MATERIALS)}, handler(schema)]}
+
+
+AnyMaterial = Annotated[
+    Annotated[
+        Elastic
+        | Maxwell
+        | Zener
+        | Burgers
+        | CreepSeries
+        | RelaxationSeries
+        | PowerLaw
+        | FractionalMaxwell
+        | FractionalZener
+        | TableLaw
+        | CardLaw,
+        Field(discriminator="law"),
+    ],
+    BeforeValidator(_from_library),
+    _OrName(),
+]

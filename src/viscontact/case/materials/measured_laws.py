@@ -1,0 +1,212 @@
+"""Laws from files: measured tables, and cards of finite-element programs."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Literal
+
+from pydantic import Field
+
+from viscontact import laws
+from viscontact.case.data_file import DataFile
+from viscontact.case.materials.base import Medium
+from viscontact.laws import Law
+from viscontact.materials.cards import Card, read_card
+from viscontact.materials.material import Material
+from viscontact.tables import Table, read_table
+from viscontact.units.parsing import parse_scale
+from viscontact.units.temperatures import in_celsius
+
+# Of the temperature that a table tells and the one that its shift refers to [K].
+_SAME_TEMPERATURE = 1.0
+_AT_ROW = re.compile(r"\w+(?:\.from_\w+)?\.(?P<column>\w+), row (?P<row>\d+): (?P<why>.*)", re.S)
+
+
+class FromFile(Medium):
+    """A law that is read from a file."""
+
+    file: DataFile
+
+    @property
+    def files(self) -> Mapping[tuple[str, ...], Path]:
+        """The file and those of the shift, by their keys."""
+        return {("file",): Path(self.file), **super().files}
+
+
+class TableLaw(FromFile):
+    """A creep compliance or relaxation modulus as measured, used at the table's own times."""
+
+    law: Literal["table"]
+    file: DataFile = Field(
+        description="CSV with a header such as: time [s], creep_compliance [1/MPa]",
+        examples=["pmma.csv"],
+    )
+    quantity: Literal["creep_compliance", "relaxation_modulus"] = Field(
+        description="what its values are"
+    )
+    data: Literal["deviatoric", "shear", "uniaxial"] = Field(
+        description="compliances are deviatoric (Phi = 1/(2G)), shear (1/G) or uniaxial (1/E); "
+        "moduli shear (G) or uniaxial (E)"
+    )
+    before: Literal["first", "slope"] = Field(
+        default="first", description="before the first row: its value, or its slope in log time"
+    )
+    beyond: Literal["slope", "last"] = Field(
+        default="slope", description="beyond the last row: its slope in log time, or its value"
+    )
+    set: float | None = Field(default=None, description="number of the set, where there are some")
+    columns: dict[str, str | None] = Field(
+        default={},
+        description="what columns mean whose headings do not say, as 'E: relaxation_modulus'",
+        examples=[{"E_1": "relaxation_modulus", "remark": None}],
+    )
+
+    def law_noun(self) -> Law:
+        """Return the law, whatever test the table is from."""
+        if self.quantity == "relaxation_modulus" and self.data == "deviatoric":
+            raise ValueError("data: moduli are shear or uniaxial; deviatoric is a compliance")
+        try:
+            table = self._chosen(read_table(self.file, self.columns)).ascending("time")
+            times, values = table["time"].tolist(), table[self.quantity].tolist()
+        except ValueError as error:
+            at = "" if str(error).startswith("columns: ") else "file: "
+            raise ValueError(f"{at}{error}") from error
+        self._require_test(table)
+        try:
+            return self._made(times, values)
+        except ValueError as error:
+            raise ValueError(f"file: {self._located(table, error)}") from error
+
+    def _made(self, times: list[float], values: list[float]) -> Law:
+        options: dict[str, Any] = {"before": self.before, "beyond": self.beyond}
+        tables: dict[str, Any] = {
+            "creep_compliance": laws.TabulatedCreep,
+            "relaxation_modulus": laws.TabulatedRelaxation,
+        }
+        table = tables[self.quantity]
+        if self.data == "uniaxial":
+            law = table.from_uniaxial(times, values, **options, **self._in_volume)
+        elif self.data == "shear":
+            law = table.from_shear(times, values, **options)
+        else:
+            law = table(times, values, **options)
+        assert isinstance(law, Law)
+        return law
+
+    def _chosen(self, table: Table) -> Table:
+        sets = table.sets()
+        if self.set is not None:
+            found = [each for each in sets if each.set_number == self.set]
+            if not found:
+                raise ValueError(f"{table.source.name} has no set {self.set:g}; {_told(sets)}")
+            return found[0]
+        if len(sets) > 1:
+            raise ValueError(
+                f"{table.source.name} has {len(sets)} sets; say which with set: {_told(sets)}"
+            )
+        return table
+
+    def _require_test(self, table: Table) -> None:
+        if table.data is not None and table.data != self.data:
+            heading = table.headings.get(self.quantity, "")
+            raise ValueError(
+                f"data: {self.data} contradicts {table.source.name}, where the column {heading!r} "
+                f"is {table.data}"
+            )
+        measured, shift = table.temperature, self.shift
+        reference = getattr(shift, "reference_temperature", None)
+        if measured is None or reference is None:
+            return
+        if abs(measured - reference) > _SAME_TEMPERATURE:
+            raise ValueError(
+                f"shift: its reference_temperature is {in_celsius(reference):.4g} °C, and "
+                f"{table.source.name} was measured at {in_celsius(measured):.4g} °C; give the "
+                "constants for the temperature of the table"
+            )
+
+    def _located(self, table: Table, error: ValueError) -> str:
+        """Return what a law refused at the place in the file, not in its arguments."""
+        match = _AT_ROW.match(str(error))
+        if match is None or int(match["row"]) >= len(table):
+            return table.located(error)
+        heading = table.headings["time" if match["column"] == "times" else self.quantity]
+        why = table.located(ValueError(match["why"]))
+        why = why.replace(
+            "smooth out the noise", "smooth out the noise, or fit a series to the table"
+        )
+        return f"{table.source.name}:{table.lines[int(match['row'])]}: column {heading!r}: {why}"
+
+
+def _told(sets: tuple[Table, ...]) -> str:
+    if all(each.set_number is None for each in sets):
+        return "number them in a column Set"
+    return ", ".join(
+        f"{each.set_number:g}"
+        + ("" if each.temperature is None else f" ({in_celsius(each.temperature):.3g} °C)")
+        for each in sets
+        if each.set_number is not None
+    )
+
+
+class CardLaw(FromFile):
+    """The material of an Abaqus or Ansys card: its law and its volume, and its shift."""
+
+    law: Literal["card"]
+    file: DataFile = Field(
+        description="Abaqus (*ELASTIC, *VISCOELASTIC, *TRS) or Ansys (MP, TB,PRONY, TB,SHIFT)",
+        examples=["polymer.inp"],
+    )
+    modulus_unit: str = Field(description="of the card's moduli", examples=["MPa"])
+    time_unit: str = Field(description="of the card's times", examples=["s"])
+    temperature_unit: str | None = Field(
+        default=None, description="of the card's temperatures, if it has a shift", examples=["degC"]
+    )
+    name: str | None = Field(
+        default=None, description="which material, or its number, where there are several"
+    )
+
+    def law_noun(self) -> Law:
+        """Return the card's law."""
+        return self.noun().law
+
+    def card(self) -> Card:
+        """Return the card as it stands in the file."""
+        self._require_units()
+        try:
+            return read_card(
+                self.file,
+                modulus_unit=self.modulus_unit,
+                time_unit=self.time_unit,
+                temperature_unit=self.temperature_unit,
+                name=self.name,
+            )
+        except ValueError as error:
+            raise ValueError(f"file: {error}") from error
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What stands in the card and is not used."""
+        return self.card().notes
+
+    def noun(self) -> Material:
+        """Return the card's material, at the run's temperature."""
+        for key in ("poisson_ratio", "bulk_modulus"):
+            if getattr(self, key) is not None:
+                raise ValueError(f"{key}: stands in the card; leave it out")
+        card = self.card()
+        if card.shift is not None and self.shift is not None:
+            raise ValueError("shift: stands in the card; leave it out")
+        return self._at_temperature(
+            card.material, card.shift or (self.shift.noun() if self.shift else None)
+        )
+
+    def _require_units(self) -> None:
+        units = {"modulus_unit": "pressure", "time_unit": "time", "temperature_unit": "temperature"}
+        for key, dimension in units.items():
+            given = getattr(self, key)
+            try:
+                _ = given is None or parse_scale(given, dimension)
+            except ValueError as error:
+                raise ValueError(f"{key}: {error}") from error

@@ -1,0 +1,71 @@
+"""Laws given as sums of terms or as a power, as a case file gives them."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field
+
+from viscontact import laws
+from viscontact.case.materials.base import Medium
+from viscontact.case.quantities import Compliance, Duration, Exponent, Fluidity, ModulusOrZero
+from viscontact.laws import Law
+
+_DATA = "compliances are deviatoric (Phi = 1/(2G)), shear (1/G) or uniaxial (1/E)"
+
+
+class CreepSeries(Medium):
+    """Creep compliance J_0 + sum J_i (1 - exp(-t/tau_i)) + fluidity t."""
+
+    law: Literal["creep-series"]
+    instant: Compliance = Field(description="J_0")
+    amplitudes: list[Compliance] = Field(description="J_i")
+    times: list[Duration] = Field(description="retardation times tau_i")
+    fluidity: Fluidity = Field(default=0.0, description="rate of steady flow")
+    data: Literal["deviatoric", "shear", "uniaxial"] = Field(description=_DATA)
+
+    def law_noun(self) -> Law:
+        """Return the law, whatever test the compliances are from."""
+        terms = (self.instant, self.amplitudes, self.times, self.fluidity)
+        if self.data == "deviatoric":
+            return laws.CreepSeries(*terms)
+        if self.data == "shear":
+            return laws.CreepSeries.from_shear(*terms)
+        return laws.CreepSeries.from_uniaxial(*terms, **self._in_volume)
+
+
+class RelaxationSeries(Medium):
+    """Relaxation modulus G_inf + sum G_i exp(-t/tau_i), a Prony series."""
+
+    law: Literal["relaxation-series"]
+    equilibrium: ModulusOrZero = Field(description="G_inf", examples=["100 MPa"])
+    moduli: list[ModulusOrZero] = Field(description="G_i")
+    times: list[Duration] = Field(description="relaxation times tau_i")
+    data: Literal["shear", "uniaxial"] = Field(description="moduli are shear (G) or uniaxial (E)")
+
+    def law_noun(self) -> Law:
+        """Return the law, from shear or from tensile moduli."""
+        terms = (self.equilibrium, self.moduli, self.times)
+        if self.data == "shear":
+            return laws.RelaxationSeries.from_shear(*terms)
+        return laws.RelaxationSeries.from_uniaxial(*terms, **self._in_volume)
+
+
+class PowerLaw(Medium):
+    """Creep compliance instant + compliance (t/reference_time)^exponent."""
+
+    law: Literal["power-law"]
+    compliance: Compliance = Field(description="what has crept at the reference time")
+    exponent: Exponent = Field(description="power of time")
+    reference_time: Duration = Field(description="by when compliance has crept")
+    instant: Compliance = Field(default=0.0, description="at once; without it no load can jump")
+    data: Literal["deviatoric", "shear", "uniaxial"] = Field(description=_DATA)
+
+    def law_noun(self) -> Law:
+        """Return the law, whatever test the compliances are from."""
+        terms = (self.compliance, self.exponent, self.reference_time, self.instant)
+        if self.data == "deviatoric":
+            return laws.PowerLaw(*terms)
+        if self.data == "shear":
+            return laws.PowerLaw.from_shear(*terms)
+        return laws.PowerLaw.from_uniaxial(*terms, **self._in_volume)

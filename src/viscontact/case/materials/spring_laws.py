@@ -1,0 +1,117 @@
+"""Laws of springs, dashpots and spring-pots, as a case file gives them."""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar, Literal
+
+from pydantic import Field
+
+from viscontact import laws
+from viscontact.case.materials.base import Medium
+from viscontact.case.quantities import Duration, Exponent, Modulus, ModulusOrZero, Viscosity
+from viscontact.laws import Law
+
+
+class Springs(Medium):
+    """A law of elements, by shear moduli, or with `data: uniaxial` by tensile ones."""
+
+    built: ClassVar[Any]  # the law's class; from_shear and from_uniaxial differ in arguments
+
+    shear_modulus: Modulus | None = Field(default=None, description="at once")
+    youngs_modulus: Modulus | None = Field(
+        default=None, description="instead of shear_modulus, with data: uniaxial"
+    )
+    data: Literal["shear", "uniaxial"] | None = Field(
+        default=None, description="what all moduli and viscosities mean; shear when left out"
+    )
+
+    def law_noun(self) -> Law:
+        """Return the law, from shear or from tensile moduli."""
+        others = {name: getattr(self, name) for name in self._others()}
+        if self._is_uniaxial():
+            law = self.built.from_uniaxial(self.youngs_modulus, **others, **self._in_volume)
+        else:
+            law = self.built.from_shear(self.shear_modulus, **others)
+        assert isinstance(law, Law)
+        return law
+
+    def _is_uniaxial(self) -> bool:
+        uniaxial = self.data == "uniaxial"
+        wanted, unwanted = ("youngs_modulus", "shear_modulus")[:: 1 if uniaxial else -1]
+        if getattr(self, unwanted) is not None:
+            hint = "" if uniaxial else "; tensile moduli need data: uniaxial"
+            raise ValueError(
+                f"{unwanted} does not go with data: {self.data or 'shear'}; give {wanted}{hint}"
+            )
+        if getattr(self, wanted) is None:
+            raise ValueError(f"{wanted} is missing; write e.g. '{wanted}: 1800 MPa'")
+        return uniaxial
+
+    def _others(self) -> list[str]:
+        shared = {*Springs.model_fields, "law"}
+        return [name for name in type(self).model_fields if name not in shared]
+
+
+class Elastic(Springs):
+    """A spring."""
+
+    built = laws.Elastic
+
+    law: Literal["elastic"]
+
+
+class Maxwell(Springs):
+    """A spring and a dashpot in series."""
+
+    built = laws.Maxwell
+
+    law: Literal["maxwell"]
+    viscosity: Viscosity = Field(description="of the dashpot")
+
+
+class Zener(Springs):
+    """A spring in series with a Kelvin unit, the standard linear solid."""
+
+    built = laws.Zener
+
+    law: Literal["zener"]
+    delayed_modulus: Modulus = Field(description="of the Kelvin unit's spring")
+    viscosity: Viscosity = Field(description="of the Kelvin unit's dashpot")
+
+
+class Burgers(Springs):
+    """A Maxwell and a Kelvin unit in series."""
+
+    built = laws.Burgers
+
+    law: Literal["burgers"]
+    viscosity: Viscosity = Field(description="of the Maxwell unit, the steady flow")
+    delayed_modulus: Modulus = Field(description="of the Kelvin unit's spring")
+    delayed_viscosity: Viscosity = Field(description="of the Kelvin unit's dashpot")
+
+
+class FractionalMaxwell(Springs):
+    """A spring (or a spring-pot) in series with a spring-pot."""
+
+    built = laws.FractionalMaxwell
+
+    law: Literal["fractional-maxwell"]
+    time: Duration = Field(description="when both elements have given alike")
+    exponent: Exponent = Field(description="of the spring-pot: 0 is a spring, 1 a dashpot")
+    second_exponent: float = Field(
+        default=0.0, ge=0, lt=1, description="of the other element; a spring when left out"
+    )
+
+
+class FractionalZener(Springs):
+    """The standard linear solid with a spring-pot in place of its dashpot."""
+
+    built = laws.FractionalZener
+
+    law: Literal["fractional-zener"]
+    equilibrium_modulus: ModulusOrZero = Field(
+        examples=["100 MPa"],
+        description="left after all relaxation, as shear or Young's modulus like the other",
+    )
+    time: Duration = Field(description="relaxation time")
+    exponent: Exponent = Field(description="of the spring-pot: 0 is a spring, 1 a dashpot")

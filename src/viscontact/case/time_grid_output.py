@@ -1,0 +1,253 @@
+"""The `time`, `grid` and `output` of a case file."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Discriminator, Field, Tag, model_validator
+
+from viscontact import grid
+from viscontact.case.quantities import (
+    CellCount,
+    Duration,
+    GridTolerance,
+    Instant,
+    Length,
+    Section,
+    StepCount,
+    TimeTolerance,
+)
+from viscontact.time_integration.requested_times import (
+    AdaptiveTimes,
+    adaptive_times,
+    log_times,
+    uniform_times,
+)
+from viscontact.units.formatting import in_words
+
+#: Without `first`, steps in log time begin at this part of the end.
+FIRST_OF_END = 1e-3
+
+#: Without `tolerance`, adaptive steps keep the error they cause below this.
+ADAPTIVE_TOLERANCE = 1e-3
+
+#: Without `output`, so many instants keep their fields.
+DEFAULT_FIELDS = 10
+
+#: Without `tolerance`, the cells of an automatic grid keep the error they cause below this.
+DEFAULT_TOLERANCE = 0.01
+
+
+class Time(Section):
+    """The instants at which the state is computed."""
+
+    end: Duration = Field(description="last instant of the run")
+    steps: StepCount | None = Field(
+        default=None, description="number of steps; not with adaptive spacing"
+    )
+    spacing: Literal["uniform", "log", "adaptive"] = Field(
+        default="uniform",
+        description="adaptive: each step as long as the tolerance allows",
+    )
+    first: Duration | None = Field(
+        default=None, description="with log spacing: the first instant after 0; end/1000 if not"
+    )
+    tolerance: TimeTolerance | None = Field(
+        default=None,
+        description="with adaptive spacing: relative error that the steps may cause; "
+        f"{ADAPTIVE_TOLERANCE:g} if not",
+    )
+
+    def instants(self) -> NDArray[np.float64] | AdaptiveTimes:
+        """Return the instants, from 0 to the end [s], or the wish for adaptive ones."""
+        if self.spacing == "adaptive":
+            return adaptive_times(self.end, self.tolerance or ADAPTIVE_TOLERANCE)
+        assert self.steps is not None  # refused otherwise
+        if self.spacing == "uniform":
+            return uniform_times(self.end, self.steps)
+        first = self.end * FIRST_OF_END if self.first is None else self.first
+        return log_times(first, self.end, self.steps)
+
+    @model_validator(mode="after")
+    def _accepted(self) -> Time:
+        for name, spacings in _GOES_WITH.items():
+            if getattr(self, name) is not None and self.spacing not in spacings:
+                raise ValueError(
+                    f"{name} goes with spacing: {' or '.join(spacings)} only; leave it out"
+                )
+        if self.steps is None and self.spacing != "adaptive":
+            raise ValueError(
+                "steps is missing; write e.g. 'steps: 120', or 'spacing: adaptive' for steps "
+                "that the run chooses"
+            )
+        self.instants()
+        return self
+
+
+#: Which keys say something about which spacing.
+_GOES_WITH = {"steps": ("uniform", "log"), "first": ("log",), "tolerance": ("adaptive",)}
+
+
+class Cells(Section):
+    """The grid of pressure cells, centred on the origin, or what is asked of an automatic one."""
+
+    shape: Annotated[tuple[CellCount, CellCount], Field(strict=False)] | None = Field(
+        default=None, description="numbers of cells along x and y", examples=[[256, 128]]
+    )
+    size: Annotated[tuple[Length, Length], Field(strict=False)] | None = Field(
+        default=None, description="extents along x and y", examples=[["50 mm", "5 mm"]]
+    )
+    periodic: bool = Field(
+        default=False,
+        description="whether it is one period of a surface that goes on without end, both ways",
+    )
+    tolerance: GridTolerance | None = Field(
+        default=None,
+        description="in place of shape and size: relative error that the cells of an automatic "
+        f"grid may cause; {DEFAULT_TOLERANCE:g} if not",
+    )
+    quantities: list[Literal["peak_pressure", "contact_area", "approach"]] | None = Field(
+        default=None,
+        description="with an automatic grid: what has to be that exact; all of them if not",
+    )
+
+    def noun(self) -> grid.Grid | grid.AutomaticGrid:
+        """Return the grid, or the wish for one."""
+        if self.shape and self.size:
+            return grid.Grid(self.shape, self.size, self.periodic)
+        quantities = grid.GRID_QUANTITIES if self.quantities is None else self.quantities
+        return grid.AutomaticGrid(self.tolerance or DEFAULT_TOLERANCE, quantities)
+
+    @model_validator(mode="after")
+    def _accepted(self) -> Cells:
+        wish = [name for name in ("tolerance", "quantities") if getattr(self, name) is not None]
+        cells = [name for name in ("shape", "size") if getattr(self, name) is not None]
+        if wish and cells:
+            raise ValueError(
+                f"{wish[0]} goes with an automatic grid, which has no {cells[0]} of yours; leave "
+                "out the one or the other"
+            )
+        if self.periodic and not cells:
+            raise ValueError(
+                "periodic goes with shape and size, an automatic grid knows no period; write e.g. "
+                "'shape: [128, 128]' and 'size: [1 mm, 1 mm]'"
+            )
+        if len(cells) == 1:
+            missing = "size" if self.shape else "shape"
+            example = "[50 mm, 5 mm]" if self.shape else "[256, 128]"
+            raise ValueError(
+                f"{missing} is missing; write e.g. '{missing}: {example}', or leave out the whole "
+                "section for an automatic grid"
+            )
+        self.noun()
+        return self
+
+
+def _word_or_list(given: Any) -> str:
+    return "word" if isinstance(given, str) else "instants"
+
+
+_Fields = Annotated[
+    Annotated[Literal["all", "none"], Tag("word")] | Annotated[list[Instant], Tag("instants")],
+    Discriminator(_word_or_list),
+]
+
+
+class Output(Section):
+    """What is kept besides the scalars of every step."""
+
+    fields: _Fields | None = Field(
+        default=None,
+        description="instants whose pressure, gap and displacement are kept, or all, or none; "
+        "ten of the run's instants when left out",
+    )
+    errors: bool = Field(
+        default=True,
+        description="whether the errors of the scalars are estimated after the last step, from two "
+        "coarser companions of the run, which takes about two thirds of its time",
+    )
+
+
+def kept_fields(
+    output: Output, times: NDArray[np.float64] | AdaptiveTimes
+) -> str | tuple[float, ...]:
+    """Return the instants whose fields are kept.
+
+    Parameters
+    ----------
+    output : Output
+        What the case asks for.
+    times : ndarray or AdaptiveTimes
+        The run's instants [s], or the wish for adaptive ones.
+
+    Returns
+    -------
+    str or tuple of float
+        ``"all"``, ``"none"``, or instants [s]. When nothing is asked for, ten: evenly among the
+        run's steps, or, where these are adaptive, 0 and nine from end/1000 on in log time.
+
+    Raises
+    ------
+    ValueError
+        If an instant lies after the end.
+
+    Examples
+    --------
+    >>> kept_fields(Output(fields=["0 s", "30 s"]), np.array([0.0, 60.0]))
+    (0.0, 30.0)
+    >>> kept_fields(Output(), adaptive_times(10.0, tolerance=1e-3))[:3]
+    (0.0, 0.01, 0.023713737056616554)
+    """
+    if isinstance(output.fields, str):
+        return output.fields
+    end = times.end if isinstance(times, AdaptiveTimes) else float(times[-1])
+    if output.fields is None:
+        return _default_fields(times)
+    late = [instant for instant in output.fields if instant > end * (1 + 1e-9)]
+    if late:
+        raise ValueError(
+            f"the instant {in_words(late[0], 's', 6)} lies after the end of the run, "
+            f"{in_words(end, 's', 6)}"
+        )
+    return tuple(sorted({min(instant, end) for instant in output.fields}))
+
+
+def _default_fields(times: NDArray[np.float64] | AdaptiveTimes) -> tuple[float, ...]:
+    if isinstance(times, AdaptiveTimes):
+        spread = log_times(times.end * FIRST_OF_END, times.end, DEFAULT_FIELDS - 1)
+        return tuple(spread.tolist())
+    chosen = np.linspace(0, len(times) - 1, min(DEFAULT_FIELDS, len(times))).round()
+    return tuple(times[chosen.astype(int)].tolist())
+
+
+def with_instants(
+    times: NDArray[np.float64] | AdaptiveTimes, fields: str | tuple[float, ...]
+) -> NDArray[np.float64] | AdaptiveTimes:
+    """Return the run's instants with those added whose fields are asked for.
+
+    Parameters
+    ----------
+    times : ndarray or AdaptiveTimes
+        The instants of the `time` section [s]; adaptive steps hit those of the fields anyway.
+    fields : str or tuple of float
+        From `kept_fields`.
+
+    Returns
+    -------
+    ndarray or AdaptiveTimes
+        All instants, strictly increasing [s].
+
+    Examples
+    --------
+    >>> with_instants(np.array([0.0, 1.0]), (0.0, 0.5)).tolist()
+    [0.0, 0.5, 1.0]
+    """
+    if isinstance(fields, str) or isinstance(times, AdaptiveTimes):
+        return times
+    # A field asked for at 30 s is the field at 30 s, not that of a step nearby; it takes the
+    # place of a step that differs by rounding only.
+    asked = np.asarray(fields)
+    doubled = np.isclose(times[:, None], asked[None, :], rtol=1e-6, atol=0.0).any(axis=1)
+    return np.union1d(times[~doubled], asked)

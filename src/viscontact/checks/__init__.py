@@ -1,0 +1,1 @@
+"""Argument checks, and warnings about accuracy and validity."""

@@ -1,0 +1,138 @@
+"""What a run is refused for, before its first step."""
+
+from __future__ import annotations
+
+from numbers import Integral
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.checks.load_support import Reach
+from viscontact.grid import AutomaticGrid, Grid
+from viscontact.indenters import Indenter
+from viscontact.loads import LoadHistory
+from viscontact.loads.arguments import TAIL
+from viscontact.loads.largest_load import largest_load
+from viscontact.materials.compliance import ContactCompliance
+from viscontact.materials.material import Material
+from viscontact.units.formatting import in_words
+from viscontact.units.numbers import as_real
+
+#: Instants at which a law is looked at before it is used, and a fall that is not rounding or the
+#: error of a conversion.
+CREEP_SAMPLES, NOTABLE_FALL = 200, 0.01
+
+
+def check_kinds(
+    indenter: object, material: object, load: object, grid: object, indenter_material: object
+) -> None:
+    """Refuse arguments that are not the nouns they should be, by name."""
+    wanted: list[tuple[str, object, tuple[type, ...], bool]] = [
+        ("indenter", indenter, (Indenter,), False),
+        ("material", material, (Material,), False),
+        ("load", load, (LoadHistory,), False),
+        ("grid", grid, (Grid, AutomaticGrid), True),
+        ("indenter_material", indenter_material, (Material,), True),
+    ]
+    for name, value, kinds, optional in wanted:
+        if not (isinstance(value, kinds) or (optional and value is None)):
+            named = " or ".join(kind.__name__ for kind in kinds)
+            raise ValueError(f"{name} must be of kind {named}, got {value!r}")
+
+
+def check_numbers(tolerance: object, threads: object) -> None:
+    """Refuse a tolerance or a number of threads out of range."""
+    number = as_real(tolerance)
+    if number is None or not 1e-13 <= number <= 1e-2:
+        raise ValueError(f"tolerance must lie between 1e-13 and 1e-2, got {tolerance!r}")
+    if not (isinstance(threads, Integral) and 1 <= int(threads) <= 1024):
+        raise ValueError(f"threads must be a whole number >= 1, and at most 1024, got {threads!r}")
+
+
+def check_magnitudes(
+    compliance: ContactCompliance, load: LoadHistory, grid: Grid | None, end: float
+) -> None:
+    """Refuse magnitudes whose squares and quotients are no numbers; a search might never end."""
+    sizes = () if grid is None else grid.size
+    level = abs(load.largest_level)
+    magnitudes = [(f"load.{load.control}", level), ("material", compliance(end)), ("time", end)]
+    for name, value in [*magnitudes, *(("grid.size", size) for size in sizes)]:
+        if value and not 1e-30 <= value <= 1e30:
+            raise ValueError(f"{name}: {value:.3g} in SI units is beyond what can be computed with")
+
+
+def check_creep(compliance: ContactCompliance, times: NDArray[np.float64]) -> None:
+    """Refuse a law that is no creep within the run [s]: no number, negative, or falling."""
+    # A memory in exponentials is fitted to ten times the first step at least.
+    end = max(float(times[-1]), 10 * float(np.diff(times).min(initial=times[-1])))
+    # Steps between the instants asked for are as short as they like.
+    instants = times[:: max(1, len(times) // CREEP_SAMPLES)]
+    if end > 0:
+        instants = np.union1d(instants, np.geomspace(1e-6 * end, end, CREEP_SAMPLES))
+    values = np.asarray(compliance(instants))
+    wrong = ~(np.isfinite(values) & (values >= 0))
+    wrong[1:] |= values[1:] < (1 - NOTABLE_FALL) * values[:-1]
+    if wrong.any():
+        raise ValueError(
+            f"material: its law gives a contact compliance of {values[wrong][0]:.4g} /Pa at t = "
+            f"{in_words(instants[wrong][0], 's')}; creep is a number, not negative, and never "
+            "falls. Mend the law"
+        )
+
+
+def check_jumps(compliance: ContactCompliance, load: LoadHistory, end: float) -> None:
+    """Refuse a jump of the load within the run [s] that the law cannot follow."""
+    jumps = [jump for jump in load.jumps if jump <= end]
+    if jumps and compliance.instant == 0:
+        raise ValueError(
+            f"load: the load jumps at t = {in_words(jumps[0], 's', 6)} but the law has no instant "
+            "compliance, so the surface could not follow; use a ramp, or give the law an instant "
+            "compliance"
+        )
+
+
+def check_touch(
+    compliance: ContactCompliance, open_gap: NDArray[np.float64], grid: Grid, load: LoadHistory
+) -> None:
+    """Refuse a clamped tilt that presses at time 0 already on a law that cannot follow."""
+    point = load.at(0.0)
+    if compliance.instant > 0 or point.approach is None:
+        return
+    slopes = (point.tilt_x or 0.0) * grid.x[:, None], (point.tilt_y or 0.0) * grid.y[None, :]
+    if (open_gap < point.approach + slopes[0] + slopes[1]).any():
+        raise ValueError(
+            f"load: tilted by {in_words(point.tilt_x or 0.0, 'rad', 6)} along x and "
+            f"{in_words(point.tilt_y or 0.0, 'rad', 6)} along y the stage presses from time 0 on, "
+            "but the law has no instant compliance, so the surface could not follow; begin with a "
+            "smaller approach, or give the law an instant compliance"
+        )
+
+
+def check_balance(open_gap: NDArray[np.float64], grid: Grid, load: LoadHistory, end: float) -> None:
+    """Refuse a resultant that acts outside the hull of what can touch."""
+    solid = np.isfinite(open_gap)
+    if not solid.any():
+        raise ValueError("grid: no cell lies under the indenter; use a finer or larger grid")
+    # A point without load counts where the load grows from it or falls to it; a swing from zero
+    # to zero has its load between.
+    swing = [largest_load(load, end)[0]] if np.isfinite(load.longest_step) else []
+    instants = np.unique([*load.kinks[load.kinks < end], *swing, end])
+    levels = np.maximum(load.level_at(instants, side="left"), load.level_at(instants))
+    before, after = np.append(0.0, levels[:-1]), np.append(levels[1:], 0.0)
+    under_load = instants[(before > 0) | (levels > 0) | (after > 0)].tolist()
+    if not _wanders(load):
+        del under_load[1:]
+    reach = Reach(solid, grid)
+    for time in under_load:
+        for side in ("left", "right"):
+            point = load.at(time, side=side)
+            where = (
+                None if point.tilt_x is not None else point.eccentricity_x,
+                None if point.tilt_y is not None else point.eccentricity_y,
+            )
+            reach.refuse_outside(where, time)
+
+
+def _wanders(load: LoadHistory) -> bool:
+    """Whether the place where the force acts, or what is prescribed of the tilts, changes."""
+    return any(np.ndim(getattr(load, name)) > 0 for name in TAIL if getattr(load, name) is not None)

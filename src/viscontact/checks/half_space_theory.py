@@ -1,0 +1,319 @@
+"""Doubts about a contact's geometry: strains too large, and bodies that end."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.checks.sampling import Sampling, sampling_doubts
+from viscontact.checks.singularities import is_sharp, touches_end
+from viscontact.contact.rim import Rim
+from viscontact.grid import Grid
+from viscontact.indenters import Indenter
+from viscontact.units.formatting import in_words
+
+#: Small-strain theory is doubtful beyond these: slope, contact half width / R, approach / R, and
+#: for a body without a radius approach / half width, which a cone of that slope has at 0.47.
+STEEP_SLOPE, WIDE_CONTACT, DEEP_APPROACH, DEEP_PUNCH = 0.3, 0.3, 0.1, 0.5
+
+#: Where slopes stay so far below steep a tilt up to this makes none too steep [rad].
+LITTLE_TILT = 0.03
+
+#: Cells across a contact whose extents can be measured against the approach.
+FEW_CELLS = 4
+
+#: From one side of a period's border to the other the gap may change by so many times what it does
+#: from cell to cell elsewhere.
+SEAM = 2.0
+
+#: Kinds of doubt that leave the peak pressure without a limit.
+SINGULAR_KINDS = frozenset({"end", "seam", "corner"})
+
+#: A body counts as deep if the contact's half width is no larger part of its thickness. At that
+#: bound an incompressible layer bonded to a rigid base carries 28 % more under a sphere at the same
+#: approach (Dimitriadis et al. 2002, Biophys. J. 82, 2798).
+THIN_BODY = 0.2
+
+
+@dataclass(frozen=True, eq=False)
+class Geometry:
+    """What the doubts about geometry need to know.
+
+    Attributes
+    ----------
+    indenter : Indenter
+        The shape; its radius of curvature is the measure of depth and width.
+    open_gap : ndarray, shape (nx, ny)
+        Initial gap [m], +inf outside the outline.
+    grid : Grid
+        The cells.
+    thickness : float
+        Of the thinner body; inf if none is told [m].
+    indenter_gives : bool
+        Whether the indenter is deformable, and so taken for a half-space as well.
+    foreseen : bool
+        Whether the contact is an estimate of what is to come, and spoken of as such.
+    """
+
+    indenter: Indenter
+    open_gap: NDArray[np.float64]
+    grid: Grid
+    thickness: float = math.inf
+    indenter_gives: bool = False
+    foreseen: bool = False
+
+    @property
+    def _verbs(self) -> tuple[str, str]:
+        return ("will be about", "will reach") if self.foreseen else ("is", "reaches")
+
+    @cached_property
+    def steepness(self) -> NDArray[np.float64]:
+        """The larger slope from each cell to the next along either axis, without a sign [-]."""
+        steepness = np.zeros(self.grid.shape)
+        for axis in (0, 1):
+            here = np.moveaxis(steepness, axis, 0)[:-1]
+            with np.errstate(invalid="ignore"):  # outside the body
+                slope = np.diff(np.moveaxis(self.open_gap, axis, 0), axis=0)
+            np.maximum(here, np.abs(slope) / self.grid.cell_size[axis], out=here)
+        return steepness
+
+    @cached_property
+    def steepest(self) -> float:
+        """The largest of these slopes [-]."""
+        return float(self.steepness.max())
+
+    @cached_property
+    def nearly_steep(self) -> NDArray[np.bool_]:
+        """Cells from which the body rises so steeply that a little tilt makes it too steep."""
+        return self.steepness > STEEP_SLOPE - LITTLE_TILT
+
+    @cached_property
+    def ends(self) -> bool:
+        """Whether the body ends within the grid."""
+        return bool(np.isinf(self.open_gap).any())
+
+    @cached_property
+    def _sampling(self) -> Sampling:
+        return Sampling(self.indenter, self.open_gap, self.grid)
+
+
+def geometry_doubts(
+    geometry: Geometry,
+    rim: Rim,
+    motion: NDArray[np.float64],
+    displacement: NDArray[np.float64],
+) -> dict[str, str]:
+    """Doubts about small strains, about where the bodies end, and about what the grid misses.
+
+    Parameters
+    ----------
+    geometry : Geometry
+        The undeformed shape on its grid.
+    rim : Rim
+        The contact and its extents.
+    motion : ndarray, shape (3,)
+        Approach [m] and tilts [rad].
+    displacement : ndarray, shape (nx, ny)
+        Displacement of the surface [m].
+
+    Returns
+    -------
+    dict of str to str
+        Sentences by kind of doubt; empty if there is none.
+    """
+    return (
+        strain_doubts(geometry, rim, motion)
+        | body_doubts(geometry, rim)
+        | sampling_doubts(geometry._sampling, rim, motion, displacement)
+    )
+
+
+def strain_doubts(geometry: Geometry, rim: Rim, motion: NDArray[np.float64]) -> dict[str, str]:
+    """Doubts about strains too large for a linear theory: slope, width, approach.
+
+    Parameters
+    ----------
+    geometry, rim, motion
+        As in `geometry_doubts`.
+
+    Returns
+    -------
+    dict of str to str
+        Sentences by kind of doubt; empty if there is none.
+    """
+    doubts: dict[str, str] = {}
+    half_width, radius = _half_width(rim), geometry.indenter.radius_of_curvature
+    # A roller's length is no measure of its width, and may be less.
+    extents = zip((rim.length, rim.width), geometry.indenter.curvatures, strict=True)
+    wide = max(extent / 2 * curvature for extent, curvature in extents)
+    be, reach = geometry._verbs
+    slope = _steepest_slope(geometry, rim, motion)
+    if slope > STEEP_SLOPE:
+        doubts["slope"] = (
+            f"the indenter's slope within the contact {reach} {slope:.2g}; "
+            f"small-strain half-space theory is meant for slopes below {STEEP_SLOPE:g}"
+        )
+    if wide > WIDE_CONTACT:
+        doubts["width"] = (
+            f"the contact's half width {be} {wide:.2g} of the indenter's radius of "
+            f"curvature; half-space theory is meant for less than {WIDE_CONTACT:g}"
+        )
+    measure, named, most = radius, "indenter's radius of curvature", DEEP_APPROACH
+    if math.isinf(radius):
+        measure, named, most = half_width, "contact's half width", DEEP_PUNCH
+    # Of a body without a radius, slopes say it already where there are any; and the extents of a
+    # contact of few cells say little.
+    known = math.isfinite(radius) or (slope <= STEEP_SLOPE and _spans(rim.contact, FEW_CELLS))
+    if known and motion[0] > most * measure:
+        doubts["approach"] = (
+            f"the approach {be} {motion[0] / measure:.2g} of the {named}; "
+            f"small-strain theory is meant for less than {most:g}"
+        )
+    return doubts
+
+
+def body_doubts(geometry: Geometry, rim: Rim) -> dict[str, str]:
+    """Doubts about bodies that end where a half-space goes on: profile, end face, thickness.
+
+    Parameters
+    ----------
+    geometry, rim
+        As in `geometry_doubts`.
+
+    Returns
+    -------
+    dict of str to str
+        Sentences by kind of doubt; empty if there is none.
+    """
+    doubts: dict[str, str] = {}
+    half_width, (be, reach) = _half_width(rim), geometry._verbs
+    if geometry.grid.periodic and _touches_seam(geometry, rim):
+        doubts["seam"] = (
+            f"the contact {reach} the border of the period, where the body does not continue: "
+            "beside its next period it has a step, at which the peak pressure depends on the mesh; "
+            "press a body that fits to itself, or not periodically"
+        )
+    if geometry.ends and touches_end(rim.cut(geometry.open_gap), rim.contact):
+        doubts["end"] = (
+            f"the contact {reach} the end of the indenter's profile: pressure is singular there "
+            "and the peak pressure depends on the mesh. The half-space goes on beyond it: a body "
+            "that ends there as well gives way more"
+        )
+    if geometry.indenter_gives and _ends_within(geometry, rim, half_width):
+        doubts["end_face"] = (
+            "the indenter ends within a half width of the contact, but its material is taken for a "
+            "half-space that goes on there; a free end face gives way more, so that pressure near "
+            "it is lower and the approach larger"
+        )
+    if half_width > THIN_BODY * geometry.thickness:
+        doubts["thickness"] = (
+            f"the contact's half width {be} {half_width / geometry.thickness:.2g} of the body's "
+            f"thickness of {in_words(geometry.thickness, 'm', 3)}; half-space theory is meant for "
+            f"less than {THIN_BODY:g}, beyond it what the body rests on counts"
+        )
+    return doubts
+
+
+def corner_doubts(
+    geometry: Geometry,
+    place: tuple[float, float],
+    strain: float,
+    searched: tuple[float, float] | None = None,
+) -> dict[str, str]:
+    """Doubt about a peak of pressure at a tip, an edge or a corner of the body.
+
+    Parameters
+    ----------
+    geometry : Geometry
+        The undeformed shape on its grid.
+    place : tuple of float
+        Where pressure is largest [m].
+    strain : float
+        That makes it, from `singularities.strain_of` [-].
+    searched : tuple of float, optional
+        Edges of the cells that the place is known to [m]; the grid's when left out.
+
+    Returns
+    -------
+    dict of str to str
+        Sentences by kind of doubt; empty if there is none.
+    """
+    cell = geometry.grid.cell_size
+    along, across = (1.5 * each for each in searched or cell)
+    if not is_sharp(geometry.indenter, place, (along, across), cell, strain):
+        return {}
+    be = "lies" if not geometry.foreseen else "will lie"
+    return {
+        "corner": (
+            f"the largest pressure {be} at a tip, an edge or a corner of the indenter, sharp or "
+            "rounded within a quarter of a cell (between two facets of a height map, say): "
+            "pressure is singular there and the peak pressure depends on the mesh. A rounding over "
+            "several cells would bound it"
+        )
+    }
+
+
+def _touches_seam(geometry: Geometry, rim: Rim) -> bool:
+    """Whether contact lies at a step from the period's last cells to its first.
+
+    A step is much larger than those from cell to cell elsewhere.
+    """
+    for axis, lines in enumerate((rim.rows, rim.columns)):
+        gap = np.moveaxis(geometry.open_gap, axis, 0)
+        touched = np.isin([0, len(gap) - 1], lines[rim.contact.any(axis=1 - axis)])
+        seam, inner = np.abs(gap[0] - gap[-1]), np.abs(np.diff(gap, axis=0))
+        known = np.isfinite(seam)
+        largest = float(inner[np.isfinite(inner)].max(initial=0.0))
+        if touched.any() and float(seam[known].max(initial=0.0)) > SEAM * largest:
+            return True
+    return False
+
+
+def _spans(contact: NDArray[np.bool_], cells: int) -> bool:
+    return all(int(contact.any(axis=axis).sum()) >= cells for axis in (0, 1))
+
+
+def _half_width(rim: Rim) -> float:
+    return min(rim.length, rim.width) / 2
+
+
+def _ends_within(geometry: Geometry, rim: Rim, distance: float) -> bool:
+    """Whether the indenter ends near the box around the contact, within the grid."""
+    block = []
+    for axis, lines in enumerate((rim.rows, rim.columns)):
+        touched = lines[rim.contact.any(axis=1 - axis)]
+        if not touched.size:
+            return False
+        near = math.ceil(distance / geometry.grid.cell_size[axis])
+        block.append(_around(touched, near, geometry.grid, axis))
+    return bool(np.isinf(geometry.open_gap[np.ix_(*block)]).any())
+
+
+def _around(lines: NDArray[np.intp], distance: int, grid: Grid, axis: int) -> NDArray[np.intp]:
+    """Lines of the grid from so many before the first of some to so many behind the last."""
+    count = grid.shape[axis]
+    first, last = int(lines[0]) - distance, int(lines[-1]) + distance
+    if grid.periodic:
+        return np.arange(first, first + min((last - first) % count + 1, count)) % count
+    return np.arange(max(first, 0), min(last + 1, count))
+
+
+def _steepest_slope(geometry: Geometry, rim: Rim, motion: NDArray[np.float64]) -> float:
+    """Steepest slope in contact; a bound where that is not steep."""
+    tilt = float(np.abs(motion[1:]).max())
+    if geometry.steepest + tilt <= STEEP_SLOPE:
+        return geometry.steepest + tilt
+    if tilt <= LITTLE_TILT and not (rim.cut(geometry.nearly_steep) & rim.contact).any():
+        return STEEP_SLOPE
+    steepest, cell_size = 0.0, geometry.grid.cell_size
+    for axis in (0, 1):
+        shape = np.moveaxis(rim.cut(geometry.open_gap), axis, 0)
+        touched = np.moveaxis(rim.contact, axis, 0)
+        pairs = touched[1:] & touched[:-1]
+        slope = (shape[1:][pairs] - shape[:-1][pairs]) / cell_size[axis]
+        steepest = max(steepest, float(np.abs(slope - motion[1 + axis]).max(initial=0.0)))
+    return steepest

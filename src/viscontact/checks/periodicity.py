@@ -1,0 +1,135 @@
+"""What can be one period of a periodic surface, and what is refused there."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.grid import Grid
+from viscontact.indenters import CombinedIndenter, HeightMap, Indenter, PlacedIndenter
+from viscontact.loads import LoadHistory
+from viscontact.loads.arguments import TAIL
+from viscontact.units.formatting import in_words
+
+#: Lengths that agree to this part of the period are one, however they were written down.
+SAME = 1e-6
+
+#: A texture repeats itself if gaps a period apart differ by no more than this part of its depth.
+REPEATED = 1e-3
+
+
+def check_period(
+    indenter: Indenter, open_gap: NDArray[np.float64], grid: Grid, load: LoadHistory
+) -> None:
+    """Refuse, on a periodic grid, what does not repeat itself or what no period can carry.
+
+    Parameters
+    ----------
+    indenter : Indenter
+        The shape; what of it lies within the grid is repeated.
+    open_gap : ndarray, shape (nx, ny)
+        Its gap on the grid [m].
+    grid : Grid
+        The period; nothing is refused on a grid that is none.
+    load : LoadHistory
+        The load.
+
+    Raises
+    ------
+    ValueError
+        If the load acts off centre or tilts, waves, dimples or a height map do not fit into the
+        period, or an approach would press the surfaces together everywhere.
+
+    Examples
+    --------
+    >>> from viscontact.indenters import Waviness
+    >>> from viscontact.loads import step
+    >>> waves, period = Waviness(1e-6, 2e-3), Grid((8, 8), (3e-3, 1e-3), periodic=True)
+    >>> try:
+    ...     check_period(waves, waves.gap(period.x[:, None], period.y), period, step(1.0))
+    ... except ValueError as error:
+    ...     print(str(error)[:52])
+    grid.size: the body does not repeat itself over 3 mm
+    """
+    if not grid.periodic:
+        return
+    for name in TAIL:
+        if np.any(getattr(load, name, None) or 0.0):
+            raise ValueError(
+                f"load.{name}: must be 0 on a periodic grid, where a body that tilted would not "
+                "fit to its next period; leave it out"
+            )
+    for part in _parts(indenter):
+        _refuse_misfit(part, grid)
+    mean = float(open_gap.mean())
+    if load.control == "approach" and load.largest_level >= mean:
+        raise ValueError(
+            f"load.approach: at {in_words(mean, 'm', 6)} the surfaces of a periodic grid touch "
+            "everywhere, and an approach says no more about the pressure, got "
+            f"{in_words(load.largest_level, 'm', 6)}; prescribe the force"
+        )
+
+
+def _parts(indenter: Indenter) -> Iterator[Indenter]:
+    """The shapes of a body, each where it lies."""
+    if isinstance(indenter, CombinedIndenter):
+        for part in indenter.parts:
+            yield from _parts(part)
+    elif isinstance(indenter, PlacedIndenter):
+        yield from (replace(indenter, body=part) for part in _parts(indenter.body))
+    else:
+        yield indenter
+
+
+def _refuse_misfit(part: Indenter, grid: Grid) -> None:
+    if isinstance(part, HeightMap):
+        for name, lines, centres, period in zip(
+            "xy", (part.x, part.y), (grid.x, grid.y), grid.size, strict=True
+        ):
+            _refuse_map(name, lines, centres, period)
+    elif math.isfinite(part.period):
+        _refuse_texture(part, grid)
+    elif isinstance(part, PlacedIndenter) and isinstance(part.body, HeightMap):
+        gap = part.gap(grid.x[:, None], grid.y[None, :])
+        if not (part.body.holes or np.isfinite(gap).all()):
+            raise ValueError(
+                "grid.periodic: the height map is moved or turned, so that it does not cover the "
+                "period; leave it where it is"
+            )
+
+
+def _refuse_map(
+    axis: str, lines: NDArray[np.float64], centres: NDArray[np.float64], period: float
+) -> None:
+    """Refuse a map whose points, or the cells around them, do not make the period along an axis."""
+    span = float(lines[-1] - lines[0])
+    whole = span * lines.size / (lines.size - 1)
+    if not any(math.isclose(period, each, rel_tol=SAME) for each in (span, whole)):
+        raise ValueError(
+            f"grid.size: one period along {axis} must be as long as the height map, which repeats "
+            f"itself over {in_words(whole, 'm', 9)} there ({lines.size} points), got "
+            f"{in_words(period, 'm', 9)}"
+        )
+    slack = SAME * period
+    if centres[0] < lines[0] - slack or centres[-1] > lines[-1] + slack:
+        raise ValueError(
+            f"grid.shape: the height map has {lines.size} points along {axis}, and a cell beside "
+            f"its last one would see none of it; use {lines.size} cells along {axis} or fewer, or "
+            "resample the map"
+        )
+
+
+def _refuse_texture(part: Indenter, grid: Grid) -> None:
+    here = part.gap(grid.x[:, None], grid.y[None, :])
+    for axis, (name, period) in enumerate(zip("xy", grid.size, strict=True)):
+        shift = np.where(np.arange(2) == axis, period, 0.0)
+        there = part.gap(grid.x[:, None] + shift[0], grid.y[None, :] + shift[1])
+        if float(np.abs(there - here).max()) > REPEATED * float(here.max()):
+            raise ValueError(
+                f"grid.size: the body does not repeat itself over {in_words(period, 'm', 9)} along "
+                f"{name}; one period must hold a whole number of its waves or dimples"
+            )

@@ -1,0 +1,248 @@
+"""Doubts about what a grid does not see of a body: peaks between its points, and beyond them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import scipy
+from numpy.typing import NDArray
+
+from viscontact.contact.rim import Rim
+from viscontact.grid import Grid
+from viscontact.indenters import Indenter
+from viscontact.indenters.textures import CELLS_OF_A_WAVE
+from viscontact.units.formatting import in_words
+
+#: What may stand out from one point of the grid to the next, as a slope, over the mean strain
+#: of the contact (approach / half width). Flattening a wave of amplitude h and length l takes a
+#: pressure of pi h / (l J) (Johnson 1985, Contact Mechanics, eq. 13.7); waves of two cells count.
+#: A sphere on 10 cells across is below it.
+MISSED_PEAK = 0.1
+
+
+#: Where a body is looked for beyond the grid, as part of its size: evenly near it, then ever wider.
+NEAR, FAR = np.linspace(0.0, 1.5, 25), np.geomspace(1.6, 30.0, 32)
+
+#: Rings of points beyond the grid, each of which is passed over where none of it can touch.
+RINGS = 16
+
+Points = tuple[NDArray[np.float64], NDArray[np.float64]]
+
+
+@dataclass(frozen=True, eq=False)
+class Sampling:
+    """A body and the points at which a grid sees it.
+
+    Attributes
+    ----------
+    indenter : Indenter
+        The body.
+    open_gap : ndarray, shape (nx, ny)
+        Its initial gap on the grid [m], +inf outside the outline.
+    grid : Grid
+        The cells.
+    """
+
+    indenter: Indenter
+    open_gap: NDArray[np.float64]
+    grid: Grid
+
+    @cached_property
+    def beyond(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """Points of the body outside the grid: x, y and gap [m]."""
+        found = [_outside(self.grid, *points) for points in self._sampled_points()]
+        x, y = (np.concatenate(coordinates) for coordinates in zip(*found, strict=True))
+        gap = self.indenter.gap(x, y)
+        solid = np.isfinite(gap)
+        return x[solid], y[solid], gap[solid]
+
+    @cached_property
+    def _rings(self) -> NDArray[np.float64]:
+        """Of rings of points beyond the grid: largest distances along x and y, least gap [m]."""
+        x, y, gap = self.beyond
+        (lx, ly), distances = self.grid.size, np.abs([x, y])
+        outwards = np.argsort(np.maximum(distances[0] / lx, distances[1] / ly))
+        rings = [ring for ring in np.array_split(outwards, RINGS) if ring.size]
+        found = [[*distances[:, ring].max(axis=1), gap[ring].min()] for ring in rings]
+        return np.reshape(found, (-1, 3)).T
+
+    def reaches_beyond(self, motion: NDArray[np.float64], depth: float) -> bool:
+        """Whether the moved body lies deeper than a depth [m] at a point outside the grid."""
+        far_x, far_y, least = self._rings
+        # It is asked at every step, and nearly always no ring comes close.
+        deepest = motion[0] + abs(motion[1]) * far_x + abs(motion[2]) * far_y - least
+        if (deepest <= depth).all():
+            return False
+        x, y, gap = self.beyond
+        return bool((motion[0] + motion[1] * x + motion[2] * y - gap > depth).any())
+
+    @cached_property
+    def missed(self) -> NDArray[np.float64]:
+        """How far a map stands out between the grid's points, or from one to the next [m].
+
+        As the amplitude of a wave of two cells; 0 for other bodies, whose tips and edges are meant.
+        """
+        x, y = self.indenter.sample_points
+        missed = self._jagged() if x.size else np.zeros(self.grid.shape)
+        places = [
+            (along - lines[0]) / cell
+            for along, lines, cell in zip(
+                (x, y), (self.grid.x, self.grid.y), self.grid.cell_size, strict=True
+            )
+        ]
+        # Outside the grid, and beside the body's end, nothing can be said.
+        seen = scipy.ndimage.map_coordinates(
+            np.nan_to_num(self.open_gap, posinf=np.nan), places, order=1, cval=np.nan
+        )
+        known = np.isfinite(seen)
+        cells = tuple(np.rint(place[known]).astype(np.intp) for place in places)
+        np.maximum.at(missed, cells, seen[known] - self.indenter.gap(x[known], y[known]))
+        return missed
+
+    @cached_property
+    def sees_all(self) -> bool:
+        """Whether nothing is missed anywhere."""
+        return not self.missed.any()
+
+    def _jagged(self) -> NDArray[np.float64]:
+        """Half of how far each point stands out from the middle of its neighbours [m]."""
+        jagged = np.zeros(self.grid.shape)
+        for axis in (0, 1):
+            gap = np.moveaxis(self.open_gap, axis, 0)
+            inner = np.isfinite(gap[:-2] + gap[1:-1] + gap[2:])
+            out = np.moveaxis(jagged, axis, 0)[1:-1]
+            middle = (gap[:-2][inner] + gap[2:][inner]) / 2
+            out[inner] = np.maximum(out[inner], (middle - gap[1:-1][inner]) / 2)
+        return jagged
+
+    def _sampled_points(self) -> Iterator[Points]:
+        lx, ly = self.grid.size
+        one_side = np.concatenate([NEAR, FAR])
+        part = np.concatenate([-one_side[:0:-1], one_side])
+        yield _mesh(lx * part, ly * part)
+        yield self.indenter.sample_points
+
+
+def map_doubts(missed: float, cell: float, strain: float) -> dict[str, str]:
+    """Doubt about a height map that is finer than the grid.
+
+    Parameters
+    ----------
+    missed : float
+        How far the map stands out between the grid's points within the contact [m].
+    cell : float
+        Edge of a cell, the longer one [m].
+    strain : float
+        Approach over the contact's half width [-].
+
+    Returns
+    -------
+    dict of str to str
+        Sentences by kind of doubt; empty if there is none.
+
+    Examples
+    --------
+    >>> list(map_doubts(1e-6, 1e-5, strain=0.1)), list(map_doubts(1e-8, 1e-5, strain=0.1))
+    (['map'], [])
+    """
+    if missed <= 0 or math.pi / 2 * missed <= MISSED_PEAK * strain * cell:
+        return {}
+    return {
+        "map": (
+            "from one of the grid's points to the next the height map stands out by "
+            f"{in_words(missed, 'm', 3)}: peaks of pressure there depend on the mesh; use smaller "
+            "cells, and a map that is smooth over several of them"
+        )
+    }
+
+
+def sampling_doubts(
+    sampling: Sampling,
+    rim: Rim,
+    motion: NDArray[np.float64],
+    displacement: NDArray[np.float64],
+) -> dict[str, str]:
+    """Doubts about what the grid does not see of the body under load.
+
+    Parameters
+    ----------
+    sampling : Sampling
+        The body and the grid.
+    rim : Rim
+        The contact.
+    motion : ndarray, shape (3,)
+        Approach [m] and tilts [rad].
+    displacement : ndarray, shape (nx, ny)
+        Displacement of the surface [m].
+
+    Returns
+    -------
+    dict of str to str
+        Sentences by kind of doubt; empty if there is none.
+    """
+    missed = 0.0
+    if not sampling.sees_all:
+        missed = float(rim.cut(sampling.missed).max(where=rim.contact, initial=0.0))
+    extent = min(rim.length, rim.width)
+    strain = 2 * float(motion[0]) / extent if extent > 0 else math.inf
+    cell = max(sampling.grid.cell_size)
+    doubts = map_doubts(missed, cell, strain) | texture_doubts(sampling.indenter.period, cell)
+    if sampling.grid.periodic:
+        return doubts  # the next period is beside it, not the body
+    # Pressure is all within the grid, so displacement falls from its rim outwards.
+    rim_displacement = max(displacement[[0, -1]].max(), displacement[:, [0, -1]].max())
+    if sampling.reaches_beyond(motion, rim_displacement * (1 + 1e-9)):
+        doubts["beyond"] = (
+            "the body would touch outside the grid, too, where nothing is computed: the contact "
+            "carries a part of the load only; enlarge grid.size"
+        )
+    return doubts
+
+
+def texture_doubts(period: float, cell: float) -> dict[str, str]:
+    """Doubt about waves or dimples that are finer than the grid.
+
+    Parameters
+    ----------
+    period : float
+        Shortest length over which the body repeats itself, inf if it does not [m].
+    cell : float
+        Edge of a cell, the longer one [m].
+
+    Returns
+    -------
+    dict of str to str
+        Sentences by kind of doubt; empty if there is none.
+
+    Examples
+    --------
+    >>> list(texture_doubts(1e-3, 2e-4)), list(texture_doubts(1e-3, 1e-4))
+    (['texture'], [])
+    """
+    # Ten cells exactly are not fewer for a rounding.
+    if period > (CELLS_OF_A_WAVE - 1e-6) * cell:
+        return {}
+    return {
+        "texture": (
+            f"the body repeats itself over {in_words(period, 'm', 3)}, which are "
+            f"{period / cell:.2g} of the grid's cells; {CELLS_OF_A_WAVE} or more are wanted, or "
+            "what lies between its points is missed: use smaller cells"
+        )
+    }
+
+
+def _outside(grid: Grid, x: NDArray[np.float64], y: NDArray[np.float64]) -> Points:
+    """Those of the points that lie outside a grid."""
+    lx, ly = grid.size
+    outside = (np.abs(x) > lx / 2) | (np.abs(y) > ly / 2)
+    return x[outside], y[outside]
+
+
+def _mesh(x: NDArray[np.float64], y: NDArray[np.float64]) -> Points:
+    """All points of a mesh, one after the other."""
+    along, across = np.meshgrid(x, y, indexing="ij")
+    return along.ravel(), across.ravel()

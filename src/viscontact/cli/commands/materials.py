@@ -1,0 +1,128 @@
+"""`material`: the shipped library, and the curves of a law."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from viscontact.cli.commands.drawing import Width
+from viscontact.cli.terminal.messages import refuse
+
+if TYPE_CHECKING:  # heavy, and only to name its type
+    from viscontact.cli.material.material_files import Typed
+
+Which = Annotated[
+    str | None,
+    typer.Argument(
+        metavar="[NAME|FILE]",
+        help="A shipped material, a case file, a measured table or an Abaqus or Ansys card; "
+        "lists the shipped ones if left out.",
+    ),
+]
+Output = Annotated[
+    Path | None,
+    typer.Option(
+        "-o",
+        "--output",
+        metavar="FILE",
+        help="Draw it: .png, .pdf or .svg; with --to, write it there.",
+    ),
+]
+Form = Annotated[
+    str | None,
+    typer.Option("--to", metavar="FORM", help="Write it instead: abaqus, ansys or csv."),
+]
+Test = Annotated[
+    str | None,
+    typer.Option(
+        "--data",
+        metavar="TEST",
+        help="Of a table: shear (G, 1/G), uniaxial (E, 1/E) or deviatoric (Phi), where the "
+        "headings do not say.",
+    ),
+]
+PoissonRatio = Annotated[
+    float | None,
+    typer.Option("--poisson-ratio", metavar="NU", help="Of a table's body, constant."),
+]
+BulkModulus = Annotated[
+    str | None,
+    typer.Option("--bulk-modulus", metavar="K", help="Instead, elastic, such as '4 GPa'."),
+]
+SetNumber = Annotated[
+    float | None, typer.Option("--set", metavar="N", help="Which set of a table.")
+]
+ModulusUnit = Annotated[
+    str | None,
+    typer.Option(
+        "--modulus-unit", metavar="UNIT", help="Of a card's moduli; MPa of what is written."
+    ),
+]
+TimeUnit = Annotated[
+    str | None,
+    typer.Option("--time-unit", metavar="UNIT", help="Of a card's times; s of what is written."),
+]
+TemperatureUnit = Annotated[
+    str | None,
+    typer.Option("--temperature-unit", metavar="UNIT", help="Of a card's shift: degC, K."),
+]
+Name = Annotated[
+    str | None,
+    typer.Option("--name", metavar="NAME", help="Which material of a card, or its number."),
+]
+
+
+def material(
+    which: Which = None,
+    output: Output = None,
+    width: Width = None,
+    to: Form = None,
+    data: Test = None,
+    poisson_ratio: PoissonRatio = None,
+    bulk_modulus: BulkModulus = None,
+    number: SetNumber = None,
+    modulus_unit: ModulusUnit = None,
+    time_unit: TimeUnit = None,
+    temperature_unit: TemperatureUnit = None,
+    name: Name = None,
+) -> None:
+    """Show creep and relaxation of a law, and where a shipped one is from; or write it."""
+    from viscontact.cli.material.material_files import Typed
+
+    typed = Typed(
+        data=data,
+        poisson_ratio=poisson_ratio,
+        bulk_modulus=bulk_modulus,
+        set=number,
+        modulus_unit=modulus_unit,
+        time_unit=time_unit,
+        temperature_unit=temperature_unit,
+        name=name,
+    )
+    _show_or_write(which, output, width, to, typed)
+
+
+def _show_or_write(
+    which: str | None, output: Path | None, width: str | None, to: str | None, typed: Typed
+) -> None:
+    from viscontact.cli.material.material_files import find_material
+    from viscontact.cli.material.material_tables import list_library, show_material
+    from viscontact.cli.material.material_writing import FORMS, write_material
+    from viscontact.cli.results.figures import chosen_width
+
+    if to is not None and to not in FORMS:
+        refuse(f"--to: must be one of {', '.join(FORMS)}, got {to!r}")
+    drawn = output is not None and to is None
+    page = chosen_width(width, drawn=drawn, switch="-o FIG.png")
+    if which is None:
+        if to is not None:
+            refuse(f"--to {to}: name one material, e.g. pmma-paper")
+        list_library(output)
+        return
+    shown = find_material(which, typed, writes=to is not None)
+    if to is None:
+        show_material(shown, output, page)
+    else:
+        write_material(shown, to, typed, output)

@@ -1,0 +1,1 @@
+"""`run` with several cases or variations: jobs, schedule, progress, table."""

@@ -1,0 +1,126 @@
+"""The summary of several runs: a row each."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+from rich.box import SIMPLE_HEAD
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+
+from viscontact.results.netcdf import open_results
+from viscontact.results.stated_errors import largest_error
+from viscontact.results.variables import SCALARS
+from viscontact.runs.processes.child import Ended
+from viscontact.units.error_digits import in_percent
+from viscontact.units.formatting import in_digits, in_words, readable_unit
+
+#: Of each the largest over time: what a design is judged by.
+_COLUMNS = ("force", "approach", "contact_area", "peak_pressure")
+
+#: So many runs are named with a warning.
+_NAMED = 3
+
+
+@dataclass(frozen=True)
+class _Found:
+    """What a run has found: its largest values [SI], time spent [s], and what it doubts.
+
+    Of the errors of those values the largest part of one, nan if none is known and inf if a value
+    depends on the mesh.
+    """
+
+    largest: dict[str, float]
+    error: float
+    seconds: float
+    warnings: tuple[str, ...]
+
+
+def print_table(runs: Sequence[Ended]) -> None:
+    """Print what several runs found, the largest values over time, and what to doubt.
+
+    Parameters
+    ----------
+    runs : sequence of Ended
+        How each has ended; what it completed is shown, however that was.
+    """
+    found = [_found(each) for each in runs]
+    console = Console()
+    console.print(_table(runs, found))
+    for line in _warnings(runs, found):
+        console.print(f"[yellow]warning:[/] {escape(line)}", highlight=False, soft_wrap=True)
+
+
+def _found(ended: Ended) -> _Found | None:
+    """What lies in its directory now; None if nothing does, or it is another run's."""
+    if ended.outcome in ("refused", "not begun"):
+        return None
+    try:
+        with open_results(ended.job.directory) as ds:
+            return _of(ds) if ds.sizes["time"] else None
+    except (OSError, ValueError, LookupError):
+        return None
+
+
+def _of(ds: xr.Dataset) -> _Found:
+    largest = {name: float(np.nanmax(np.abs(ds[name].values), initial=0.0)) for name in _COLUMNS}
+    warnings = tuple(str(ds.attrs.get("warnings", "")).splitlines())
+    known = [found.part for name in _COLUMNS if (found := largest_error(ds, name)) is not None]
+    error = max((part for part in known if not math.isnan(part)), default=math.nan)
+    return _Found(largest, error, float(ds.attrs["wall_time"]), warnings)
+
+
+def _table(runs: Sequence[Ended], found: Sequence[_Found | None]) -> Table:
+    # Narrow enough for long names on eighty characters.
+    table = Table(
+        box=SIMPLE_HEAD,
+        padding=(0, 1, 0, 0),
+        show_edge=False,
+        title="largest values over time",
+        title_justify="right",
+    )
+    table.add_column("run", no_wrap=True)
+    table.add_column("outcome", no_wrap=True)
+    table.add_column("took", justify="right", no_wrap=True)
+    units = {}
+    for name in _COLUMNS:
+        largest = max((each.largest[name] for each in found if each), default=0.0)
+        units[name] = readable_unit(largest, SCALARS[name].units)
+        heading = f"{name.replace('_', ' ')} [{units[name].symbol}]"
+        table.add_column(heading.replace("[", r"\["), justify="right", vertical="bottom")
+    has_errors = any(each is not None and not math.isnan(each.error) for each in found)
+    if has_errors:
+        table.add_column("largest error", justify="right", vertical="bottom")
+    for ended, each in zip(runs, found, strict=True):
+        cells = ["", *("" for _ in _COLUMNS)]
+        if each is not None:
+            values = (in_digits(each.largest[name] / units[name].factor) for name in _COLUMNS)
+            cells = [in_words(each.seconds, "s", 2), *values]
+            cells += [_error(each.error)] if has_errors else []
+        table.add_row(escape(ended.job.name), ended.outcome, *cells)
+    return table
+
+
+def _error(part: float) -> str:
+    if math.isnan(part):
+        return ""
+    return "mesh" if math.isinf(part) else in_percent(part)
+
+
+def _warnings(runs: Sequence[Ended], found: Sequence[_Found | None]) -> list[str]:
+    """What was doubted, once, with the runs it is true of."""
+    concerned: dict[str, list[str]] = {}
+    for ended, each in zip(runs, found, strict=True):
+        for text in each.warnings if each else ():
+            concerned.setdefault(text, []).append(ended.job.name)
+    return [f"{_names(names)}: {text}" for text, names in concerned.items()]
+
+
+def _names(names: list[str]) -> str:
+    more = len(names) - _NAMED
+    return ", ".join(names[:_NAMED]) + (f" and {more} more" if more > 0 else "")

@@ -1,0 +1,1 @@
+"""Printing, drawing, fitting and writing of materials."""

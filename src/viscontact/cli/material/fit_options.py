@@ -1,0 +1,164 @@
+"""What was typed behind `fit`, and what it means for a table."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from viscontact.identification.prony import FitOptions
+from viscontact.indenters import Cone, FlatPunch, Indenter, Sphere
+from viscontact.tables import Table
+from viscontact.units.parsing import parse_quantity
+
+
+@dataclass(frozen=True)
+class Wishes:
+    """What was typed behind `fit`, not yet understood."""
+
+    data: str | None
+    poisson_ratio: float | None
+    bulk_modulus: str | None
+    terms: int | None
+    fluid: bool
+    reference: str | None
+    temperature: str | None
+    indenter: str | None
+    law: str
+
+    def options(self, table: Table) -> FitOptions:
+        """Return what the fit of a series is asked for.
+
+        Parameters
+        ----------
+        table : Table
+            The measured values: its headings may say what kind of test it is.
+
+        Raises
+        ------
+        ValueError
+            If nothing says so, or uniaxial data come without anything about the volume.
+        """
+        data = self.data or table.data
+        if data is None:
+            raise ValueError(
+                f"{table.source.name}: the headings do not say what kind of test it is; add "
+                "--data shear, --data uniaxial or --data deviatoric"
+            )
+        options = FitOptions(data=data, fluid=self.fluid, terms=self.terms)
+        if data != "uniaxial":
+            return options
+        if self.poisson_ratio is None and self.bulk_modulus is None:
+            raise ValueError(
+                f"{table.source.name}: uniaxial data need --poisson-ratio, such as 0.38, or "
+                "--bulk-modulus, such as '4 GPa'"
+            )
+        options["poisson_ratio"], options["bulk_modulus"] = self.volume()
+        return options
+
+    def volume(self) -> tuple[float | None, float | None]:
+        """Return Poisson's ratio and the bulk modulus, as far as given [-, Pa]."""
+        if self.bulk_modulus is None:
+            return self.poisson_ratio, None
+        try:
+            return self.poisson_ratio, parse_quantity(self.bulk_modulus, "pressure")
+        except ValueError as error:
+            raise ValueError(f"--bulk-modulus: {error}") from None
+
+    def indenter_of(self, table: Table) -> Indenter:
+        """Return what made an indentation record.
+
+        Parameters
+        ----------
+        table : Table
+            The record.
+
+        Raises
+        ------
+        ValueError
+            If it was not said, or not what the body's volume does; if an option was given that a
+            record has no use for.
+        """
+        if self.indenter is None:
+            raise ValueError(
+                f"{table.source.name}: an indentation record needs --indenter, such as "
+                "'sphere 5 um'"
+            )
+        if self.poisson_ratio is None and self.bulk_modulus is None:
+            raise ValueError(
+                f"{table.source.name}: an indentation record needs --poisson-ratio, such as 0.4, "
+                "or --bulk-modulus"
+            )
+        self._refuse_idle(table)
+        return read_indenter(self.indenter)
+
+    def _refuse_idle(self, table: Table) -> None:
+        """Refuse options that an indentation record has no use for, rather than pass them over."""
+        options = {
+            "--data": self.data is not None,
+            "--fluid": self.fluid,
+            "--reference": self.reference is not None,
+            "--temperature": self.temperature is not None,
+        }
+        idle = [option for option, given in options.items() if given]
+        if idle:
+            raise ValueError(
+                f"{table.source.name}: {', '.join(idle)} does not go with an indentation record; "
+                "leave it out (its law is chosen by --law)"
+            )
+
+
+def read_kelvin(option: str, text: str) -> float:
+    """Return the temperature given behind an option [K].
+
+    Parameters
+    ----------
+    option, text : str
+        Such as ``"--reference"`` and ``"23 degC"``.
+
+    Raises
+    ------
+    ValueError
+        If it is no temperature.
+
+    Examples
+    --------
+    >>> read_kelvin("--reference", "20 degC")
+    293.15
+    """
+    try:
+        return parse_quantity(text, "temperature")
+    except ValueError as error:
+        raise ValueError(f"{option}: {error}") from None
+
+
+def read_indenter(text: str) -> Indenter:
+    """Return the indenter given behind ``--indenter``.
+
+    Parameters
+    ----------
+    text : str
+        Such as ``"sphere 5 um"``.
+
+    Raises
+    ------
+    ValueError
+        If it is none, or its size cannot be read.
+
+    Examples
+    --------
+    >>> read_indenter("sphere 5 mm")
+    Sphere(radius=0.005)
+    """
+    shape, _, size = text.strip().partition(" ")
+    try:
+        if shape == "sphere":
+            return Sphere(parse_quantity(size, "length"))
+        if shape == "cone":
+            return Cone(parse_quantity(size, "angle"))
+        if shape == "punch":
+            return FlatPunch(parse_quantity(size, "length"))
+    except ValueError as error:
+        raise ValueError(f"--indenter: {error}") from None
+    raise ValueError(
+        f"--indenter: {text!r} is no indenter; write e.g. 'sphere 5 um', 'cone 70 deg' or "
+        "'punch 2 um'"
+    )

@@ -1,0 +1,253 @@
+"""What `fit` finds, prints, draws and writes."""
+
+from __future__ import annotations
+
+import dataclasses
+import warnings
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.cli.material.fit_options import Wishes, read_kelvin
+from viscontact.cli.results.figures import plot_package
+from viscontact.cli.terminal.messages import refuse, say
+from viscontact.errors import AccuracyWarning
+from viscontact.identification import (
+    Fit,
+    IndentationRecord,
+    Isotherm,
+    MasterCurve,
+    ShiftFit,
+    build_master_curve,
+    fit_creep,
+    fit_dynamic,
+    fit_indentation,
+    fit_master_curve,
+    fit_relaxation,
+    material_section,
+)
+from viscontact.laws import WLF
+from viscontact.materials.material import Material
+from viscontact.tables import Table, read_table
+from viscontact.units.temperatures import in_celsius
+
+_ROOM = 293.15  # [K]
+
+
+def report_fit(
+    file: Path,
+    wishes: Wishes,
+    output: Path | None,
+    section: Path | None,
+    *,
+    width: str | float | None = None,
+) -> None:
+    """Fit, print, draw and write, or refuse in one line.
+
+    Parameters
+    ----------
+    file : Path
+        The table.
+    wishes : Wishes
+        The options.
+    output : Path or None
+        The figure's file.
+    section : Path or None
+        Where the material section goes as well.
+    width : str or float or None, optional
+        Of the figure, as `viscontact.plot` takes it [m].
+    """
+    table = _read(file)
+    if table.left_out:
+        say(f"{file.name}: not understood and left out: {', '.join(table.left_out)}")
+    try:
+        text, draw = _found(table, wishes)
+    except ValueError as error:
+        refuse(table.located(error))
+    print(f"\n{text}")
+    if output is not None:
+        _draw(draw, output, width)
+    if section is not None:
+        _write(section, text + "\n")
+
+
+class _Drawing:
+    """A figure that is made only when it is asked for: matplotlib may be missing."""
+
+    def __init__(self, name: str, *shown: object, **options: object) -> None:
+        self._name, self._shown, self._options = name, shown, options
+
+    def save(self, path: Path, width: str | float | None) -> None:
+        plot = plot_package()
+        draw = getattr(plot, self._name)
+        plot.save_figure(draw(*self._shown, width=width, **self._options), path)
+
+
+def _found(table: Table, wishes: Wishes) -> tuple[str, _Drawing]:
+    """Return the material section and the figure of what is in the table."""
+    if "force" in table and "approach" in table:
+        return _from_indentation(table, wishes)
+    if wishes.indenter is not None:
+        raise ValueError(
+            f"{table.source.name}: --indenter goes with columns time, approach and force; there "
+            f"are {', '.join(table.columns)}"
+        )
+    sets = table.sets()
+    if len(sets) > 1:
+        return _from_sets(table, sets, wishes)
+    if wishes.reference is not None or wishes.temperature is not None:
+        raise ValueError(
+            f"{table.source.name}: --reference and --temperature go with several temperatures; "
+            "there is one set"
+        )
+    points, measured = _columns(table)
+    options = wishes.options(table)
+    if "compliance" in measured:
+        fit = fit_creep(points, measured["compliance"], **options)
+    elif "modulus" in measured:
+        fit = fit_relaxation(points, measured["modulus"], **options)
+    else:
+        storage, loss = measured["storage"], measured["loss"]
+        fit = fit_dynamic(points, storage, loss, **options)
+    print(table.located(ValueError(repr(fit))))
+    fit = _with_volume(fit, wishes)
+    return material_section(fit), _Drawing("fitted_series", fit)
+
+
+def _from_sets(table: Table, sets: tuple[Table, ...], wishes: Wishes) -> tuple[str, _Drawing]:
+    """Join sets of several temperatures, print the shift factors and the fit."""
+    options = wishes.options(table)
+    isotherms = [_isotherm(one) for one in sets]
+    temperatures = [isotherm.temperature for isotherm in isotherms]
+    reference = (
+        min(temperatures, key=lambda kelvin: abs(kelvin - _ROOM))
+        if wishes.reference is None
+        else read_kelvin("--reference", wishes.reference)
+    )
+    curve = build_master_curve(isotherms, reference)
+    rules = _rules(curve)
+    _print_shifts(curve, rules)
+    fit = _with_volume(fit_master_curve(curve, **options), wishes)
+    print(f"\nAt {_celsius(reference)}:\n{fit!r}")
+    drawing = _Drawing("master_curve", curve, fit=fit, rules=rules)
+    if wishes.temperature is None:
+        return material_section(fit), drawing
+    asked = read_kelvin("--temperature", wishes.temperature)
+    factor = curve.shift.factor(asked)
+    print(f"At {_celsius(asked)} everything takes {factor:.4g} times as long (by the table above).")
+    slowed = dataclasses.replace(fit, law=fit.law.slowed(factor), series=fit.series.slowed(factor))
+    return material_section(slowed), drawing
+
+
+def _from_indentation(table: Table, wishes: Wishes) -> tuple[str, _Drawing]:
+    indenter = wishes.indenter_of(table)
+    record = IndentationRecord(indenter, table["time"], table["approach"], table["force"])
+    poisson_ratio, bulk_modulus = wishes.volume()
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", AccuracyWarning)
+        fit = fit_indentation(
+            record,
+            wishes.law,
+            terms=1 if wishes.terms is None else wishes.terms,
+            poisson_ratio=poisson_ratio,
+            bulk_modulus=bulk_modulus,
+        )
+    for warning in caught:
+        say(f"warning: {warning.message}")
+    print(repr(fit))
+    return material_section(fit), _Drawing("fitted_indentation", fit)
+
+
+def _read(file: Path) -> Table:
+    try:
+        return read_table(file)
+    except (ValueError, OSError) as error:
+        refuse(str(error))
+
+
+def _with_volume(fit: Fit, wishes: Wishes) -> Fit:
+    """Return the fit with what is known of the volume, which data in shear say nothing of."""
+    poisson_ratio, bulk_modulus = wishes.volume()
+    if fit.data == "uniaxial" or (poisson_ratio is None and bulk_modulus is None):
+        return fit
+    material = Material(fit.law, poisson_ratio, bulk_modulus=bulk_modulus)
+    return dataclasses.replace(
+        fit, poisson_ratio=material.poisson_ratio, bulk_modulus=material.bulk_modulus
+    )
+
+
+def _columns(table: Table) -> tuple[NDArray[np.float64], dict[str, NDArray[np.float64]]]:
+    """Return times or angular frequencies, and the measured columns by the names of a fit."""
+    if "storage_modulus" in table and ("loss_modulus" in table or "loss_tangent" in table):
+        storage = table["storage_modulus"]
+        loss = table["loss_modulus"] if "loss_modulus" in table else storage * table["loss_tangent"]
+        return table["angular_frequency"], {"storage": storage, "loss": loss}
+    for quantity, name in (("relaxation_modulus", "modulus"), ("creep_compliance", "compliance")):
+        if quantity in table:
+            return table["time"], {name: table[quantity]}
+    raise ValueError(
+        f"{table.source.name}: needs a relaxation modulus or a creep compliance over time, or "
+        "storage and loss modulus over frequency, or force and approach over time; there are "
+        f"{', '.join(table.columns)}"
+    )
+
+
+def _isotherm(one: Table) -> Isotherm:
+    if one.temperature is None:
+        raise ValueError(
+            f"{one.source.name}: several sets need a column of temperatures to be joined"
+        )
+    try:
+        return Isotherm(one.temperature, *_columns(one))
+    except ValueError as error:
+        raise ValueError(one.located(error)) from None
+
+
+def _rules(curve: MasterCurve) -> list[ShiftFit]:
+    rules = []
+    for fitted in (curve.fit_wlf, curve.fit_arrhenius):
+        try:
+            rules.append(fitted())
+        except ValueError:  # too few temperatures, or none that differ
+            continue
+    return rules
+
+
+def _print_shifts(curve: MasterCurve, rules: list[ShiftFit]) -> None:
+    print(f"{len(curve.isotherms)} sets, shifted to {_celsius(curve.reference_temperature)}:")
+    print(f"{'T [°C]':>9}  {'log10 a_T':>10}  mismatch with the colder set")
+    mismatches = [float("nan"), *(curve.mismatches if curve.mismatches is not None else [])]
+    rows = zip(curve.temperatures, curve.factors, mismatches, strict=True)
+    for temperature, factor, mismatch in rows:
+        share = f"{100 * mismatch:.2g} %" if np.isfinite(mismatch) else "-"
+        print(f"{in_celsius(temperature):9.2f}  {np.log10(factor):10.3f}  {share}")
+    for rule in rules:
+        print(f"{_constants(rule)}, misses them by {rule.residual:.2g} decades (rms)")
+
+
+def _constants(rule: ShiftFit) -> str:
+    shift = rule.shift
+    if isinstance(shift, WLF):
+        return f"WLF with C1 = {shift.c1:.4g} and C2 = {shift.c2:.4g} K"
+    return f"Arrhenius with {shift.activation_energy / 1e3:.4g} kJ/mol"
+
+
+def _celsius(kelvin: float) -> str:
+    return f"{in_celsius(kelvin):.4g} °C"
+
+
+def _write(path: Path, text: str) -> None:
+    try:
+        path.write_text(text, encoding="utf-8")
+    except OSError as error:
+        refuse(f"{path}: {error.strerror or error}")
+    print(path)
+
+
+def _draw(drawing: _Drawing, output: Path, width: str | float | None) -> None:
+    try:
+        drawing.save(output, width)
+    except (ValueError, OSError) as error:
+        refuse(f"{output}: {error}")
+    print(output)

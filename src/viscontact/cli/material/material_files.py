@@ -1,0 +1,198 @@
+"""Which material is meant: a shipped one, a case file, a measured table, or a card."""
+
+from __future__ import annotations
+
+import difflib
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from viscontact.case import CaseError, read_material, read_section, shipped_material
+from viscontact.cli.material.named_material import Shown
+from viscontact.cli.terminal.messages import refuse, say
+from viscontact.materials import library as materials
+from viscontact.materials.cards import is_card
+from viscontact.tables import Table, read_table, read_text
+
+_CASE_SUFFIXES = (".yaml", ".yml", ".toml")
+_CARD_SUFFIXES = (".inp", ".mac", ".cdb", ".ans", ".apdl")
+_CASE_KEYS = re.compile(r"^(?:material|law)[ \t]*:", re.M)
+_QUANTITIES = ("creep_compliance", "relaxation_modulus")
+# Keys of a case file that are options here.
+_KEYS = re.compile(r"\b(poisson_ratio|bulk_modulus|modulus_unit|time_unit|temperature_unit)\b")
+
+
+@dataclass(frozen=True)
+class Typed:
+    """What was typed to say how a file is meant, not yet understood."""
+
+    data: str | None = None
+    poisson_ratio: float | None = None
+    bulk_modulus: str | None = None
+    set: float | None = None
+    modulus_unit: str | None = None
+    time_unit: str | None = None
+    temperature_unit: str | None = None
+    name: str | None = None
+
+    def given(self, *keys: str) -> dict[str, Any]:
+        """Return those of the options that were given, by their keys."""
+        values = {key: getattr(self, key) for key in keys}
+        return {key: value for key, value in values.items() if value is not None}
+
+
+def find_material(which: str, typed: Typed, *, writes: bool = False) -> Shown:
+    """Return a material by its shipped name, or from a file of any kind.
+
+    Parameters
+    ----------
+    which : str
+        The name, or the file.
+    typed : Typed
+        How the file is meant.
+    writes : bool, optional
+        Whether units are also those of what is written.
+
+    Returns
+    -------
+    Shown
+        The material.
+
+    Raises
+    ------
+    typer.Exit
+        With code 2, after the reason has been printed.
+    """
+    idle = ["data", "set", "name", "poisson_ratio", "bulk_modulus"]
+    units = [] if writes else ["modulus_unit", "time_unit", "temperature_unit"]
+    if which in materials.names():
+        _refuse_idle(which, "a shipped material", typed, [*idle, *units])
+        return Shown(which, shipped_material(which), materials.entry(which))
+    path = Path(which)
+    _refuse_unknown(which, path)
+    kind = _kind(path)
+    if kind == "table":
+        _refuse_idle(which, "a table", typed, ["name", *units])
+        return _from_table(path, typed)
+    if kind == "card":
+        _refuse_idle(which, "a card", typed, ["data", "set"])
+        return _from_card(path, typed)
+    _refuse_idle(which, "a case file", typed, [*idle, *units])
+    try:
+        return Shown(which, read_material(path))
+    except CaseError as error:
+        refuse(*error.problems)
+
+
+def _refuse_unknown(which: str, path: Path) -> None:
+    if path.exists() or path.suffix:
+        return
+    near = [name for name in materials.names() if which.lower() in name]
+    near = near or difflib.get_close_matches(which, materials.names(), n=1)
+    hint = f"; did you mean {' or '.join(near)}?" if near else "."
+    refuse(
+        f"no shipped material and no file is called {which!r}{hint} "
+        f"There are {', '.join(materials.names())}"
+    )
+
+
+def _refuse_idle(which: str, what: str, typed: Typed, keys: list[str]) -> None:
+    for key in typed.given(*keys):
+        refuse(f"{which}: is {what}, to which {_option(key)} says nothing; leave it out")
+
+
+def _kind(path: Path) -> str:
+    """Tell a case file, a card and a table apart: suffixes are as people like them."""
+    suffix = path.suffix.lower()
+    if suffix in _CASE_SUFFIXES or path.is_dir():
+        return "case"
+    try:
+        text = read_text(path)
+    except ValueError as error:
+        refuse(str(error))
+    if is_card(text):
+        return "card"
+    if _CASE_KEYS.search(text):
+        return "case"
+    return "card" if suffix in _CARD_SUFFIXES else "table"
+
+
+def _from_table(path: Path, typed: Typed) -> Shown:
+    try:
+        table = read_table(path)
+        quantity = _quantity(table)
+    except ValueError as error:
+        refuse(str(error))
+    if table.left_out:
+        say(f"{path.name}: not understood and left out: {', '.join(table.left_out)}")
+    data = typed.data or table.data
+    if data is None:
+        refuse(
+            f"{path.name}: the headings do not say what kind of test it is; add --data shear, "
+            "--data uniaxial or --data deviatoric"
+        )
+    volume = typed.given("poisson_ratio", "bulk_modulus", "set")
+    section = {"law": "table", "file": str(path), "quantity": quantity, "data": data, **volume}
+    return Shown(str(path), _read(path, section).noun())
+
+
+def _quantity(table: Table) -> str:
+    """Return which column is the law; ValueError if there is none over time."""
+    found = [quantity for quantity in _QUANTITIES if quantity in table]
+    if not found or "time" not in table:
+        hint = ""
+        if "angular_frequency" in table or "force" in table:
+            hint = f"; `viscontact fit {table.source}` finds the law of such data"
+        raise ValueError(
+            f"{table.source.name}: needs a creep compliance or a relaxation modulus over time; "
+            f"there are {', '.join(table.columns)}{hint}"
+        )
+    if len(found) > 1:
+        say(f"{table.source.name}: the law is its {found[0]}; its {found[1]} is not used")
+    return found[0]
+
+
+def _from_card(path: Path, typed: Typed) -> Shown:
+    if typed.modulus_unit is None or typed.time_unit is None:
+        refuse(
+            f"{path.name}: cards do not say what they are in; add e.g. --modulus-unit MPa "
+            "--time-unit s"
+        )
+    keys = ("modulus_unit", "time_unit", "temperature_unit", "name")
+    section = {
+        "law": "card",
+        "file": str(path),
+        **typed.given(*keys, "poisson_ratio", "bulk_modulus"),
+    }
+    found = _read(path, section)
+    card = found.card()
+    return Shown(str(path), found.noun(), card_name=card.name, shift=card.shift, notes=found.notes)
+
+
+def _read(path: Path, section: dict[str, Any]) -> Any:
+    """Read a section as a case file would have it, and say in options what it lacks."""
+    try:
+        return read_section(section, path)
+    except CaseError as error:
+        refuse(*(_in_options(path, line) for line in error.problems))
+
+
+def _in_options(path: Path, line: str) -> str:
+    why = line.removeprefix(f"{path}: ").removeprefix("material: ")
+    key = re.match(r"material\.(?:\w+\.)*(\w+): ", why)
+    if key is not None:
+        why = why[key.end() :]
+        why = why if key[1] == "file" else f"{_option(key[1])}: {why}"
+    why = _KEYS.sub(lambda match: _option(match[1]), why)
+    why = why.replace("say which with set:", "say which with --set:")
+    why = why.replace("; name one of ", "; choose one with --name: ").replace("name=", "--name")
+    # Only a case file says what columns mean.
+    why = why.replace("with columns=", "in a case file with columns: ")
+    if "smooth out the noise" in why:
+        why += f"; `viscontact fit {path}` does"
+    return why if path.name in why else f"{path.name}: {why}"
+
+
+def _option(key: str) -> str:
+    return f"--{key.replace('_', '-')}"

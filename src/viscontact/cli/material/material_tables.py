@@ -1,0 +1,196 @@
+"""What `material` prints and draws."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from textwrap import indent, wrap
+
+import numpy as np
+from numpy.typing import NDArray
+from rich.box import SIMPLE_HEAD
+from rich.console import Console
+from rich.table import Table
+
+from viscontact.cli.material.named_material import Shown
+from viscontact.cli.results.figures import plot_package, save
+from viscontact.cli.terminal.messages import refuse
+from viscontact.laws import WLF, Arrhenius, Elastic, Shift
+from viscontact.materials import library
+from viscontact.materials.library import Entry
+from viscontact.materials.material import Material
+from viscontact.units.formatting import in_digits, in_words, readable_unit
+from viscontact.units.temperatures import in_celsius
+
+_WIDTH = 78
+_DEPTH = 1e-6
+# Suffixes of what --to writes.
+_WRITTEN = {".inp": "abaqus", ".mac": "ansys", ".cdb": "ansys", ".csv": "csv"}
+
+
+def list_library(output: Path | None = None) -> None:
+    """Print the shipped library.
+
+    Parameters
+    ----------
+    output : Path or None
+        A figure that cannot be drawn of all at once: refused.
+    """
+    if output is not None:
+        refuse(f"{output}: a figure shows one material; name it, e.g. pmma-paper")
+    entries = [library.entry(name) for name in library.names()]
+    rows = [
+        (
+            each.name,
+            each.family,
+            each.temperature.partition(" (")[0].partition(",")[0],
+            each.test.partition(" ")[0],
+            " to ".join(in_words(instant, "s", 2) for instant in each.measured),
+        )
+        for each in entries
+    ]
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    for each, row in zip(entries, rows, strict=True):
+        cells = (cell.ljust(width) for cell, width in zip(row, widths, strict=True))
+        print("  ".join(cells).rstrip())
+        print(f"    {each.title} ({each.cite})")
+    print("viscontact material NAME tells all of one; -o FIG.png draws it against its source")
+
+
+def show_material(shown: Shown, output: Path | None, width: str | float | None = None) -> None:
+    """Print, and draw if a file is named, one material.
+
+    Parameters
+    ----------
+    shown : Shown
+        The material.
+    output : Path or None
+        The figure's file.
+    width : str or float or None, optional
+        Of the figure, as `viscontact.plot` takes it [m].
+    """
+    if output is not None and (form := _WRITTEN.get(output.suffix.lower())):
+        refuse(f"{output}: -o alone is a figure (.png, .pdf or .svg); add --to {form}")
+    if shown.entry is not None:
+        _print_entry(shown.entry)
+    else:
+        print(f"{shown.name}: {_volume(shown.material)}")
+        _print_about(shown)
+    Console().print(_values(shown))
+    if output is not None:
+        _draw(shown, output, width)
+
+
+def _print_about(shown: Shown) -> None:
+    """Print what a file says besides."""
+    if shown.card_name:
+        print(f"  material      {shown.card_name}")
+    if shown.shift is not None:
+        print(f"  temperature   {_shift(shown.shift)}")
+    measured = shown.measured
+    if measured is not None:
+        print(f"  range         {' to '.join(in_words(t, 's') for t in measured)}")
+    for note in shown.notes:
+        print(f"  note          {note}")
+
+
+def _shift(shift: Shift) -> str:
+    if isinstance(shift, WLF):
+        rule = f"WLF, C1 = {shift.c1:.6g} and C2 = {shift.c2:.6g} K"
+    elif isinstance(shift, Arrhenius):
+        rule = f"Arrhenius, {shift.activation_energy / 1e3:.6g} kJ/mol"
+    else:
+        rule = type(shift).__name__
+    reference = getattr(shift, "reference_temperature", None)
+    at = "" if reference is None else f"{in_celsius(reference):.6g} °C; "
+    return f"{at}times shift by {rule}"
+
+
+def _print_entry(entry: Entry) -> None:
+    print(f"{entry.name}: {entry.title}")
+    about = {
+        "family": entry.family,
+        "source": entry.source,
+        "temperature": entry.temperature,
+        "test": entry.test,
+        "range": " to ".join(in_words(t, "s") for t in entry.measured),
+        "constants": entry.constants,
+        "volume": entry.volume,
+        "checked": entry.checked,
+        "licence": entry.licence,
+    }
+    for heading, text in about.items():
+        first, *others = wrap(text, _WIDTH - 15, break_on_hyphens=False) or [""]
+        print(f"  {heading:13}{first}")
+        for line in others:
+            print(f"  {'':13}{line}")
+    print("material:")
+    for key, value in entry.material.items():
+        text = f"[{', '.join(map(str, value))}]" if isinstance(value, list) else str(value)
+        print(indent("\n".join(wrap(f"{key}: {text}", _WIDTH, subsequent_indent="  ")), "  "))
+
+
+def _volume(material: Material) -> str:
+    if material.poisson_ratio is not None:
+        return f"{type(material.law).__name__}, Poisson's ratio {material.poisson_ratio:g}"
+    assert material.bulk_modulus is not None  # exactly one is given
+    return f"{type(material.law).__name__}, bulk modulus {in_words(material.bulk_modulus, 'Pa')}"
+
+
+def _values(shown: Shown) -> Table:
+    """Compliance, modulus and contact compliance at each decade."""
+    first, last = shown.times()
+    low, high = round(math.log10(first)), round(math.log10(last))
+    times = np.logspace(low, high, high - low + 1, dtype=np.float64)
+    law = shown.material.law
+    # It is 1/(2 G(t)) of an elastic law only.
+    columns = {"creep Φ = 1/(2G)" if isinstance(law, Elastic) else "creep Φ": (law(times), "1/Pa")}
+    if float(law(0.0)) > 0:
+        columns["relaxation G"] = (law.relaxation(times), "Pa")
+    columns["contact J"] = (shown.material.contact_compliance()(times), "1/Pa")
+    table = Table(box=SIMPLE_HEAD, padding=(0, 2, 0, 0))
+    table.add_column("time", justify="right")
+    cells = []
+    for heading, (values, unit) in columns.items():
+        symbol, numbers = _in_unit(values, unit)
+        table.add_column(rf"{heading} \[{symbol}]", justify="right")
+        cells.append(numbers)
+    beyond = [not _within(time, shown.measured) for time in times]
+    if any(beyond):
+        table.add_column("")
+    for row, time in enumerate(times):
+        note = ["not measured" if beyond[row] else ""] if any(beyond) else []
+        table.add_row(in_words(time, "s"), *(column[row] for column in cells), *note)
+    return table
+
+
+def _in_unit(values: NDArray[np.float64], unit: str) -> tuple[str, list[str]]:
+    # By the middle of what spans many decades, without what a fluid has left in the end.
+    good = values[values > _DEPTH * values.max()]
+    middle = float(np.exp(np.mean(np.log(good))))
+    if unit == "1/Pa":
+        modulus = readable_unit(1.0 / middle, "Pa")
+        return f"1/{modulus.symbol}", [in_digits(float(v) * modulus.factor) for v in values]
+    chosen = readable_unit(middle, unit)
+    return chosen.symbol, [in_digits(float(v) / chosen.factor) for v in values]
+
+
+def _within(time: float, measured: tuple[float, float] | None) -> bool:
+    return measured is None or measured[0] * 0.999 <= time <= measured[1] * 1.001
+
+
+def _draw(shown: Shown, output: Path, width: str | float | None) -> None:
+    plot = plot_package()
+    entry = shown.entry
+
+    def figure(material: Material) -> object:
+        return plot.material_curves(
+            material.law,
+            shown.times(),
+            measured=shown.measured,
+            points=shown.points,
+            title=entry.title if entry else shown.name,
+            width=width,
+        )
+
+    save(plot, output, figure, shown.material)

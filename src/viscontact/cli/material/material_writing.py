@@ -1,0 +1,173 @@
+"""A material written as a card of another program, or as a table."""
+
+from __future__ import annotations
+
+import math
+import re
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.cli.material.material_files import Typed
+from viscontact.cli.material.named_material import Shown
+from viscontact.cli.terminal.messages import refuse, say
+from viscontact.laws import TabulatedCreep, TabulatedRelaxation
+from viscontact.materials.cards import Card, write_abaqus, write_ansys
+from viscontact.materials.material import Material
+from viscontact.units.parsing import parse_unit
+
+FORMS = ("abaqus", "ansys", "csv")
+_ROWS_PER_DECADE = 20
+# A fluid's modulus ends in nothing, which is no measured one.
+_LEAST_MODULUS = 1e-9
+_FIGURES = (".png", ".pdf", ".svg")
+
+
+def write_material(shown: Shown, form: str, typed: Typed, output: Path | None) -> None:
+    """Write a material to a file, or print it.
+
+    Parameters
+    ----------
+    shown : Shown
+        The material.
+    form : str
+        One of `FORMS`.
+    typed : Typed
+        Its units.
+    output : Path or None
+        The file; None for stdout.
+    """
+    if output is not None and output.suffix.lower() in _FIGURES:
+        refuse(f"{output}: with --to, -o is what is written; leave --to out for a figure")
+    if output is not None and _is_same(output, Path(shown.name)):
+        refuse(f"{output}: is the file that is read; give another one")
+    for note in shown.notes:
+        say(f"note: {note}")
+    moduli, times = typed.modulus_unit or "MPa", typed.time_unit or "s"
+    _require_units(moduli, times)
+    try:
+        if form == "csv":
+            text = _table(shown, moduli, times)
+        else:
+            text = _card(shown, form, moduli, times, typed.temperature_unit)
+    except ValueError as error:
+        refuse(f"{shown.name}: {_with_remedy(str(error), shown.name)}")
+    _put(text, output)
+
+
+def _is_same(one: Path, other: Path) -> bool:
+    return one.exists() and other.exists() and one.samefile(other)
+
+
+def _require_units(moduli: str, times: str) -> None:
+    for option, unit, kind in (
+        ("--modulus-unit", moduli, "pressure"),
+        ("--time-unit", times, "time"),
+    ):
+        try:
+            parse_unit(unit, kind)
+        except ValueError as error:
+            refuse(f"{option}: {error}")
+
+
+def _card(shown: Shown, form: str, moduli: str, times: str, degrees: str | None) -> str:
+    name = shown.card_name or _plain(shown)
+    card = Card(name, shown.material, shown.shift)
+    if form == "abaqus":
+        return write_abaqus(card, modulus_unit=moduli, time_unit=times, temperature_unit=degrees)
+    number = int(name) if name.isascii() and name.isdigit() and int(name) > 0 else 1
+    return write_ansys(
+        card, modulus_unit=moduli, time_unit=times, temperature_unit=degrees, number=number
+    )
+
+
+def _plain(shown: Shown) -> str:
+    """Return a name that any program takes."""
+    name = shown.name if shown.entry is not None else Path(shown.name).stem
+    return re.sub(r"[^\w-]", "_", name, flags=re.ASCII)[:80]
+
+
+def _with_remedy(why: str, name: str) -> str:
+    if "takes a Prony series" not in why:
+        return why.replace("temperature_unit=", "--temperature-unit ").replace(
+            "temperature_unit", "--temperature-unit"
+        )
+    return (
+        f"{why.partition('; ')[0]}; fit one first: viscontact material {name} --to csv -o law.csv, "
+        "then viscontact fit law.csv"
+    )
+
+
+def _table(shown: Shown, moduli: str, times: str) -> str:
+    """Return creep compliance and relaxation modulus in shear over log time."""
+    if shown.shift is not None:
+        say("note: the table holds the law at its reference temperature, without its shift")
+    material = shown.material
+    second, pascal = parse_unit(times, "time"), parse_unit(moduli, "pressure")
+    columns = _columns(shown)
+    units = {"time": times, "J": _reciprocal(moduli), "G": moduli}
+    factors = {"time": 1 / second, "J": pascal, "G": 1 / pascal}
+    heads = [f"{name} [{units[name]}]" for name in columns]
+    rows = zip(*(factors[name] * values for name, values in columns.items()), strict=True)
+    lines = [
+        f"# {_plain(shown)}: creep compliance J = 2 Phi and relaxation modulus G in shear",
+        f"# law: table; quantity: creep_compliance; data: shear; {_volume(material)}",
+    ]
+    return "\n".join([*lines, ",".join(heads), *(_line(*row) for row in rows)]) + "\n"
+
+
+def _columns(shown: Shown) -> dict[str, NDArray[np.float64]]:
+    law = shown.material.law
+    instants = _instants(shown)
+    # Conversion by numbers may waver in its last digits; a law must not.
+    columns = {"time": instants, "J": 2 * np.maximum.accumulate(law(instants))}
+    if float(law(0.0)) > 0:
+        columns["G"] = np.minimum.accumulate(law.relaxation(instants))
+        kept = columns["G"] > _LEAST_MODULUS * columns["G"][0]
+        columns = {name: values[kept] for name, values in columns.items()}
+    return columns
+
+
+def _instants(shown: Shown) -> NDArray[np.float64]:
+    """Return a table's own times, or some over log time and the instant of loading [s]."""
+    law = shown.material.law
+    if isinstance(law, TabulatedCreep | TabulatedRelaxation):
+        return np.asarray(law.times, dtype=np.float64)
+    first, last = shown.span()
+    count = max(2, math.ceil(_ROWS_PER_DECADE * math.log10(last / first)) + 1)
+    instants = np.geomspace(first, last, count, dtype=np.float64)
+    # Without an instant compliance the row at 0 would make the first rows straight in time.
+    return np.concatenate(([0.0], instants)) if float(law(0.0)) > 0 else instants
+
+
+def _reciprocal(unit: str) -> str:
+    """Return how the unit of a compliance is written, e.g. 1/MPa."""
+    for written in (f"1/{unit}", f"1/({unit})"):
+        try:
+            if math.isclose(parse_unit(written, "compliance") * parse_unit(unit, "pressure"), 1):
+                return written
+        except ValueError:
+            continue
+    raise ValueError(f"--modulus-unit: a compliance cannot be written in 1/({unit}); use e.g. MPa")
+
+
+def _volume(material: Material) -> str:
+    if material.poisson_ratio is not None:
+        return f"poisson_ratio: {material.poisson_ratio:g}"
+    return f"bulk_modulus: {material.bulk_modulus:g} Pa"
+
+
+def _line(*numbers: float) -> str:
+    return ",".join(f"{number:.12g}" for number in numbers)
+
+
+def _put(text: str, output: Path | None) -> None:
+    if output is None:
+        print(text, end="")
+        return
+    try:
+        output.write_text(text, encoding="utf-8")
+    except OSError as error:
+        refuse(f"{output}: {error.strerror or error}")
+    print(output)

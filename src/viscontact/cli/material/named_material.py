@@ -1,0 +1,105 @@
+"""A material as the command line shows it: with its name, where it is from, and its range."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TypeGuard
+
+import numpy as np
+
+from viscontact.laws import SeriesLaw, Shift, TabulatedCreep, TabulatedRelaxation
+from viscontact.materials.library import Entry, Points
+from viscontact.materials.material import Material
+
+# A law that says nothing about its times is shown over these [s].
+_ANY_TIMES = (1e-3, 1e6)
+
+
+@dataclass(frozen=True)
+class Shown:
+    """A material to show or to write.
+
+    Parameters
+    ----------
+    name : str
+        What was typed: a shipped name, or a file.
+    material : Material
+        The material.
+    entry : Entry or None
+        Its entry, if it is from the library.
+    card_name : str
+        Its name in a card, if it is from one that names it.
+    shift : Shift or None
+        How a card shifts its times; the material is that of the reference temperature.
+    notes : tuple of str
+        What stood in the file and is not used.
+    """
+
+    name: str
+    material: Material
+    entry: Entry | None = None
+    card_name: str = ""
+    shift: Shift | None = None
+    notes: tuple[str, ...] = ()
+
+    @property
+    def measured(self) -> tuple[float, float] | None:
+        """First and last time on which the law rests, as far as known [s]."""
+        if self.entry is not None:
+            return self.entry.measured
+        until = self.material.known_until
+        if not math.isfinite(until):
+            return None
+        law = self.material.law
+        return (law.times[0] if _is_table(law) else 0.0, until)
+
+    @property
+    def points(self) -> tuple[Points, ...]:
+        """Measured values: those of the library's source, or the rows of a table."""
+        if self.entry is not None:
+            return self.entry.points
+        law = self.material.law
+        if isinstance(law, TabulatedCreep):
+            return (_rows("creep_compliance", law.times, law.compliance),)
+        if isinstance(law, TabulatedRelaxation):
+            return (_rows("relaxation_modulus", law.times, law.modulus),)
+        return ()
+
+    def span(self) -> tuple[float, float]:
+        """First and last time that something is known of, above 0 [s]."""
+        law = self.material.law
+        if _is_table(law):
+            return min(time for time in law.times if time > 0), law.times[-1]
+        own = _own_times(self.material)
+        if self.measured is None:
+            return own
+        first, last = self.measured
+        return first or last * 1e-4, last
+
+    def times(self) -> tuple[float, float]:
+        """First and last time worth a look [s]: a decade more than is known."""
+        first, last = self.span()
+        # Whole decades, so that a table has round times.
+        low = math.floor(math.log10(first) + 1e-9)
+        high = math.ceil(math.log10(last) - 1e-9)
+        margin = 1 if self.measured else 0
+        return 10.0 ** (low - margin), 10.0 ** (max(high, low + 1) + margin)
+
+
+def _is_table(law: object) -> TypeGuard[TabulatedCreep | TabulatedRelaxation]:
+    return isinstance(law, TabulatedCreep | TabulatedRelaxation)
+
+
+def _rows(quantity: str, times: Sequence[float], values: Sequence[float]) -> Points:
+    # A row at 0 has no place on a logarithmic axis.
+    at, measured = np.asarray(times, dtype=np.float64), np.asarray(values, dtype=np.float64)
+    return Points(quantity, "the table's rows", at[at > 0], measured[at > 0], 0.0)
+
+
+def _own_times(material: Material) -> tuple[float, float]:
+    """Over what times a law made of exponentials changes [s]."""
+    law = material.law
+    times = law.creep_series().times if isinstance(law, SeriesLaw) else ()
+    return (min(times) / 100, max(times) * 100) if times else _ANY_TIMES

@@ -1,0 +1,263 @@
+"""Figures drawn and written, or refused in one line."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import ExitStack
+from inspect import signature
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from viscontact.cli.results.stored import early_end, opened
+from viscontact.cli.terminal.messages import refuse, say
+from viscontact.cli.terminal.progress import frames_shown
+from viscontact.units.formatting import in_words
+from viscontact.units.parsing import parse_quantity
+
+#: The figure that moves; it is written by its own means.
+ANIMATION = "animation"
+#: Figures of the fields at single instants; the others take times as a span.
+_OF_INSTANTS = (
+    *("pressure-map", "pressure-profile", "pressure-radial", "contact-outline"),
+    *("pressure-3d", "surface-3d", "stress-section", "von-mises", "indenter"),
+)
+
+
+def draw(
+    directory: Path,
+    figure: str,
+    times: Sequence[str],
+    output: Path | None,
+    options: Mapping[str, str | float | None] | None = None,
+) -> Path:
+    """Draw a figure of one run.
+
+    Parameters
+    ----------
+    directory : Path
+        The run.
+    figure : str
+        Name of the figure.
+    times : sequence of str
+        Instants in words; empty for the figure's own choice.
+    output : Path or None
+        The file; None for FIGURE.png in the run's directory, or animation.gif.
+    options : mapping of str to str or float or None, optional
+        What else was typed: width, along, at, seconds, fps; None for the figure's own choice.
+
+    Returns
+    -------
+    Path
+        The file.
+    """
+    plot = plot_package()
+    draw_it = _named(figure, {**plot.FIGURES, ANIMATION: plot.animation})
+    instants, chosen = _instants(times), _chosen(options or {}, figure, draw_it)
+    folder = directory if directory.is_dir() else directory.parent
+    moves = figure == ANIMATION
+    file = output or folder / f"{figure}{'.gif' if moves else '.png'}"
+    _require_suffix(plot, file, plot.FILM_SUFFIXES if moves else plot.FIGURE_SUFFIXES)
+    with opened(directory) as ds:
+        if figure != "creep":  # the law goes on after the run
+            _refuse_outside(instants, ds, directory)
+        _note(early_end(ds), _snapped(instants, ds, figure))
+        if moves:
+            save_film(plot, file, ds, times=instants, **chosen)
+        else:
+            save(plot, file, draw_it, ds, times=instants, **chosen)
+    return file
+
+
+def draw_comparison(
+    directories: Sequence[Path],
+    figure: str,
+    times: Sequence[str],
+    output: Path | None,
+    options: Mapping[str, str | float | None] | None = None,
+) -> Path:
+    """Draw a figure of several runs.
+
+    Parameters
+    ----------
+    directories : sequence of Path
+        The runs, two or more.
+    figure : str
+        Name of the figure.
+    times : sequence of str
+        Instants in words; empty for the figure's own choice.
+    output : Path or None
+        The file; None for compare-FIGURE.png here.
+    options : mapping of str to str or float or None, optional
+        What else was typed: width, along, at, seconds, fps; None for the figure's own choice.
+
+    Returns
+    -------
+    Path
+        The file.
+    """
+    plot = plot_package()
+    draw_it = _named(figure, plot.COMPARISONS)
+    instants, chosen = _instants(times), _chosen(options or {}, figure, draw_it)
+    if len(directories) < 2:
+        refuse("compare needs two runs or more")
+    file = output or Path(f"compare-{figure}.png")
+    _require_suffix(plot, file, plot.FIGURE_SUFFIXES)
+    with ExitStack() as stack:
+        runs = [stack.enter_context(opened(directory)) for directory in directories]
+        labelled = dict(zip(_labels(directories), runs, strict=True))
+        for directory, (label, ds) in zip(directories, labelled.items(), strict=True):
+            if figure != "creep":  # the law goes on after the run
+                _refuse_outside(instants, ds, directory)
+            notes = (early_end(ds), _snapped(instants, ds, figure))
+            _note(*(f"{label}: {note}" for note in notes if note))
+        save(plot, file, draw_it, labelled, times=instants, **chosen)
+    return file
+
+
+def plot_package() -> Any:
+    """Return `viscontact.plot`, or say what it needs."""
+    try:
+        from viscontact import plot
+    except ModuleNotFoundError as error:
+        if error.name != "matplotlib":
+            raise
+        refuse("figures need matplotlib: pip install 'viscontact[plot]'")
+    return plot
+
+
+def _named(figure: str, figures: dict[str, Any]) -> Any:
+    if figure not in figures:
+        near = difflib.get_close_matches(figure, figures, n=1)
+        hint = f"; did you mean {near[0]}?" if near else "."
+        refuse(f"no figure is called {figure!r}{hint} There are {', '.join(figures)}")
+    return figures[figure]
+
+
+def _instants(times: Iterable[str]) -> list[float] | None:
+    try:
+        return [parse_quantity(text, "time") for text in times] or None
+    except ValueError as error:
+        refuse(f"--time: {error}")
+
+
+def _chosen(
+    options: Mapping[str, str | float | None], figure: str, draw_it: Any
+) -> dict[str, str | float]:
+    """What was typed, read, and refused where the figure has no use for it."""
+    given = {name: value for name, value in options.items() if value is not None}
+    for name in given:
+        if name not in signature(draw_it).parameters:
+            refuse(f"--{name}: the figure {figure} has no such choice")
+    return {name: _read(name, value) for name, value in given.items()}
+
+
+def _read(name: str, value: str | float) -> str | float:
+    is_length = name == "at" or (name == "width" and value not in ("single", "double"))
+    try:
+        return parse_quantity(str(value), "length") if is_length else value
+    except ValueError as error:
+        words = "; or say single (89 mm) or double (183 mm)" if name == "width" else ""
+        refuse(f"--{name}: {error}{words}")
+
+
+def chosen_width(width: str | None, *, drawn: bool, switch: str) -> str | float | None:
+    """Read --width before any work is done, or refuse it.
+
+    Parameters
+    ----------
+    width : str or None
+        As typed.
+    drawn : bool
+        Whether there is a figure to be so wide.
+    switch : str
+        What asks for one, as typed.
+
+    Returns
+    -------
+    str or float or None
+        As figures take it; None for their own choice.
+    """
+    if width is None:
+        return None
+    if not drawn:
+        refuse(f"--width: a width is a figure's; add {switch}")
+    read = _read("width", width)
+    try:
+        plot_package().layout.page.page_width(read, 1.0)
+    except ValueError as error:
+        refuse(f"--width: {error}")
+    return read
+
+
+def _require_suffix(plot: Any, file: Path, suffixes: Sequence[str]) -> None:
+    """Refuse a file of another format before any work is done for it."""
+    try:
+        plot.require_suffix(file, suffixes)
+    except ValueError as error:
+        refuse(f"{file}: {error}")
+
+
+def _refuse_outside(instants: list[float] | None, ds: xr.Dataset, directory: Path) -> None:
+    start, end = (float(ds["time"][index]) for index in (0, -1))
+    # A last digit of slack: "0.1 min" and the run's own 6 s may differ by it.
+    slack = 1e-9 * end
+    for instant in instants or ():
+        if not start - slack <= instant <= end + slack:
+            refuse(
+                f"--time: {in_words(instant, 's')} lies outside the run {directory}, "
+                f"which goes from {in_words(start, 's')} to {in_words(end, 's')}"
+            )
+
+
+def _snapped(instants: list[float] | None, ds: xr.Dataset, figure: str) -> str:
+    """Say which instants are drawn in place of those that are not stored."""
+    if not instants or figure not in _OF_INSTANTS or "pressure" not in ds:
+        return ""
+    stored = ds[ds["pressure"].dims[0]].values
+    nearest = {wanted: float(stored[np.abs(stored - wanted).argmin()]) for wanted in instants}
+    return "; ".join(
+        f"{in_words(wanted, 's')} is not stored; drew {in_words(drawn, 's')}"
+        for wanted, drawn in nearest.items()
+        if not np.isclose(wanted, drawn, rtol=1e-9, atol=0.0)
+    )
+
+
+def _note(*lines: str) -> None:
+    for line in filter(None, lines):
+        say(line)
+
+
+def _labels(directories: Sequence[Path]) -> list[str]:
+    names = [path.resolve().name for path in directories]
+    unique = len(set(names)) == len(names)
+    return names if unique else [str(path) for path in directories]
+
+
+def save_film(plot: Any, file: Path, ds: xr.Dataset, **options: Any) -> None:
+    """Draw and write a film, or say in one line why not; print the file's name."""
+    try:
+        film = plot.animation(ds, **options)
+        stored = len(set(film.instants.tolist()))
+        if stored < film.instants.size / 4:
+            say(
+                f"{film.instants.size} frames show {stored} stored instants; for a smooth film run "
+                "again with --set output.fields=all"
+            )
+        with frames_shown(film.instants.size) as progress:
+            plot.save_film(film, file, progress)
+    except (ValueError, OSError) as error:
+        refuse(f"{file}: {error}")
+    print(file)
+
+
+def save(plot: Any, file: Path, draw_it: Any, results: Any, **options: Any) -> None:
+    """Draw and write a figure, or say in one line why not; print the file's name."""
+    try:
+        plot.save_figure(draw_it(results, **options), file)
+    except (ValueError, OSError) as error:
+        refuse(f"{file}: {error}")
+    print(file)

@@ -1,0 +1,224 @@
+"""The history of a run, for the eye and as CSV."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from textwrap import wrap
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+from rich.box import SIMPLE, SIMPLE_HEAD
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+
+from viscontact.cli.results.accuracy import (
+    accuracy_lines,
+    has_errors,
+    knows_errors,
+    mesh_lines,
+    unknown_lines,
+)
+from viscontact.cli.results.stored import early_end
+from viscontact.cli.terminal.messages import refuse
+from viscontact.results.history_csv import write_history
+from viscontact.results.rounding import is_rounding_tilt
+from viscontact.results.stated_errors import LargestError, largest_error, stated_error
+from viscontact.units.error_digits import in_error_digits, in_percent, in_supported_digits
+from viscontact.units.formatting import in_digits, in_words, readable_unit
+
+_COLUMNS = (
+    *("force", "approach", "tilt_x", "tilt_y", "contact_area", "contact_length"),
+    *("contact_width", "peak_pressure"),
+)
+_ROWS = 20
+#: Blanks between columns, and the room below which heads are broken here: where it is left to
+#: the terminal's width, words are broken as well.
+_GAP, _TO_SPARE = 2, 8
+#: In place of the error of a number that depends on the mesh; a line below the table says more.
+_SINGULAR = "mesh"
+
+
+def print_history(ds: xr.Dataset, *, everything: bool = False, errors: bool = False) -> None:
+    """Print scalars over time in readable units.
+
+    Parameters
+    ----------
+    ds : xarray.Dataset
+        A result.
+    everything : bool
+        Every instant; else as many as fit on a page, first and last among them.
+    errors : bool
+        The error of every number below it.
+    """
+    if errors and not has_errors(ds):
+        refuse("--errors: the result states none; it is older, or was run with errors: false")
+    console = Console()
+    count = ds.sizes["time"]
+    rows = np.arange(count) if everything else _spread(count)
+    shown = [name for name in _COLUMNS if _is_shown(ds, name)]
+    columns = _columns(ds, ["time", *shown], rows, errors=errors)
+    least = sum(column.width + _GAP for column in columns)
+    table = _table(ds, columns, narrow=least + _TO_SPARE > console.width)
+    # Rather too wide for a terminal than with digits left out.
+    console.print(table, crop=False)
+    if len(rows) < count:
+        console.print(f"{len(rows)} of {count} instants; --all shows every one")
+    for line in _footers(ds, shown, errors=errors):
+        console.print(line, highlight=False)
+    if ended := early_end(ds):
+        console.print(f"[yellow]{escape(ended)}[/]", highlight=False, soft_wrap=True)
+    for line in str(ds.attrs.get("warnings", "")).splitlines():
+        console.print(f"[yellow]warning:[/] {line}")
+
+
+def write_csv(ds: xr.Dataset, output: Path | None) -> None:
+    """Write all scalars in SI units, a row an instant.
+
+    Parameters
+    ----------
+    ds : xarray.Dataset
+        A result.
+    output : Path or None
+        The file; None for stdout.
+    """
+    if output is None:
+        write_history(ds, sys.stdout)
+        return
+    try:
+        with output.open("w", encoding="utf-8", newline="") as file:
+            write_history(ds, file)
+    except OSError as error:
+        refuse(f"{output}: cannot be written: {error}")
+
+
+def _footers(ds: xr.Dataset, shown: list[str], *, errors: bool) -> Iterator[str]:
+    """Loss per cycle, where the load has cycles, and what to know of errors."""
+    losses = ds["loss_per_cycle"].values
+    # The last whole cycle's loss stands at every instant until the next is over.
+    known = losses[np.isfinite(losses)]
+    if known.size:
+        first, last = (in_words(float(loss), "J") for loss in known[[0, -1]])
+        several = f"{first} in the first cycle, {last} in the last"
+        yield f"loss per cycle: {last if np.ptp(known) == 0 else several}{_loss_error(ds)}"
+    if knows_errors(ds, shown):
+        said = "largest error: the worst of the run, in % of the largest value"
+        yield f"{said}; ±: at that instant" if errors else f"{said}; --errors shows each one"
+    yield from unknown_lines(ds, shown)
+    yield from mesh_lines(ds, shown)
+    attributes = (str(ds.attrs.get("memory", "")), float(ds.attrs.get("inversion_error", 0.0)))
+    yield from accuracy_lines(ds["time_error"].values, *attributes)
+
+
+def _spread(count: int) -> NDArray[np.int_]:
+    return np.unique(np.linspace(0, count - 1, min(_ROWS, count)).round().astype(int))
+
+
+def _loss_error(ds: xr.Dataset) -> str:
+    found = largest_error(ds, "loss_per_cycle")
+    return f", within {in_percent(found.part)}" if found and np.isfinite(found.part) else ""
+
+
+def _is_shown(ds: xr.Dataset, name: str) -> bool:
+    return bool(_largest(ds, name) > 0) and not (name.startswith("tilt") and _is_rounding(ds, name))
+
+
+def _largest(ds: xr.Dataset, name: str) -> float:
+    return float(np.nanmax(np.abs(ds[name].values), initial=0.0))
+
+
+@dataclass(frozen=True)
+class _Column:
+    """A column of the table: the words of its head, its cells, and what ends it."""
+
+    head: tuple[str, ...]
+    cells: list[str]
+    foot: str
+
+    @property
+    def width(self) -> int:
+        """Of its longest word."""
+        lines = (line for cell in self.cells for line in cell.splitlines())
+        return max(map(len, (*self.head, *lines, *self.foot.splitlines())))
+
+
+def _columns(
+    ds: xr.Dataset, names: list[str], rows: NDArray[np.int_], *, errors: bool
+) -> list[_Column]:
+    columns = []
+    for name in names:
+        largest = _largest(ds, name)
+        if largest == 0:  # of a single instant at time 0
+            continue
+        unit = readable_unit(largest, ds[name].attrs["units"])
+        foot = "largest\nerror" if name == "time" else _error_told(largest_error(ds, name))
+        cells = _cells(ds, name, rows, unit.factor, errors=errors)
+        columns.append(_Column((*name.split("_"), f"[{unit.symbol}]"), cells, foot))
+    return columns
+
+
+def _table(ds: xr.Dataset, columns: list[_Column], *, narrow: bool) -> Table:
+    stated = any(column.foot not in ("", in_error_digits(np.nan)) for column in columns[1:])
+    # Narrow enough for nine columns on eighty characters.
+    table = Table(
+        box=SIMPLE if stated else SIMPLE_HEAD,
+        padding=(0, 1, 0, 0),
+        show_edge=False,
+        show_footer=stated,
+        title=ds.attrs.get("title") or None,
+    )
+    for each in columns:
+        head = " ".join(each.head)
+        head = escape("\n".join(wrap(head, each.width)) if narrow else head)
+        table.add_column(head, each.foot, justify="right", min_width=each.width)
+    for row in zip(*(column.cells for column in columns), strict=True):
+        table.add_row(*row)
+    return table
+
+
+def _cells(
+    ds: xr.Dataset, name: str, rows: NDArray[np.int_], factor: float, *, errors: bool
+) -> list[str]:
+    values, error = ds[name].values[rows] / factor, stated_error(ds, name)
+    if name == "time":
+        # Steps that a run chose begin small: "0.005" leaves room that "0.005000" would not.
+        told = [_trimmed(in_digits(float(value))) for value in values]
+        return [f"{text}\n" for text in told] if errors else told
+    if error is None:
+        return [in_digits(float(value)) for value in values]
+    bars = error[rows] / factor
+    pairs = [(float(v), float(e)) for v, e in zip(values, bars, strict=True)]
+    told = [in_supported_digits(*pair) for pair in pairs]
+    if not errors:
+        return told
+    return [f"{text}\n{_bar(*pair)}" for text, pair in zip(told, pairs, strict=True)]
+
+
+def _bar(value: float, error: float) -> str:
+    """The error below its number; none where the number is a dash, or has no limit."""
+    if np.isnan(value):
+        return ""
+    return _SINGULAR if np.isinf(error) else in_error_digits(error)
+
+
+def _error_told(found: LargestError | None) -> str:
+    if found is None:
+        return ""
+    if np.isnan(found.half_width):
+        return in_error_digits(np.nan)
+    if np.isinf(found.half_width):
+        return _SINGULAR
+    percent = in_percent(found.part).replace(" ", "")
+    return percent if percent.startswith("<") else f"±{percent}"
+
+
+def _trimmed(digits: str) -> str:
+    return digits.rstrip("0").rstrip(".") if "." in digits and "e" not in digits else digits
+
+
+def _is_rounding(ds: xr.Dataset, tilt: str) -> bool:
+    return is_rounding_tilt(ds[tilt].values, ds["contact_length"].values, ds["approach"].values)

@@ -1,0 +1,152 @@
+"""Stored runs, opened or refused."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+import xarray as xr
+
+from viscontact.cli.terminal.messages import refuse
+from viscontact.results.netcdf import RESULT_NAME, open_results
+from viscontact.results.recorded_case import case_of
+from viscontact.results.variables import SCALARS
+from viscontact.runs.directory.checkpoint import STATE_NAME
+from viscontact.runs.directory.lock import LOCK_NAME, DirectoryInUse, locked
+from viscontact.runs.processes.request import RunRequest
+from viscontact.state import Outcome
+from viscontact.units.formatting import in_words
+
+#: The case as it is run, in its directory.
+CASE_NAME = "case.yaml"
+
+
+@contextmanager
+def opened(path: Path) -> Iterator[xr.Dataset]:
+    """Open the result of a run, or refuse in one line.
+
+    Parameters
+    ----------
+    path : Path
+        A run's directory or a ``.nc`` file.
+
+    Yields
+    ------
+    xarray.Dataset
+        The result.
+    """
+    try:
+        ds = open_results(path)
+    except FileNotFoundError:
+        refuse(f"{path}: no result there; `viscontact run CASE.yaml -o {path}` makes one")
+    except (OSError, ValueError) as error:
+        refuse(_unreadable(path, error))
+    with ds:
+        missing = [name for name in ("time", *SCALARS) if name not in ds]
+        if missing:
+            refuse(f"{path}: not a result of viscontact: it has no {missing[0]}")
+        strange = [name for name in ("time", *SCALARS) if ds[name].dims != ("time",)]
+        if strange:
+            refuse(f"{path}: not a result of viscontact: its {strange[0]} is not over time")
+        if not ds.sizes["time"]:
+            refuse(f"{path}: the run was stopped before its first instant was complete")
+        yield ds
+
+
+def early_end(ds: xr.Dataset) -> str:
+    """Say that a run ended before its last instant.
+
+    Parameters
+    ----------
+    ds : xarray.Dataset
+        A result.
+
+    Returns
+    -------
+    str
+        A sentence, with the command that goes on where that is possible; empty for a run that is
+        complete, or does not say what it was to be.
+    """
+    try:
+        case = case_of(ds)
+        times, adaptive = case["times"], case.get("adaptive")
+        end = float(times[-1])
+    except (KeyError, IndexError, TypeError, ValueError):  # a dataset of the user's own making
+        return ""
+    reached = float(ds["time"][-1])
+    if reached >= end:
+        return ""
+    made = progress_made(ds.sizes["time"], reached, times, adaptive)
+    directory = _run_directory(ds)
+    if directory is not None and _is_in_use(directory):
+        return f"the run is still going on, at {made}"
+    failed = int(ds["outcome"][-1]) == Outcome.NOT_CONVERGED  # and would again
+    return f"the run stopped at {made}{'' if failed or directory is None else _way_on(directory)}"
+
+
+def progress_made(
+    done: int, reached: float | None, times: Sequence[float], adaptive: object
+) -> str:
+    """Say how far a run has come.
+
+    Parameters
+    ----------
+    done : int
+        Instants that are complete.
+    reached : float or None
+        The last of them [s]; None without any.
+    times : sequence of float
+        The run's instants [s]; where it chooses its steps, the last is the end.
+    adaptive : object
+        None where the run does not choose its steps.
+
+    Returns
+    -------
+    str
+        Such as ``"3 of 7 instants"``.
+
+    Examples
+    --------
+    >>> progress_made(2, 1.0, [0.0, 1.0, 2.0], adaptive=None)
+    '2 of 3 instants'
+    """
+    if adaptive is None:
+        return f"{done} of {len(times)} instants"
+    if reached is None:
+        return "0 instants"
+    return f"{done} instants, up to t = {in_words(reached, 's')} of {in_words(times[-1], 's')}"
+
+
+def _run_directory(ds: xr.Dataset) -> Path | None:
+    """Where a run lies that has not come to its end; None if it cannot go on."""
+    source = ds.encoding.get("source")
+    directory = Path(str(source)).parent
+    return directory if source is not None and (directory / STATE_NAME).is_file() else None
+
+
+def _is_in_use(directory: Path) -> bool:
+    if not (directory / LOCK_NAME).exists():
+        return False
+    try:
+        with suppress(OSError), locked(directory):
+            return False
+    except DirectoryInUse:
+        return True
+    return False
+
+
+def _way_on(directory: Path) -> str:
+    with suppress(ValueError):  # on another drive
+        directory = Path(os.path.relpath(directory))
+    return f"; go on with: {RunRequest(directory / CASE_NAME, directory).resuming}"
+
+
+def _unreadable(path: Path, error: Exception) -> str:
+    # The reader's own words name the file again, and an error number.
+    if isinstance(error, ValueError) and path.is_file():
+        return f"{path} is no run directory and no netCDF file"
+    if isinstance(error, ValueError):
+        return f"{path}: its {RESULT_NAME} is no netCDF file"
+    return f"{path}: {error}"

@@ -1,0 +1,1 @@
+"""One run: preparation, check, execution, resuming, summary."""

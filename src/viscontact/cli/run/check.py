@@ -1,0 +1,94 @@
+"""What `check` prints."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+
+from viscontact.case import CaseError
+from viscontact.cli.results.figures import plot_package, save
+from viscontact.cli.terminal.messages import refuse
+from viscontact.runs.check_report import (
+    drawn_size,
+    expectations,
+    foreseen,
+    needs,
+    verdict,
+    warnings_of,
+)
+from viscontact.runs.forecast import Forecast
+from viscontact.runs.preparation import Prepared
+
+#: Two lists below each other have their values in line.
+_NAMES = len("peak pressure")
+
+
+def print_forecast(prepared: Prepared) -> Forecast:
+    """Print what a run will need and what it may find.
+
+    Parameters
+    ----------
+    prepared : Prepared
+        A case, checked.
+
+    Returns
+    -------
+    Forecast
+        What was printed.
+    """
+    try:
+        expected = foreseen(prepared)
+    except CaseError as error:
+        refuse(*error.problems)
+    console = Console()
+    console.print(verdict(prepared, expected), highlight=False, soft_wrap=True)
+    for line in warnings_of(prepared, expected):
+        console.print(f"[yellow]warning:[/] {escape(line)}")
+    for line in prepared.case.notes:
+        console.print(f"note: {escape(line)}", highlight=False, soft_wrap=True)
+    console.print(_listed(needs(prepared, expected)))
+    title, rows = expectations(prepared, expected)
+    if rows:
+        console.print(title, soft_wrap=True)
+        console.print(_listed(rows))
+    return expected
+
+
+def draw_body(
+    prepared: Prepared,
+    expected: Forecast,
+    picture: Path | None,
+    width: str | float | None = None,
+) -> None:
+    """Draw the indenter, on the grid's part of the surface and as far as it goes beside it.
+
+    Parameters
+    ----------
+    prepared : Prepared
+        A case, checked.
+    expected : Forecast
+        Its contact is shaded.
+    picture : Path or None
+        The file; None for CASE-indenter.png beside the case.
+    width : str or float or None, optional
+        Of the figure, as `viscontact.plot` takes it [m].
+    """
+    plot, found, run = plot_package(), expected.estimate, prepared.run
+    contact = found and (found.centre_x, found.centre_y, found.length, found.width)
+    path = prepared.case.document.path
+    file = picture or path.with_name(f"{path.stem}-indenter.png")
+    size = drawn_size(run)
+    options = {"size": size, "contact": contact, "width": width}
+    save(plot, file, plot.draw_indenter, run.indenter, **options)
+
+
+def _listed(rows: list[tuple[str, str]]) -> Table:
+    table = Table(show_header=False, box=None, padding=(0, 0, 0, 2))
+    table.add_column(min_width=_NAMES)
+    table.add_column()
+    for row in rows:
+        table.add_row(*row)
+    return table

@@ -1,0 +1,256 @@
+"""The directory of a run: what it may be, what is put there, and that only one run writes to it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager, suppress
+from pathlib import Path
+from typing import Any
+
+from viscontact.case import Case, CaseError
+from viscontact.case.document import read_document
+from viscontact.case.reader import digest
+from viscontact.case.yaml_source import parse
+from viscontact.cli.results.stored import CASE_NAME
+from viscontact.cli.terminal.messages import refuse
+from viscontact.results.netcdf import RESULT_NAME
+from viscontact.runs.directory.atomic_files import replace
+from viscontact.runs.directory.checkpoint import STATE_NAME, is_checkpoint
+from viscontact.runs.directory.lock import DirectoryInUse, locked
+from viscontact.runs.directory.progress_log import is_course
+from viscontact.runs.directory.recorded_run import PROGRESS_NAME
+from viscontact.runs.directory.step_log import LOG_NAME, is_step_log
+from viscontact.runs.directory.stored_result import stored_run
+
+#: What a run writes over without being asked, and what tells that a run has written it.
+_WRITTEN = {STATE_NAME: is_checkpoint, LOG_NAME: is_step_log, PROGRESS_NAME: is_course}
+
+_NAMES = (CASE_NAME, RESULT_NAME, STATE_NAME, LOG_NAME, PROGRESS_NAME)
+
+
+def chosen_directory(case: Path, output: Path | None) -> Path:
+    """Return where a run goes: as asked, or CASE/ beside the case file.
+
+    Parameters
+    ----------
+    case : Path
+        The case file.
+    output : Path or None
+        What the user asked for.
+    """
+    if output is not None:
+        return output
+    if not case.suffix:
+        refuse(f"{case}: without a suffix there is no name for the directory; give one with -o DIR")
+    return case.with_suffix("")
+
+
+def refuse_no_directory(directory: Path) -> None:
+    """Refuse what cannot be the directory of a run.
+
+    Parameters
+    ----------
+    directory : Path
+        Where the run is to go.
+
+    Raises
+    ------
+    typer.Exit
+        With code 2.
+    """
+    try:
+        directory.exists()
+    except OSError as error:  # such as a name that is too long
+        refuse(f"{directory}: cannot be a directory: {error}")
+    if directory.exists() and not directory.is_dir():
+        refuse(f"{directory}: is a file, not a directory; choose another one with -o DIR")
+    for path in (directory / name for name in _NAMES):
+        if path.is_dir():
+            refuse(f"{path}: is a directory, where a run has a file; choose another -o DIR")
+        if path.exists() and not path.is_file():  # to read a pipe is to wait for ever
+            refuse(f"{path}: is no regular file, as a run has there; choose another -o DIR")
+
+
+def refuse_occupied(directory: Path, case: Case, *, overwrite: bool) -> None:
+    """Refuse a directory in which something of the user's would be lost.
+
+    Parameters
+    ----------
+    directory : Path
+        Where the run is to go.
+    case : Case
+        The case that is run.
+    overwrite : bool
+        Whether an earlier result may be replaced.
+
+    Raises
+    ------
+    typer.Exit
+        With code 2.
+    """
+    kept, is_runs = directory / CASE_NAME, is_of_a_run(directory)
+    # What a run has left that was stopped in its first step is nothing to lose.
+    if not overwrite and _holds_an_instant(directory / RESULT_NAME):
+        refuse(
+            f"{directory}: holds a result already; continue it with --resume, replace it with "
+            "--overwrite, or choose another directory with -o DIR"
+        )
+    if is_same_file(kept, case.document.path):
+        if not (is_runs and _says_the_same(kept, case)):
+            refuse(
+                f"{directory}: {kept} is the case file itself; choose another directory with -o DIR"
+            )
+    elif kept.exists() and not (is_runs or overwrite):
+        refuse(f"{kept}: is there already; choose another directory with -o DIR, or --overwrite")
+    if not is_runs:
+        _refuse_other_programs(directory)
+    _refuse_other_data(directory, case, kept if is_runs else None)
+
+
+def write_case(directory: Path, case: Case) -> None:
+    """Write the case as it is run, and the files it names, each all at once.
+
+    Parameters
+    ----------
+    directory : Path
+        The run's.
+    case : Case
+        The case.
+
+    Raises
+    ------
+    OSError
+        If that fails, or such a file no longer holds what the run is from; what was there is
+        whole.
+    """
+    for file in case.file_names:
+        if digest(file) != case.digests[file]:
+            raise OSError(f"{file} was changed while the run was being prepared")
+    if not is_same_file(directory / CASE_NAME, case.document.path):
+        _write(directory / CASE_NAME, case.text.encode())
+    for file, name in case.file_names.items():
+        if not is_same_file(file, directory / name):
+            _write(directory / name, file.read_bytes())
+
+
+@contextmanager
+def taken(directory: Path) -> Iterator[None]:
+    """Make the directory, and keep other runs out of it for as long as the block goes on.
+
+    Parameters
+    ----------
+    directory : Path
+        The run's.
+
+    Raises
+    ------
+    typer.Exit
+        With code 2, if it cannot be written to, or another run is at work there.
+    """
+    is_new = not directory.exists()
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        refuse(f"{directory}: cannot be made: {error}")
+    try:
+        with ExitStack() as held:
+            try:
+                held.enter_context(locked(directory))
+            except (DirectoryInUse, OSError) as error:
+                refuse(str(error))
+            yield
+    finally:
+        if is_new:
+            # Nothing came of it if it is empty.
+            with suppress(OSError):
+                directory.rmdir()
+
+
+def is_same_file(one: Path, other: Path) -> bool:
+    """Whether two paths, links followed, name one file that is there."""
+    return one.exists() and other.exists() and one.samefile(other)
+
+
+def is_of_a_run(directory: Path) -> bool:
+    """Whether a run has begun there, be it that it came to nothing: one of its files is ours.
+
+    Parameters
+    ----------
+    directory : Path
+        Where that run would have been.
+    """
+    if any(is_ours(directory / name) for name, is_ours in _WRITTEN.items()):
+        return True
+    try:
+        return stored_run(directory / RESULT_NAME).case is not None
+    except ValueError:
+        return False
+
+
+def _write(path: Path, content: bytes) -> None:
+    """Replace a file; a link in its place is replaced too, lest another file be written to."""
+    if not path.is_symlink() and path.is_file() and path.read_bytes() == content:
+        return
+    fresh = path.with_name(f".{path.name}.new")
+    fresh.unlink(missing_ok=True)
+    try:
+        with fresh.open("xb") as file:
+            file.write(content)
+        replace(fresh, path)
+    except BaseException:
+        with suppress(OSError):
+            fresh.unlink()
+        raise
+
+
+def _refuse_other_programs(directory: Path) -> None:
+    """Refuse to replace what no run has written; a link is replaced, and what it leads to stays."""
+    for path in (directory / name for name in _WRITTEN):
+        if path.is_file() and not path.is_symlink() and path.stat().st_size:
+            refuse(
+                f"{path}: is there already, and viscontact has not written it; choose another "
+                "directory with -o DIR"
+            )
+
+
+def _holds_an_instant(result: Path) -> bool:
+    """Whether a result has anything to lose; a file that cannot be read may have."""
+    if not result.exists():
+        return result.is_symlink()
+    try:
+        return stored_run(result).rows > 0
+    except ValueError:
+        return True
+
+
+def _says_the_same(kept: Path, case: Case) -> bool:
+    return bool(parse(kept.read_text(encoding="utf-8"))[0] == parse(case.text)[0])
+
+
+def _texts(earlier: Path) -> set[str]:
+    """All values of an earlier run's case that are texts, the names of its tables among them."""
+    try:
+        found: list[Any] = [read_document(earlier).data]
+    except (CaseError, OSError):
+        return set()  # who has changed it may have changed what it names
+    texts = set()
+    while found:
+        value = found.pop()
+        if isinstance(value, str):
+            texts.add(value)
+        else:
+            found += value.values() if isinstance(value, dict) else ()
+            found += value if isinstance(value, list) else ()
+    return texts
+
+
+def _refuse_other_data(directory: Path, case: Case, earlier: Path | None) -> None:
+    """Refuse to replace a file by a table of its name, unless an earlier run has put it there."""
+    replaceable = _texts(earlier) if earlier and earlier.exists() else set()
+    for file, name in case.file_names.items():
+        there = directory / name
+        if is_same_file(file, there) or not (there.exists() or there.is_symlink()):
+            continue
+        if there.is_file() and (name in replaceable or there.read_bytes() == file.read_bytes()):
+            continue
+        refuse(f"{there}: is there already, and is not {file}; choose another directory, -o DIR")

@@ -1,0 +1,120 @@
+"""The summary of a run, in readable units."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Literal
+
+import xarray as xr
+from rich.box import SIMPLE_HEAD
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+
+from viscontact.cli.results.accuracy import accuracy_lines, knows_errors, mesh_lines, unknown_lines
+from viscontact.results.netcdf import RESULT_NAME, open_results
+from viscontact.results.summary import LEGEND, SummaryRow, summary_rows
+from viscontact.runs.directory.recorded_run import PROGRESS_NAME
+from viscontact.units.formatting import in_words
+
+#: Blanks between columns.
+_GAP = 2
+
+
+def print_summary(directory: Path) -> None:
+    """Print what a finished run found, what it took, and what to doubt.
+
+    Parameters
+    ----------
+    directory : Path
+        Where its result is: all of it, whichever process has computed what.
+    """
+    with open_results(directory) as ds:
+        _print(ds, directory)
+
+
+def _print(ds: xr.Dataset, directory: Path) -> None:
+    console = Console()
+    rows = summary_rows(ds)
+    # Rather too wide for a terminal than with digits left out.
+    console.print(_table(ds, rows, console.width), crop=False)
+    if _states_errors(ds, rows):
+        console.print(LEGEND, highlight=False)
+    count, seconds = ds.sizes["time"], float(ds.attrs["wall_time"])
+    console.print(
+        f"{count} instants in {in_words(seconds, 's', 3)}, {int(ds['iterations'].sum())} "
+        f"iterations, residual at most {float(ds['residual'].max()):.1e}"
+    )
+    attributes = (str(ds.attrs["memory"]), float(ds.attrs["inversion_error"]))
+    shown = [row.name for row in rows]
+    for line in (*unknown_lines(ds, shown), *mesh_lines(ds, shown)):
+        console.print(line, highlight=False)
+    for line in accuracy_lines(ds["time_error"].values, *attributes):
+        console.print(line, highlight=False)
+    for line in str(ds.attrs.get("grid_enlarged", "")).splitlines():
+        console.print(f"grid enlarged at {line}", highlight=False)
+    for line in _warnings(directory / PROGRESS_NAME, str(ds.attrs.get("warnings", ""))):
+        console.print(f"[yellow]warning:[/] {escape(line)}")
+    console.print(f"{directory / RESULT_NAME}", soft_wrap=True, highlight=False)
+
+
+def _warnings(lines: Path, of_result: str) -> Iterator[str]:
+    """What was doubted, and when: the result tells only what; and what was doubted in the end."""
+    told: set[str] = set()
+    with lines.open(encoding="utf-8") as file:
+        for line in file:
+            state = json.loads(line)
+            told |= set(state["warnings"])
+            for text in state["warnings"]:
+                yield f"t = {in_words(state['time'], 's')}: {text}"
+    yield from (text for text in of_result.splitlines() if text not in told)
+
+
+def _table(ds: xr.Dataset, rows: list[SummaryRow], width: int) -> Table:
+    """Errors stand behind their numbers, and below them where the terminal is too narrow."""
+    columns = _columns(ds, rows)
+    whole = sum(max(map(len, [heading, *cells])) + _GAP for heading, cells in columns.items())
+    narrow = whole > width
+    table = Table(box=SIMPLE_HEAD, padding=(0, 1, 0, 0), show_edge=False)
+    for heading, cells in columns.items():
+        shown = [_broken(cell) if narrow else cell for cell in cells]
+        least = max(len(line) for cell in (heading, *shown) for line in (cell.splitlines() or [""]))
+        justify: Literal["left", "right"] = "right" if narrow and heading else "left"
+        table.add_column(heading, min_width=least, justify=justify)
+        columns[heading] = shown
+    for cells_of_row in zip(*columns.values(), strict=True):
+        table.add_row(*map(escape, cells_of_row))
+    return table
+
+
+def _columns(ds: xr.Dataset, rows: list[SummaryRow]) -> dict[str, list[str]]:
+    columns = {"": [f"{row.title} [{row.unit}]" for row in rows]}
+    first, last = (f"t = {in_words(float(ds['time'][index]), 's')}" for index in (0, -1))
+    # A load that comes on has nothing to tell of its first instant.
+    if not all(row.first.split()[0] in ("0", "-") for row in rows):
+        columns[first] = _aligned([row.first for row in rows])
+    columns[last] = _aligned([row.last for row in rows])
+    if any(row.largest not in (row.first, row.last) for row in rows):
+        columns["largest"] = _aligned([row.largest for row in rows])
+    if _states_errors(ds, rows):
+        columns["largest error"] = [row.largest_error for row in rows]
+    return columns
+
+
+def _broken(cell: str) -> str:
+    """An error below its number, and the instant of the largest one below that."""
+    return re.sub(r"\s+(?=±|at \d)", "\n", cell.strip())
+
+
+def _states_errors(ds: xr.Dataset, rows: list[SummaryRow]) -> bool:
+    return knows_errors(ds, [row.name for row in rows])
+
+
+def _aligned(cells: list[str]) -> list[str]:
+    """Put numbers below each other, and errors behind them."""
+    parts = [cell.partition(" ± ") for cell in cells]
+    width = max((len(number) for number, _, _ in parts), default=0)
+    return [f"{number.rjust(width)}{f' ±{bar}' if bar else ''}" for number, _, bar in parts]

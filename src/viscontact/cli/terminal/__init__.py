@@ -1,0 +1,1 @@
+"""Messages, progress, streams and interruption at a terminal."""

@@ -1,0 +1,123 @@
+"""Progress of a run: a bar on a terminal, plain lines elsewhere."""
+
+from __future__ import annotations
+
+import sys
+import time as clock
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+from viscontact.cli.terminal.messages import say
+from viscontact.simulation.state_generator import Progress as Report
+from viscontact.state import ContactState
+from viscontact.units.formatting import in_words
+
+#: Plain lines come at this part of the run, or after so many seconds.
+_LINE_PART, _LINE_SECONDS = 0.1, 30.0
+
+
+@contextmanager
+def shown_progress(total: int | None, done: int = 0, *, quiet: bool) -> Iterator[Report]:
+    """Show how a run goes on.
+
+    Parameters
+    ----------
+    total : int or None
+        Number of instants; None where the run chooses its steps, so that all totals are guesses.
+    done : int
+        How many are done already: they say nothing about the time that is left.
+    quiet : bool
+        Show nothing.
+
+    Yields
+    ------
+    callable
+        To be called with (state, done, total) after each instant.
+    """
+    if quiet:
+        yield lambda state, done, total: None
+    elif sys.stderr.isatty():
+        bar = _bar()
+        task = bar.add_task("", total=total, completed=done, details="")
+        bar.start()
+        try:
+            yield lambda state, done, total: bar.update(
+                task, completed=done, total=total, details=_details(state)
+            )
+        finally:
+            # A terminal that is gone is no reason for a run to fail.
+            with suppress(OSError):
+                bar.stop()
+    else:
+        yield _PlainLines(done, guessed=total is None)
+
+
+@contextmanager
+def frames_shown(total: int) -> Iterator[Callable[[int, int], None]]:
+    """Show on a terminal how a film is drawn; elsewhere, where it takes a while, say nothing.
+
+    Parameters
+    ----------
+    total : int
+        Frames.
+
+    Yields
+    ------
+    callable
+        To be called with (frames done, frames).
+    """
+    if not sys.stderr.isatty():
+        yield lambda done, total: None
+        return
+    bar = Progress(
+        *(TextColumn("frame"), MofNCompleteColumn(), BarColumn(bar_width=16)),
+        *(TimeRemainingColumn(), TextColumn("left")),
+        console=Console(stderr=True),
+        transient=True,
+    )
+    task = bar.add_task("", total=total)
+    bar.start()
+    try:
+        yield lambda done, total: bar.update(task, completed=done, total=total)
+    finally:
+        with suppress(OSError):  # a terminal that is gone
+            bar.stop()
+
+
+def _bar() -> Progress:
+    return Progress(
+        TextColumn("step"),
+        MofNCompleteColumn(),
+        BarColumn(bar_width=16),  # fixed, so that the rest does not jump
+        TimeRemainingColumn(),
+        TextColumn("left, {task.fields[details]}"),
+        console=Console(stderr=True),
+    )
+
+
+class _PlainLines:
+    """A line now and then."""
+
+    def __init__(self, before: int, *, guessed: bool) -> None:
+        self._before = before
+        self._of = " of about " if guessed else "/"
+        self._started = self._said_at = clock.perf_counter()
+        self._next = before + 1
+
+    def __call__(self, state: ContactState, done: int, total: int) -> None:
+        now = clock.perf_counter()
+        if done < self._next and done < total and now - self._said_at < _LINE_SECONDS:
+            return
+        self._next, self._said_at = done + max(1, round(total * _LINE_PART)), now
+        left = (now - self._started) / (done - self._before) * (total - done)
+        of = self._of if done < total else "/"
+        say(f"step {done}{of}{total}, about {left:.0f} s left, {_details(state)}")
+
+
+def _details(state: ContactState) -> str:
+    area = state.contact_area
+    contact = f"contact {in_words(area, 'm2')}" if area else "no contact"
+    return f"t = {in_words(state.time, 's')}, {state.iterations} iterations, {contact}"

@@ -1,0 +1,1 @@
+"""The contact problem of one time step: domain, constraints, solver, contact edge."""

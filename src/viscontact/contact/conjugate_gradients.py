@@ -1,0 +1,282 @@
+"""The search for the pressure of one contact problem, on one patch of the half-space.
+
+A preconditioned conjugate-gradient iteration that treats the bound p >= 0 and the balances
+together. Each pass
+
+1. finds approach and tilts by least squares of the gap under pressure, and measures the error;
+2. releases the cells that the body overlaps, and preconditions the gap of the active cells;
+3. projects what would change force or moments out of it and of the last direction;
+4. makes both a Polak-Ribiere+ direction (not reset when cells come or go) and looks where a step of
+   the length that is to be expected leads: where nothing loses its pressure there, it steps along
+   the direction to the least energy;
+5. else it cuts off tension, restores the balances by a plane factor, and steps straight towards
+   that to the least energy, or all the way: one convolution, where cutting afterwards takes two. A
+   step that turned out longer than expected is cut afterwards; where no plane factor restores the
+   balances a plane is added.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.contact.domain import Patch
+from viscontact.contact.problem import ContactProblem, Guess
+from viscontact.contact.rigid_balance import restore_balance
+from viscontact.contact.winkler import nearest_balanced
+
+#: Iterations without a new best error after which a search is called stagnant.
+PATIENCE = 40
+
+#: Moments and force of a guess within this are as good as balanced.
+BALANCED = 1e-12
+
+#: Length of a first step where the preconditioner, an inverse by waves, tells all: on cells that
+#: carry pressure alone it sees a half-space stiffer than it is.
+FIRST_LENGTH = 0.4
+
+#: Part of the length to be expected that is aimed at: from a point short of the best one nothing
+#: is lost but the rest of the way, beyond it too much has been cut.
+AIM = 0.85
+
+#: Towards what was aimed at less than this part of the way leads nowhere.
+LEAST_PART = 0.1
+
+
+@dataclass(frozen=True, eq=False)
+class Measure:
+    """How far a pressure is from equilibrium.
+
+    Attributes
+    ----------
+    contact : ndarray of bool
+        Cells under pressure.
+    weight : ndarray
+        One for these, zero elsewhere.
+    inverse_gram : ndarray, shape (3, 3)
+        Of the planes over these cells.
+    motion : ndarray, shape (3,)
+        Rigid motion that fits best.
+    gap : ndarray
+        Gap with that motion [m].
+    gap_in_contact : ndarray
+        The same under pressure, zero elsewhere [m].
+    error : float
+        Largest gap under pressure or penetration elsewhere, over the largest displacement.
+    """
+
+    contact: NDArray[np.bool_]
+    weight: NDArray[np.float64]
+    inverse_gram: NDArray[np.float64]
+    motion: NDArray[np.float64]
+    gap: NDArray[np.float64]
+    gap_in_contact: NDArray[np.float64]
+    error: float
+
+
+def measure(problem: ContactProblem, patch: Patch, now: Guess) -> Measure:
+    """Step 1: rigid motion by least squares over the contact, the gap, and its errors.
+
+    Parameters
+    ----------
+    problem : ContactProblem
+        Gap, compliance and support.
+    patch : Patch
+        The cells.
+    now : Guess
+        Pressure and deflection.
+
+    Returns
+    -------
+    Measure
+        Gap and error.
+    """
+    contact = now.pressure > 0
+    gap = problem.compliance * now.deflection
+    scale = max(problem.displacement_scale, float(gap.max()))
+    gap += problem.open_gap
+    gap -= patch.plane.field(now.motion)
+    gap_in_contact = np.where(contact, gap, 0.0)
+    weight = contact.astype(float)
+    inverse = patch.plane.inverse_gram(weight, problem.support.free)
+    # A correction, so that a motion the contact does not determine stays as it was.
+    correction = inverse @ patch.plane.sums(gap_in_contact)
+    gap -= patch.plane.field(correction)
+    np.copyto(gap_in_contact, gap, where=contact)
+    error = max(float(gap_in_contact.max()), -float(gap.min()), 0.0) / scale
+    return Measure(contact, weight, inverse, now.motion + correction, gap, gap_in_contact, error)
+
+
+class Search:
+    """The iteration on one patch, with its working state.
+
+    Parameters
+    ----------
+    problem : ContactProblem
+        The problem on the patch.
+    patch : Patch
+        The cells.
+    start : Guess
+        Where it starts, on the patch.
+    """
+
+    def __init__(self, problem: ContactProblem, patch: Patch, start: Guess) -> None:
+        self.problem, self.patch = problem, patch
+        self.iterations = self.convolutions = 0
+        motion = problem.support.with_prescribed(start.motion)
+        self.now = Guess(start.pressure, start.deflection, motion)
+        self._active = np.zeros(0, dtype=bool)
+        self._residual = self._direction = np.zeros(0)
+        self._slope = 0.0
+        self._length = FIRST_LENGTH / problem.compliance
+        self.gave_up = not (self._is_admissible() or self._make_admissible(start.pressure))
+
+    def run(self, tolerance: float, max_iterations: int) -> None:
+        """Iterate until the tolerance is met, or no progress is made.
+
+        Parameters
+        ----------
+        tolerance : float
+            Bound on the relative residual.
+        max_iterations : int
+            Most search directions.
+        """
+        best, since_best = np.inf, 0
+        while not self.gave_up:
+            checked = measure(self.problem, self.patch, self.now)
+            self.now = Guess(self.now.pressure, self.now.deflection, checked.motion)
+            if checked.error <= tolerance:
+                return
+            since_best = 0 if checked.error < best else since_best + 1
+            best = min(best, checked.error)
+            self.gave_up = self.iterations >= max_iterations or since_best > PATIENCE
+            if not self.gave_up:
+                self._advance(checked)
+
+    def _advance(self, checked: Measure) -> None:
+        """Steps 2 to 5: precondition, project, conjugate, step exactly, cut and rebalance."""
+        released = checked.gap < 0
+        released &= ~checked.contact
+        active, weight, residual = checked.contact, checked.weight, checked.gap_in_contact
+        inverse = checked.inverse_gram
+        if released.any():
+            active = active | released
+            weight, residual = active.astype(float), np.where(active, checked.gap, 0.0)
+            inverse = self.patch.plane.inverse_gram(weight, self.problem.support.free)
+        direction = self._project(self.patch.preconditioner.apply(residual), weight, inverse)
+        slope = _inner(direction, residual)
+        if self._slope > 0:
+            change = slope - _inner(direction, self._residual)
+            before = self._direction
+            if not np.array_equal(active, self._active):
+                before = self._project(before, weight, inverse)
+            # The sign: directions lead downhill, the preconditioned residual uphill.
+            direction -= max(change / self._slope, 0.0) * before
+        self._active, self._residual, self._slope = active, residual, slope
+        self._direction = np.negative(direction, out=direction)
+        self.iterations += 1
+        self._step()
+
+    def _project(
+        self, vector: NDArray[np.float64], weight: NDArray[np.float64], inverse: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        """Remove from a direction what lies outside the active cells or changes resultants."""
+        plane = self.patch.plane
+        vector = weight * vector
+        vector -= weight * plane.field(inverse @ plane.sums(vector))
+        return vector
+
+    def _step(self) -> None:
+        """Steps 4 and 5: to the least energy along the direction, or towards where a cut leads."""
+        aimed = self._aimed()
+        if aimed is not None and self._goes_towards(aimed):
+            return
+        direction, before = self._direction, self.now
+        change = self._deflection_of(direction)
+        curvature = self.problem.compliance * _inner(direction, change)
+        if curvature <= 0:
+            self._slope = 0.0
+            return
+        self._length = length = -_inner(self._residual, direction) / curvature
+        self.now = _moved(before, length, direction, change)
+        if float(self.now.pressure.min()) >= 0 or self._make_admissible(self.now.pressure):
+            return
+        # No plane factor balances what is left after the cut; adding a plane and cutting does, as
+        # all active cells together can carry the load.
+        self._slope = 0.0
+        support, plane, area = self.problem.support, self.patch.plane, self.patch.cell_area
+        nearest = nearest_balanced(self.now.pressure, self._active, support, plane, area)
+        if not self._make_admissible(nearest):
+            self._go_until_cut(before, length, change)
+
+    def _aimed(self) -> NDArray[np.float64] | None:
+        """Where a step of about the usual length leads, cut and balanced; None without a cut."""
+        ahead = AIM * self._length * self._direction
+        ahead += self.now.pressure
+        return self._balanced(ahead) if float(ahead.min()) < 0 else None
+
+    def _goes_towards(self, aimed: NDArray[np.float64]) -> bool:
+        """Step to the least energy on the way to a pressure, or all the way; whether that helps."""
+        before, step = self.now, aimed - self.now.pressure
+        change = self._deflection_of(step)
+        curvature = self.problem.compliance * _inner(step, change)
+        best = -_inner(self._residual, step) / curvature if curvature > 0 else 0.0
+        if best < LEAST_PART:
+            return False
+        self._length *= AIM * min(max(best, 0.5), 2.0)
+        moved = _moved(before, min(best, 1.0), step, change)
+        self.now = moved if best < 1 else Guess(aimed, moved.deflection, moved.motion)
+        return True
+
+    def _go_until_cut(self, before: Guess, length: float, change: NDArray[np.float64]) -> None:
+        """Go only as far as the first cells lose their pressure, and nothing is out of balance."""
+        step = length * self._direction
+        room = np.divide(before.pressure, -step, out=np.full(step.shape, np.inf), where=step < 0)
+        part = float(room.min())
+        moved = _moved(before, length * part, self._direction, change)
+        # Exactly none: with a trifle that rounding left them no later step would get anywhere.
+        pressure = np.where(room == part, 0.0, np.maximum(moved.pressure, 0.0))
+        self.now = Guess(pressure, moved.deflection, moved.motion)
+
+    def _is_admissible(self) -> bool:
+        sums = self.patch.plane.sums(self.now.pressure) * self.patch.cell_area
+        off = self.problem.support.imbalance(sums, self.patch.arm)
+        return float(self.now.pressure.min()) >= 0 and off < BALANCED
+
+    def _make_admissible(self, pressure: NDArray[np.float64]) -> bool:
+        """Cut off tension and restore the balances; whether that could be done."""
+        pressure = np.where(np.isfinite(self.problem.open_gap), pressure, 0.0)
+        restored = self._balanced(pressure)
+        if restored is None:
+            return False
+        change = self._deflection_of(restored - self.now.pressure)
+        self.now = Guess(restored, self.now.deflection + change, self.now.motion)
+        return True
+
+    def _balanced(self, pressure: NDArray[np.float64]) -> NDArray[np.float64] | None:
+        """A pressure without its tension, balanced by a plane factor; None if none does it."""
+        patch = self.patch
+        return restore_balance(
+            np.maximum(pressure, 0.0),
+            self.problem.support,
+            patch.plane,
+            patch.cell_area,
+            patch.arm,
+        )
+
+    def _deflection_of(self, change: NDArray[np.float64]) -> NDArray[np.float64]:
+        self.convolutions += 1
+        return self.patch.convolution.apply(change)
+
+
+def _moved(
+    now: Guess, length: float, direction: NDArray[np.float64], change: NDArray[np.float64]
+) -> Guess:
+    return Guess(now.pressure + length * direction, now.deflection + length * change, now.motion)
+
+
+def _inner(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
+    # Not a dot product of BLAS, which would put threads to work.
+    return float(np.einsum("ij,ij->", a, b))

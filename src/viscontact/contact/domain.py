@@ -1,0 +1,277 @@
+"""The half-space under a grid, under one mirrored half of it, and under patches of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import fft
+
+from viscontact.contact.rigid_balance import RigidPlane, Support
+from viscontact.fourier import Transforms, fastest_transforms, transforms_by
+from viscontact.grid import Grid
+from viscontact.halfspace.convolution import Convolution
+from viscontact.halfspace.influence import influence_table
+from viscontact.halfspace.preconditioner import Preconditioner
+from viscontact.halfspace.spectral import PeriodicConvolution
+
+#: From pressure to displacement, on cells.
+Operator = Convolution | PeriodicConvolution
+
+#: Free cells kept around a contact in its patch, as a part of the contact's extent.
+PATCH_MARGIN = 0.06
+
+#: A coarser half-space has at least so many cells each way.
+FEWEST_CELLS = 32
+
+#: A patch of more than this part of the grid saves nothing.
+WORTHWHILE = 0.8
+
+
+@dataclass(frozen=True, eq=False)
+class Patch:
+    """A rectangular block of cells with the operators that live on it.
+
+    Attributes
+    ----------
+    rows, columns : slice
+        Where it lies in the half-space's fields.
+    cell_area : float
+        Area of a cell [m²].
+    arm : float
+        Its longer edge, the measure of moments against forces [m].
+    convolution : Convolution or PeriodicConvolution
+        Deflection of the patch under a change of pressure on the patch, in single precision.
+    preconditioner : Preconditioner
+        Rough inverse of it.
+    plane : RigidPlane
+        Planes over the patch.
+    """
+
+    rows: slice
+    columns: slice
+    cell_area: float
+    arm: float
+    convolution: Operator
+    preconditioner: Preconditioner
+    plane: RigidPlane
+
+    def cut(self, field: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The patch's part of a field."""
+        return field[self.rows, self.columns]
+
+    def holds(self, rows: slice, columns: slice) -> bool:
+        """Whether a block of cells lies within the patch."""
+        return _within(rows, self.rows) and _within(columns, self.columns)
+
+
+class HalfSpace:
+    """A grid on the half-space: the patch of all its cells, and smaller ones around contacts.
+
+    Searching for the pressure on the contact's own patch, by changes convolved in single
+    precision, costs a fraction of what the whole grid does; what is found is convolved on the
+    whole grid in double precision and checked there. The last patch is kept, for a contact that
+    creeps stays in it for many steps. A problem that is even across x = 0 or y = 0 needs only the
+    cells beyond: fields are then `fold`-ed, and supports halved, before they are used here. On a
+    periodic grid all cells are worked with: nothing is padded there, and the preconditioner is an
+    exact inverse.
+
+    Parameters
+    ----------
+    grid : Grid
+        The cells that carry pressure and displacement.
+    mirrored : tuple of bool
+        Whether the problem is even across x = 0, and across y = 0; the grid must have an even
+        number of cells along those axes, and not be periodic.
+    transforms : Transforms, optional
+        Who transforms; the fastest that are installed when left out.
+
+    Attributes
+    ----------
+    whole : Patch
+        The patch of all cells that are worked with.
+    convolution : Convolution or PeriodicConvolution
+        Deflection of all of them under a pressure, in double precision.
+
+    Examples
+    --------
+    >>> half_space = HalfSpace(Grid((4, 8), (1.0, 1.0)), mirrored=(False, True))
+    >>> half_space.fold(np.ones((4, 8))).shape
+    (4, 4)
+    """
+
+    convolution: Operator
+
+    def __init__(
+        self,
+        grid: Grid,
+        *,
+        mirrored: tuple[bool, bool] = (False, False),
+        transforms: Transforms | None = None,
+    ) -> None:
+        odd = [count % 2 for count in grid.shape]
+        if np.any(np.logical_and(mirrored, odd)):
+            raise ValueError(f"a mirrored grid needs an even number of cells, got {grid.shape}")
+        if any(mirrored) and grid.periodic:
+            raise ValueError("a periodic grid is worked with as a whole, not mirrored")
+        self.grid = grid
+        self.mirrored = mirrored
+        self._transforms = transforms or transforms_by(fastest_transforms())
+        self._first_row, self._first_column = (
+            count // 2 if even else 0 for count, even in zip(grid.shape, mirrored, strict=True)
+        )
+        self.shape = (grid.shape[0] - self._first_row, grid.shape[1] - self._first_column)
+        if not grid.periodic:
+            self._coefficients = influence_table(grid.shape, grid.cell_size)
+        self.convolution = self._operator(self.shape, single=False)
+        self.whole = self._patch(slice(0, self.shape[0]), slice(0, self.shape[1]))
+        self._last = self.whole
+
+    def coarser(self) -> HalfSpace | None:
+        """The same region in cells twice as long and wide; None where they do not pair, or few."""
+        if any(cells % 2 or cells < 2 * FEWEST_CELLS for cells in self.shape):
+            return None
+        nx, ny = self.grid.shape
+        halved = replace(self.grid, shape=(nx // 2, ny // 2))
+        return HalfSpace(halved, mirrored=self.mirrored, transforms=self._transforms)
+
+    def fold(self, field: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The part of a field on the grid that is worked with."""
+        return np.ascontiguousarray(field[self._first_row :, self._first_column :])
+
+    def unfold(self, field: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The field on the grid whose part is worked with, in memory of its own."""
+        if not any(self.mirrored):  # a view would keep the pair it is taken from
+            return field if field.base is None else field.copy()
+        for axis in (0, 1):
+            if self.mirrored[axis]:
+                field = np.concatenate([np.flip(field, axis), field], axis)
+        return field
+
+    @property
+    def fold_count(self) -> int:
+        """How many times what is worked with makes the whole."""
+        return (1 + self.mirrored[0]) * (1 + self.mirrored[1])
+
+    def share(self, support: Support) -> Support:
+        """What the part that is worked with has to carry of the whole body's load."""
+        if self.grid.periodic:
+            return support.level()
+        for axis in (0, 1):
+            if self.mirrored[axis]:
+                support = support.halved(axis)
+        return support
+
+    def patch_around(self, cells: NDArray[np.bool_]) -> Patch:
+        """A patch that holds the given cells with some room to grow.
+
+        Parameters
+        ----------
+        cells : ndarray of bool
+            Cells that it has to hold.
+
+        Returns
+        -------
+        Patch
+            The last one if it fits well, the whole if a patch would save little.
+        """
+        if self.grid.periodic or not cells.any():
+            return self.whole
+        rows, columns = _span(np.any(cells, axis=1)), _span(np.any(cells, axis=0))
+        if self.mirrored[0]:
+            rows = slice(0, rows.stop)
+        if self.mirrored[1]:
+            columns = slice(0, columns.stop)
+        roomy = (
+            _widened(rows, self.shape[0], one_sided=self.mirrored[0]),
+            _widened(columns, self.shape[1], one_sided=self.mirrored[1]),
+        )
+        if _size(*roomy) > WORTHWHILE * cells.size:
+            return self.whole
+        fits = self._last.holds(_guarded(rows), _guarded(columns))
+        if not fits or _size(self._last.rows, self._last.columns) > 1.3 * _size(*roomy):
+            self._last = self._patch(*roomy)
+        return self._last
+
+    @property
+    def kept_patch(self) -> tuple[int, int, int, int]:
+        """First and last rows and columns, as slices have them, of the patch that is kept."""
+        rows, columns = self._last.rows, self._last.columns
+        return rows.start, rows.stop, columns.start, columns.stop
+
+    def keep_patch(self, span: tuple[int, int, int, int]) -> None:
+        """Keep the patch that another half-space over the same grid had kept.
+
+        Parameters
+        ----------
+        span : tuple of int
+            Its `kept_patch`.
+        """
+        if span == self.kept_patch:
+            return
+        rows, columns = slice(*span[:2]), slice(*span[2:])
+        is_whole = (rows, columns) == (self.whole.rows, self.whole.columns)
+        self._last = self.whole if is_whole else self._patch(rows, columns)
+
+    def _patch(self, rows: slice, columns: slice) -> Patch:
+        grid = self.grid
+        shape = (rows.stop - rows.start, columns.stop - columns.start)
+        return Patch(
+            rows,
+            columns,
+            grid.cell_area,
+            float(max(np.multiply(shape, grid.cell_size))),
+            self._operator(shape, single=True),
+            Preconditioner(
+                shape, grid.cell_size, mirrored=self.mirrored, transforms=self._transforms
+            ),
+            RigidPlane(
+                grid.x[self._first_row :][rows],
+                grid.y[self._first_column :][columns],
+                grid.cell_size,
+                self.mirrored,
+            ),
+        )
+
+    def _operator(self, shape: tuple[int, int], *, single: bool) -> Operator:
+        """The operator over a block of cells, or over the whole of a period."""
+        transforms = self._transforms
+        if self.grid.periodic:
+            cell_size = self.grid.cell_size
+            return PeriodicConvolution(shape, cell_size, single=single, transforms=transforms)
+        nx, ny = (cells * (1 + even) for cells, even in zip(shape, self.mirrored, strict=True))
+        return Convolution(
+            self._coefficients[:nx, :ny],
+            mirrored=self.mirrored,
+            single=single,
+            transforms=transforms,
+        )
+
+
+def _span(occupied: NDArray[np.bool_] | np.bool_) -> slice:
+    index = np.flatnonzero(occupied)
+    return slice(int(index[0]), int(index[-1]) + 1)
+
+
+def _widened(span: slice, cells: int, *, one_sided: bool) -> slice:
+    """A margin at the free ends, then up to a length that is good to transform, in the grid."""
+    extent = span.stop - span.start
+    margin = max(3, int(np.ceil(PATCH_MARGIN * extent)))
+    wanted = extent + (1 if one_sided else 2) * margin
+    length = min(int(fft.next_fast_len(wanted, real=True)), cells)
+    start = 0 if one_sided else (span.start + span.stop - length) // 2
+    start = min(max(start, 0), cells - length)
+    return slice(start, start + length)
+
+
+def _guarded(span: slice) -> slice:
+    return slice(max(span.start - 1, 0), span.stop + 1)
+
+
+def _within(inner: slice, outer: slice) -> bool:
+    return bool(outer.start <= inner.start and inner.stop <= outer.stop)
+
+
+def _size(rows: slice, columns: slice) -> int:
+    return int((rows.stop - rows.start) * (columns.stop - columns.start))

@@ -1,0 +1,268 @@
+"""The rim of a contact, resolved below the cell size.
+
+Counting cells makes area a jagged function of time. Just outside a smooth rim the gap opens as
+distance^(3/2), whatever the law and whether the contact grows or shrinks, so gap^(2/3) of the
+first two open cells of a grid line points at the rim; a polygon through these crossings encloses
+the contact. Where the body ends inside that cell, the rim is its outline.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.contact.body_edge import Outline
+from viscontact.grid import Grid
+
+#: Rows and columns of some cells.
+Place = tuple[NDArray[np.intp], NDArray[np.intp]]
+
+
+@dataclass(frozen=True, eq=False)
+class Rim:
+    """Cells in contact and where the rim crosses the lines between cell centres.
+
+    Attributes
+    ----------
+    grid : Grid
+        The cells.
+    contact : ndarray of bool, shape (mx, my)
+        Cells under pressure, in the block around the contact.
+    along_x, along_y : ndarray
+        In that block: distance of the rim from the centre of the inner cell, in cells, as in
+        `Outline`; slightly negative where that cell's centre lies just outside.
+    rows, columns : ndarray of int
+        Where the block lies in the grid. On a periodic grid it may run on across the border; where
+        the contact does so all around, the block ends with the row that it begins with.
+    """
+
+    grid: Grid
+    contact: NDArray[np.bool_]
+    along_x: NDArray[np.float64]
+    along_y: NDArray[np.float64]
+    rows: NDArray[np.intp]
+    columns: NDArray[np.intp]
+
+    @property
+    def area(self) -> float:
+        """Area enclosed by the polygons through the crossings [m²]."""
+        return self.grid.cell_area * _enclosed_squares(self)
+
+    @cached_property
+    def length(self) -> float:
+        """Extent of the contact along x, on a periodic grid at most a period [m]."""
+        if len(self.rows) > self.grid.shape[0]:
+            return self.grid.size[0]
+        return min(_extent(self.contact, self.along_x) * self.grid.cell_size[0], self.grid.size[0])
+
+    @cached_property
+    def width(self) -> float:
+        """Extent of the contact along y, on a periodic grid at most a period [m]."""
+        if len(self.columns) > self.grid.shape[1]:
+            return self.grid.size[1]
+        cells = _extent(self.contact.T, self.along_y.T)
+        return min(cells * self.grid.cell_size[1], self.grid.size[1])
+
+    @property
+    def cells_across(self) -> int:
+        """Rows or columns of cells that have contact, the fewer of the two.
+
+        Those along which the contact goes on without end, as it may on a periodic grid, do not
+        count: where it does so both ways, it is as many as the grid has.
+        """
+        lines, counts = (self.rows, self.columns), self.grid.shape
+        touched = [int(self.contact.any(axis=1 - axis).sum()) for axis in (0, 1)]
+        ends = [k for k in (0, 1) if len(lines[k]) <= counts[k]]
+        return min(touched[k] for k in ends) if ends else max(counts)
+
+    def cut(self, field: NDArray[Any]) -> NDArray[Any]:
+        """The block's part of a field on the grid."""
+        if self.grid.periodic:
+            return field[np.ix_(self.rows, self.columns)]
+        both = (self.rows, self.columns)
+        rows, columns = (slice(int(lines[0]), int(lines[-1]) + 1) for lines in both)
+        return field[rows, columns]
+
+
+def trace_rim(
+    grid: Grid,
+    contact: NDArray[np.bool_],
+    gap: NDArray[np.float64],
+    outline: Outline | None = None,
+) -> Rim:
+    """Locate the rim of a contact between cell centres.
+
+    Parameters
+    ----------
+    grid : Grid
+        The cells.
+    contact : ndarray of bool, shape (nx, ny)
+        Cells under pressure.
+    gap : ndarray, shape (nx, ny)
+        Gap [m], +inf outside the indenter's outline.
+    outline : Outline, optional
+        Where the body ends; the middle between centres is taken when left out.
+
+    Returns
+    -------
+    Rim
+        Its area is too small by about 1.3e-3, with a scatter of up to 2e-3, at 15 cells a radius;
+        the one falls in proportion to the cell size, the other faster.
+
+    Notes
+    -----
+    The gap's law: Johnson (1985), Contact Mechanics, eq. 5.9's square root of pressure inside
+    a smooth rim goes with a distance^(3/2) opening outside. Only the gap is used, so no modulus
+    has to be chosen for a creeping body.
+
+    Examples
+    --------
+    Gaps 1 and 2**1.5 at distances 1 and 2 from the rim: the rim is at the inner cell's centre.
+
+    >>> gap = np.tile([0.0, 0.0, 1.0, 2**1.5], (4, 1)).T
+    >>> rim = trace_rim(Grid((4, 4), (4.0, 4.0)), gap == 0, gap)
+    >>> float(round(rim.along_x[1, 0], 12))
+    0.0
+    """
+    if grid.periodic:
+        return _trace_around(grid, contact, gap, outline)
+    rows, columns = _block(contact, axis=0), _block(contact, axis=1)
+    contact, gap = contact[rows, columns], gap[rows, columns]
+    end_x = end_y = None
+    if outline is not None:
+        end_x = outline.along_x[rows, columns][: len(contact) - 1]
+        end_y = outline.along_y[rows, columns][:, : contact.shape[1] - 1]
+    along_x = _crossings(contact, gap, end_x, axis=0)
+    along_y = _crossings(contact, gap, end_y, axis=1)
+    lines = (np.arange(n)[block] for n, block in zip(grid.shape, (rows, columns), strict=True))
+    return Rim(grid, contact, along_x, along_y, *lines)
+
+
+def _block(contact: NDArray[np.bool_], axis: int) -> slice:
+    """The contact's span along an axis and the two open cells on both sides that show its rim."""
+    touched = np.flatnonzero(contact.any(axis=1 - axis))
+    if len(touched) == 0:
+        return slice(0, 2)
+    return slice(max(int(touched[0]) - 2, 0), int(touched[-1]) + 3)
+
+
+def _trace_around(
+    grid: Grid, contact: NDArray[np.bool_], gap: NDArray[np.float64], outline: Outline | None
+) -> Rim:
+    """Trace the rim of a contact that goes on across the border of its period."""
+    rows, columns = _turn(contact, axis=0), _turn(contact, axis=1)
+    # Two more cells each way, which tell the rim's place between those of the block.
+    wide = np.ix_(_beyond(rows, grid.shape[0]), _beyond(columns, grid.shape[1]))
+    contact, gap = contact[wide], gap[wide]
+    end_x = end_y = None
+    if outline is not None:
+        # The border itself is where a body ends that reaches it: the middle between two centres.
+        end_x = np.pad(outline.along_x, ((0, 1), (0, 0)), constant_values=np.nan)[wide][:-1]
+        end_y = np.pad(outline.along_y, ((0, 0), (0, 1)), constant_values=np.nan)[wide][:, :-1]
+    along_x = _crossings(contact, gap, end_x, axis=0)[2:-2, 2:-2]
+    along_y = _crossings(contact, gap, end_y, axis=1)[2:-2, 2:-2]
+    return Rim(grid, contact[2:-2, 2:-2], along_x, along_y, rows, columns)
+
+
+def _turn(contact: NDArray[np.bool_], axis: int) -> NDArray[np.intp]:
+    """The lines of a contact and an open one on both sides, where none is open a whole turn."""
+    touched = np.flatnonzero(contact.any(axis=1 - axis))
+    count = contact.shape[axis]
+    if len(touched) == 0:
+        return np.arange(2)
+    if len(touched) == count:
+        return np.append(np.arange(count), 0)
+    # The contact begins behind the widest opening.
+    begins = np.diff(touched, prepend=touched[-1] - count).argmax()
+    extent = (int(touched[begins - 1]) - int(touched[begins])) % count
+    return np.asarray((np.arange(-1, extent + 2) + touched[begins]) % count)
+
+
+def _beyond(lines: NDArray[np.intp], count: int) -> NDArray[np.intp]:
+    """Those lines, and the two before and behind them."""
+    return np.asarray((np.arange(-2, len(lines) + 2) + lines[0]) % count)
+
+
+def _crossings(
+    contact: NDArray[np.bool_],
+    gap: NDArray[np.float64],
+    outline: NDArray[np.float64] | None,
+    axis: int,
+) -> NDArray[np.float64]:
+    """Distance from the inner centre, in cells, where contact changes along an axis."""
+    changes = contact[1:] != contact[:-1] if axis == 0 else contact[:, 1:] != contact[:, :-1]
+    place = _places(changes)
+    inside = contact[place]
+    # Outwards from the crossing: the first open cell, and the second.
+    first = _shifted(place, axis, inside)
+    second = _shifted(first, axis, np.where(inside, 1, -1))
+    second[axis].clip(0, contact.shape[axis] - 1, out=second[axis])
+    opening, far = gap[first], gap[second]
+    near = np.maximum(opening, 0.0)
+    # Without a second, wider gap (a groove of one cell, the body's end) take the middle.
+    known = np.isfinite(far) & (far > near) & ~contact[second]
+    ratio = np.divide(near, far, out=np.full(len(near), 0.5), where=known) ** (2 / 3)
+    distance = np.where(known, ratio / (1 - np.where(known, ratio, 0.0)), 0.5)
+    located = np.maximum(1 - distance, -0.5)
+    if outline is not None:
+        end = outline[place]
+        end[np.isnan(end)] = 0.5
+        located = np.where(np.isinf(opening), end, located)
+    crossings = np.full(changes.shape, np.nan)
+    crossings[place] = located
+    return crossings
+
+
+def _shifted(place: Place, axis: int, by: NDArray[Any]) -> Place:
+    """Cells beside others along an axis."""
+    rows, columns = place
+    return (rows + by, columns) if axis == 0 else (rows, columns + by)
+
+
+def _enclosed_squares(rim: Rim) -> float:
+    """Squares between four neighbouring centres, each counted by its enclosed part."""
+    inside = rim.contact
+    pairs = inside[1:].view(np.int8) + inside[:-1].view(np.int8)
+    count = pairs[:, 1:] + pairs[:, :-1]
+    i, j = _places((count & 3) != 0)  # neither none nor all four
+    along_x, along_y = rim.along_x, rim.along_y
+    edges = np.array([along_x[i, j], along_x[i, j + 1], along_y[i, j], along_y[i + 1, j]])
+    edges = np.fmin(np.fmax(edges, 0.0), 1.0)  # where nothing crosses, 0
+    u, v = edges[0] + edges[1], edges[2] + edges[3]
+    # One corner in: a triangle. A side in: a trapezium between the crossings of the two edges that
+    # leave it. One corner out: what is missing is a triangle.
+    corners = count[i, j]
+    enclosed = np.choose(corners - 1, [u * v / 2, (u + v) / 2, 1 - (1 - u) * (1 - v) / 2])
+    # Opposite corners in: two triangles, held apart.
+    first = inside[i, j]
+    apart = np.flatnonzero((corners == 2) & (first == inside[i + 1, j + 1]))
+    if apart.size:
+        left, right, lower, upper = edges[:, apart]
+        ends = np.where(first[apart], left * lower + right * upper, left * upper + right * lower)
+        enclosed[apart] = ends / 2
+    return float(np.count_nonzero(count == 4) + enclosed.sum())
+
+
+def _places(where: NDArray[np.bool_]) -> Place:
+    """The rows and columns at which something is true; `np.nonzero` takes eight times as long."""
+    return np.divmod(np.flatnonzero(where), where.shape[1])
+
+
+def _extent(contact: NDArray[np.bool_], crossings: NDArray[np.float64]) -> float:
+    """Extent along the first axis, in cells: the farthest crossings both ways."""
+    touched = np.flatnonzero(contact.any(axis=1))
+    if not touched.size:
+        return 0.0
+    # None lies more than half a cell within, or a whole one beyond its inner centre: two rows tell.
+    (from_first, first), (from_last, last) = (
+        (max(int(row) - 1, 0), min(int(row) + 1, len(crossings))) for row in touched[[0, -1]]
+    )
+    starts = np.arange(from_first, first)[:, None] + 1 - crossings[from_first:first]
+    ends = np.arange(from_last, last)[:, None] + crossings[from_last:last]
+    upper, lower = contact[from_last:last], contact[from_first + 1 : first + 1]
+    end = np.fmax.reduce(ends[upper], initial=0.0)
+    return float(end - np.fmin.reduce(starts[lower], initial=len(contact) - 1.0))

@@ -1,0 +1,1 @@
+"""Half-space operators: influence coefficients, convolution, stresses below the surface."""

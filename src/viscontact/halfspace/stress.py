@@ -1,0 +1,204 @@
+"""Stresses inside the half-space under a pressure on its surface.
+
+With a constant Poisson's ratio a viscoelastic half-space that carries pressure alone has the
+stresses of the elastic one: they do not depend on the modulus, and so not on what it was before.
+The pressure of an instant is all it takes (Lee 1955, correspondence principle).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy import fft
+
+from viscontact.grid import Grid
+from viscontact.halfspace.stress_influence import COMPONENTS, stress_coefficients
+
+#: The surface itself is taken at this part of a cell's edge below it: there, and there only, the
+#: stress jumps where the pressure does, from cell to cell, and half way between is right.
+SURFACE = 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class Stress:
+    """Stress tensors over a field of points.
+
+    Attributes
+    ----------
+    components : ndarray, shape (6, ...)
+        xx, yy, zz, yz, xz, xy; tension positive [Pa].
+
+    Examples
+    --------
+    >>> simple_shear = Stress(np.array([0.0, 0.0, 0.0, 0.0, 1.0, 0.0]))
+    >>> round(float(simple_shear.von_mises), 4), float(simple_shear.max_shear)
+    (1.7321, 1.0)
+    """
+
+    components: NDArray[np.float64]
+
+    def __getitem__(self, name: str) -> NDArray[np.float64]:
+        """A component by name, such as ``"zz"`` [Pa]."""
+        component: NDArray[np.float64] = self.components[COMPONENTS.index(name)]
+        return component
+
+    @property
+    def von_mises(self) -> NDArray[np.float64]:
+        """Von Mises equivalent stress [Pa], shape (...)."""
+        xx, yy, zz, yz, xz, xy = self.components
+        normal = (xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2
+        return np.asarray(np.sqrt(normal / 2 + 3 * (yz**2 + xz**2 + xy**2)))
+
+    @property
+    def principal(self) -> NDArray[np.float64]:
+        """Principal stresses [Pa], falling, shape (3, ...)."""
+        xx, yy, zz, yz, xz, xy = self.components
+        rows = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
+        tensors = np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+        return np.moveaxis(np.linalg.eigvalsh(tensors)[..., ::-1], -1, 0)
+
+    @property
+    def max_shear(self) -> NDArray[np.float64]:
+        """Largest shear stress over all planes [Pa]: half of what the principal ones span."""
+        principal = self.principal
+        return np.asarray((principal[0] - principal[2]) / 2)
+
+
+def stress_on_section(
+    pressure: NDArray[np.float64],
+    grid: Grid,
+    depths: ArrayLike,
+    poisson_ratio: float,
+    *,
+    x: float | None = None,
+    y: float | None = None,
+) -> Stress:
+    """Stress on a plane across the half-space, below a line of the surface.
+
+    Parameters
+    ----------
+    pressure : ndarray, shape (nx, ny)
+        Pressure on the grid's cells [Pa], positive in compression.
+    grid : Grid
+        The cells.
+    depths : array_like, shape (nz,)
+        Depths below the surface, 0 or positive [m].
+    poisson_ratio : float
+        Of the half-space [-].
+    x, y : float, optional
+        Where the plane lies: one of them, the other runs over the grid's cell centres [m]; y = 0
+        when both are left out.
+
+    Returns
+    -------
+    Stress
+        Components of shape (nz, nx) on a plane of given y, (nz, ny) on one of given x.
+
+    Raises
+    ------
+    ValueError
+        If both x and y are given, a depth is negative or no number, or Poisson's ratio is not
+        between 0 and 0.5.
+
+    Notes
+    -----
+    Each line of cells acts on the section as a convolution along it with Love's closed form
+    (`stress_influence`), made by fast Fourier transforms, zero-padded; exact for pressure that is
+    constant within cells. On a periodic grid each wave of the pressure has stresses of its own
+    (Johnson 1985, Contact Mechanics, section 13.2, turned to its direction), and the mean pressure
+    is carried without strain along the surface: σxx = σyy = ν/(1 - ν) σzz.
+
+    Examples
+    --------
+    A square of edge 2 under unit pressure; deep below it is a point load, σzz = -3 F/(2π z²):
+
+    >>> stress = stress_on_section(np.ones((4, 4)), Grid((4, 4), (2.0, 2.0)), [20.0], 0.3, x=0.0)
+    >>> round(float(stress["zz"][0, 2] / (-3 * 4 / (2 * np.pi * 20**2))), 2)
+    1.0
+    """
+    below = _checked(depths, poisson_ratio)
+    if x is not None and y is not None:
+        raise ValueError("a section lies at an x or at a y; give one of them")
+    if x is not None:
+        turned = Grid(grid.shape[::-1], grid.size[::-1], grid.periodic)
+        stress = stress_on_section(pressure.T, turned, below, poisson_ratio, y=x)
+        # What runs along x on the turned grid runs along y.
+        return Stress(stress.components[[1, 0, 2, 4, 3, 5]])
+    if grid.periodic:
+        return _below_period(pressure, grid, below, poisson_ratio, y or 0.0)
+    lines = np.flatnonzero(pressure.any(axis=0))
+    loaded = slice(lines[0], lines[-1] + 1) if lines.size else slice(0, 1)
+    return _along_x(pressure[:, loaded], grid, loaded, below, poisson_ratio, y or 0.0)
+
+
+def _along_x(
+    pressure: NDArray[np.float64],
+    grid: Grid,
+    loaded: slice,
+    depths: NDArray[np.float64],
+    poisson_ratio: float,
+    y: float,
+) -> Stress:
+    cells, (dx, dy) = len(grid.x), grid.cell_size
+    padded = fft.next_fast_len(2 * cells - 1, real=True)
+    spectrum = fft.rfft(pressure, padded, axis=0)
+    # Offsets from a cell to the point, the negative ones wrapped to the end.
+    offsets = np.arange(-cells + 1, cells) * dx
+    x_edges = np.append(offsets, offsets[-1] + dx) - dx / 2
+    y_edges = y - np.append(grid.y[loaded] - dy / 2, grid.y[loaded][-1] + dy / 2)
+    found = np.empty((6, len(depths), cells))
+    for index, depth in enumerate(np.maximum(depths, SURFACE * min(dx, dy)).tolist()):
+        # The edges rise along x, so that the first difference has the other sign.
+        kernel = -stress_coefficients(x_edges, y_edges, depth, poisson_ratio)
+        wrapped = np.zeros((6, padded, kernel.shape[2]))
+        wrapped[:, :cells] = kernel[:, cells - 1 :]
+        wrapped[:, padded - cells + 1 :] = kernel[:, : cells - 1]
+        product = np.einsum("cky,ky->ck", fft.rfft(wrapped, axis=1), spectrum)
+        found[:, index] = fft.irfft(product, padded, axis=1)[:, :cells]
+    return Stress(found)
+
+
+def _below_period(
+    pressure: NDArray[np.float64],
+    grid: Grid,
+    depths: NDArray[np.float64],
+    poisson_ratio: float,
+    y: float,
+) -> Stress:
+    """Wave by wave: those along the section are summed by a transform, those across it plainly."""
+    along = 2 * np.pi * fft.fftfreq(grid.shape[0], grid.cell_size[0])[:, None]
+    across = 2 * np.pi * fft.fftfreq(grid.shape[1], grid.cell_size[1])[None, :]
+    q = np.hypot(along, across)
+    q[0, 0] = 1.0  # of the mean, which has no direction: put in below
+    east, north = along / q, across / q
+    spectrum = fft.fft2(pressure) * np.exp(1j * across * (y - grid.y[0])) / grid.shape[1]
+    mean = spectrum[0, 0]
+    lateral = poisson_ratio / (1 - poisson_ratio)
+    found = np.empty((6, len(depths), grid.shape[0]))
+    for index, depth in enumerate(depths.tolist()):
+        waves, qz = spectrum * np.exp(-q * depth), q * depth
+        ahead, aside = -(1 - qz) * waves, -2 * poisson_ratio * waves
+        components = np.stack(
+            [
+                east**2 * ahead + north**2 * aside,
+                north**2 * ahead + east**2 * aside,
+                -(1 + qz) * waves,
+                1j * north * qz * waves,
+                1j * east * qz * waves,
+                east * north * (ahead - aside),
+            ]
+        )
+        components[:, 0, 0] = -mean * np.array([lateral, lateral, 1.0, 0.0, 0.0, 0.0])
+        found[:, index] = fft.ifft(components.sum(axis=2), axis=1).real
+    return Stress(found)
+
+
+def _checked(depths: ArrayLike, poisson_ratio: float) -> NDArray[np.float64]:
+    below = np.atleast_1d(np.asarray(depths, dtype=float))
+    if below.ndim != 1 or not (np.isfinite(below) & (below >= 0)).all():
+        raise ValueError(f"depths must be numbers of metres, 0 or positive, got {depths!r}")
+    if not 0 <= poisson_ratio <= 0.5:
+        raise ValueError(f"poisson_ratio must lie between 0 and 0.5, got {poisson_ratio!r}")
+    return below

@@ -1,0 +1,185 @@
+"""A line through points: smooth between them, with kinks where they are asked for, or straight."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import scipy
+from numpy.typing import ArrayLike, NDArray
+
+from viscontact.units.formatting import in_words
+
+#: How a line runs from point to point.
+INTERPOLATIONS = ("smooth", "linear")
+
+#: Drops and positions are lengths of bodies [m]: beyond it, it is a wrong unit.
+_LARGEST = 1e30
+
+
+@dataclass(frozen=True)
+class TableLine:
+    """A line through points (position, drop), not defined outside them.
+
+    Parameters
+    ----------
+    name : str
+        What the table is, for messages: "TabulatedProfile".
+    position : tuple of float
+        Positions, increasing; one that stands twice, with the same drop, is a kink [m].
+    drop : tuple of float
+        Drops at them [m].
+    interpolation : str
+        ``"smooth"``: cubics without overshoot between the points, with a continuous slope but at
+        kinks; ``"linear"``: straight from point to point.
+
+    Raises
+    ------
+    ValueError
+        If the points are no line, or the interpolation is unknown.
+
+    Notes
+    -----
+    Smooth lines are those of Fritsch & Butland (1984), SIAM J. Sci. Stat. Comput. 5, 300-304:
+    between two points they stay between their drops, so that the lowest drop is a point's.
+
+    Examples
+    --------
+    >>> roof = TableLine("roof", (0.0, 1.0, 1.0, 2.0), (0.0, 1.0, 1.0, 1.0), "smooth")
+    >>> roof([0.5, 1.5, 2.5]).tolist()
+    [0.5, 1.0, inf]
+    """
+
+    name: str
+    position: tuple[float, ...]
+    drop: tuple[float, ...]
+    interpolation: str
+
+    def __post_init__(self) -> None:
+        if self.interpolation not in INTERPOLATIONS:
+            raise ValueError(
+                f"{self.name}: interpolation must be {' or '.join(map(repr, INTERPOLATIONS))}, "
+                f"got {self.interpolation!r}"
+            )
+        if len(self.position) != len(self.drop):
+            raise ValueError(
+                f"{self.name}: there must be a drop at every position, got {len(self.drop)} drops "
+                f"at {len(self.position)} positions"
+            )
+        self._require_line()
+
+    def _require_line(self) -> None:
+        steps = np.diff(self.position)
+        for i in np.flatnonzero(steps <= 0).tolist():
+            here, next_one = self.position[i], self.position[i + 1]
+            if here > next_one:
+                raise ValueError(
+                    f"{self.name}: positions must increase, got {in_words(here, 'm', 9)} followed "
+                    f"by {in_words(next_one, 'm', 9)} at point {i + 2}; sort the points"
+                )
+            if self.drop[i] != self.drop[i + 1]:
+                raise ValueError(
+                    f"{self.name}: the drop jumps at {in_words(here, 'm', 9)}, from "
+                    f"{in_words(self.drop[i], 'm', 9)} to {in_words(self.drop[i + 1], 'm', 9)}; "
+                    "give a steep piece in place of a wall"
+                )
+        if np.count_nonzero(steps > 0) < 1:
+            raise ValueError(f"{self.name}: a line needs at least two positions, got {len(self)}")
+
+    def __len__(self) -> int:
+        return len(self.position)
+
+    @cached_property
+    def _pieces(self) -> tuple[scipy.interpolate.PchipInterpolator, ...]:
+        return tuple(scipy.interpolate.PchipInterpolator(*piece) for piece in self._smooth_pieces())
+
+    def _smooth_pieces(self) -> Iterator[tuple[NDArray[np.float64], NDArray[np.float64]]]:
+        position, drop = np.array(self.position), np.array(self.drop)
+        kinks = np.flatnonzero(np.diff(position) == 0) + 1
+        for x, z in zip(np.split(position, kinks), np.split(drop, kinks), strict=True):
+            if len(x) > 1:
+                yield x, z
+
+    def __call__(self, position: ArrayLike) -> NDArray[np.float64]:
+        """Return the drop at positions, +inf outside the points [m]."""
+        x = np.asarray(position, dtype=np.float64)
+        first, last = self.position[0], self.position[-1]
+        within = (x >= first) & (x <= last)
+        if self.interpolation == "linear":
+            return np.where(within, np.interp(x, self.position, self.drop), np.inf)
+        drop = np.full(x.shape, np.inf)
+        for piece in self._pieces:
+            here = (x >= piece.x[0]) & (x <= piece.x[-1])
+            drop[here] = piece(x[here])
+        return drop
+
+    def lowest(self, start: float, stop: float) -> float:
+        """Return the lowest drop between two positions [m]."""
+        x = np.array(self.position)
+        ends = self([start, stop])
+        inner = np.array(self.drop)[(x >= start) & (x <= stop)]
+        return float(min(ends.min(), inner.min(initial=math.inf)))
+
+
+def mirrored(
+    position: tuple[float, ...], drop: tuple[float, ...]
+) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """Return both halves of a symmetric line that is given from its middle on.
+
+    Parameters
+    ----------
+    position, drop : tuple of float
+        The half, from position 0 on; a middle that stands twice is a tip [m].
+
+    Returns
+    -------
+    position, drop : tuple of float
+        The whole [m].
+
+    Examples
+    --------
+    >>> mirrored((0.0, 1.0, 3.0), (0.0, 2.0, 4.0))[0]
+    (-3.0, -1.0, 0.0, 1.0, 3.0)
+    """
+    left = tuple(-each for each in reversed(position[1:]))
+    # A middle that stands once is not doubled: there is no kink then.
+    start = 0 if position[1] > 0 else 1
+    return (*left, *position[start:]), (*reversed(drop[1:]), *drop[start:])
+
+
+def numbers(name: str, values: ArrayLike) -> tuple[float, ...]:
+    """Return a column of lengths as floats, or refuse what is none.
+
+    Parameters
+    ----------
+    name : str
+        What they are, for the message: "TabulatedProfile: x".
+    values : array_like
+        One-dimensional [m].
+
+    Raises
+    ------
+    ValueError
+        If there is anything but finite numbers, or they are no column.
+
+    Examples
+    --------
+    >>> numbers("TabulatedProfile: x", [0, 1])
+    (0.0, 1.0)
+    """
+    try:
+        given = np.asarray(values)
+    except ValueError as error:
+        raise ValueError(f"{name} must be a list of lengths in m: {error}") from error
+    if given.dtype.kind not in "iuf" or given.ndim != 1:
+        raise ValueError(f"{name} must be a list of lengths in m, got {values!r:.60}")
+    column = given.astype(np.float64)
+    wrong = np.flatnonzero(~(np.abs(column) <= _LARGEST))
+    if wrong.size:
+        raise ValueError(
+            f"{name} must hold finite lengths in m, got {column[wrong[0]]} at point {wrong[0] + 1}"
+        )
+    return tuple(column.tolist())

@@ -1,0 +1,127 @@
+"""Indenters that touch at a point: sphere, paraboloid, cone."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from viscontact.indenters.arc import arc_drop
+from viscontact.indenters.arguments import positions, positive_length, real_number
+from viscontact.indenters.indenter import Indenter
+
+
+@dataclass(frozen=True)
+class Sphere(Indenter):
+    """A sphere, with its true circular section.
+
+    Hertz's theory takes the paraboloid of the same radius, which is flatter by r⁴ / (8 R³) to
+    the leading order; `Paraboloid` with two equal radii is that one.
+
+    Parameters
+    ----------
+    radius : float
+        Radius [m].
+
+    Raises
+    ------
+    ValueError
+        If the radius is not a positive, finite number.
+
+    Examples
+    --------
+    >>> float(Sphere(5.0).gap(3.0, 0.0))
+    1.0
+    """
+
+    radius: float
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "radius", positive_length("Sphere: radius", self.radius))
+
+    def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+        """Return R - sqrt(R² - r²), +inf for r > R; see `Indenter.gap`."""
+        return arc_drop(np.hypot(*positions(x, y)), self.radius)
+
+    @property
+    def curvatures(self) -> tuple[float, float]:
+        """The same curvature 1/R along x and y [1/m]."""
+        return 1 / self.radius, 1 / self.radius
+
+
+@dataclass(frozen=True)
+class Paraboloid(Indenter):
+    """An elliptic paraboloid, the shape of Hertz's theory; it has no outline.
+
+    Parameters
+    ----------
+    radius_x, radius_y : float
+        Radii of curvature at the apex, in the planes y = 0 and x = 0 [m].
+
+    Raises
+    ------
+    ValueError
+        If a radius is not a positive, finite number.
+
+    Examples
+    --------
+    >>> float(Paraboloid(radius_x=0.5, radius_y=2.0).gap(1.0, 2.0))
+    2.0
+    """
+
+    radius_x: float
+    radius_y: float
+
+    def __post_init__(self) -> None:
+        for name in ("radius_x", "radius_y"):
+            radius = positive_length(f"Paraboloid: {name}", getattr(self, name))
+            object.__setattr__(self, name, radius)
+
+    def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+        """Return x²/(2 R_x) + y²/(2 R_y); see `Indenter.gap`."""
+        x, y = positions(x, y)
+        return np.asarray(x * x / (2 * self.radius_x) + y * y / (2 * self.radius_y))
+
+    @property
+    def curvatures(self) -> tuple[float, float]:
+        """Curvatures 1/R_x and 1/R_y [1/m]."""
+        return 1 / self.radius_x, 1 / self.radius_y
+
+
+@dataclass(frozen=True)
+class Cone(Indenter):
+    """A cone, apex down; it has no outline, and at its apex no curvature.
+
+    Parameters
+    ----------
+    half_angle : float
+        Angle from the axis to the flank, between 0 (a needle) and π/2 (a plane), both
+        excluded [rad].
+
+    Raises
+    ------
+    ValueError
+        If the angle is not a number strictly between 0 and π/2.
+
+    Examples
+    --------
+    >>> round(float(Cone(half_angle=math.pi / 4).gap(3.0, 4.0)), 12)
+    5.0
+    """
+
+    half_angle: float
+
+    def __post_init__(self) -> None:
+        half_angle = real_number("Cone: half_angle", self.half_angle, "rad")
+        if not 0 < half_angle < math.pi / 2:
+            raise ValueError(
+                "Cone: half_angle, from axis to flank, must lie between 0 and π/2 rad, "
+                f"got {self.half_angle!r}; for degrees use math.radians(...)"
+            )
+        object.__setattr__(self, "half_angle", half_angle)
+
+    def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+        """Return r / tan(half_angle); see `Indenter.gap`."""
+        return np.asarray(np.hypot(*positions(x, y)) / math.tan(self.half_angle))

@@ -1,0 +1,1 @@
+"""Interconversion of creep and relaxation, in closed form and by numbers."""

@@ -1,0 +1,45 @@
+"""Series under a steady oscillation: complex compliance and modulus, each part kept accurate.
+
+With x = ω τ a relaxing term gives i x/(1 + i x) and a delayed one 1/(1 + i x). Their real and
+imaginary parts are summed apart, where all terms have one sign, so that a loss far below the
+storage (or the other way round) keeps its digits.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.laws.interconversion.series import RelaxationTerms, SeriesTerms
+
+
+def modulus_of_creep(terms: SeriesTerms, omega: NDArray[np.float64]) -> NDArray[np.complex128]:
+    """Return G* = 1/(2 J*) [Pa] of a series in Phi = J(t), at angular frequencies > 0 [rad/s]."""
+    in_phase, lagging = _debye(omega, terms.times)
+    storage = terms.instant + in_phase @ terms.amplitudes
+    loss = lagging @ terms.amplitudes + terms.fluidity / omega
+    return half_inverse(storage, loss)
+
+
+def modulus_of_relaxation(
+    terms: RelaxationTerms, omega: NDArray[np.float64]
+) -> NDArray[np.complex128]:
+    """Return G* [Pa] of a relaxation series, at angular frequencies > 0 [rad/s]."""
+    # The same numbers seen from the other end: x²/(1 + x²) is 1/(1 + 1/x²).
+    in_phase, lagging = _debye(1.0 / omega, 1.0 / terms.times)
+    return np.asarray(terms.equilibrium + in_phase @ terms.moduli + 1j * (lagging @ terms.moduli))
+
+
+def half_inverse(storage: NDArray[np.float64], loss: NDArray[np.float64]) -> NDArray[np.complex128]:
+    """Return G* = 1/(2 Phi*) [Pa] of Phi* = storage - i loss [1/Pa], part by part."""
+    size = np.hypot(storage, loss)
+    return np.asarray(((storage + 1j * loss) / size) * (0.5 / size))
+
+
+def _debye(
+    omega: NDArray[np.float64], times: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return 1/(1 + x²) and x/(1 + x²) of x = ω τ, with one more axis for the times."""
+    x = omega[..., None] * times
+    size = np.hypot(1.0, x)
+    return 1.0 / size**2, (x / size) / size

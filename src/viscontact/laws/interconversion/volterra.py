@@ -1,0 +1,289 @@
+"""Interconversion of any creep or relaxation function by numbers, over many decades of time.
+
+Creep and relaxation are inverse under the Boltzmann integral: the response g to f obeys
+
+    ∫ f(t - t') dg(t') = 1    for every t > 0,
+
+the jump g(0) = 1/f(0) included. It is marched in time (`product_integration`) on grids that are
+even in ln t, each of half the other's step, and extrapolated to a vanishing step.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from viscontact.laws.interconversion.log_curve import Before, LogCurve
+from viscontact.laws.interconversion.product_integration import (
+    Floats,
+    Function,
+    Load,
+    Mean,
+    first_exponent,
+    march,
+)
+
+#: Steps in a decade of time on the coarsest of three grids; the finest has four times as many.
+STEPS = 20
+# f may change by this part before the first node; the inverse is straight in t up to there.
+_FIRST_CHANGE = 1e-5
+# A power starts the march this far ahead of the first instant asked for: what its first steps
+# lack in shape has then decayed.
+_AHEAD = 1e-5
+_MOST_DECADES = 60
+
+
+class Response(NamedTuple):
+    """A solution as a function, and how well it is known.
+
+    Attributes
+    ----------
+    curve : LogCurve
+        The solution, from the nodes of the fine grid, extrapolated to a vanishing step.
+    nodes, doubts : ndarray
+        The nodes of the coarse grid [s], and the estimated relative error at each [-].
+    """
+
+    curve: LogCurve
+    nodes: Floats
+    doubts: Floats
+
+    def error(self, start: float, end: float) -> float:
+        """Return the largest estimated error between two times [s]."""
+        asked = (self.nodes >= start) & (self.nodes <= end * 1.5)  # a step further
+        return float(np.max(self.doubts[asked], initial=0.0))
+
+
+def invert(function: Function, mean: Mean, instants: ArrayLike) -> tuple[Floats, float]:
+    """Return the convolution inverse of a creep (or relaxation) function at given instants.
+
+    Parameters
+    ----------
+    function : callable
+        f(t) at times >= 0 in an array [s]: positive and monotone for t > 0. f(0) may be 0 or inf
+        if f begins like a power of time between t^-1 and t^1.
+    mean : callable
+        Mean of f over the times start..end, two arrays of equal shape [s].
+    instants : array_like
+        Times >= 0 [s], in any order and shape.
+
+    Returns
+    -------
+    values : ndarray
+        g(t) with ∫ f(t - t') dg(t') = 1, of the shape of `instants`.
+    error : float
+        Estimated relative error [-]: of a g that grows relative to g, of one that falls relative
+        to 1/f, the greatest it can be (g itself may have relaxed to nothing).
+
+    Raises
+    ------
+    ValueError
+        If f begins like a dashpot or vanishes: its inverse holds a Dirac impulse.
+
+    Notes
+    -----
+    The error is of second order in the step of ln t, which is extrapolated to 0 (Richardson)
+    from three grids; how far the last halving moves the limit is the estimate of its error.
+
+    Examples
+    --------
+    The inverse of 1 + t is exp(-t):
+
+    >>> import numpy as np
+    >>> values, error = invert(lambda t: 1 + t, lambda a, b: 1 + (a + b) / 2, [0.0, 1.0])
+    >>> values.round(4), error < 1e-3
+    (array([1.    , 0.3679]), True)
+    """
+    instants = np.asarray(instants, np.float64)
+    late = float(instants.max(initial=0.0))
+    if late == 0:
+        return 1.0 / function(instants), 0.0
+    early = float(instants[instants > 0].min())
+    found = respond(function, mean, late, first=_first_node(function, early, late), since=early)
+    trend = 1 if found.curve.values[-1] > found.curve.values[0] else -1
+    found = steadied(found, trend, function)
+    return found.curve(instants), found.error(early, late)
+
+
+def respond(
+    function: Function,
+    mean: Mean,
+    end: float,
+    *,
+    first: float,
+    since: float = 0.0,
+    kinks: Sequence[float] = (),
+    load: Load | None = None,
+    steps: int = STEPS,
+) -> Response:
+    """Solve ∫ f(t - t') dg(t') = r(t) for g up to a time.
+
+    Parameters
+    ----------
+    function, mean : callable
+        As in `invert`.
+    end : float
+        Time to reach [s].
+    first : float
+        First node of the grid [s]; before it g is straight in t, or a power if f is.
+    since : float, optional
+        If f begins as a power, the time up to which it is one [s], far after `first`.
+    kinks : sequence of float, optional
+        Times at which g may have a kink [s]: they are made nodes.
+    load : Load, optional
+        r(t), for a growing f with f(0) > 0; left out, it is 1 for t > 0.
+    steps : int, optional
+        Steps in a decade of time on the coarsest grid.
+
+    Returns
+    -------
+    Response
+        The solution. Its values before a time do not depend on `end`.
+    """
+    coarse = _nodes(first, end, kinks, steps)
+    middle = _halved(coarse)
+    fine = _halved(middle)
+    at_once, rough = march(function, mean, coarse, load)
+    _, better = march(function, mean, middle, load)
+    _, best = march(function, mean, fine, load)
+    better, best = better[: 2 * rough.size - 1], best[: 4 * rough.size - 3]
+    values = _extrapolated(better, best)
+    scale = np.abs(values[::4])
+    if load is None and values[-1] < values[0]:
+        scale = 1.0 / function(coarse[: rough.size])
+    doubts = np.abs(values[::4] - _extrapolated(rough, better)[::2]) / scale
+    coarse, fine = coarse[: rough.size], fine[: values.size]
+    if at_once not in (0.0, math.inf) or load is not None:
+        return Response(_curve(fine, at_once, values), coarse, doubts)
+    # The beginning as a power leaves this, on any grid; up to there it is known better.
+    settled = np.searchsorted(fine, since / 2)  # clear of the kink there
+    curve = LogCurve(
+        fine[settled:],
+        values[settled:],
+        before=-first_exponent(function, first),
+        beyond="power",
+    )
+    return Response(curve, coarse, doubts + first / np.maximum(coarse, first))
+
+
+def _extrapolated(rough: Floats, better: Floats) -> Floats:
+    """Return the limit of a vanishing step from two of which one is half the other (Richardson)."""
+    change = better[::2] - rough
+    # Where a rest has all but relaxed, the rough solution is no guide to the better one.
+    change[np.abs(change) > np.abs(better[::2]) / 2] = 0.0
+    at_nodes = np.arange(better.size)
+    # What the extrapolation adds is smooth: half-way between the nodes it is interpolated.
+    return np.asarray(better + np.interp(at_nodes, at_nodes[::2], change / 3))
+
+
+def steadied(found: Response, trend: int, function: Function | None) -> Response:
+    """Return a solution that should grow (trend 1) or fall (-1), free of swings.
+
+    Rounding swings about a plateau, and extrapolation about what has relaxed to nothing: by next
+    to nothing. But a function that no body of springs and dashpots has, such as a table that is
+    kinked or steep, has an inverse that truly swings. What is taken off it counts as doubt.
+
+    Parameters
+    ----------
+    found : Response
+        The solution.
+    trend : int
+        Its direction.
+    function : callable, optional
+        f if r is 1: f(t) g(t) is then at most 1, for whichever of them falls.
+
+    Returns
+    -------
+    Response
+        Monotone, with the doubts; at most 1, as a monotone g that falls lies between 0 and 1/f.
+    """
+    times, values, known = found.curve.times, found.curve.values, found.curve.at_once is not None
+    if found.curve.at_once is not None:
+        times, values = np.append(0.0, times), np.append(found.curve.at_once, values)
+    if function is not None:
+        # What has relaxed to nothing bounds nothing.
+        with np.errstate(divide="ignore", over="ignore"):
+            values = np.fmin(values, 1.0 / function(times))
+    # From the end backwards: a swing then spoils those before it, which are larger, by no more
+    # than itself.
+    values = np.maximum(values, np.finfo(np.float64).tiny)
+    running = np.minimum if trend > 0 else np.maximum
+    steady = running.accumulate(values[::-1])[::-1]
+    before: Before = "value" if known else found.curve.exponent
+    curve = LogCurve(times, steady, before=before, beyond="power")
+    at_nodes = curve(found.nodes)
+    falls = trend < 0 and function is not None
+    scale = 1.0 / function(found.nodes) if falls and function is not None else at_nodes
+    taken_off = np.nan_to_num(np.abs(at_nodes - found.curve(found.nodes)) / scale, nan=np.inf)
+    doubts = np.nan_to_num(found.doubts, nan=np.inf) + taken_off
+    return Response(curve, found.nodes, np.minimum(doubts, 1.0) if falls else doubts)
+
+
+def onset(function: Function, change: float = _FIRST_CHANGE) -> float:
+    """Return a time [s] by which a function has hardly changed from its value at 0, to a part."""
+    at_once = float(function(np.zeros(1))[0])
+
+    def changed(decade: float) -> bool:
+        return bool(abs(float(function(np.array([10.0**decade]))[0]) / at_once - 1) > change)
+
+    # Outward from 1 s: far times may be costly to know. 280 decades are what a double can hold.
+    low = next((d for d in np.arange(0.0, -280.0, -5.0) if not changed(d)), -280.0)
+    high = next((d for d in np.arange(low + 5.0, 280.0, 5.0) if changed(d)), None)
+    if high is None:
+        return 1.0  # it never changes: any time will do
+    low = high - 5.0
+    while high - low > 0.25:
+        middle = (low + high) / 2
+        low, high = (low, middle) if changed(middle) else (middle, high)
+    return float(10.0**low)
+
+
+def first_node(curve: LogCurve) -> float:
+    """Return where the grid for the inverse of a curve begins [s]."""
+    if curve.at_once is None:
+        # A constant up to the first point has a constant inverse up to there.
+        return float(curve.times[0]) * (1.0 if curve.exponent == 0 else _AHEAD)
+    return min(onset(curve), float(curve.times[0])) if curve.at_once > 0 else math.nan
+
+
+def _first_node(function: Function, early: float, late: float) -> float:
+    at_once = float(function(np.zeros(1))[0])
+    if not 0 < at_once < np.inf:
+        return early * _AHEAD
+    return max(min(onset(function), late), late * 10.0**-_MOST_DECADES)
+
+
+def _nodes(first: float, end: float, kinks: Sequence[float], steps: int) -> Floats:
+    """Return a grid even in ln t from the first node past the end, each kink a node."""
+    # The last nodes are lost to differentiation: the end keeps clear of them.
+    decades = max(1, math.floor(math.log10(end / first) + 1.5 / steps) + 1)
+    # Whole decades from the first node on: a later end adds nodes and moves none.
+    marks = first * 10.0 ** np.arange(decades + 1)
+    within = [kink for kink in kinks if first < kink < marks[-1]]
+    edges = np.unique(np.concatenate([marks, within]))
+    edges = edges[np.append(True, edges[1:] > edges[:-1] * (1 + 1e-6))]
+    parts = [np.array([first])]
+    for low, high in itertools.pairwise(edges):
+        ratio = high / low
+        count = max(1, math.ceil(steps * math.log10(ratio) - 1e-6))
+        parts.append(np.append(low * ratio ** (np.arange(1, count) / count), high))
+    return np.concatenate(parts)
+
+
+def _halved(nodes: Floats) -> Floats:
+    """Return the grid of half the step in ln t; every other node is an old one."""
+    fine = np.empty(2 * nodes.size - 1)
+    fine[::2] = nodes
+    fine[1::2] = np.sqrt(nodes[:-1]) * np.sqrt(nodes[1:])
+    return fine
+
+
+def _curve(nodes: Floats, at_once: float, values: Floats) -> LogCurve:
+    if at_once == 0:
+        return LogCurve(nodes, values, before="power", beyond="power")
+    return LogCurve(np.append(0.0, nodes), np.append(at_once, values), beyond="power")

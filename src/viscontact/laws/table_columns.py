@@ -1,0 +1,94 @@
+"""Columns of a measured law, checked: what is wrong is refused with its row and column."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from viscontact.laws import arguments
+from viscontact.units.formatting import in_words
+
+
+def measured(
+    owner: str, column: str, times: Sequence[float], values: Sequence[float], unit: str, trend: int
+) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """Return times [s] and values of a table as tuples, the values ever growing or ever falling.
+
+    Parameters
+    ----------
+    owner, column : str
+        Class and field, as an error names them. Rows are counted from 0.
+    times, values : sequence of float
+        The columns.
+    unit : str
+        Of the values.
+    trend : int
+        +1 if the values may not fall, -1 if they may not grow.
+    """
+    t = _column(f"{owner}.times", times, "s")
+    v = _column(f"{owner}.{column}", values, unit)
+    if len(t) != len(v):
+        raise ValueError(
+            f"{owner}: times and {column} must have equal lengths, got {len(t)} times and "
+            f"{len(v)} values"
+        )
+    if sum(time > 0 for time in t) < 2:
+        raise ValueError(
+            f"{owner}: at least 2 rows at times above 0 s are needed, got {len(t)} rows"
+        )
+    _check_times(owner, t)
+    _check_values(owner, column, t, v, unit, trend)
+    return t, v
+
+
+def check_left(owner: str, compliance: Sequence[float], volumetric: float) -> None:
+    """Check that a tensile compliance leaves some in shear when 1/(9K) [1/Pa] is taken off."""
+    for row, value in enumerate(compliance):
+        if volumetric > 0 and value <= volumetric:
+            raise ValueError(
+                f"{owner}.compliance, row {row}: bulk_modulus "
+                f"{in_words(1 / (9 * volumetric), 'Pa', 6)} is too small for a tensile compliance "
+                f"of {in_words(value, '1/Pa', 6)}: it must be above 1/(9 D)"
+            )
+
+
+def _column(name: str, values: Sequence[float], unit: str) -> tuple[float, ...]:
+    array = np.asarray(values, dtype=object)
+    if array.ndim != 1:
+        raise ValueError(f"{name}: must be a sequence of numbers, got {values!r}")
+    numbers = tuple(arguments.one_number(f"{name}, row {i}", v, unit) for i, v in enumerate(array))
+    for row, number in enumerate(numbers):
+        if not math.isfinite(number):
+            raise ValueError(f"{name}, row {row}: must be finite, got {number!r} {unit}")
+    return numbers
+
+
+def _check_times(owner: str, t: tuple[float, ...]) -> None:
+    for row, time in enumerate(t):
+        if time < 0:
+            raise ValueError(f"{owner}.times, row {row}: must be >= 0 s, got {time!r} s")
+        # Times one rounding apart have one logarithm, and cannot be told apart either.
+        if row and (time <= t[row - 1] or (t[row - 1] > 0 and math.log(time / t[row - 1]) == 0)):
+            raise ValueError(
+                f"{owner}.times, row {row}: must be after row {row - 1}, got {time!r} s after "
+                f"{t[row - 1]!r} s; sort the rows by time and average those of one time"
+            )
+
+
+def _check_values(
+    owner: str, column: str, t: tuple[float, ...], v: tuple[float, ...], unit: str, trend: int
+) -> None:
+    for row, value in enumerate(v):
+        # A body may creep from nothing; a modulus of nothing is no body.
+        if value < 0 or (value == 0 and not (trend > 0 and t[row] == 0)):
+            raise ValueError(f"{owner}.{column}, row {row}: must be positive, got {value!r} {unit}")
+        if row and trend * (value - v[row - 1]) < 0:
+            wrong = "fall: a body under constant load creeps on"
+            if trend < 0:
+                wrong = "grow: a body under constant strain relaxes"
+            raise ValueError(
+                f"{owner}.{column}, row {row}: must not {wrong}; got {value!r} {unit} after "
+                f"{v[row - 1]!r} {unit}; smooth out the noise"
+            )

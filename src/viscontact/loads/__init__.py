@@ -1,0 +1,19 @@
+"""What presses the bodies together, over time."""
+
+from viscontact.loads.approach import ApproachHistory
+from viscontact.loads.force import ForceHistory
+from viscontact.loads.harmonic import HarmonicHistory
+from viscontact.loads.history import LoadHistory, LoadPoint
+from viscontact.loads.standard import harmonic, ramp, step, triangle
+
+__all__ = [
+    "ApproachHistory",
+    "ForceHistory",
+    "HarmonicHistory",
+    "LoadHistory",
+    "LoadPoint",
+    "harmonic",
+    "ramp",
+    "step",
+    "triangle",
+]

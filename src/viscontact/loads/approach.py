@@ -1,0 +1,144 @@
+"""The approach history: a stage that moves as told, whatever force that takes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from viscontact.loads import arguments
+from viscontact.loads.history import LoadPoint
+from viscontact.loads.piecewise import PiecewiseHistory
+
+
+@dataclass(frozen=True, eq=False, init=False)
+class ApproachHistory(PiecewiseHistory):
+    """An approach and tilts of a stage: piecewise linear in time, with jumps.
+
+    The approach is 0 where the undeformed bodies just touch. Before the first point it is 0, or the
+    first value where that is negative, and tilts have their first values; after the last one all
+    is held. So a history that starts with an approach above 0 starts with a jump. Where the
+    approach is so small that nothing touches (a body withdrawn from its dent, say), force and
+    pressure are zero, and the contact may return later.
+
+    Parameters
+    ----------
+    times : array_like
+        Instants of the points, not decreasing, none before 0, shape (n,) [s].
+    approach : float or array_like
+        Approach at the points, positive when the bodies come closer, negative when the
+        indenter is lifted [m].
+    tilt_x, tilt_y : float or array_like or None
+        Slopes along x and y, positive when they press the +x or +y end deeper; the stage is
+        clamped straight if left out. None lets that tilt go free: the pressure then has no
+        moment about the origin along that axis [rad].
+
+    Raises
+    ------
+    ValueError
+        If the arrays do not fit together, the times decrease or come three times or before
+        0, or a value is not finite.
+
+    Examples
+    --------
+    Pressed in by 1 um in 1 s, held for 2 s, withdrawn at once:
+
+    >>> history = ApproachHistory(times=[0, 1, 3, 3], approach=[0, 1e-6, 1e-6, -1e-6])
+    >>> history.approach_at([0.5, 2.0, 3.0, 9.0]).tolist()
+    [5e-07, 1e-06, -1e-06, -1e-06]
+    >>> history.at(2.0).force is None, history.at(2.0).tilt_x
+    (True, 0.0)
+    """
+
+    control = "approach"
+    eccentricity_x: ClassVar[float] = 0.0  # no force is prescribed that could act off centre
+    eccentricity_y: ClassVar[float] = 0.0
+
+    times: NDArray[np.float64]
+    approach: NDArray[np.float64]
+    tilt_x: float | NDArray[np.float64] | None
+    tilt_y: float | NDArray[np.float64] | None
+
+    def __init__(
+        self,
+        times: ArrayLike,
+        approach: ArrayLike,
+        tilt_x: ArrayLike | None = 0.0,
+        tilt_y: ArrayLike | None = 0.0,
+    ) -> None:
+        # Written out, so that lists are welcome and arrays are what comes back.
+        instants = arguments.instants(times)
+        values = arguments.values("approach", approach, instants.size)
+        levels = np.broadcast_to(values, instants.shape)
+        _, _, *tilts = arguments.tail(instants.size, 0.0, 0.0, tilt_x, tilt_y)
+        for field, value in zip(fields(self), (instants, levels, *tilts), strict=True):
+            object.__setattr__(self, field.name, value)
+
+    def at(self, time: float, *, side: str = "right") -> LoadPoint:
+        """Return what is prescribed at an instant.
+
+        Parameters
+        ----------
+        time : float
+            The instant [s].
+        side : {"right", "left"}
+            Which value to take at a jump: the one just after it or the one just before.
+
+        Returns
+        -------
+        LoadPoint
+            Approach and tilts; the force is None, and follows.
+
+        Raises
+        ------
+        ValueError
+            If the time is not a finite number, or the side is neither of the two.
+
+        Examples
+        --------
+        >>> ApproachHistory([0, 2], [0, 1e-5]).at(1.0).approach
+        5e-06
+        """
+        tail = self._tail_at(time, side)
+        return LoadPoint(force=None, approach=self._level_of(time, side), **tail)
+
+    def approach_at(self, times: ArrayLike, *, side: str = "right") -> NDArray[np.float64]:
+        """Return the approach at many instants.
+
+        Parameters
+        ----------
+        times : array_like
+            The instants, any shape [s].
+        side : {"right", "left"}
+            Which value to take at a jump: the one just after it or the one just before.
+
+        Returns
+        -------
+        ndarray
+            Approach, before the first point 0 or the first value where that is negative, same
+            shape [m].
+
+        Raises
+        ------
+        ValueError
+            If a time is not a finite number, or the side is neither of the two.
+
+        Examples
+        --------
+        >>> ApproachHistory([1.0], [1e-6]).approach_at([0.0, 1.0, 2.0]).tolist()
+        [0.0, 1e-06, 1e-06]
+        """
+        instants = arguments.numbers("times", times)
+        approach = self._interpolate(self.approach, instants, side)
+        return np.where(self._started(instants, side), approach, min(float(self.approach[0]), 0.0))
+
+    def level_at(self, times: ArrayLike, *, side: str = "right") -> NDArray[np.float64]:
+        """Return the approach at many instants [m]; as `approach_at`."""
+        return self.approach_at(times, side=side)
+
+    @property
+    def largest_level(self) -> float:
+        """Largest approach of the whole history [m]."""
+        return float(self.approach.max())

@@ -1,0 +1,256 @@
+"""What a load history accepts as its points."""
+
+from __future__ import annotations
+
+import math
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from viscontact.units.numbers import as_real
+
+_UNITS = {
+    "times": "s",
+    "force": "N",
+    "approach": "m",
+    "eccentricity_x": "m",
+    "eccentricity_y": "m",
+    "tilt_x": "rad",
+    "tilt_y": "rad",
+}
+
+#: What histories prescribe besides force or approach.
+TAIL = ("eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y")
+
+
+def finite_number(name: str, value: object, unit: str) -> float:
+    """Return `value` as a float if it is a finite number.
+
+    Parameters
+    ----------
+    name : str
+        What the value is, for the message: "ramp: duration".
+    value : object
+        What the user gave.
+    unit : str
+        The unit the number is taken in.
+
+    Raises
+    ------
+    ValueError
+        If the value is a boolean, a text, None, NaN, infinite or anything else.
+
+    Examples
+    --------
+    >>> finite_number("time", 1, "s")
+    1.0
+    """
+    number = as_real(value)
+    if number is None or not math.isfinite(number):
+        raise ValueError(f"{name} must be a finite number in {unit}, got {value!r}")
+    return number
+
+
+def side_of_jump(side: str) -> Literal["left", "right"]:
+    """Return `side` if it names a side of a jump, or raise ValueError.
+
+    Examples
+    --------
+    >>> side_of_jump("left")
+    'left'
+    """
+    if side == "left":
+        return "left"
+    if side == "right":
+        return "right"
+    raise ValueError(f'side must be "left" (before a jump) or "right" (after it), got {side!r}')
+
+
+def instants(times: ArrayLike) -> NDArray[np.float64]:
+    """Return the instants of a history's points, read-only, shape (n,) [s].
+
+    Parameters
+    ----------
+    times : array_like
+        Instants, not decreasing, from 0 on, at most two alike in a row [s].
+
+    Raises
+    ------
+    ValueError
+        If they are anything else.
+
+    Examples
+    --------
+    >>> instants([0, 1, 1]).tolist()
+    [0.0, 1.0, 1.0]
+    """
+    given = numbers("times", times)
+    if given.ndim != 1 or given.size == 0:
+        raise ValueError(
+            f"times must be a list of at least one instant in s, got shape {given.shape}"
+        )
+    if given[0] < 0:
+        raise ValueError(f"times must start at 0 s or later, got {given[0]} s")
+    steps = np.diff(given)
+    for i in np.flatnonzero(steps < 0)[:1]:
+        raise ValueError(f"times must not decrease, got {given[i]} s followed by {given[i + 1]} s")
+    for i in np.flatnonzero((steps[:-1] == 0) & (steps[1:] == 0))[:1]:
+        raise ValueError(
+            f"times must not hold an instant more than twice, got {given[i]} s three times; "
+            "a jump has two points, the value before and the value after"
+        )
+    return given
+
+
+def values(name: str, given: ArrayLike, count: int) -> float | NDArray[np.float64]:
+    """Return a quantity of a history: a scalar, or one value a point, read-only.
+
+    Parameters
+    ----------
+    name : str
+        The argument's name.
+    given : array_like
+        A finite scalar, or finite values, shape (count,).
+    count : int
+        Number of points in the history.
+
+    Raises
+    ------
+    ValueError
+        If the shape does not fit or a value is not a finite number.
+
+    Examples
+    --------
+    >>> values("tilt_x", [0, 1e-3], count=2).tolist()
+    [0.0, 0.001]
+    """
+    array = numbers(name, given)
+    if array.shape not in ((), (count,)):
+        raise ValueError(
+            f"{name} must be a scalar or have one value for each of the {count} times, "
+            f"got shape {array.shape}"
+        )
+    return float(array) if array.ndim == 0 else array
+
+
+def forces(given: ArrayLike, count: int) -> NDArray[np.float64]:
+    """Return the force at each point of a history, read-only, shape (count,) [N].
+
+    Parameters
+    ----------
+    given : array_like
+        A scalar, or one value a point, none negative [N].
+    count : int
+        Number of points in the history.
+
+    Raises
+    ------
+    ValueError
+        If the shape does not fit, or a value is negative or not a finite number.
+
+    Examples
+    --------
+    >>> forces(5, count=2).tolist()
+    [5.0, 5.0]
+    """
+    force = np.broadcast_to(values("force", given, count), (count,))
+    for lowest in force[force < 0][:1]:
+        raise ValueError(
+            f"force must be zero or more, got {lowest} N: a negative force pulls, and adhesion "
+            "is not modelled"
+        )
+    return force
+
+
+def refuse_both(
+    axis: str,
+    eccentricity: float | NDArray[np.float64],
+    tilt: float | NDArray[np.float64] | None,
+) -> None:
+    """Raise ValueError if an axis has both a prescribed tilt and an eccentricity.
+
+    Examples
+    --------
+    >>> refuse_both("x", 0.001, None)
+    """
+    if tilt is not None and np.any(eccentricity):
+        raise ValueError(
+            f"tilt_{axis} and eccentricity_{axis} contradict each other: a prescribed tilt "
+            f"replaces the moment equation along {axis}; got eccentricity_{axis}="
+            f"{eccentricity!r} m with tilt_{axis}={tilt!r} rad, leave one of them out"
+        )
+
+
+def numbers(name: str, given: ArrayLike) -> NDArray[np.float64]:
+    """Return finite numbers of any shape as a read-only copy.
+
+    Parameters
+    ----------
+    name : str
+        The argument's name.
+    given : array_like
+        What the user gave.
+
+    Raises
+    ------
+    ValueError
+        If a value is a boolean, a text, None, NaN, infinite or anything else.
+
+    Examples
+    --------
+    >>> numbers("times", [0, 2]).tolist()
+    [0.0, 2.0]
+    """
+    try:
+        array = np.asarray(given)
+    except ValueError:  # rows of unequal length
+        array = np.asarray(None)
+    if array.dtype.kind not in "iuf":
+        raise ValueError(f"{name} must be numbers in {_UNITS[name]}, got {given!r}")
+    copy = array.astype(np.float64)
+    if not np.isfinite(copy).all():
+        raise ValueError(f"{name} must be finite, got {copy[~np.isfinite(copy)].flat[0]}")
+    copy.flags.writeable = False
+    return copy
+
+
+def tail(
+    count: int,
+    eccentricity_x: ArrayLike,
+    eccentricity_y: ArrayLike,
+    tilt_x: ArrayLike | None,
+    tilt_y: ArrayLike | None,
+) -> list[float | NDArray[np.float64] | None]:
+    """Return eccentricities and tilts of a history, each a scalar, a read-only array, or None.
+
+    Parameters
+    ----------
+    count : int
+        Number of points in the history.
+    eccentricity_x, eccentricity_y : float or array_like
+        Where the force acts [m].
+    tilt_x, tilt_y : float or array_like or None
+        Prescribed slopes [rad].
+
+    Raises
+    ------
+    ValueError
+        If a shape does not fit, or an axis has both a tilt and an eccentricity.
+
+    Examples
+    --------
+    >>> tail(2, 1e-3, 0.0, None, None)
+    [0.001, 0.0, None, None]
+    """
+    eccentricities = [
+        values("eccentricity_x", eccentricity_x, count),
+        values("eccentricity_y", eccentricity_y, count),
+    ]
+    tilts = [
+        None if tilt is None else values(name, tilt, count)
+        for name, tilt in (("tilt_x", tilt_x), ("tilt_y", tilt_y))
+    ]
+    for axis, eccentricity, tilt in zip("xy", eccentricities, tilts, strict=True):
+        refuse_both(axis, eccentricity, tilt)
+    return [*eccentricities, *tilts]

@@ -1,0 +1,120 @@
+"""A force or an approach that swings about a mean."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from viscontact.loads import arguments
+from viscontact.loads.force import NEGLIGIBLE
+from viscontact.loads.history import Control, Cycle, LoadHistory, LoadPoint
+
+#: Steps of a cycle when nothing finer is asked for. A line through a 128th of a sine misses it by
+#: 2e-4 of the amplitude in the mean, and the loss of a cycle under it comes out to some 6e-4.
+STEPS_PER_CYCLE = 128
+
+
+@dataclass(frozen=True, kw_only=True)
+class HarmonicHistory(LoadHistory):
+    """A level that swings, mean + amplitude sin(2 π t/period + phase), then stays where it is.
+
+    Made by `harmonic`.
+
+    Attributes
+    ----------
+    control : {"force", "approach"}
+        What swings.
+    mean, amplitude : float
+        Mean and amplitude [N or m]; a force is never negative.
+    period : float
+        Time of a cycle [s].
+    cycles : int
+        Number of cycles.
+    phase : float
+        Phase at time 0 [rad].
+    eccentricity_x, eccentricity_y : float
+        Where the force acts [m].
+    tilt_x, tilt_y : float or None
+        Prescribed slopes; None where free [rad].
+    """
+
+    control: Control
+    mean: float
+    amplitude: float
+    period: float
+    cycles: int
+    phase: float = 0.0
+    eccentricity_x: float = 0.0
+    eccentricity_y: float = 0.0
+    tilt_x: float | None = None
+    tilt_y: float | None = None
+
+    @property
+    def end(self) -> float:
+        """Instant at which the last cycle ends [s]."""
+        return self.cycles * self.period
+
+    def at(self, time: float, *, side: str = "right") -> LoadPoint:
+        """Return what is prescribed at an instant [s], after a jump or before it ("left")."""
+        level = float(self.level_at(arguments.finite_number("time", time, "s"), side=side))
+        return LoadPoint(
+            force=level if self.control == "force" else None,
+            eccentricity_x=self.eccentricity_x,
+            eccentricity_y=self.eccentricity_y,
+            tilt_x=self.tilt_x,
+            tilt_y=self.tilt_y,
+            approach=level if self.control == "approach" else None,
+        )
+
+    def level_at(self, times: ArrayLike, *, side: str = "right") -> NDArray[np.float64]:
+        """Return the force [N] or the approach [m] at many instants [s], any shape."""
+        instants = arguments.numbers("times", times)
+        turns = np.minimum(instants, self.end) / self.period
+        # Whole turns are taken off first: sin(2 π n) is not 0 in floating point.
+        angle = 2 * math.pi * (turns - np.floor(turns)) + self.phase
+        level = self.mean + self.amplitude * np.sin(angle)
+        started = instants >= 0 if arguments.side_of_jump(side) == "right" else instants > 0
+        if self.control == "force":
+            counts = started & (level >= NEGLIGIBLE * self.largest_level)
+            return np.where(counts, level, 0.0)
+        return np.where(started, level, min(self._first_level, 0.0))
+
+    @property
+    def _first_level(self) -> float:
+        return self.mean + self.amplitude * math.sin(self.phase)
+
+    @property
+    def largest_level(self) -> float:
+        """Largest force [N] or approach [m] of the whole history."""
+        return self.mean + abs(self.amplitude)
+
+    @property
+    def kinks(self) -> NDArray[np.float64]:
+        """Beginning and end of the cycles [s]."""
+        return np.array([0.0, self.end])
+
+    @property
+    def jumps(self) -> NDArray[np.float64]:
+        """Time 0, unless the level starts at zero [s]."""
+        return np.zeros(1) if self.level_at(0.0) > 0 else np.zeros(0)
+
+    @property
+    def longest_step(self) -> float:
+        """A 128th of a period [s]."""
+        return self.period / STEPS_PER_CYCLE
+
+    @property
+    def load_cycles(self) -> tuple[Cycle, ...]:
+        """Whole periods; the first begins after the jump to the first level."""
+        ends = [(k * self.period, "right") for k in range(self.cycles + 1)]
+        return tuple(itertools.pairwise(ends))
+
+    def is_even(self, axis: int) -> bool:
+        """Whether the load is even along an axis; see `LoadHistory.is_even`."""
+        if axis == 0:
+            return not (self.eccentricity_x or self.tilt_x)
+        return not (self.eccentricity_y or self.tilt_y)

@@ -1,0 +1,124 @@
+"""What every load history answers: what is prescribed when, where it turns, and its cycles."""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from viscontact.display import Shown
+
+#: An instant [s], and which side of a jump there: "left" before it, "right" after it.
+Moment = tuple[float, str]
+
+#: Where a cycle of the load begins and ends.
+Cycle = tuple[Moment, Moment]
+
+#: What a history prescribes along z.
+Control = Literal["force", "approach"]
+
+
+@dataclass(frozen=True)
+class LoadPoint:
+    """What is prescribed at one instant.
+
+    Parameters
+    ----------
+    force : float or None
+        Force pressing the bodies together, exactly 0 where it is negligible [N]; None where the
+        approach is prescribed instead.
+    eccentricity_x, eccentricity_y : float
+        Where the force acts: its moments are force · eccentricity [m].
+    tilt_x, tilt_y : float or None
+        Prescribed slopes along x and y, positive when they press the +x or +y end deeper;
+        None where the tilt is free and the moment is balanced instead [rad].
+    approach : float or None
+        Prescribed approach, positive when the bodies come closer [m]; None under a force.
+    """
+
+    force: float | None
+    eccentricity_x: float
+    eccentricity_y: float
+    tilt_x: float | None
+    tilt_y: float | None
+    approach: float | None = None
+
+    @property
+    def level(self) -> float:
+        """What presses: the force [N] or, where that is prescribed, the approach [m].
+
+        Examples
+        --------
+        >>> LoadPoint(None, 0.0, 0.0, None, None, approach=1e-6).level
+        1e-06
+        """
+        level = self.approach if self.force is None else self.force
+        assert level is not None  # one of the two is given
+        return level
+
+
+class LoadHistory(Shown, ABC):
+    """A force or an approach over time, with where the force acts and prescribed tilts.
+
+    Examples
+    --------
+    >>> from viscontact.loads import ramp
+    >>> history = ramp(10.0, duration=2.0)
+    >>> history.level_at([0.0, 1.0, 5.0]).tolist(), history.kinks.tolist()
+    ([0.0, 5.0, 10.0], [0.0, 2.0])
+    """
+
+    #: What the history prescribes along z.
+    control: Control = "force"
+
+    @property
+    def unit(self) -> str:
+        """Unit of the level: N of a force, m of an approach."""
+        return "N" if self.control == "force" else "m"
+
+    @abstractmethod
+    def at(self, time: float, *, side: str = "right") -> LoadPoint:
+        """Return what is prescribed at an instant [s], after a jump or before it ("left")."""
+
+    @abstractmethod
+    def level_at(self, times: ArrayLike, *, side: str = "right") -> NDArray[np.float64]:
+        """Return the force [N] or the approach [m] at many instants [s], any shape."""
+
+    @property
+    @abstractmethod
+    def largest_level(self) -> float:
+        """Largest force [N] or approach [m] of the whole history."""
+
+    @property
+    @abstractmethod
+    def kinks(self) -> NDArray[np.float64]:
+        """All distinct instants where the history changes its course, increasing [s]."""
+
+    @property
+    @abstractmethod
+    def jumps(self) -> NDArray[np.float64]:
+        """Those of the kinks where something jumps under load, increasing [s]."""
+
+    @property
+    def longest_step(self) -> float:
+        """Longest step, up to the last kink, over which a line follows the history well [s]."""
+        return math.inf
+
+    @property
+    def load_cycles(self) -> tuple[Cycle, ...]:
+        """Cycles of the load, in order: where each begins and ends [s], before or after a jump."""
+        return ()
+
+    @property
+    def stops(self) -> NDArray[np.float64]:
+        """Instants that every run has to hit: kinks, and the ends of cycles, increasing [s]."""
+        ends = [time for cycle in self.load_cycles for time, _ in cycle]
+        return np.unique(np.concatenate([self.kinks, ends]))
+
+    @abstractmethod
+    def is_even(self, axis: int) -> bool:
+        """Whether the load is even along an axis, 0 for across x = 0, 1 for across y = 0."""

@@ -1,0 +1,117 @@
+"""A contact compliance that is a finite sum of exponentials."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.laws.arguments import non_negative, series, store
+from viscontact.laws.interconversion.series import (
+    RelaxationTerms,
+    SeriesTerms,
+    creep_function,
+    creep_mean,
+    merged,
+    relaxation_from_creep,
+    relaxation_function,
+)
+from viscontact.materials.compliance.base import ContactCompliance
+from viscontact.materials.compliance.sum import SummedCompliance
+
+
+@dataclass(frozen=True, eq=False)
+class SeriesCompliance(ContactCompliance):
+    """J(t) = instant + sum amplitudes (1 - exp(-t/times)) + fluidity t.
+
+    Parameters
+    ----------
+    instant : float
+        J(0) >= 0 [1/Pa].
+    amplitudes : array_like
+        Delayed compliances >= 0 [1/Pa]. Zeros are dropped.
+    times : array_like
+        Retardation times > 0 [s], one for each amplitude. Equal times are merged; what is
+        stored ascends.
+    fluidity : float, optional
+        Rate of steady flow >= 0 [1/(Pa s)].
+
+    Raises
+    ------
+    ValueError
+        If a compliance is negative, a time not positive, a value not finite, or lengths differ.
+
+    Examples
+    --------
+    >>> one = SeriesCompliance(1e-9, [1e-9, 0.0, 1e-9], [2.0, 3.0, 2.0])
+    >>> both = one + one
+    >>> both.instant, both.amplitudes.tolist(), both.times.tolist()
+    (2e-09, [4e-09], [2.0])
+    >>> both(0.0), round(both.relaxation(0.0))
+    (2e-09, 500000000)
+    """
+
+    instant: float
+    amplitudes: NDArray[np.float64]
+    times: NDArray[np.float64]
+    fluidity: float = 0.0
+
+    def __post_init__(self) -> None:
+        owner = "SeriesCompliance"
+        instant = non_negative(f"{owner}.instant", self.instant, "1/Pa")
+        fluidity = non_negative(f"{owner}.fluidity", self.fluidity, "1/(Pa s)")
+        amplitudes, times = merged(
+            *series(owner, "amplitudes", list(self.amplitudes), list(self.times), "1/Pa")
+        )
+        amplitudes.flags.writeable = times.flags.writeable = False
+        store(self, instant=instant, amplitudes=amplitudes, times=times, fluidity=fluidity)
+
+    @property
+    def term_count(self) -> int:
+        """How many terms creep: the exponentials, and the flow if there is any."""
+        return len(self.times) + (self.fluidity > 0)
+
+    @property
+    def settled_after(self) -> float:
+        """Five of the slowest times [s]; a fluid's is the time of doubling its instant part."""
+        times = self.times.tolist()
+        if self.fluidity > 0 and self.instant > 0:
+            times.append(self.instant / self.fluidity)
+        return 5 * max(times, default=0.0)
+
+    def scaled(self, factor: float) -> SeriesCompliance:
+        """Return the compliance times a factor."""
+        amplitudes = factor * self.amplitudes
+        return SeriesCompliance(
+            factor * self.instant, amplitudes, self.times, factor * self.fluidity
+        )
+
+    def __add__(self, other: ContactCompliance) -> ContactCompliance:
+        """Return the compliance of two bodies pressed on each other."""
+        if not isinstance(other, SeriesCompliance):
+            return SummedCompliance((self,)) + other
+        return SeriesCompliance(
+            self.instant + other.instant,
+            np.concatenate([self.amplitudes, other.amplitudes]),
+            np.concatenate([self.times, other.times]),
+            self.fluidity + other.fluidity,
+        )
+
+    def _creep(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
+        return creep_function(self._terms, t)
+
+    def _relaxation(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
+        return relaxation_function(self._inverse, t)
+
+    def _mean(self, start: NDArray[np.float64], end: NDArray[np.float64]) -> NDArray[np.float64]:
+        return creep_mean(self._terms, start, end)
+
+    @property
+    def _terms(self) -> SeriesTerms:
+        return SeriesTerms(self.instant, self.amplitudes, self.times, self.fluidity)
+
+    @cached_property
+    def _inverse(self) -> RelaxationTerms:
+        return relaxation_from_creep(*self._terms)

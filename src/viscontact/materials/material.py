@@ -1,0 +1,151 @@
+"""A material: a creep law in shear and how the body gives in volume, as one compliance."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import KW_ONLY, dataclass
+
+import numpy as np
+
+from viscontact.display import Shown
+from viscontact.laws import BesideSpring, Law, SeriesLaw, TabulatedCreep, TabulatedRelaxation
+from viscontact.laws.arguments import compressibility, positive, store
+from viscontact.laws.interconversion.series import relaxation_from_creep
+from viscontact.materials.compliance import (
+    ContactCompliance,
+    LawCompliance,
+    SeriesCompliance,
+    SummedCompliance,
+)
+
+
+@dataclass(frozen=True)
+class Material(Shown):
+    """A linear viscoelastic material: creep in shear, and what its volume does.
+
+    Parameters
+    ----------
+    law : Law
+        Creep law in shear.
+    poisson_ratio : float, optional
+        Constant Poisson's ratio, above -1 and up to 0.5 [-].
+    bulk_modulus : float, optional
+        Elastic bulk modulus K > 0 [Pa]: Poisson's ratio then varies in time with the law.
+        Exactly one of the two must be given.
+    measured_until : float, optional
+        Last time that the law was measured or fitted at [s]; a run that goes beyond warns. A
+        table knows its own.
+    thickness : float, optional
+        Of the body, from its surface to what it rests on [m]. It is computed as a half-space all
+        the same; a contact whose half width exceeds a fifth of it is warned of.
+
+    Raises
+    ------
+    ValueError
+        If the law is not one, not exactly one of the two is given, or it is out of range.
+
+    Examples
+    --------
+    >>> from viscontact.laws import Elastic
+    >>> rubber = Material(Elastic(shear_modulus=1e6), poisson_ratio=0.5)
+    >>> rubber.contact_compliance()(0.0)
+    2.5e-07
+    """
+
+    law: Law
+    poisson_ratio: float | None = None
+    _: KW_ONLY
+    bulk_modulus: float | None = None
+    measured_until: float | None = None
+    thickness: float | None = None
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.law, Law):
+            raise ValueError(
+                f"Material.law: must be a creep law such as Zener or CreepSeries, got {self.law!r}"
+            )
+        ratio, bulk = compressibility("Material", self.poisson_ratio, self.bulk_modulus)
+        store(self, poisson_ratio=ratio, bulk_modulus=bulk)
+        if self.measured_until is not None:
+            until = positive("Material.measured_until", self.measured_until, "s")
+            store(self, measured_until=until)
+        if self.thickness is not None:
+            store(self, thickness=positive("Material.thickness", self.thickness, "m"))
+
+    @property
+    def known_until(self) -> float:
+        """Last time on which the law rests on data [s]; inf for a formula."""
+        own = math.inf if self.measured_until is None else self.measured_until
+        return min(own, self.law.measured_until)
+
+    @property
+    def known_from(self) -> float:
+        """First time on which the law rests on data [s]; 0 for a formula."""
+        law = self.law.law if isinstance(self.law, BesideSpring) else self.law
+        return law.times[0] if isinstance(law, TabulatedCreep | TabulatedRelaxation) else 0.0
+
+    def contact_compliance(self) -> ContactCompliance:
+        """Return the contact compliance J(t) of a half-space of this material.
+
+        Returns
+        -------
+        ContactCompliance
+            J(t) [1/Pa]; exact, but for an elastic bulk modulus with a law that is no series.
+
+        Notes
+        -----
+        With a constant Poisson's ratio J(t) = (1 - ν) Phi(t). With an elastic bulk modulus,
+        (1 - ν)/(2G) in terms of K and G is, after the correspondence principle with
+        G~ = s L[G],
+
+            s L[J] = (3K + 4G~) / (4 G~ (3K + G~)) = 1/(4 G~) + (3/4) / (3K + G~).
+
+        The first part is Phi/2, as 1/G~ = 2 s L[Phi]. The second is a spring 3K beside the
+        law, which creeps as a series if the law is one, and is interconverted by numbers if not.
+
+        Examples
+        --------
+        With K and G of ν = 0.25 both ways agree:
+
+        >>> from viscontact.laws import Elastic
+        >>> law = Elastic(shear_modulus=3e9)
+        >>> round(Material(law, poisson_ratio=0.25).contact_compliance()(0.0) * 1e9, 9)
+        0.125
+        >>> round(Material(law, bulk_modulus=5e9).contact_compliance()(0.0) * 1e9, 9)
+        0.125
+        """
+        if isinstance(self.law, SeriesLaw):
+            return self._of_series(self.law)
+        if self.poisson_ratio is not None:
+            return LawCompliance(self.law, 1.0 - self.poisson_ratio)
+        assert self.bulk_modulus is not None  # exactly one is given
+        beside = BesideSpring(self.law, 3.0 * self.bulk_modulus)
+        return SummedCompliance((LawCompliance(self.law, 0.5), LawCompliance(beside, 1.5)))
+
+    def _of_series(self, law: SeriesLaw) -> ContactCompliance:
+        phi = law.creep_series()
+        creep = SeriesCompliance(
+            phi.instant, np.array(phi.amplitudes), np.array(phi.times), phi.fluidity
+        )
+        if self.poisson_ratio is not None:
+            return creep.scaled(1.0 - self.poisson_ratio)
+        assert self.bulk_modulus is not None  # exactly one is given
+        beside = _beside_spring(creep.scaled(2.0), 3.0 * self.bulk_modulus)
+        return creep.scaled(0.5) + beside.scaled(0.75)
+
+
+def _beside_spring(creep: SeriesCompliance, stiffness: float) -> SeriesCompliance:
+    """Return the creep of a body whose load is shared by a spring beside it.
+
+    With C = s L[creep] and the spring's compliance c = 1/stiffness, side by side they have
+    1/(1/c + 1/C) = c - c²/(c + C). The fraction is a relaxation function: that of the same body
+    with the spring in series. This holds for a body without instant compliance as well, whose
+    own relaxation modulus is not a series.
+    """
+    c = 1.0 / stiffness
+    in_series = relaxation_from_creep(
+        c + creep.instant, creep.amplitudes, creep.times, creep.fluidity
+    )
+    # Relaxation that is subtracted is creep: -M exp(-t/τ) = M (1 - exp(-t/τ)) - M.
+    instant = creep.instant / (1.0 + stiffness * creep.instant)
+    return SeriesCompliance(instant, c * c * in_series.moduli, in_series.times)

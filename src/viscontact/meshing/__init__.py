@@ -1,0 +1,1 @@
+"""Choice of the mesh: contact estimates, trial meshes, refinement."""

@@ -1,0 +1,171 @@
+"""A mesh on trial: the same elastic contact on it, and on cells of twice the length."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.contact.body_edge import trace_outline
+from viscontact.contact.domain import HalfSpace
+from viscontact.contact.equilibrium import solve_contact
+from viscontact.contact.problem import ContactProblem, Guess
+from viscontact.contact.rigid_balance import Support
+from viscontact.contact.rim import trace_rim
+from viscontact.grid import GRID_QUANTITIES, Grid, is_even
+from viscontact.indenters import Indenter
+from viscontact.loads import LoadPoint
+
+#: Where the rim crosses a row of cells is known to this part of a cell. The area's error goes to
+#: and fro by it with the place of the rim among the cells, so that two meshes may agree by chance;
+#: measured on Hertz's ellipses.
+RIM_SCATTER = 0.07
+
+TINY = float(np.finfo(np.float64).tiny)
+
+
+@dataclass(frozen=True, eq=False)
+class Pressing:
+    """An elastic contact that is tried on several meshes.
+
+    Attributes
+    ----------
+    indenter : Indenter
+        Shape of the pressed body.
+    compliance : float
+        Contact compliance of an elastic body [1/Pa].
+    point : LoadPoint
+        Force or approach, eccentricities and prescribed tilts.
+    size : tuple of float
+        Extents of the grid [m].
+    """
+
+    indenter: Indenter
+    compliance: float
+    point: LoadPoint
+    size: tuple[float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class Trial:
+    """What a mesh finds, and how that changes when cells are twice as long.
+
+    Attributes
+    ----------
+    shape : tuple of int
+        Cells along x and y.
+    values : ndarray, shape (3,)
+        `GRID_QUANTITIES` [Pa, m², m].
+    changes : ndarray, shape (2, 3)
+        Relative changes of `GRID_QUANTITIES` for cells twice as long along x, and along y [-].
+    in_a_row : ndarray, shape (2,)
+        Mean number of cells in a row within the contact, along x and along y.
+    """
+
+    shape: tuple[int, int]
+    values: NDArray[np.float64]
+    changes: NDArray[np.float64]
+    in_a_row: NDArray[np.float64]
+
+    @property
+    def cells(self) -> int:
+        """Number of cells."""
+        return self.shape[0] * self.shape[1]
+
+    @cached_property
+    def errors(self) -> dict[str, float]:
+        """Expected relative errors: what falls at least as fast as the cells is below them [-]."""
+        return dict(zip(GRID_QUANTITIES, self.changes.sum(axis=0).tolist(), strict=True))
+
+
+def tried(pressing: Pressing, shape: tuple[int, int], tolerance: float) -> Trial:
+    """Solve a contact on a mesh, and on cells twice as long along x and along y.
+
+    Parameters
+    ----------
+    pressing : Pressing
+        The contact.
+    shape : tuple of int
+        Cells along x and y, even numbers.
+    tolerance : float
+        Relative error of gap and balances.
+
+    Returns
+    -------
+    Trial
+        What it finds, and how that changes.
+
+    Examples
+    --------
+    >>> from viscontact.indenters import Sphere
+    >>> from viscontact.loads import step
+    >>> ball = Pressing(Sphere(0.01), 1e-6, step(0.1).at(0.0), (2.4e-3, 2.4e-3))
+    >>> tried(ball, (24, 24), 1e-4).errors["approach"] < 0.01
+    True
+    """
+    nx, ny = shape
+    coarser = [_found(pressing, coarse, tolerance) for coarse in ((nx // 2, ny), (nx, ny // 2))]
+    # A cell twice as long is two cells.
+    spread = [np.repeat(coarser[axis].pressure, 2, axis=axis) for axis in (0, 1)]
+    fine = _found(pressing, shape, tolerance, (spread[0] + spread[1]) / 2)
+    changes = np.stack([np.abs(other.values - fine.values) / fine.scales for other in coarser])
+    area = GRID_QUANTITIES.index("contact_area")
+    changes[:, area] = np.maximum(changes[:, area], RIM_SCATTER / fine.in_a_row)
+    return Trial(shape, fine.values, changes, fine.in_a_row)
+
+
+@dataclass(frozen=True, eq=False)
+class _Found:
+    """What a solve found: values of `GRID_QUANTITIES`, and what their errors are relative to."""
+
+    pressure: NDArray[np.float64]
+    values: NDArray[np.float64]
+    scales: NDArray[np.float64]
+    in_a_row: NDArray[np.float64]
+
+
+def _found(
+    pressing: Pressing,
+    shape: tuple[int, int],
+    tolerance: float,
+    start: NDArray[np.float64] | None = None,
+) -> _Found:
+    grid, indenter, point = Grid(shape, pressing.size), pressing.indenter, pressing.point
+    open_gap = indenter.gap(grid.x[:, None], grid.y[None, :])
+    half_space = HalfSpace(grid, mirrored=_mirrored(open_gap, point))
+    problem = ContactProblem(
+        half_space.fold(open_gap),
+        pressing.compliance,
+        half_space.share(Support.of(point)),
+        1e-12 * max(grid.cell_size),
+    )
+    guess = None
+    if start is not None and start.any():
+        folded = half_space.fold(np.where(np.isfinite(open_gap), start, 0.0))
+        guess = Guess(folded, half_space.convolution.apply(folded), np.zeros(3))
+    solution = solve_contact(problem, half_space, guess, tolerance=tolerance)
+    pressure = half_space.unfold(solution.found.pressure)
+    contact = pressure > 0
+    outline = trace_outline(indenter, grid)
+    area = trace_rim(grid, contact, half_space.unfold(solution.gap), outline).area
+    values = np.array([pressure.max(), area, solution.found.motion[0]])
+    # Where the body mostly turns, its approach is no measure of its motion.
+    sinks = pressing.compliance * float(solution.found.deflection.max())
+    scales = np.maximum(values, [TINY, TINY, sinks])
+    return _Found(pressure, values, scales, _cells_in_a_row(contact))
+
+
+def _cells_in_a_row(contact: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """Mean lengths of the rows of cells that a contact consists of, along x and along y."""
+    begun = [
+        int(line[0].sum()) + int((line[1:] & ~line[:-1]).sum()) for line in (contact, contact.T)
+    ]
+    return np.asarray(int(contact.sum()) / np.maximum(begun, 1))
+
+
+def _mirrored(open_gap: NDArray[np.float64], point: LoadPoint) -> tuple[bool, bool]:
+    uneven = (point.eccentricity_x or point.tilt_x, point.eccentricity_y or point.tilt_y)
+    along_x, along_y = (not uneven[axis] and is_even(open_gap, axis) for axis in (0, 1))
+    return along_x, along_y

@@ -1,0 +1,170 @@
+"""Nouns as cards: of a part of a case, or of a whole one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any
+from xml.etree.ElementTree import Element
+
+from viscontact.display import Shown, ShownWhole
+from viscontact.grid import Grid
+from viscontact.identification import Fit, IndentationFit, IndentationRecord, Isotherm, MasterCurve
+from viscontact.indenters import Indenter
+from viscontact.laws import Law
+from viscontact.loads import LoadHistory
+from viscontact.materials.cards import Card as MaterialCard
+from viscontact.materials.material import Material
+from viscontact.notebook.card import Card, as_html, as_text
+from viscontact.notebook.curves import law_drawings, load_drawings
+from viscontact.notebook.measurements import (
+    fit_card,
+    indentation_fit_card,
+    isotherm_card,
+    master_curve_card,
+    record_card,
+)
+from viscontact.notebook.result_card import result_card
+from viscontact.notebook.shapes import grid_drawings, indenter_drawings
+from viscontact.notebook.surface_map import surface_card
+from viscontact.results.accessor import ResultAccessor
+from viscontact.results.argument_table import in_plain_words, particulars
+from viscontact.results.provenance import describe
+from viscontact.surfaces import Surface
+from viscontact.units.formatting import in_words
+
+
+def noun_html(noun: Shown) -> str:
+    """Return a noun as a piece of HTML: small drawings beside a table.
+
+    Parameters
+    ----------
+    noun : Shown
+        Indenter, law, material, load, grid, case, surface, record, fit, master curve, material
+        card, or what a result has as ``ds.viscontact``.
+
+    Returns
+    -------
+    str
+        HTML that needs nothing from outside and takes the colours of the page around it.
+    """
+    return as_html(_cards(noun))
+
+
+def noun_text(noun: Shown) -> str:
+    """Return a noun as a table for a terminal.
+
+    Parameters
+    ----------
+    noun : Shown
+        Indenter, law, material, load, grid, case, surface, record, fit, master curve, material
+        card, or what a result has as ``ds.viscontact``.
+
+    Examples
+    --------
+    >>> from viscontact.indenters import Sphere
+    >>> print(noun_text(Sphere(radius=0.01)))
+    Sphere
+      radius  10 mm
+    """
+    return as_text(_cards(noun))
+
+
+def _cards(noun: Shown) -> Iterator[Card]:
+    if isinstance(noun, ResultAccessor):
+        yield result_card(noun.result)
+        return
+    measured = next((make for kind, make in _MEASURED.items() if isinstance(noun, kind)), None)
+    if measured is not None:
+        yield measured(noun)
+        yield from (_card(part) for part in _found(noun))
+        return
+    if not isinstance(noun, ShownWhole):
+        yield _card(noun)
+        return
+    parts = noun.shown_parts()
+    words = [(name, part) for name, part in parts.items() if isinstance(part, str)]
+    yield Card(noun.shown_title, words)
+    for name, part in parts.items():
+        if isinstance(part, Shown):
+            title = f"{name}: {_name_of(part)}" if _name_of(part) not in name else name
+            yield Card(_sentence_case(title), _rows(part), _drawings(part))
+
+
+def _card(noun: Shown) -> Card:
+    return Card(_sentence_case(_name_of(noun)), _rows(noun), _drawings(noun))
+
+
+def _material_card(card: MaterialCard) -> Card:
+    rows = [("note", note) for note in card.notes]
+    return Card(f"Material card: {card.name}", rows)
+
+
+def _found(noun: Shown) -> Iterator[Shown]:
+    """What measurements and files hold that can be used: laws, materials, shift rules."""
+    if isinstance(noun, Fit):
+        yield noun.law
+    elif isinstance(noun, IndentationFit):
+        yield noun.material
+    elif isinstance(noun, MaterialCard):
+        yield from (part for part in (noun.material, noun.shift) if part is not None)
+
+
+#: Nouns that hold numbers by the thousand, which no table of arguments tells.
+_MEASURED: dict[type[Shown], Callable[[Any], Card]] = {
+    Surface: surface_card,
+    IndentationRecord: record_card,
+    Fit: fit_card,
+    IndentationFit: indentation_fit_card,
+    Isotherm: isotherm_card,
+    MasterCurve: master_curve_card,
+    MaterialCard: _material_card,
+}
+
+
+def _name_of(noun: Shown) -> str:
+    return in_plain_words(type(noun).__name__)
+
+
+def _sentence_case(name: str) -> str:
+    return name[:1].upper() + name[1:]
+
+
+def _rows(noun: Shown) -> list[tuple[str, ...]]:
+    told = list(particulars(describe(noun)))
+    own = _name_of(noun)
+    rows: list[tuple[str, ...]] = [row for row in told if row not in (("shape", own), ("law", own))]
+    known = {value for _, value in told}
+    return [*rows, *(row for row in _following(noun) if row[1] not in known)]
+
+
+def _following(noun: Shown) -> Iterator[tuple[str, str]]:
+    """What follows from the arguments and is asked for as often."""
+    if isinstance(noun, Grid):
+        yield "cell", " × ".join(in_words(extent, "m") for extent in noun.cell_size)
+    if isinstance(noun, Indenter):
+        x, y = noun.curvatures
+        if x > 0 and x == y:
+            yield "radius of curvature", in_words(1 / x, "m")
+        elif x > 0 or y > 0:
+            yield from (
+                (f"radius of curvature along {axis}", in_words(1 / curvature, "m"))
+                for axis, curvature in (("x", x), ("y", y))
+                if curvature > 0
+            )
+
+
+def _drawings(noun: Shown) -> list[Element]:
+    try:
+        return _drawn(noun)
+    except ValueError:  # of a user's own noun, say, where it is not defined: the table is left
+        return []
+
+
+def _drawn(noun: Shown) -> list[Element]:
+    if isinstance(noun, Indenter):
+        return indenter_drawings(noun)
+    if isinstance(noun, Law | Material):
+        return law_drawings(noun if isinstance(noun, Law) else noun.law)
+    if isinstance(noun, LoadHistory):
+        return load_drawings(noun)
+    return grid_drawings(noun) if isinstance(noun, Grid) else []

@@ -1,0 +1,124 @@
+"""A result as a card: what was found, in a sentence, a table, and two small drawings."""
+
+from __future__ import annotations
+
+from xml.etree.ElementTree import Element
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from viscontact.notebook.card import Card
+from viscontact.notebook.svg_axes import Scale, linear, logarithmic
+from viscontact.notebook.svg_panel import ORANGE, Mark, panel
+from viscontact.results.formatting import errors_of, headline, told_at
+from viscontact.results.rounding import is_rounding_tilt
+from viscontact.units.formatting import in_words
+
+Floats = NDArray[np.float64]
+
+_ROWS = {
+    "force": "force",
+    "contact_area": "contact area",
+    "contact_length": "contact length",
+    "contact_width": "contact width",
+    "approach": "approach",
+    "tilt_x": "tilt along x",
+    "tilt_y": "tilt along y",
+    "peak_pressure": "peak pressure",
+    "mean_pressure": "mean pressure",
+}
+
+#: A contact no longer along y than so many times its extent along x is round, but for a cell.
+ROUND = 1.05
+
+
+def result_card(ds: xr.Dataset) -> Card:
+    """Make the card of a result.
+
+    Parameters
+    ----------
+    ds : xarray.Dataset
+        What ``simulate`` or ``open_results`` returned; of any other dataset it says so.
+    """
+    missing = [name for name in ("time", *_ROWS) if name not in ds.variables]
+    if missing:
+        lead = f"It has no {missing[0]}; simulate and open_results make results."
+        return Card("No result of viscontact", [], lead=lead)
+    if not ds.sizes["time"]:
+        return Card(_title(ds), [], lead="It holds no instant.")
+    last = ds.sizes["time"] - 1
+    # The largest contact as well where it is at neither end.
+    shown = sorted({0, int(ds["contact_area"].values.argmax()), last})
+    heads = tuple(f"t = {in_words(float(ds['time'][k]), 's')}" for k in shown)
+    rows = [
+        (name, *(told_at(ds, key, k) for k in shown))
+        for key, name in _ROWS.items()
+        if not (key.startswith("tilt") and _is_idle(ds, key))
+    ]
+    return Card(_title(ds), [*rows, *_warnings(ds)], _drawings(ds), heads, headline(ds))
+
+
+def _title(ds: xr.Dataset) -> str:
+    return str(ds.attrs.get("title") or "Result of viscontact")
+
+
+def _is_idle(ds: xr.Dataset, tilt: str) -> bool:
+    return is_rounding_tilt(ds[tilt].values, ds["contact_length"].values, ds["approach"].values)
+
+
+def _warnings(ds: xr.Dataset) -> list[tuple[str, str]]:
+    told = [line for line in str(ds.attrs.get("warnings", "")).splitlines() if line.strip()]
+    return [("warnings", f"{len(told)}, in ds.attrs['warnings']")] if told else []
+
+
+def _drawings(ds: xr.Dataset) -> list[Element]:
+    drawn = _section(ds)
+    area = ds["contact_area"].values
+    if ds.sizes["time"] > 1 and np.isfinite(area).all() and area.max() > 0:
+        drawn.append(_history(ds, area))
+    return drawn
+
+
+def _history(ds: xr.Dataset, area: Floats) -> Element:
+    instants, errors = ds["time"].values, errors_of(ds, "contact_area")
+    y = linear("area", "m2", 0.0, 1.1 * float(area.max()), 3)
+    marks = [Mark(instants, area)]
+    if np.isfinite(errors).all():
+        marks += [Mark(instants, area + s * errors, dashed=True) for s in (-1.0, 1.0)]
+    return panel("contact area", _time(instants), y, marks)
+
+
+def _time(instants: Floats) -> Scale:
+    """Logarithmic where the steps grow over decades."""
+    positive = instants[instants > 0]
+    if positive.size > 2 and float(np.median(positive)) < 0.1 * float(positive[-1]):
+        first, last = float(positive[0]), float(positive[-1])
+        return logarithmic("time", "s", first, last, each_with_unit=True)
+    return linear("time", "s", float(instants[0]), float(instants[-1]))
+
+
+def _section(ds: xr.Dataset) -> list[Element]:
+    """Pressure along the longer way of the contact, at the first and last instant that has it."""
+    if "pressure" not in ds:
+        return []
+    over = str(ds["pressure"].dims[0])
+    ends = [ds["pressure"].isel({over: k}).transpose("x", "y").values for k in (0, -1)]
+    touched = [k for k in (0, 1) if ends[k].max(initial=0.0) > 0]
+    if not touched:
+        return []
+    at_last = ends[touched[-1]] > 0
+    extents = [np.ptp(ds[axis].values[at_last.any(axis=1 - k)]) for k, axis in enumerate("xy")]
+    axis = int(extents[1] > ROUND * extents[0])
+    position = ds["xy"[axis]].values
+    lines = [ends[k].take(ends[k].sum(axis=axis).argmax(), axis=1 - axis) for k in touched]
+    half = 1.15 * max(float(np.abs(position[line > 0]).max(initial=0.0)) for line in lines)
+    half = min(max(half, float(position[-1]) / 50), float(position[-1]))
+    x = linear("xy"[axis], "m", -half, half)
+    y = linear("pressure", "Pa", 0.0, 1.1 * max(float(line.max()) for line in lines), 3)
+    marks = [Mark(position, lines[-1])]
+    aside = ""
+    if len(lines) > 1 and ds.sizes[over] > 1:
+        marks.insert(0, Mark(position, lines[0], colour=ORANGE, dashed=True))
+        aside = f"dashed: t = {in_words(float(ds[over][0]), 's')}"
+    return [panel(f"along {'xy'[axis]}", x, y, marks, aside=aside)]

@@ -1,0 +1,132 @@
+"""Axes of small drawings: what they span, in which unit, and their ticks."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from viscontact.units.formatting import in_words, readable_unit
+
+#: Steps between ticks, of a decade.
+_STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
+#: More decades than these are ticked every second, third, ... one.
+_MOST_DECADES = 3
+
+
+@dataclass(frozen=True)
+class Scale:
+    """An axis.
+
+    Attributes
+    ----------
+    label : str
+        The quantity with its unit.
+    low, high : float
+        Its ends [SI, or their decimal logarithms].
+    ticks : tuple of (float, str)
+        Places along it, as `place` tells them, and what is written there.
+    logarithmic : bool
+        Whether it is.
+    """
+
+    label: str
+    low: float
+    high: float
+    ticks: tuple[tuple[float, str], ...]
+    logarithmic: bool = False
+
+    def place(self, values: ArrayLike) -> NDArray[np.float64]:
+        """Return where values lie along the axis, from 0 to 1.
+
+        Parameters
+        ----------
+        values : array_like
+            Any shape [SI].
+        """
+        at = np.asarray(values, dtype=np.float64)
+        if self.logarithmic:  # 0 lies before any place
+            at = np.log10(np.where(at > 0, at, np.nan))
+        return np.asarray((at - self.low) / (self.high - self.low))
+
+
+def linear(quantity: str, unit: str, low: float, high: float, most: int = 4) -> Scale:
+    """Make a linear axis.
+
+    Parameters
+    ----------
+    quantity : str
+        What it shows.
+    unit : str
+        Its SI unit.
+    low, high : float
+        Its ends, `low` below `high` [SI].
+    most : int, optional
+        Ticks at most, about.
+
+    Examples
+    --------
+    >>> axis = linear("x", "m", -0.01, 0.01)
+    >>> axis.label, [text for _, text in axis.ticks]
+    ('x [mm]', ['−10', '−5', '0', '5', '10'])
+    """
+    shown = readable_unit(max(abs(low), abs(high)), unit)
+    step = _step((high - low) / shown.factor / most)
+    first, last = (math.ceil(low / shown.factor / step - 1e-9), high / shown.factor / step + 1e-9)
+    numbers = [step * k for k in range(first, math.floor(last) + 1)]
+    ticks = tuple(
+        ((number * shown.factor - low) / (high - low), _number(number)) for number in numbers
+    )
+    return Scale(_labelled(quantity, shown.symbol), low, high, ticks)
+
+
+def logarithmic(
+    quantity: str, unit: str, low: float, high: float, *, each_with_unit: bool = False
+) -> Scale:
+    """Make a logarithmic axis, ticked at decades.
+
+    Parameters
+    ----------
+    quantity, unit : str
+        What it shows, and its SI unit.
+    low, high : float
+        Its ends, 0 < `low` < `high` [SI].
+    each_with_unit : bool, optional
+        Whether ticks are written with units of their own, as it suits times, or in one unit.
+
+    Examples
+    --------
+    >>> axis = logarithmic("time", "s", 0.01, 10.0, each_with_unit=True)
+    >>> [text for _, text in axis.ticks]
+    ['10 ms', '100 ms', '1 s', '10 s']
+    """
+    shown = readable_unit(math.sqrt(low * high), unit)
+    ends = math.log10(low), math.log10(high)
+    decades = range(math.ceil(ends[0] - 1e-9), math.floor(ends[1] + 1e-9) + 1)
+    every = max(1, math.ceil((len(decades) - 1) / _MOST_DECADES))
+    ticks = tuple(
+        (
+            (decade - ends[0]) / (ends[1] - ends[0]),
+            in_words(10.0**decade, unit)
+            if each_with_unit
+            else _number(10.0**decade / shown.factor),
+        )
+        for decade in decades[::every]
+    )
+    label = quantity if each_with_unit else _labelled(quantity, shown.symbol)
+    return Scale(label, *ends, ticks, logarithmic=True)
+
+
+def _step(least: float) -> float:
+    decade = 10.0 ** math.floor(math.log10(least))
+    return next(step * decade for step in _STEPS if step * decade >= least * (1 - 1e-9))
+
+
+def _number(value: float) -> str:
+    return f"{value:.6g}".replace("-", "\N{MINUS SIGN}") if abs(value) > 1e-12 else "0"
+
+
+def _labelled(quantity: str, symbol: str) -> str:
+    return f"{quantity} [{symbol}]" if symbol else quantity

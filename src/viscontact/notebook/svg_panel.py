@@ -1,0 +1,236 @@
+"""Small drawings in SVG, in the colour of the text around them: for light pages and dark ones."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Literal
+from xml.etree.ElementTree import Element
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from viscontact.notebook.html import element
+from viscontact.notebook.svg_axes import Scale
+
+Floats = NDArray[np.float64]
+_Path = list[tuple[float, float]]
+
+#: Blue and orange that are told apart by everybody, on white and on black.
+BLUE, ORANGE = "#2f80c3", "#d9661f"
+WIDTH, _HEIGHT = 222, 158
+_LEFT, _RIGHT, _TOP, _BOTTOM = 46, 12, 24, 36
+#: Inside the axes [px].
+ROOM = WIDTH - _LEFT - _RIGHT, _HEIGHT - _TOP - _BOTTOM
+#: Width of a letter, about [px].
+_LETTER = 6.2
+_INK, _FAINT = "currentColor", "0.65"
+#: A path needs no point that lies on the line between its neighbours to so much [px].
+_FLAT = 0.03
+
+
+@dataclass(frozen=True)
+class Mark:
+    """Something drawn over the axes.
+
+    Attributes
+    ----------
+    x, y : array_like
+        Points of a line [SI]; a gap where one is not finite.
+    kind : str
+        ``"line"``; ``"body"``: filled up to the top; ``"ground"``: filled down to the bottom;
+        ``"dots"``: points alone.
+    colour : str
+        Of a line.
+    dashed : bool
+        Whether the line is.
+    """
+
+    x: ArrayLike
+    y: ArrayLike
+    kind: Literal["line", "body", "ground", "dots"] = "line"
+    colour: str = BLUE
+    dashed: bool = False
+
+
+def panel(
+    heading: str,
+    x: Scale,
+    y: Scale,
+    marks: Iterable[Mark],
+    *,
+    aside: str = "",
+    height: int = _HEIGHT,
+) -> Element:
+    """Draw lines over two axes.
+
+    Parameters
+    ----------
+    heading : str
+        What is shown.
+    x, y : Scale
+        The axes.
+    marks : iterable of Mark
+        What is drawn; what lies beyond the axes is cut off.
+    aside : str, optional
+        A remark at the right.
+    height : int, optional
+        Of the whole drawing [px].
+
+    Returns
+    -------
+    Element
+        The drawing, 222 px wide.
+    """
+    frame = _Frame(x, y, height)
+    parts = [part for mark in marks for part in frame.drawn(mark)]
+    head = _text(4, 13, heading, font_weight="600")
+    note = _text(WIDTH - _RIGHT, 13, aside, text_anchor="end", fill_opacity=_FAINT)
+    return element(
+        "svg",
+        head,
+        note if aside else None,
+        *parts,
+        *frame.axes(),
+        viewBox=f"0 0 {WIDTH} {height}",
+        width=str(WIDTH),
+        height=str(height),
+        role="img",
+        aria_label=f"{heading}: {y.label} over {x.label}",
+        style="font:11px system-ui,sans-serif;overflow:visible;max-width:100%",
+        fill=_INK,
+    )
+
+
+@dataclass(frozen=True)
+class _Frame:
+    x: Scale
+    y: Scale
+    height: int
+
+    @property
+    def bottom(self) -> float:
+        return self.height - _BOTTOM
+
+    def across(self, places: Floats) -> Floats:
+        return _LEFT + places * (WIDTH - _LEFT - _RIGHT)
+
+    def up(self, places: Floats) -> Floats:
+        return self.bottom - places * (self.bottom - _TOP)
+
+    def drawn(self, mark: Mark) -> Iterable[Element]:
+        x, y = np.broadcast_arrays(self.x.place(mark.x), self.y.place(mark.y))
+        inside = np.isfinite(x) & np.isfinite(y) & (x > -1e-9) & (x < 1 + 1e-9)
+        across, up = self.across(x), self.up(np.clip(y, 0.0, 1.0))
+        if mark.kind == "dots":
+            for px, py in zip(across[inside], up[inside], strict=True):
+                yield element("circle", cx=f"{px:.1f}", cy=f"{py:.1f}", r="2.2", fill=mark.colour)
+            return
+        if mark.kind != "line":
+            yield self._filled([_thinned(across[run], up[run]) for run in _runs(inside)], mark)
+        if mark.kind != "ground":
+            # Up to the first point beyond, which lies on the edge.
+            near = inside & (_beside(y <= 1.0) & _beside(y >= 0.0))
+            yield self._outlined([_thinned(across[run], up[run]) for run in _runs(near)], mark)
+
+    def _filled(self, runs: list[_Path], mark: Mark) -> Element:
+        edge = _TOP if mark.kind == "body" else self.bottom
+        closed = "".join(_path(run) + f"V{edge:g}H{run[0][0]:.1f}Z" for run in runs)
+        return element("path", d=closed, fill_opacity="0.16" if mark.kind == "body" else "0.07")
+
+    def _outlined(self, runs: list[_Path], mark: Mark) -> Element:
+        is_body = mark.kind == "body"
+        return element(
+            "path",
+            d="".join(self._walled(run) if is_body else _path(run) for run in runs),
+            fill="none",
+            stroke=_INK if is_body else mark.colour,
+            stroke_width="1.6",
+            stroke_linejoin="round",
+            class_="outline" if is_body else "curve",
+            **({"stroke_dasharray": "4 3"} if mark.dashed else {}),
+        )
+
+    def _walled(self, run: _Path) -> str:
+        """The outline of a body with the walls at its ends."""
+        (first, _), (last, _) = run[0], run[-1]
+        before = f"M{first:.1f},{_TOP}V" if first > _LEFT + 1 else "M"
+        after = f"V{_TOP}" if last < WIDTH - _RIGHT - 1 else ""
+        path = _path(run)
+        return (path if before == "M" else f"{before}{run[0][1]:.1f}L{path[1:]}") + after
+
+    def axes(self) -> Iterable[Element]:
+        """The axes' lines, ticks and labels."""
+        low, right = self.bottom, WIDTH - _RIGHT
+        yield _line(f"M{_LEFT},{_TOP}V{low}H{right}")
+        for at, text in self._readable(self.x.ticks):
+            yield _line(f"M{at:.1f},{low}v3")
+            yield _text(at, low + 14, text, text_anchor="middle", class_="x-tick")
+        for place, text in self.y.ticks:
+            at = float(self.up(np.array(place)))
+            yield _line(f"M{_LEFT},{at:.1f}h-3")
+            yield _text(_LEFT - 6, at + 3.5, text, text_anchor="end", class_="y-tick")
+        middle = (_LEFT + right) / 2
+        yield _text(
+            middle, self.height - 6, self.x.label, text_anchor="middle", fill_opacity=_FAINT
+        )
+        turned = f"rotate(-90 10 {(_TOP + low) / 2:g})"
+        yield _text(
+            *(10, (_TOP + low) / 2 + 3, self.y.label),
+            text_anchor="middle",
+            transform=turned,
+            fill_opacity=_FAINT,
+        )
+
+    def _readable(self, ticks: Iterable[tuple[float, str]]) -> Iterable[tuple[float, str]]:
+        """Those ticks along the bottom that leave each other room."""
+        free = -math.inf
+        for place, text in ticks:
+            at, half = float(self.across(np.array(place))), 0.5 * _LETTER * len(text)
+            if at - half > free:
+                yield at, text
+                free = at + half + _LETTER / 2
+
+
+def _runs(inside: NDArray[np.bool_]) -> list[slice]:
+    """Stretches of points that hang together."""
+    steps = np.flatnonzero(np.diff(np.concatenate([[False], inside, [False]]).astype(int)))
+    return [slice(a, b) for a, b in zip(steps[::2].tolist(), steps[1::2].tolist(), strict=True)]
+
+
+def _beside(where: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """These points and their neighbours."""
+    wider = where.copy()
+    wider[1:] |= where[:-1]
+    wider[:-1] |= where[1:]
+    return wider
+
+
+def _thinned(x: Floats, y: Floats) -> _Path:
+    """Leave out points on straight stretches, from the last point kept to the next."""
+    kept = [0]
+    for k in range(1, x.size - 1):
+        a, b = kept[-1], k + 1
+        inner = slice(a + 1, b)
+        width = float(x[b] - x[a])
+        if abs(width) < 1e-9:
+            kept.append(k)
+            continue
+        chord = y[a] + (y[b] - y[a]) * (x[inner] - x[a]) / width
+        if np.abs(chord - y[inner]).max() > _FLAT:
+            kept.append(k)
+    return [(float(x[k]), float(y[k])) for k in [*kept, x.size - 1]]
+
+
+def _path(points: _Path) -> str:
+    first, *rest = (f"{x:.1f},{y:.1f}" for x, y in points)
+    return f"M{first}" + (f"L{' '.join(rest)}" if rest else "")
+
+
+def _line(path: str) -> Element:
+    return element("path", d=path, fill="none", stroke=_INK, stroke_opacity="0.55")
+
+
+def _text(x: float, y: float, text: str, **how: str) -> Element:
+    return element("text", text, x=f"{x:.1f}", y=f"{y:.1f}", **how)

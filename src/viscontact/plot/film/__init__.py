@@ -1,0 +1,1 @@
+"""Animations: frames, layout of a frame, files."""

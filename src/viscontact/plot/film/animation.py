@@ -1,0 +1,293 @@
+"""A run as a film: map, section and histories that move with time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from numpy.typing import ArrayLike, NDArray
+
+from viscontact.plot.film.sheet import Sheet, new_sheet
+from viscontact.plot.histories.history import (
+    QUANTITIES,
+    Quantity,
+    draw_quantities,
+    worthwhile_quantities,
+)
+from viscontact.plot.histories.span import within_span
+from viscontact.plot.histories.time_axis import BEFORE_FIRST, suits_log_time
+from viscontact.plot.layout import style
+from viscontact.plot.layout.error_band import peak_note
+from viscontact.plot.layout.page import Width, page_width
+from viscontact.plot.layout.window import Window, window_over
+from viscontact.plot.pressure.pressure_map import (
+    ORDINARY,
+    draw_contours,
+    fill_colour_bar,
+    pressure_levels,
+)
+from viscontact.results.snapshots import Snapshot, field_times, snapshot_reader
+from viscontact.results.variables import error_name
+from viscontact.units.axis_units import DisplayUnit, time_labels
+from viscontact.units.formatting import in_words
+
+_NAME = "animation"
+Array = NDArray[np.float64]
+
+#: What is shown of the histories, the most telling first, and how wide each is at least [inch].
+_TOLD = ("peak_pressure", "contact_area", "approach", "force")
+_HISTORY_WIDTH = 1.7
+_MOST_FRAMES = 5000
+_MARKER = "#D55E00"
+
+
+@dataclass(frozen=True, eq=False)
+class Film:
+    """A figure that shows one instant after the other.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+        As `show` has left it; the first instant when new.
+    instants : ndarray
+        The stored instant that each frame shows, shape (frames,) [s].
+    frames_per_second : float
+        How many are shown in a second [1/s].
+    show : callable
+        ``show(instant)`` draws a stored instant [s].
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(0.1), grid, [0.0, 1.0], errors=False)
+    >>> film = animation(ds, seconds=2.0, fps=5.0)
+    >>> film.seconds, film.instants.size
+    (2.0, 10)
+    """
+
+    figure: Figure
+    instants: Array
+    frames_per_second: float
+    show: Callable[[float], None]
+
+    @property
+    def seconds(self) -> float:
+        """How long the film lasts [s]."""
+        return self.instants.size / self.frames_per_second
+
+
+@dataclass(frozen=True, eq=False)
+class _Scene:
+    """What is fixed while the film goes on."""
+
+    stored: Array
+    read: Callable[[int], Snapshot]
+    window: Window
+    levels: Array
+    unit: DisplayUnit
+    along: Literal["x", "y"]
+    note: str
+
+    def at(self, instant: float) -> Snapshot:
+        """The fields at a stored instant."""
+        return self.read(int(np.abs(self.stored - instant).argmin()))
+
+
+def animation(
+    results: xr.Dataset,
+    *,
+    times: ArrayLike | None = None,
+    seconds: float = 8.0,
+    fps: float = 15.0,
+    width: Width | None = None,
+) -> Film:
+    """Show a run as a film: pressure map, section and markers on the histories.
+
+    Parameters
+    ----------
+    results : xarray.Dataset
+        What `viscontact.simulate` or `viscontact.open_results` returned, with fields stored; at
+        all instants for a film that runs smoothly.
+    times : array_like, optional
+        Show the span between the least and the largest of these instants [s]; by default all of
+        the run.
+    seconds : float, optional
+        How long the film lasts [s].
+    fps : float, optional
+        Frames a second [1/s].
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
+
+    Returns
+    -------
+    Film
+        To be written by `save_film`. Frames are at equal steps along the time axis of the
+        histories, which is logarithmic where the run's steps are and the load is held; each
+        shows the stored instant that is nearest there, and names it. Nothing is interpolated in
+        time.
+
+    Raises
+    ------
+    ValueError
+        If fewer than two fields are stored in the span, the bodies never touch in it, or
+        `seconds` and `fps` do not make two frames or more.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(0.1), grid, [0.0, 1.0], errors=False)
+    >>> film = animation(ds, seconds=2.0, fps=5.0)
+    >>> film.instants[[0, -1]].tolist()
+    [0.0, 1.0]
+    """
+    count = _frames(seconds, fps)
+    run = within_span(results, _drawn(results), times, _NAME, "")
+    first, last = run["time"].values[[0, -1]]
+    stored = field_times(results, _NAME)
+    shown = stored[(stored >= first) & (stored <= last)]
+    if shown.size < 2:
+        raise ValueError(
+            f"{_NAME}: needs fields stored at two instants or more between {in_words(first, 's')} "
+            f"and {in_words(last, 's')}, got {shown.size}; run again with 'output: fields: all'"
+        )
+    scene = _scene(results, stored, shown)
+    wide = page_width(width, style.TWO_COLUMNS)
+    quantities = _told(run, wide)
+    sheet = new_sheet(scene.window, wide, len(quantities))
+    show = _stage(sheet, scene, run, quantities)
+    chosen = _spread_evenly(shown, run, count)
+    show(float(chosen[0]))
+    return Film(sheet.figure, chosen, fps, show)
+
+
+def _drawn(results: xr.Dataset) -> list[str]:
+    names = [quantity.name for quantity in QUANTITIES]
+    return [*names, *(error_name(n) for n in names if error_name(n) in results), "contact_length"]
+
+
+def _frames(seconds: float, fps: float) -> int:
+    for name, value in (("seconds", seconds), ("fps", fps)):
+        if not (np.isfinite(value) and value > 0):
+            raise ValueError(f"{_NAME}: {name} must be above 0, got {value:g}")
+    count = round(seconds * fps)
+    if not 2 <= count <= _MOST_FRAMES:
+        raise ValueError(
+            f"{_NAME}: seconds times fps must make 2 to {_MOST_FRAMES} frames, got "
+            f"{seconds:g} s with {fps:g} a second"
+        )
+    return count
+
+
+def _scene(results: xr.Dataset, stored: Array, shown: Array) -> _Scene:
+    """Look through all that will be shown, one instant at a time."""
+    note, read = peak_note([results], shown), snapshot_reader(results)
+    part, boxes, highest = ORDINARY if note else 1.0, [], 0.0
+    for index in np.flatnonzero(np.isin(stored, shown)):
+        snapshot = read(int(index))
+        if snapshot.touching:
+            boxes.append(snapshot.extent())
+            pressed = snapshot.pressure[snapshot.pressure > 0]
+            highest = max(highest, float(np.quantile(pressed, part)))
+    if not boxes:
+        raise ValueError(
+            f"{_NAME}: the bodies do not touch at any stored instant from "
+            f"{in_words(shown[0], 's')} to {in_words(shown[-1], 's')}; choose other times"
+        )
+    window = window_over(boxes, snapshot.borders() if snapshot.periodic else None)
+    levels, unit = pressure_levels(highest)
+    is_long = window.x[1] - window.x[0] >= window.y[1] - window.y[0]
+    return _Scene(stored, read, window, levels, unit, "x" if is_long else "y", note)
+
+
+def _told(run: xr.Dataset, width: float) -> list[Quantity]:
+    """As many histories as there is room for, the most telling ones."""
+    there = {quantity.name: quantity for quantity in worthwhile_quantities({"": run})}
+    names = [name for name in _TOLD if name in there]
+    return [there[name] for name in names[: max(1, int(width / _HISTORY_WIDTH))]]
+
+
+def _spread_evenly(shown: Array, run: xr.Dataset, count: int) -> Array:
+    """The stored instants nearest to equal steps along the time axis."""
+    along = _place_on_axis(shown, run)
+    wanted = np.linspace(along[0], along[-1], count)
+    return np.asarray(shown[np.abs(along - wanted[:, None]).argmin(axis=1)])
+
+
+def _place_on_axis(instants: Array, run: xr.Dataset) -> Array:
+    """Where instants are along the time axis of histories, up to a constant factor."""
+    if not suits_log_time(run):
+        return instants
+    times = run["time"].values
+    first = float(times[times > 0][0])
+    decades = np.log10(np.maximum(instants, first) / first)
+    # matplotlib's linear part is as long as so many decades of base 10 and what lies below 1.
+    before = BEFORE_FIRST * np.log10(times[-1] / first) / (1 - 1 / 10)
+    return np.asarray(np.minimum(instants / first, 1.0) * before + decades)
+
+
+def _stage(
+    sheet: Sheet, scene: _Scene, run: xr.Dataset, quantities: list[Quantity]
+) -> Callable[[float], None]:
+    """Draw what stays, and return what draws the rest at an instant."""
+    curve = _set_up_fields(sheet, scene)
+    time_unit, _ = draw_quantities(sheet.histories, quantities, {"": run})
+    markers = []
+    for axes in sheet.histories:
+        # The bar of time behind the curve, the dot on it.
+        axes.axvline(0.0, color=_MARKER, linewidth=0.8, alpha=0.6, zorder=1)
+        axes.plot([], [], "o", color=_MARKER, markersize=4.5, clip_on=False, zorder=5)
+        markers.append(axes.get_lines()[-2:])
+    labels = dict(zip(scene.stored.tolist(), time_labels(scene.stored), strict=True))
+    times = run["time"].values
+
+    def show(instant: float) -> None:
+        snapshot = scene.at(instant)
+        for artist in [*sheet.surface.collections, *sheet.surface.patches]:
+            artist.remove()
+        draw_contours(sheet.surface, snapshot, scene.levels, scene.window)
+        apart = "" if snapshot.touching else ", no contact"
+        style.add_heading(sheet.surface, f"t = {labels[snapshot.time]}{apart}")
+        curve.set_data(*_section(snapshot, scene))
+        at = float(time_unit(snapshot.time))
+        nearest = int(np.abs(times - snapshot.time).argmin())
+        for (bar, dot), axes in zip(markers, sheet.histories, strict=True):
+            bar.set_xdata([at, at])
+            drawn = np.asarray(axes.get_lines()[0].get_ydata())
+            dot.set_data(np.array([at]), drawn[[nearest]])
+
+    return show
+
+
+def _set_up_fields(sheet: Sheet, scene: _Scene) -> Line2D:
+    """Prepare map and section; return the section's empty curve."""
+    window, unit = scene.window, scene.unit
+    window.show(sheet.surface)
+    sheet.surface.set_ylabel(window.unit.label("y"))
+    if sheet.is_long and scene.along == "x":  # the section below has the same axis
+        sheet.surface.tick_params(labelbottom=False)
+    else:
+        sheet.surface.set_xlabel(window.unit.label("x"))
+    style.add_heading(sheet.surface, "; ".join(filter(None, (window.note, scene.note))), aside=True)
+    fill_colour_bar(sheet.bar, scene.levels, unit, "max" if scene.note else "neither")
+    limits = window.x if scene.along == "x" else window.y
+    sheet.section.set(xlim=window.unit(limits), xlabel=window.unit.label(scene.along))
+    sheet.section.set(ylim=(0.0, float(unit(scene.levels[-1]))), ylabel=unit.label("Pressure"))
+    across = "y" if scene.along == "x" else "x"
+    style.add_heading(sheet.section, f"at {across} = 0")
+    return sheet.section.plot([], [], color=style.LINE, linewidth=style.LINE_WIDTH)[0]
+
+
+def _section(snapshot: Snapshot, scene: _Scene) -> tuple[Array, Array]:
+    """The pressure along the middle line, as drawn."""
+    wide = snapshot.with_border(1) if snapshot.periodic else snapshot
+    positions, pressure = wide.section(scene.along)
+    return scene.window.unit(positions), scene.unit(pressure)

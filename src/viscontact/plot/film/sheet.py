@@ -1,0 +1,86 @@
+"""Where the panels of a film are."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from viscontact.plot.layout import style
+from viscontact.plot.layout.window import Window
+
+#: Rooms [inch]: for a heading, labels at the left and below, a colour bar, panels of curves.
+_HEAD, _LEFT, _BELOW, _BAR, _CURVES = 0.42, 0.68, 0.5, 0.95, 1.15
+#: Sizes are multiples of this: an encoder of films wants even numbers of pixels [inch].
+STEP = 0.04
+
+
+@dataclass(frozen=True, eq=False)
+class Sheet:
+    """The empty panels of a film, none of which moves when it is drawn into.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+        All of them.
+    surface, bar, section : matplotlib.axes.Axes
+        For the map, its colour bar and the section.
+    histories : list of matplotlib.axes.Axes
+        For curves over time.
+    is_long : bool
+        The section stands below the map, as wide as it.
+    """
+
+    figure: Figure
+    surface: Axes
+    bar: Axes
+    section: Axes
+    histories: list[Axes]
+    is_long: bool
+
+
+def new_sheet(window: Window, width: float, histories: int) -> Sheet:
+    """Lay out a film.
+
+    Parameters
+    ----------
+    window : Window
+        What the map shows.
+    width : float
+        Of the figure [inch].
+    histories : int
+        How many curves over time.
+
+    Returns
+    -------
+    Sheet
+        The section below a long map, beside another one; histories below both.
+    """
+    is_long = window.height_to_width < 0.6
+    width = STEP * round(width / STEP)
+    room = width - _LEFT - _BAR - (0.0 if is_long else _LEFT + 0.1)
+    across = room if is_long else room / 2
+    tall = across * window.height_to_width
+    upper = _HEAD + tall + (0.2 + _CURVES if is_long else 0.0) + _BELOW
+    height = STEP * math.ceil((upper + 0.15 + _CURVES + _BELOW) / STEP)
+    figure = Figure(figsize=(width, height))
+
+    def panel(left: float, top: float, wide: float, high: float) -> Axes:
+        axes = figure.add_axes(
+            (left / width, 1 - (top + high) / height, wide / width, high / height)
+        )
+        style.dress(axes)
+        return axes
+
+    surface = panel(_LEFT, _HEAD, across, tall)
+    bar = panel(_LEFT + across + 0.12, _HEAD, 0.12, tall)
+    if is_long:
+        section = panel(_LEFT, _HEAD + tall + 0.2, across, _CURVES)
+    else:
+        section = panel(_LEFT + across + _BAR + _LEFT, _HEAD, room - across, tall)
+    each = width / histories
+    wide = each - _LEFT - 0.12
+    curves = [panel(_LEFT + n * each, upper + 0.15, wide, _CURVES) for n in range(histories)]
+    return Sheet(figure, surface, bar, section, curves, is_long)

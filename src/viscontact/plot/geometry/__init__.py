@@ -1,0 +1,1 @@
+"""Figures of indenters and load histories."""

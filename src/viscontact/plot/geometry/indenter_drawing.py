@@ -1,0 +1,240 @@
+"""A drawing of an indenter: sections along and across, and the plan."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from itertools import chain
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
+from numpy.typing import NDArray
+
+from viscontact.indenters import Indenter
+from viscontact.indenters.cross_section import SHOWN_PART, Section, cut, lines_through
+from viscontact.plot.geometry.indenter_facts import facts, in_lines, length
+from viscontact.plot.layout import style
+from viscontact.plot.layout.page import NARROW, Width, page_width
+from viscontact.units.axis_units import DisplayUnit, display_number, display_unit
+from viscontact.units.formatting import in_words
+
+_PLAN_POINTS = 601
+_BODY, _BODY_EDGE = "#dfe5ea", style.INK
+# A plan so many times longer than wide, or less, is drawn as it is.
+_TRUE_SHAPE = 3.0
+# Heights of the contour lines over that which is shown.
+_LEVELS = (0.02, 0.1, 0.25, 0.5, 1.0)
+# Parts of the page that texts have, below the drawing and beside it, and a letter's width [inch].
+_WHOLE, _BESIDE, _LETTER = 0.8, 0.36, 0.065
+
+
+def draw_indenter(
+    indenter: Indenter,
+    size: tuple[float, float],
+    *,
+    contact: tuple[float, float, float, float] | None = None,
+    title: str = "",
+    shaded: str = "expected contact",
+    width: Width | None = None,
+) -> Figure:
+    """Draw an indenter: sections along x and y through its deepest point, and its plan.
+
+    Parameters
+    ----------
+    indenter : Indenter
+        The body.
+    size : tuple of float
+        Extents of the part that is drawn, along x and y, around the origin [m].
+    contact : tuple of float, optional
+        Middle and extents of an expected contact, x, y, length and width, which is shaded [m].
+    title : str, optional
+        What stands above the facts.
+    shaded : str, optional
+        What the contact is called.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Three panels; how much heights are exaggerated stands above the sections.
+
+    Raises
+    ------
+    ValueError
+        If an extent is not positive, or none of the body lies within them.
+
+    Examples
+    --------
+    >>> from viscontact.indenters import Sphere
+    >>> figure = draw_indenter(Sphere(0.01), (4e-3, 4e-3))
+    >>> [axes.get_xlabel() for axes in figure.axes]
+    ['x [mm]', 'y [mm]', 'x [mm]', '']
+    """
+    if not all(math.isfinite(extent) and extent > 0 for extent in size):
+        raise ValueError(f"size must hold positive extents in m, got {size}")
+    x, y = (np.linspace(-extent / 2, extent / 2, _PLAN_POINTS) for extent in size)
+    gap = indenter.gap(x[:, None], y)
+    if not np.isfinite(gap).any():
+        raise ValueError(
+            f"nothing of the body lies within {in_words(size[0], 'm', 3)} x "
+            f"{in_words(size[1], 'm', 3)} around the origin; draw a larger part"
+        )
+    through = lines_through(indenter, x, y, gap)
+    along = cut(indenter, size[0], through[1], axis=0)
+    across = cut(indenter, size[1], through[0], axis=1)
+    figure, panels = _panels(page_width(width, style.TWO_COLUMNS))
+    unit = display_unit("m", *size)
+    _draw_section(panels[0, 0], along, unit, "x", "y", through[1], contact)
+    _draw_section(panels[0, 1], across, unit, "y", "x", through[0], contact)
+    levels = _draw_plan(panels[1, 0], x, y, gap, unit, contact)
+    told = facts(indenter, (along, across), levels, contact, shaded)
+    _tell(panels[1, 1], chain([title] if title else [], told))
+    _tell_stretches(figure, panels, (along, across))
+    return figure
+
+
+def _panels(width: float) -> tuple[Figure, NDArray[np.object_]]:
+    """Sections above, plan and facts below; all below one another on a narrow page."""
+    if width > NARROW:
+        figure = style.new_figure(width, 4.8)
+        return figure, figure.subplots(2, 2, width_ratios=(1.35, 1), height_ratios=(1, 1.1))
+    figure = style.new_figure(width, 7.6)
+    return figure, figure.subplots(4, 1, height_ratios=(1, 1, 1.1, 0.9)).reshape(2, 2)
+
+
+def _draw_section(
+    axes: Axes,
+    section: Section,
+    unit: DisplayUnit,
+    along: str,
+    fixed: str,
+    place: float,
+    contact: tuple[float, float, float, float] | None,
+) -> None:
+    style.dress(axes)
+    height = display_unit("m", section.top)
+    position, gap, top = unit(section.position), height(section.gap), float(height(section.top))
+    if contact is not None:
+        middle, extent = (contact[0], contact[2]) if along == "x" else (contact[1], contact[3])
+        span = (float(unit(middle - extent / 2)), float(unit(middle + extent / 2)))
+        axes.axvspan(*span, color=style.LINE, alpha=0.12, linewidth=0)
+    axes.fill_between(position, np.minimum(gap, top), top, color=_BODY, linewidth=0)
+    axes.plot(position, gap, color=_BODY_EDGE, linewidth=style.LINE_WIDTH)
+    axes.axhline(0, color=style.FAINT, linewidth=style.THIN_LINE)
+    for end in section.ends:
+        axes.axvline(
+            float(unit(end)),
+            color="#D55E00",
+            linewidth=style.THIN_LINE * 1.5,
+            linestyle=(0, (4, 2)),
+        )
+    axes.set(
+        xlim=(position[0], position[-1]),
+        ylim=(-0.04 * top, top),
+        xlabel=unit.label(along),
+        ylabel=height.label("Gap"),
+    )
+    # The middle of an even mesh is zero but for a rounding.
+    # Three digits: the exaggeration has to find its place beside it.
+    where = length(place, digits=3) if abs(place) > 1e-6 * section.position[-1] else "0"
+    style.add_heading(axes, f"along {along}, at {fixed} = {where}")
+
+
+def _draw_plan(
+    axes: Axes,
+    x: NDArray[np.float64],
+    y: NDArray[np.float64],
+    gap: NDArray[np.float64],
+    unit: DisplayUnit,
+    contact: tuple[float, float, float, float] | None,
+) -> list[float]:
+    """Draw the plan, and return the gaps that lines are drawn at [m]."""
+    style.dress(axes)
+    levels = _draw_body(axes, unit(x), unit(y), gap)
+    if contact is not None:
+        _shade_contact(axes, unit, contact)
+    axes.set(
+        xlim=(float(unit(x[0])), float(unit(x[-1]))),
+        ylim=(float(unit(y[0])), float(unit(y[-1]))),
+        xlabel=unit.label("x"),
+        ylabel=unit.label("y"),
+    )
+    if 1 / _TRUE_SHAPE <= x[-1] / y[-1] <= _TRUE_SHAPE:
+        axes.set_aspect("equal")
+    style.add_heading(axes, "plan")
+    return levels
+
+
+def _draw_body(
+    axes: Axes, x: NDArray[np.float64], y: NDArray[np.float64], gap: NDArray[np.float64]
+) -> list[float]:
+    """Fill where the body is, with lines of equal gap and, where it ends, its outline."""
+    solid = np.isfinite(gap)
+    highest = float(np.quantile(gap[solid], SHOWN_PART))
+    levels = [part * highest for part in _LEVELS] if highest > 0 else []
+    there = solid.T.astype(float)
+    axes.contourf(x, y, there, levels=[0.5, 1.5], colors=[_BODY], antialiased=True)
+    if levels:
+        lines: dict[str, Any] = {"colors": [style.FAINT], "linewidths": style.THIN_LINE}
+        axes.contour(x, y, np.where(solid, gap, np.nan).T, levels=levels, **lines)
+    if not solid.all():
+        axes.contour(x, y, there, levels=[0.5], colors=["#D55E00"], linewidths=1.2)
+    return levels
+
+
+def _shade_contact(
+    axes: Axes, unit: DisplayUnit, contact: tuple[float, float, float, float]
+) -> None:
+    """Shade the box of the contact, given by its centre and its extents [m]."""
+    middle_x, middle_y, length, width = contact
+    corner = float(unit(middle_x - length / 2)), float(unit(middle_y - width / 2))
+    box = Rectangle(
+        *(corner, float(unit(length)), float(unit(width))),
+        color=style.LINE,
+        alpha=0.12,
+        linewidth=0,
+    )
+    axes.add_patch(box)
+
+
+def _tell(axes: Axes, told: Iterator[str]) -> None:
+    """Write beside the drawing what it does not show in numbers."""
+    axes.set_axis_off()
+    figure = style.figure_of(axes)
+    narrow = figure.get_figwidth() <= NARROW
+    room = figure.get_figwidth() * (_WHOLE if narrow else _BESIDE)
+    axes.text(
+        *(0.0, 1.0, in_lines(told, int(room / _LETTER))),
+        transform=axes.transAxes,
+        verticalalignment="top",
+        fontsize=style.TICK_SIZE,
+        color=style.INK,
+        linespacing=1.6,
+    )
+
+
+def _tell_stretches(
+    figure: Figure, panels: NDArray[np.object_], sections: tuple[Section, Section]
+) -> None:
+    """Say how much heights are exaggerated, and y in the plan, once the layout is known."""
+    figure.draw_without_rendering()
+    for axes, section in zip(panels[0], sections, strict=True):
+        box = axes.get_window_extent()
+        extent = float(section.position[-1] - section.position[0])
+        stretch = (box.height / (1.04 * section.top)) / (box.width / extent)
+        style.add_heading(axes, _stretched("heights", stretch), aside=True)
+    box = panels[1, 0].get_window_extent()
+    lengths = [float(each.position[-1] - each.position[0]) for each in sections]
+    stretch = (box.height / lengths[1]) / (box.width / lengths[0])
+    style.add_heading(panels[1, 0], _stretched("y", stretch), aside=True)
+
+
+def _stretched(what: str, stretch: float) -> str:
+    digits = 1 if stretch > 100 else 2
+    if abs(math.log(stretch)) < math.log(1.05):
+        return "true shape"
+    return f"{what} {display_number(stretch, digits)}×"

@@ -1,0 +1,157 @@
+"""What is written beside the drawing of an indenter."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator, Sequence
+from textwrap import wrap
+
+from viscontact.indenters import (
+    CombinedIndenter,
+    HeightMap,
+    Indenter,
+    Paraboloid,
+    PlacedIndenter,
+    Roller,
+    Sphere,
+)
+from viscontact.indenters.cross_section import Section
+from viscontact.results.argument_table import in_plain_words, particulars
+from viscontact.results.provenance import describe
+from viscontact.units.axis_units import display_number, display_unit
+
+# A line that falls without end is told of so close to its end.
+_BEFORE_END = 0.9
+_KEPT = "\N{NO-BREAK SPACE}"
+
+
+def facts(
+    indenter: Indenter,
+    sections: tuple[Section, Section],
+    levels: Sequence[float],
+    contact: tuple[float, float, float, float] | None,
+    shaded: str,
+) -> Iterator[str]:
+    """Yield what the drawing of an indenter does not show in numbers, one fact after the other.
+
+    Parameters
+    ----------
+    indenter : Indenter
+        The body.
+    sections : tuple of Section
+        The cuts along x and along y.
+    levels : sequence of float
+        Gaps of the contour lines in the plan [m].
+    contact : tuple of float or None
+        Middle and extents of what is shaded, x, y, length and width [m].
+    shaded : str
+        What that is.
+
+    Yields
+    ------
+    str
+        A line, however long.
+    """
+    yield from _names(indenter, sections[0])
+    yield from _ends(sections)
+    if not isinstance(indenter, Sphere | Paraboloid | Roller):
+        for axis, curvature in zip("xy", indenter.curvatures, strict=True):
+            if curvature > 0:
+                yield f"radius of curvature along {axis} {length(1 / curvature)}"
+    if levels:
+        unit = display_unit("m", levels)
+        numbers = ", ".join(display_number(float(unit(level)), 2) for level in levels)
+        yield f"thin lines: gap of {numbers} {unit.symbol}"
+    if contact is not None:
+        extents = " × ".join(length(extent, digits=3) for extent in contact[2:])
+        yield f"shaded: extent of the {shaded}, {extents}"
+
+
+def in_lines(told: Iterator[str], characters: int) -> str:
+    """Break facts into lines of so many characters at most, the rest of each set in."""
+    lines = []
+    for fact in told:
+        # A number and its unit stay together.
+        kept = re.sub(r"(?<=\d) (?=[^\d×])| (?==)|(?<==) ", _KEPT, fact)
+        lines += wrap(kept, characters, subsequent_indent="   ")
+    return "\n".join(lines).replace(_KEPT, " ")
+
+
+def length(value: float, digits: int = 4) -> str:
+    """Write a length in a readable unit, with a minus sign that is one."""
+    unit = display_unit("m", value)
+    return _signed(f"{display_number(float(unit(value)), digits)} {unit.symbol}")
+
+
+def _names(indenter: Indenter, along: Section) -> Iterator[str]:
+    """What a body is and how large, part by part."""
+    if isinstance(indenter, CombinedIndenter):
+        yield from _names(indenter.parts[0], along)
+        for part in indenter.parts[1:]:
+            first, *others = _names(part, along)
+            yield from (f"+ {first}", *others)
+    elif isinstance(indenter, PlacedIndenter):
+        yield from _names(indenter.body, along)
+        if indenter.angle:
+            yield f"turned by {display_number(math.degrees(indenter.angle))}°"
+        for axis, far in (("x", indenter.x), ("y", indenter.y)):
+            if far:
+                yield f"moved by {length(far)} along {axis}"
+    elif isinstance(indenter, HeightMap):
+        columns, rows = indenter.height.shape
+        yield f"Height map, {columns} × {rows} points"
+    else:
+        yield _with_sizes(indenter)
+        if isinstance(indenter, Roller):
+            yield _drop_told(indenter, float(along.position[-1]))
+
+
+def _with_sizes(indenter: Indenter) -> str:
+    kind = in_plain_words(type(indenter).__name__).capitalize()
+    sizes = dict(list(particulars(describe(indenter)))[1:])
+    if isinstance(indenter, Roller):
+        kind += f", {in_plain_words(type(indenter.line).__name__)}"
+        sizes.pop("profile", None)
+    told = (f"{name.removeprefix('profile ')} {value}" for name, value in sizes.items())
+    return ", ".join([kind, *told])
+
+
+def _drop_told(roller: Roller, edge: float) -> str:
+    """How far the generating line has receded at its ends, or as far as it is drawn."""
+    drop = float(roller.drop(min(roller.end * (1 - 1e-12), edge)))
+    if drop == 0:
+        return "straight along x"
+    if roller.end > edge:
+        return f"profile drop at x = ±{length(edge)}: {length(drop, digits=3)}"
+    if float(roller.drop(roller.end)) < math.inf and drop < roller.radius:
+        return f"profile drop at the ends: {length(drop, digits=3)}"
+    near = _BEFORE_END * roller.end
+    told = length(float(roller.drop(near)), digits=3)
+    return f"profile drop at x = ±{length(near)}: {told}"
+
+
+def _ends(sections: tuple[Section, Section]) -> Iterator[str]:
+    """Where the body ends, and which way it goes on beyond the drawing."""
+    cuts = dict(zip("xy", sections, strict=True))
+    ends = [f"{axis} = {_places(cut)}" for axis, cut in cuts.items() if cut.ends]
+    if ends:
+        yield f"dashed: ends at {', '.join(ends)}"
+    beyond = [axis for axis, cut in cuts.items() if not cut.ends]
+    if beyond:
+        yield f"continues beyond the drawing along {' and '.join(beyond)}"
+
+
+def _places(section: Section) -> str:
+    # The middle of an even mesh is zero but for a rounding.
+    least = 1e-6 * float(section.position[-1])
+    ends = [end if abs(end) > least else 0.0 for end in section.ends]
+    if len(ends) == 2 and abs(ends[0] + ends[1]) <= 1e-9 * ends[1]:
+        return f"±{length(ends[1])}"
+    unit = display_unit("m", ends)
+    places = ", ".join(_signed(display_number(float(unit(end)), 4)) for end in ends)
+    return f"{places} {unit.symbol}"
+
+
+def _signed(number: str) -> str:
+    return number.replace("-", "\N{MINUS SIGN}")

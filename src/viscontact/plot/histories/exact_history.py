@@ -1,0 +1,176 @@
+"""The exact history of the case behind a result, if it has one: a sphere on a half-space."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from viscontact.indenters import Indenter, Sphere
+from viscontact.laws import Elastic
+from viscontact.loads import ApproachHistory, ForceHistory
+from viscontact.plot.pressure.exact_sphere import exact_sphere, sphere_radius
+from viscontact.reference import (
+    AxisymmetricContact,
+    LeeRadokContact,
+    SphereProfile,
+    clustered_times,
+    press_axisymmetric,
+)
+from viscontact.results.recorded_case import recorded_grid, recorded_noun
+
+Array = NDArray[np.float64]
+
+# Steps of the reference between corners of the load, and places where its pressure is looked at.
+_STEPS, _PLACES = 60, 48
+
+
+@dataclass(frozen=True, eq=False)
+class ExactHistory:
+    """What theory says of a run, at its instants.
+
+    Parameters
+    ----------
+    solution : str
+        Whose it is.
+    contact_radius, approach, force, peak_pressure : ndarray
+        Over time [m], [m], [N], [Pa].
+    """
+
+    solution: str
+    contact_radius: Array
+    approach: Array
+    force: Array
+    peak_pressure: Array
+
+
+def exact_history(results: xr.Dataset, figure: str) -> ExactHistory:
+    """Hertz's, Lee and Radok's or Ting's solution of the case behind a result.
+
+    Parameters
+    ----------
+    results : xarray.Dataset
+        What `viscontact.simulate` or `viscontact.open_results` returned.
+    figure : str
+        Name of the figure, for messages.
+
+    Returns
+    -------
+    ExactHistory
+        Lee and Radok's for a step or a ramp that is held, else, for any load of straight
+        pieces, Ting's equations in the reference's own discretisation, which for an elastic
+        half-space is Hertz's solution.
+
+    Raises
+    ------
+    ValueError
+        If the indenter is no sphere or round paraboloid on the axis, the load acts off it or is
+        not made of straight pieces, the surface is periodic, or the contact is not one circle.
+    """
+    indenter, load = (recorded_noun(results, part, figure) for part in ("indenter", "load"))
+    radius = sphere_radius(indenter)
+    _require_known(results, indenter, radius, load, figure)
+    compliance, is_elastic = _compliance(results, figure)
+    instants = np.asarray(results["time"].values, dtype=np.float64)
+    growing = exact_sphere(results, figure)
+    if growing is not None and not is_elastic:
+        return _of_growing(growing, instants)
+    try:
+        marched = _pressed(float(radius or 0.0), load, compliance, instants)
+    except ValueError as error:
+        raise ValueError(f"{figure}: {error}") from error
+    return _of_marched(marched, instants, "Hertz" if is_elastic else "Ting")
+
+
+def what_is_exact(results: xr.Dataset, solution: str, figure: str) -> str:
+    """Name an exact solution in a legend: theory takes a sphere for its paraboloid."""
+    sphere = isinstance(recorded_noun(results, "indenter", figure), Sphere)
+    return f"{'paraboloid' if sphere else 'exact'} ({solution})"
+
+
+def _require_known(
+    results: xr.Dataset, indenter: Indenter, radius: float | None, load: Any, figure: str
+) -> None:
+    kind = type(indenter).__name__
+    if radius is None:
+        raise ValueError(
+            f"{figure}: needs a sphere or a round paraboloid, for which there is an exact "
+            f"solution, got a {kind}; draw history instead"
+        )
+    if recorded_grid(results).periodic:
+        raise ValueError(f"{figure}: needs a half-space without period; draw history instead")
+    if not isinstance(load, ForceHistory | ApproachHistory):
+        raise ValueError(
+            f"{figure}: needs a load of straight pieces, such as a step, a ramp or a triangle, "
+            f"got a {type(load).__name__}; draw history instead"
+        )
+    tail = ("eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y")
+    off = [name for name in tail if np.any(getattr(load, name, None) or 0.0)]
+    if off:
+        raise ValueError(
+            f"{figure}: needs a load on the axis, got {off[0].replace('_', ' ')}; draw history "
+            "instead"
+        )
+
+
+def _compliance(results: xr.Dataset, figure: str) -> tuple[Any, bool]:
+    """The contact compliance of both bodies, and whether neither of them creeps."""
+    bodies = [recorded_noun(results, part, figure) for part in ("material", "indenter_material")]
+    there = [body for body in bodies if body is not None]
+    compliance = there[0].contact_compliance()
+    for other in there[1:]:
+        compliance = compliance + other.contact_compliance()
+    return compliance, all(isinstance(body.law, Elastic) for body in there)
+
+
+def _pressed(radius: float, load: Any, compliance: Any, instants: Array) -> AxisymmetricContact:
+    """March the reference through the load, with steps of its own between those of the run."""
+    corners = np.unique(np.concatenate([load.kinks, load.jumps, [0.0, instants[-1]]]))
+    corners = corners[corners <= instants[-1]]
+    placed = clustered_times(corners, _STEPS) if corners.size > 1 else corners
+    times = np.unique(np.concatenate([placed, instants]))
+    # A jump has two values, but for the one at the beginning, before which there is no contact.
+    jumps = load.jumps[(load.jumps > 0) & (load.jumps <= instants[-1])]
+    before = np.concatenate([times, jumps])
+    level = np.concatenate([load.level_at(times), load.level_at(jumps, side="left")])
+    order = np.lexsort((np.arange(before.size) < times.size, before))
+    driven, profile = level[order], SphereProfile(radius)
+    if isinstance(load, ApproachHistory):
+        return press_axisymmetric(
+            profile, before[order], approach=driven, creep_compliance=compliance
+        )
+    return press_axisymmetric(profile, before[order], force=driven, creep_compliance=compliance)
+
+
+def _of_growing(contact: LeeRadokContact, instants: Array) -> ExactHistory:
+    radius = np.asarray(contact.contact_radius(instants))
+    places = radius[:, None] * _places()
+    pressure = np.asarray(contact.pressure(places, instants[:, None]))
+    return ExactHistory(
+        "Lee–Radok",
+        radius,
+        np.asarray(contact.approach(instants)),
+        np.asarray(contact.force(instants)),
+        pressure.max(axis=1),
+    )
+
+
+def _of_marched(contact: AxisymmetricContact, instants: Array, solution: str) -> ExactHistory:
+    last = np.searchsorted(contact.times, instants, side="right") - 1
+    radius = contact.contact_radius[last]
+    peaks = [
+        float(np.max(contact.pressure(a * _places(), float(t)))) if a > 0 else 0.0
+        for a, t in zip(radius, instants, strict=True)
+    ]
+    return ExactHistory(
+        solution, radius, contact.approach[last], contact.force[last], np.array(peaks)
+    )
+
+
+def _places() -> Array:
+    # Towards the rim, where the largest pressure of a flowing body is, closer together.
+    places: Array = np.sin(np.linspace(0.0, np.pi / 2, _PLACES, endpoint=False))
+    return places

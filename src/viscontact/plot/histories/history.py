@@ -1,0 +1,257 @@
+"""Approach, tilt, area and pressure against time (the paper's Figs. 17, 18 and 19)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import ArrayLike
+
+from viscontact.plot.histories.span import within_span
+from viscontact.plot.histories.time_axis import scale_time
+from viscontact.plot.layout import style
+from viscontact.plot.layout.error_band import (
+    Band,
+    band_key,
+    draw_band,
+    keep_curves_in_sight,
+    peak_note,
+)
+from viscontact.plot.layout.page import NARROW, Width, page_width
+from viscontact.results.rounding import is_rounding_tilt
+from viscontact.results.stated_errors import stated_error
+from viscontact.results.variables import error_name
+from viscontact.units.axis_units import DisplayUnit, display_unit
+
+_NAME = "history"
+
+#: What changes by less than this part, its error included, is rounding, not to fill an axis.
+_ROUNDING = 1e-6
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A variable of the dataset as it is drawn, and whether to leave it out when idle."""
+
+    name: str
+    label: str
+    si_unit: str
+    only_if_varied: bool = False
+
+
+QUANTITIES = (
+    Quantity("force", "Force", "N", only_if_varied=True),
+    Quantity("contact_area", "Contact area", "m2"),
+    Quantity("approach", "Approach", "m"),
+    Quantity("tilt_x", "Tilt along x", "rad", only_if_varied=True),
+    Quantity("tilt_y", "Tilt along y", "rad", only_if_varied=True),
+    Quantity("peak_pressure", "Peak pressure", "Pa"),
+)
+
+
+def history(
+    results: xr.Dataset, *, times: ArrayLike | None = None, width: Width | None = None
+) -> Figure:
+    """Draw contact area, approach, tilts and peak pressure against time.
+
+    Parameters
+    ----------
+    results : xarray.Dataset
+        What `viscontact.simulate` or `viscontact.open_results` returned.
+    times : array_like, optional
+        Draw only the span between the least and the largest of these instants [s]; by
+        default all of it.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        One panel a quantity. Force and tilts have one only where they change. Time is
+        logarithmic where the run's steps are and the load is held nearly from the start. Bands
+        are the errors that the result states; a peak pressure that depends on the mesh is called
+        so.
+
+    Raises
+    ------
+    ValueError
+        If fewer than two steps lie in the span.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(0.1), grid, [0.0, 1.0], errors=False)
+    >>> [axes.get_ylabel() for axes in history(ds).axes][:2]
+    ['Contact area [mm²]', 'Approach [µm]']
+    """
+    return compare_histories({"": results}, times=times, width=width)
+
+
+def compare_histories(
+    runs: Mapping[str, xr.Dataset], *, times: ArrayLike | None = None, width: Width | None = None
+) -> Figure:
+    """Overlay the histories of several runs.
+
+    Parameters
+    ----------
+    runs : mapping of str to xarray.Dataset
+        Results by the name to print.
+    times : array_like, optional
+        Draw only the span between the least and the largest of these instants [s].
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        One panel a quantity, one line a run, and a band around it where its error is known.
+
+    Raises
+    ------
+    ValueError
+        If there are no runs, or one has fewer than two steps in the span.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ball = vc.Sphere(0.01)
+    >>> one, two = (
+    ...     vc.simulate(ball, rubber, vc.step(force), grid, [0.0, 1.0], errors=False)
+    ...     for force in (0.1, 0.2)
+    ... )
+    >>> runs = {"0.1 N": one, "0.2 N": two}
+    >>> figure = compare_histories(runs)
+    >>> figure.axes[0].get_ylabel()
+    'Contact area [mm²]'
+    """
+    if not runs:
+        raise ValueError(f"{_NAME}: needs at least one run to compare, got none")
+    shown = {name: within_span(run, _drawn(run), times, _NAME, name) for name, run in runs.items()}
+    quantities = worthwhile_quantities(shown)
+    figure, panels = _panels(len(quantities), page_width(width, style.TWO_COLUMNS))
+    _, bands = draw_quantities(panels, quantities, shown)
+    _add_key(figure, panels, list(shown), bands)
+    return figure
+
+
+def worthwhile_quantities(runs: Mapping[str, xr.Dataset]) -> list[Quantity]:
+    """Return what is drawn of runs: not a force or a tilt that never changes."""
+    return [quantity for quantity in QUANTITIES if _worth_a_panel(quantity, runs)]
+
+
+def draw_quantities(
+    panels: list[Axes], quantities: list[Quantity], runs: Mapping[str, xr.Dataset]
+) -> tuple[DisplayUnit, list[Band]]:
+    """Draw quantities over time, one in each panel.
+
+    Parameters
+    ----------
+    panels : list of matplotlib.axes.Axes
+        As many as quantities.
+    quantities : list of Quantity
+        From `worthwhile_quantities`.
+    runs : mapping of str to xarray.Dataset
+        Results by name.
+
+    Returns
+    -------
+    unit : DisplayUnit
+        Of the time axis.
+    bands : list of Band
+        The errors that are shaded.
+    """
+    time_unit = display_unit("s", *(run["time"].values for run in runs.values()))
+    bands: list[Band] = []
+    for axes, quantity in zip(panels, quantities, strict=True):
+        bands += _draw(axes, quantity, runs, time_unit)
+    scale_time(panels, runs, time_unit)
+    return time_unit, bands
+
+
+def _drawn(run: xr.Dataset) -> list[str]:
+    names = [quantity.name for quantity in QUANTITIES]
+    errors = [error_name(name) for name in names if error_name(name) in run]
+    return [*names, *errors, "contact_length"]
+
+
+def _worth_a_panel(quantity: Quantity, runs: Mapping[str, xr.Dataset]) -> bool:
+    if not quantity.only_if_varied:
+        return True
+    values = [run[quantity.name].values for run in runs.values()]
+    if quantity.name == "force":
+        return any(np.ptp(force) > 1e-6 * np.max(force) for force in values)
+    return not all(
+        is_rounding_tilt(tilt, run["contact_length"].values, run["approach"].values)
+        for tilt, run in zip(values, runs.values(), strict=True)
+    )
+
+
+def _panels(count: int, width: float) -> tuple[Figure, list[Axes]]:
+    columns = 1 if width <= NARROW else 2 if count in (2, 4) else 3
+    rows = -(-count // columns)
+    height = {1: 1.5, 2: 2.3, 3: 2.0}[columns] * rows + 0.2
+    figure = style.new_figure(width, height)
+    grid = figure.subplots(rows, columns, sharex=True, squeeze=False)
+    panels = list(grid.flat)
+    for unused in panels[count:]:
+        unused.remove()
+    for axes in panels[:count]:
+        style.dress(axes)
+    # The lowest panel of each column says what runs along it; all do where columns differ, or
+    # rows would be unevenly far apart.
+    first = max(count - columns, 0) if count % columns == 0 else 0
+    for axes in panels[first:count]:
+        axes.tick_params(labelbottom=True)
+    return figure, panels[:count]
+
+
+def _draw(
+    axes: Axes, quantity: Quantity, runs: Mapping[str, xr.Dataset], time_unit: DisplayUnit
+) -> list[Band]:
+    bands = []
+    unit = display_unit(quantity.si_unit, *(run[quantity.name].values for run in runs.values()))
+    for (name, run), look in zip(runs.items(), style.run_styles(len(runs)), strict=True):
+        values = run[quantity.name].values
+        instants, error = time_unit(run["time"].values), stated_error(run, quantity.name)
+        axes.plot(instants, unit(values), label=name, **look)
+        bar = None if error is None else unit(error)
+        bands.append(draw_band(axes, instants, unit(values), bar, look["color"]))
+    axes.set_ylabel(unit.label(quantity.label))
+    if quantity.name == "force":
+        axes.set_ylim(0.0, 1.08 * axes.dataLim.y1)
+    elif np.ptp(axes.dataLim.intervaly) <= _ROUNDING * abs(axes.dataLim.y1):
+        axes.set_ylim(0.0, 1.15 * axes.dataLim.y1 or 1.0)
+    drawn = [band for band in bands if band is not None]
+    if drawn:
+        keep_curves_in_sight(axes, *(unit(run[quantity.name].values) for run in runs.values()))
+    if quantity.name == "peak_pressure":
+        style.add_heading(axes, peak_note(runs.values()), aside=True)
+    return drawn
+
+
+def _add_key(figure: Figure, panels: list[Axes], names: list[str], bands: list[Band]) -> None:
+    """Name the runs if there are several, and the bands if there are any."""
+    entries: list[tuple[Artist, str]] = []
+    if len(names) > 1:
+        entries += zip(panels[0].get_lines(), names, strict=True)
+    entries += band_key(bands, style.FAINT if len(names) > 1 else style.LINE)
+    if not entries:
+        return
+    figure.legend(
+        *zip(*entries, strict=True),
+        loc="outside upper center" if len(names) > 1 else "outside upper right",
+        ncols=style.columns_that_fit(figure, [label for _, label in entries], 4),
+        frameon=False,
+        fontsize=style.TICK_SIZE,
+        labelcolor=style.INK,
+        handlelength=2.4,
+    )

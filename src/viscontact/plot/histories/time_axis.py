@@ -1,0 +1,110 @@
+"""Time along an axis: linear, or logarithmic from the instant of loading on."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.ticker import NullFormatter
+from numpy.typing import NDArray
+
+from viscontact.units.axis_units import DisplayUnit
+
+#: A change by less than this part is rounding; a load that is held from this part of the time on
+#: leaves the rest to creep, which is even in log time.
+_STEADY, _SOON = 1e-5, 0.05
+#: An axis with less than one decade has no tick labels to speak of.
+_DECADE = 10.0
+#: Length of a logarithmic time axis before the first step, against the rest of it.
+BEFORE_FIRST = 0.2
+
+
+def scale_time(
+    panels: list[Axes],
+    runs: Mapping[str, xr.Dataset],
+    time_unit: DisplayUnit,
+    drawn: Iterable[NDArray[np.float64]] | None = None,
+) -> None:
+    """Scale and name the time axes of panels, logarithmic where all runs suit that.
+
+    Parameters
+    ----------
+    panels : list of matplotlib.axes.Axes
+        To be scaled.
+    runs : mapping of str to xarray.Dataset
+        The runs, which choose the scale.
+    time_unit : DisplayUnit
+        Of the axes.
+    drawn : iterable of ndarray, optional
+        Instants that are drawn of each run, if they are not all of its own [s].
+    """
+    shown = [run["time"].values for run in runs.values()] if drawn is None else drawn
+    instants = [time_unit(each) for each in shown]
+    start = min(float(instant[0]) for instant in instants)
+    end = max(float(instant[-1]) for instant in instants)
+    first = min((float(t) for instant in instants for t in instant if t > 0), default=end)
+    # A few instants of a long run may lie close together.
+    on_log = all(map(suits_log_time, runs.values())) and end >= _DECADE * first
+    for axes in panels:
+        if on_log:
+            _set_log_time(axes, first, end)
+        if end > start:
+            axes.set_xlim(start, end)
+        if axes.xaxis.get_tick_params()["labelbottom"]:
+            axes.set_xlabel(time_unit.label("Time"))
+
+
+def _set_log_time(axes: Axes, first: float, end: float) -> None:
+    # Linear up to the first step, so that the instant of loading is on the axis too, over a
+    # fifth of its length, so that the tick labels there keep apart.
+    share = BEFORE_FIRST * math.log10(end / first)
+    axes.set_xscale("symlog", linthresh=first, linscale=share)
+    decades = 10.0 ** np.arange(math.floor(math.log10(first)), math.ceil(math.log10(end)) + 1)
+    between = np.outer(decades, range(2, 10)).ravel()
+    # matplotlib would mark decades below the first step too, on top of the zero.
+    axes.set_xticks([0.0, *decades[(decades >= first) & (decades <= end)]])
+    axes.set_xticks(between[(between >= first) & (between <= end)], minor=True)
+    axes.xaxis.set_minor_formatter(NullFormatter())
+
+
+def suits_log_time(run: xr.Dataset) -> bool:
+    """Tell whether a run reads best over logarithmic time.
+
+    Parameters
+    ----------
+    run : xarray.Dataset
+        A result.
+
+    Returns
+    -------
+    bool
+        Whether its steps are spread over decades and its load is held nearly from the start.
+
+    Examples
+    --------
+    >>> times = [0.0, 1.0, 2.0, 4.0, 1000.0]
+    >>> held = xr.Dataset({name: ("time", [1.0] * 5) for name in ("force", "approach")})
+    >>> suits_log_time(held.assign_coords(time=times))
+    True
+    """
+    return _steps_grow(run["time"].values) and _held_from(run)
+
+
+def _steps_grow(instants: NDArray[np.float64]) -> bool:
+    """Whether the steps are spread over decades, as on a logarithmic axis."""
+    positive = instants[instants > 0]
+    return positive.size > 2 and float(np.median(positive)) < 0.1 * float(positive[-1])
+
+
+def _held_from(run: xr.Dataset) -> bool:
+    """Whether force or approach, the one that is prescribed, is held over most of the time."""
+    times = run["time"].values
+    held_from = []
+    for name in ("force", "approach"):
+        values = run[name].values
+        differs = np.abs(values - values[-1]) > _STEADY * np.abs(values).max()
+        held_from.append(times[int(np.flatnonzero(differs).max(initial=-1)) + 1])
+    return bool(min(held_from) <= _SOON * times[-1])

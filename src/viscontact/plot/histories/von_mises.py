@@ -1,0 +1,150 @@
+"""The largest von Mises stress below the contact, and its depth, over time."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
+from numpy.typing import ArrayLike, NDArray
+
+from viscontact.plot.histories.time_axis import scale_time
+from viscontact.plot.layout import style
+from viscontact.plot.layout.error_band import peak_note
+from viscontact.plot.layout.page import Width, page_width
+from viscontact.plot.pressure.stress_section import stress_sections
+from viscontact.results.recorded_case import recorded_grid, recorded_poisson_ratio
+from viscontact.results.snapshots import field_times, take_snapshots
+from viscontact.units.axis_units import display_unit
+
+_NAME = "von-mises"
+#: More instants than this make a line of their markers.
+_MARKED = 40
+
+
+def von_mises_history(
+    results: xr.Dataset, *, times: ArrayLike | None = None, width: Width | None = None
+) -> Figure:
+    """Draw the largest von Mises stress and its depth over time.
+
+    Parameters
+    ----------
+    results : xarray.Dataset
+        What `viscontact.simulate` or `viscontact.open_results` returned, with fields stored.
+    times : array_like, optional
+        Instants [s]; by default all that are stored.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The largest stress on planes across the contact through its largest pressure, above its
+        depth. Time is logarithmic where it is in the run's history.
+
+    Raises
+    ------
+    ValueError
+        If no fields are stored, the bodies do not touch, or Poisson's ratio is not known.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(0.1), grid, [0.0, 1.0], errors=False)
+    >>> [axes.get_ylabel() for axes in von_mises_history(ds).axes]
+    ['Von Mises stress [kPa]', 'Depth [µm]']
+    """
+    return compare_von_mises({"": results}, times=times, width=width)
+
+
+def compare_von_mises(
+    runs: Mapping[str, xr.Dataset], *, times: ArrayLike | None = None, width: Width | None = None
+) -> Figure:
+    """Overlay the largest von Mises stresses of several runs, and their depths.
+
+    Parameters
+    ----------
+    runs : mapping of str to xarray.Dataset
+        Results by the name to print, with fields stored.
+    times : array_like, optional
+        Instants [s]; by default all that are stored.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        As `von_mises_history`, one line a run.
+
+    Raises
+    ------
+    ValueError
+        If there are no runs, or as `von_mises_history` does.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ball = vc.Sphere(0.01)
+    >>> one, two = (
+    ...     vc.simulate(ball, rubber, vc.step(force), grid, [0.0, 1.0], errors=False)
+    ...     for force in (0.1, 0.2)
+    ... )
+    >>> runs = {"0.1 N": one, "0.2 N": two}
+    >>> [axes.get_ylabel() for axes in compare_von_mises(runs).axes]
+    ['Von Mises stress [kPa]', 'Depth [µm]']
+    """
+    if not runs:
+        raise ValueError(f"{_NAME}: needs at least one run to compare, got none")
+    courses = [_course(run, times) for run in runs.values()]
+    figure = style.new_figure(page_width(width, style.ONE_COLUMN), 3.6)
+    panels = list(figure.subplots(2, 1, sharex=True))
+    time = display_unit("s", *(course.instants for course in courses))
+    looks: list[dict[str, Any]] = style.run_styles(len(runs))
+    for axes, (part, si_unit, name) in zip(panels, _DRAWN, strict=True):
+        curves = [getattr(course, part) for course in courses]
+        unit = display_unit(si_unit, *curves)
+        for course, curve, look in zip(courses, curves, looks, strict=True):
+            dots = {"marker": "o", "markersize": 3.5} if curve.size <= _MARKED else {}
+            axes.plot(time(course.instants), unit(curve), clip_on=False, zorder=3, **look, **dots)
+        axes.set_ylabel(unit.label(name))
+        axes.set_ylim(0.0, 1.1 * max(float(unit(curve.max())) for curve in curves) or 1.0)
+        style.dress(axes)
+    panels[-1].tick_params(labelbottom=True)
+    scale_time(panels, runs, time, [course.instants for course in courses])
+    style.add_heading(panels[0], "largest below the contact")
+    style.add_heading(panels[1], "where it is the largest")
+    shown = np.concatenate([course.instants for course in courses])
+    style.add_heading(panels[0], peak_note(runs.values(), shown), aside=True)
+    if len(runs) > 1:
+        style.add_legend_below(figure, panels[0].get_lines(), list(runs), columns=2)
+    figure.draw_without_rendering()
+    style.settle_headings(figure)
+    return figure
+
+
+@dataclass(frozen=True, eq=False)
+class _Course:
+    """Largest stress [Pa] and its depth [m] over time [s]."""
+
+    instants: NDArray[np.float64]
+    stress: NDArray[np.float64]
+    depth: NDArray[np.float64]
+
+
+_DRAWN = (("stress", "Pa", "Von Mises stress"), ("depth", "m", "Depth"))
+
+
+def _course(results: xr.Dataset, times: ArrayLike | None) -> _Course:
+    ratio = recorded_poisson_ratio(results)
+    chosen = field_times(results, _NAME) if times is None else times
+    snapshots = take_snapshots(results, chosen, _NAME)
+    sections = stress_sections(snapshots, recorded_grid(results), ratio)
+    stress, depth, _ = np.array([section.largest for section in sections]).T
+    return _Course(np.array([section.time for section in sections]), stress, depth)

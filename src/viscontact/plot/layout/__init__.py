@@ -1,0 +1,1 @@
+"""Page, style, axes, labels and files of figures."""

@@ -1,0 +1,1 @@
+"""Figures of creep laws and of what was fitted."""

@@ -1,0 +1,1 @@
+"""Figures of pressure, contact edge, surface and stress."""

@@ -1,0 +1,158 @@
+"""Outlines of the contact as it grows (the paper's Figs. 9, 12 and 15)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import PathPatch
+from numpy.typing import ArrayLike
+
+from viscontact.plot.layout import style
+from viscontact.plot.layout.page import Width, page_width
+from viscontact.plot.layout.window import Window, window_around
+from viscontact.plot.pressure.rim_polygons import rim_curves, rim_path
+from viscontact.results.snapshots import snapshots_of_runs, take_snapshots
+from viscontact.units.axis_units import time_labels
+
+_NAME = "contact-outline"
+
+
+def contact_outline(
+    results: xr.Dataset,
+    *,
+    times: ArrayLike | None = None,
+    axes: Axes | None = None,
+    width: Width | None = None,
+) -> Figure:
+    """Draw the outline of the contact at several instants.
+
+    Parameters
+    ----------
+    results : xarray.Dataset
+        What `viscontact.simulate` or `viscontact.open_results` returned, with fields stored.
+    times : array_like, optional
+        Instants [s]; the nearest stored ones are drawn and named. By default five, from the
+        first in contact to the last.
+    axes : matplotlib.axes.Axes, optional
+        Where to draw; by default in a new figure.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Outlines found between the cells, from the way the gap opens outside the contact. Those
+        of a periodic contact end at the border of the period; full contact has none.
+
+    Raises
+    ------
+    ValueError
+        If no fields are stored or the bodies do not touch at these instants.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(0.1), grid, [0.0, 1.0], errors=False)
+    >>> axes = contact_outline(ds).axes[0]
+    >>> len(axes.patches), axes.get_xlabel()
+    (2, 'x [µm]')
+    """
+    snapshots = take_snapshots(results, times, _NAME)
+    window = window_around(snapshots)
+    axes = _new_axes(window, len(snapshots), width) if axes is None else axes
+    colours = style.time_colours(len(snapshots))
+    for snapshot, colour in zip(snapshots, colours, strict=True):
+        if snapshot.touching:
+            path = rim_path(window.unit(polygon) for polygon in rim_curves(snapshot))
+            axes.add_patch(
+                PathPatch(path, fill=False, edgecolor=colour, linewidth=style.LINE_WIDTH)
+            )
+    axes.set(xlabel=window.unit.label("x"), ylabel=window.unit.label("y"))
+    style.dress(axes)
+    window.show(axes)
+    style.add_heading(axes, window.note, aside=True)
+    lines = [Line2D([], [], color=colour, linewidth=style.LINE_WIDTH) for colour in colours]
+    labels = time_labels(s.time for s in snapshots)
+    whole = [bool(np.all(snapshot.pressure > 0)) for snapshot in snapshots]
+    style.add_legend(
+        axes,
+        lines,
+        [f"{a}, full contact" if full else a for a, full in zip(labels, whole, strict=True)],
+    )
+    return style.figure_of(axes)
+
+
+def compare_contact_outlines(
+    runs: Mapping[str, xr.Dataset], *, times: ArrayLike | None = None, width: Width | None = None
+) -> Figure:
+    """Overlay the outlines of the contacts of several runs.
+
+    Parameters
+    ----------
+    runs : mapping of str to xarray.Dataset
+        Results by the name to print, with fields stored.
+    times : array_like, optional
+        An instant [s]; of each run the nearest stored one is drawn. By default the last of each.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        One outline a run, named with the instant.
+
+    Raises
+    ------
+    ValueError
+        If there are no runs, one of them cannot be drawn, or several instants are asked for.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ball = vc.Sphere(0.01)
+    >>> one, two = (
+    ...     vc.simulate(ball, rubber, vc.step(force), grid, [0.0, 1.0], errors=False)
+    ...     for force in (0.1, 0.2)
+    ... )
+    >>> runs = {"0.1 N": one, "0.2 N": two}
+    >>> figure = compare_contact_outlines(runs)
+    >>> [text.get_text() for text in figure.legends[0].get_texts()]
+    ['0.1 N, t = 1 s', '0.2 N, t = 1 s']
+    """
+    snapshots, labels = snapshots_of_runs(runs, times, _NAME)
+    if len(snapshots) > len(runs):
+        raise ValueError(f"{_NAME}: runs are compared at one instant, got {times!r} s")
+    window = window_around(snapshots)
+    axes = _new_axes(window, len(snapshots), width, below=True)
+    looks = style.run_styles(len(snapshots))
+    for snapshot, look in zip(snapshots, looks, strict=True):
+        path = rim_path(window.unit(polygon) for polygon in rim_curves(snapshot))
+        how = {"edgecolor" if key == "color" else key: value for key, value in look.items()}
+        axes.add_patch(PathPatch(path, fill=False, **how))
+    axes.set(xlabel=window.unit.label("x"), ylabel=window.unit.label("y"))
+    style.dress(axes)
+    window.show(axes)
+    style.add_heading(axes, window.note, aside=True)
+    lines = [Line2D([], [], **look) for look in looks]
+    style.add_legend_below(style.figure_of(axes), lines, labels, columns=1)
+    return style.figure_of(axes)
+
+
+def _new_axes(window: Window, count: int, wanted: Width | None, *, below: bool = False) -> Axes:
+    """Axes of the window's shape, with room for a legend of so many, beside or below."""
+    usual = style.TWO_COLUMNS if window.height_to_width < 0.6 else style.ONE_COLUMN
+    width = page_width(wanted, usual)
+    if below:
+        height = (width - 0.8) * window.height_to_width + 0.75 + 0.2 * count
+    else:  # as high as the legend at least
+        height = max((width - 1.6) * window.height_to_width + 0.6, 0.2 * count + 0.3)
+    return style.new_figure(width, height, fixed_aspect=True).add_subplot()

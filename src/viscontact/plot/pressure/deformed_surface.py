@@ -1,0 +1,212 @@
+"""The deformed surface of the half-space in space, and where the indenter is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+from matplotlib import colormaps
+from matplotlib.colors import ListedColormap, Normalize
+from matplotlib.figure import Figure
+from mpl_toolkits.mplot3d.axes3d import Axes3D
+from numpy.typing import ArrayLike, NDArray
+from scipy.interpolate import RegularGridInterpolator
+from scipy.ndimage import distance_transform_edt
+
+from viscontact.plot.layout import style
+from viscontact.plot.layout.page import Width, page_width
+from viscontact.plot.layout.solid_axes import (
+    add_note,
+    add_side_bar,
+    add_title,
+    solid_panels,
+    stretch_of_heights,
+)
+from viscontact.plot.layout.window import Window, window_around
+from viscontact.plot.pressure.relief import Relief, draw_relief, relief
+from viscontact.plot.pressure.rim_polygons import rim_curves
+from viscontact.results.snapshots import Snapshot, field_at, take_snapshots
+from viscontact.units.axis_units import DisplayUnit, display_number, display_unit, time_labels
+
+_NAME = "surface-3d"
+Array = NDArray[np.float64]
+
+#: What is shown beside the contact, and of the space above the surface for the indenter [-].
+_BESIDE, _ABOVE = 0.35, 0.3
+#: A contact longer than this against its width is stretched, as for the pressure.
+_SLENDER = 2.2
+#: Points drawn along each axis at most.
+_MOST = 130
+_COLOURS = ListedColormap(colormaps["YlGnBu"](np.linspace(0.05, 0.8, 256)))
+_BODY = "#D55E00"
+
+
+@dataclass(frozen=True, eq=False)
+class Dent:
+    """The surfaces of both bodies at an instant.
+
+    Parameters
+    ----------
+    snapshot : Snapshot
+        Pressure and gap.
+    displacement : ndarray
+        Of the half-space, shape (nx, ny), positive into it; NaN where it is not known [m].
+    """
+
+    snapshot: Snapshot
+    displacement: Array
+
+    @property
+    def indenter(self) -> Array:
+        """Depth of the indenter's lower side, shape (nx, ny), NaN where there is none [m]."""
+        depth = self.displacement - self.snapshot.gap
+        return np.where(np.isfinite(depth), depth, np.nan)
+
+
+def deformed_surface(
+    results: xr.Dataset, *, times: ArrayLike | None = None, width: Width | None = None
+) -> Figure:
+    """Draw the deformed surface of the half-space and the indenter on it, one panel an instant.
+
+    Parameters
+    ----------
+    results : xarray.Dataset
+        What `viscontact.simulate` or `viscontact.open_results` returned, with fields stored.
+    times : array_like, optional
+        Instants [s]; the nearest stored ones are drawn and named. By default the first in
+        contact and the last.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Panels with common axes. Colour and depth are the displacement of the surface; the dark
+        line on it is the rim of the contact, the orange ones are the lower side of the indenter on
+        its two middle lines, where it is. How far heights and y are stretched stands below.
+
+    Raises
+    ------
+    ValueError
+        If no fields are stored or the bodies do not touch at these instants.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(0.1), grid, [1.0], errors=False)
+    >>> figure = deformed_surface(ds)
+    >>> figure.axes[0].get_xlabel(), figure.axes[1].get_ylabel()
+    ('x [mm]', 'Displacement [µm]')
+    """
+    snapshots = take_snapshots(results, times, _NAME, count=2)
+    dents = [Dent(each, field_at(results, "displacement", each.time, _NAME)) for each in snapshots]
+    window = _window(snapshots)
+    unit, (low, high) = _depths(dents, window)
+    norm = Normalize(low, high)
+    figure, panels = solid_panels(
+        len(dents),
+        window,
+        (high, low - _ABOVE * (high - low)),
+        (window.unit.label("x"), window.unit.label("y")),
+        page_width(width, style.TWO_COLUMNS if len(dents) > 1 else style.ONE_COLUMN),
+    )
+    for axes, dent, label in zip(
+        panels, dents, time_labels(s.time for s in snapshots), strict=True
+    ):
+        draw_relief(axes, dent_relief(dent, window, unit), _COLOURS, norm)
+        _draw_rim(axes, dent, window, unit)
+        _draw_indenter(axes, dent, window, unit)
+        add_title(axes, f"t = {label}")
+    add_side_bar(figure, _COLOURS, norm, unit.label("Displacement"), downwards=True)
+    heights = f"heights {display_number(stretch_of_heights(panels[0], window, unit), 2)}×"
+    stretches = "; ".join(filter(None, (heights, window.note)))
+    add_note(figure, "black: rim of the contact; orange: lower side of the indenter", stretches)
+    return figure
+
+
+def dent_relief(dent: Dent, window: Window, unit: DisplayUnit) -> Relief:
+    """Make a surface of the displacement.
+
+    Parameters
+    ----------
+    dent : Dent
+        Both bodies.
+    window : Window
+        The part that is drawn.
+    unit : DisplayUnit
+        Of the displacement.
+
+    Returns
+    -------
+    Relief
+        Corners at the centres of cells, some left out where there are very many, as deep as
+        their displacement.
+    """
+    (x, i), (y, j) = (
+        _points(at, limits)
+        for at, limits in ((dent.snapshot.x, window.x), (dent.snapshot.y, window.y))
+    )
+    depth = unit(dent.displacement[np.ix_(i, j)])
+    mesh = np.meshgrid(window.unit(x), window.unit(y), indexing="ij")
+    return relief(*mesh, depth, depth, np.isfinite(depth))
+
+
+def _points(at: Array, limits: tuple[float, float]) -> tuple[Array, NDArray[np.int_]]:
+    inside = np.flatnonzero((at >= limits[0]) & (at <= limits[1]))
+    chosen = inside[:: -(-inside.size // _MOST)]
+    return at[chosen], chosen
+
+
+def _window(snapshots: list[Snapshot]) -> Window:
+    """The contact and the surface around it, as far as there is any."""
+    near = window_around(snapshots, slender=_SLENDER)
+    x_low, x_high, y_low, y_high = snapshots[0].borders()
+    limits = []
+    for (low, high), start, end in ((near.x, x_low, x_high), (near.y, y_low, y_high)):
+        margin = _BESIDE * (high - low)
+        limits.append((max(low - margin, start), min(high + margin, end)))
+    return Window(limits[0], limits[1], near.stretch)
+
+
+def _depths(dents: list[Dent], window: Window) -> tuple[DisplayUnit, tuple[float, float]]:
+    """The unit of the displacement, and what is shallowest and deepest in it."""
+    shown = [dent_relief(dent, window, DisplayUnit("m", 1.0)).values for dent in dents]
+    low, high = min(map(np.min, shown)), max(map(np.max, shown))
+    if high == low:
+        high = low + 1e-3 * (window.x[1] - window.x[0])
+    unit = display_unit("m", low, high)
+    return unit, (float(unit(low)), float(unit(high)))
+
+
+def _draw_rim(axes: Axes3D, dent: Dent, window: Window, unit: DisplayUnit) -> None:
+    cells = (dent.snapshot.x, dent.snapshot.y)
+    # The bodies meet there: the indenter goes on smoothly, the surface falls beside a punch.
+    depth = RegularGridInterpolator(cells, _continued(dent.indenter), bounds_error=False)
+    for polygon in rim_curves(dent.snapshot):
+        x, y = window.unit(polygon).T
+        axes.plot(x, y, unit(depth(polygon)), color=style.INK, linewidth=0.9, zorder=3)
+
+
+def _continued(depth: Array) -> Array:
+    """Values beyond a body's end: those of the nearest cell where it is."""
+    nearest = distance_transform_edt(np.isnan(depth), return_distances=False, return_indices=True)
+    return np.asarray(depth[tuple(nearest)])
+
+
+def _draw_indenter(axes: Axes3D, dent: Dent, window: Window, unit: DisplayUnit) -> None:
+    """The lower side of the indenter on its middle lines, below the top of the axes."""
+    _, top = axes.get_zlim()
+    snapshot, depth = dent.snapshot, unit(dent.indenter)
+    depth = np.where(depth >= top, depth, np.nan)
+    i, j = (int(np.abs(at).argmin()) for at in (snapshot.x, snapshot.y))
+    (x, chosen_x), (y, chosen_y) = _points(snapshot.x, window.x), _points(snapshot.y, window.y)
+    look = {"color": _BODY, "linewidth": style.LINE_WIDTH, "zorder": 4}
+    axes.plot(
+        window.unit(x), np.full(x.size, window.unit(snapshot.y[j])), depth[chosen_x, j], **look
+    )
+    axes.plot(
+        np.full(y.size, window.unit(snapshot.x[i])), window.unit(y), depth[i, chosen_y], **look
+    )

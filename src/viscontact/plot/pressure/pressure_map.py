@@ -1,0 +1,297 @@
+"""Iso-contours of pressure over the contact (the paper's Figs. 8, 11 and 14)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colorbar import Colorbar
+from matplotlib.colors import BoundaryNorm
+from matplotlib.contour import QuadContourSet
+from matplotlib.figure import Figure
+from matplotlib.patches import PathPatch
+from matplotlib.ticker import MaxNLocator
+from numpy.typing import ArrayLike, NDArray
+
+from viscontact.plot.layout import style
+from viscontact.plot.layout.contour_labels import label_contours
+from viscontact.plot.layout.error_band import peak_note
+from viscontact.plot.layout.page import Width, page_width
+from viscontact.plot.layout.window import Window, window_around
+from viscontact.plot.pressure.rim_polygons import beyond_period, rim_curves, rim_path
+from viscontact.plot.pressure.squared_pressure import squared_pressure
+from viscontact.results.snapshots import Snapshot, snapshots_of_runs, take_snapshots
+from viscontact.units.axis_units import DisplayUnit, display_number, display_unit, time_labels
+
+_NAME = "pressure-map"
+# Percentiles of pressure over the contact between which contours have room for labels.
+_LABELLED = (20.0, 97.0)
+#: Where the largest pressure depends on the mesh, levels go up to what so much of the contact has;
+#: up to the edge's they would crowd there, and show little of the rest.
+ORDINARY = 0.85
+
+
+def pressure_map(
+    results: xr.Dataset, *, times: ArrayLike | None = None, width: Width | None = None
+) -> Figure:
+    """Draw iso-contours of pressure, one panel an instant, with the outline of the contact.
+
+    Parameters
+    ----------
+    results : xarray.Dataset
+        What `viscontact.simulate` or `viscontact.open_results` returned, with fields stored.
+    times : array_like, optional
+        Instants [s]; the nearest stored ones are drawn and named. By default four, from the
+        first in contact to the last.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Panels with common axes and pressure levels. A long narrow contact is drawn with its
+        width stretched by the factor printed in the first panel. That also says where the peak
+        pressure depends on the mesh.
+
+    Raises
+    ------
+    ValueError
+        If no fields are stored or the bodies do not touch at these instants.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(0.1), grid, [1.0], errors=False)
+    >>> panel, scale = pressure_map(ds).axes
+    >>> panel.get_xlabel(), scale.get_ylabel()
+    ('x [µm]', 'Pressure [kPa]')
+    """
+    snapshots = take_snapshots(results, times, _NAME, count=4)
+    labels = time_labels(snapshot.time for snapshot in snapshots)
+    note = peak_note([results], [snapshot.time for snapshot in snapshots])
+    return _draw(snapshots, [f"t = {label}" for label in labels], note, width)
+
+
+def compare_pressure_maps(
+    runs: Mapping[str, xr.Dataset], *, times: ArrayLike | None = None, width: Width | None = None
+) -> Figure:
+    """Draw the pressure maps of several runs beside or below one another.
+
+    Parameters
+    ----------
+    runs : mapping of str to xarray.Dataset
+        Results by the name to print, with fields stored.
+    times : array_like, optional
+        Instants [s]; of each run the nearest stored ones are drawn. By default the last of each.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Panels with common axes and pressure levels, those of a run one after the other.
+
+    Raises
+    ------
+    ValueError
+        If there are no runs, or one of them cannot be drawn.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ball = vc.Sphere(0.01)
+    >>> one, two = (
+    ...     vc.simulate(ball, rubber, vc.step(force), grid, [1.0], errors=False)
+    ...     for force in (0.1, 0.2)
+    ... )
+    >>> runs = {"0.1 N": one, "0.2 N": two}
+    >>> len(compare_pressure_maps(runs).axes)  # a panel for each, and the scale of both
+    3
+    """
+    snapshots, headings = snapshots_of_runs(runs, times, _NAME)
+    note = peak_note(runs.values(), [snapshot.time for snapshot in snapshots])
+    return _draw(snapshots, headings, note, width)
+
+
+def _draw(snapshots: list[Snapshot], headings: list[str], note: str, width: Width | None) -> Figure:
+    window = window_around(snapshots)
+    pressed = (s.pressure[s.pressure > 0] for s in snapshots if s.touching)
+    part = ORDINARY if note else 1.0
+    levels, unit = pressure_levels(max(float(np.quantile(each, part)) for each in pressed))
+    figure, panels = _panels(len(snapshots), window, width)
+    lines = [
+        draw_contours(axes, snapshot, levels, window)
+        for axes, snapshot in zip(panels, snapshots, strict=True)
+    ]
+    for axes, heading in zip(panels, headings, strict=True):
+        style.add_heading(axes, heading)
+    style.add_heading(panels[0], "; ".join(filter(None, (window.note, note))), aside=True)
+    _add_colour_bar(figure, panels, levels, unit, "max" if note else "neither")
+    figure.draw_without_rendering()  # Only now the room for texts is known.
+    style.settle_headings(figure)
+    figure.draw_without_rendering()
+    for axes, snapshot, contours in zip(panels, snapshots, lines, strict=True):
+        if contours is not None:
+            _label_contours(axes, contours, snapshot, unit, window)
+    return figure
+
+
+def pressure_levels(highest: float) -> tuple[NDArray[np.float64], DisplayUnit]:
+    """Choose round levels of pressure.
+
+    Parameters
+    ----------
+    highest : float
+        What they go beyond [Pa].
+
+    Returns
+    -------
+    levels : ndarray
+        From 0 [Pa].
+    unit : DisplayUnit
+        In which they are round.
+
+    Examples
+    --------
+    >>> levels, unit = pressure_levels(152e6)
+    >>> unit(levels).tolist()
+    [0.0, 20.0, 40.0, 60.0, 80.0, 100.0, 120.0, 140.0, 160.0]
+    """
+    unit = display_unit("Pa", highest)
+    levels = MaxNLocator(nbins=10, steps=[1, 2, 2.5, 5, 10]).tick_values(0.0, highest / unit.factor)
+    return np.asarray(levels) * unit.factor, unit
+
+
+def _panels(count: int, window: Window, wanted: Width | None) -> tuple[Figure, list[Axes]]:
+    long = window.height_to_width < 0.6
+    columns = 1 if long else min(count, 2)
+    rows = -(-count // columns)
+    usual = style.TWO_COLUMNS if columns == 2 or long else style.ONE_COLUMN
+    width = page_width(wanted, usual)
+    panel_width = (width - 1.3) / columns
+    height = rows * (panel_width * window.height_to_width + 0.22) + 0.45
+    figure = style.new_figure(width, height, fixed_aspect=True)
+    grid = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
+    panels = list(grid.flat)
+    for unused in panels[count:]:
+        unused.remove()
+    for axes in panels[:count]:
+        style.dress(axes)
+        window.show(axes)
+    for axes in grid[:, 0]:
+        axes.set_ylabel(window.unit.label("y"))
+    for axes in grid[-1, :]:
+        axes.set_xlabel(window.unit.label("x"))
+    return figure, panels[:count]
+
+
+def draw_contours(
+    axes: Axes, snapshot: Snapshot, levels: NDArray[np.float64], window: Window
+) -> QuadContourSet | None:
+    """Draw contours of pressure, and the outline of the contact.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+        Where to.
+    snapshot : Snapshot
+        Pressure and gap.
+    levels : ndarray
+        From 0, ascending [Pa].
+    window : Window
+        What the axes show.
+
+    Returns
+    -------
+    QuadContourSet or None
+        The lines between the levels; None without contact, where nothing is drawn.
+    """
+    if not snapshot.touching:
+        return None
+    outline = rim_path(window.unit(polygon) for polygon in rim_curves(snapshot))
+    # Contours are drawn between the centres of cells, so half a cell short of the last ones.
+    wide = beyond_period(snapshot).with_border(1)
+    x, y = window.unit(wide.x), window.unit(wide.y)
+    # Contours of the square are the same lines, and smooth up to the rim.
+    squared, heights = squared_pressure(wide).T, levels**2
+    colours = style.pressure_colours(len(levels) - 1)
+    norm = BoundaryNorm(heights, colours.N)
+    fill = axes.contourf(x, y, squared, levels=heights, cmap=colours, norm=norm, extend="both")
+    lines = axes.contour(x, y, squared, levels=heights[1:-1], colors=style.INK, linewidths=0.5)
+    for contours in (fill, lines):
+        contours.set_clip_path(outline, axes.transData)
+    axes.add_patch(PathPatch(outline, facecolor="none", edgecolor=style.INK, linewidth=1.1))
+    return lines
+
+
+def _label_contours(
+    axes: Axes, lines: QuadContourSet, snapshot: Snapshot, unit: DisplayUnit, window: Window
+) -> None:
+    """Write the pressure on the contours where there is room for it."""
+    pressure = snapshot.pressure
+    lowest, highest = np.percentile(pressure[pressure > 0], _LABELLED) ** 2
+    texts = {
+        square: display_number(float(unit(math.sqrt(square))))
+        for square in lines.levels
+        if lowest < square < highest
+    }
+
+    def fits(corners: NDArray[np.float64]) -> bool:
+        return bool(np.all(_pressed(snapshot, corners * window.unit.factor)))
+
+    label_contours(axes, lines, texts, fits)
+
+
+def _pressed(snapshot: Snapshot, points: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Whether the cells with these points are in contact; points shape (n, 2) [m]."""
+    first = np.array([snapshot.x[0], snapshot.y[0]])
+    i, j = np.rint((points - first) / snapshot.cell_size).astype(int).T
+    i, j = np.clip(i, 0, snapshot.x.size - 1), np.clip(j, 0, snapshot.y.size - 1)
+    return np.asarray(snapshot.pressure[i, j] > 0, dtype=np.bool_)
+
+
+def _add_colour_bar(
+    figure: Figure, panels: list[Axes], levels: NDArray[np.float64], unit: DisplayUnit, extend: str
+) -> None:
+    shown = _level_colours(levels, unit)
+    bar = figure.colorbar(shown, ax=panels, shrink=0.9, aspect=25, pad=0.02, extend=extend)
+    _dress_colour_bar(bar, unit)
+
+
+def fill_colour_bar(
+    axes: Axes, levels: NDArray[np.float64], unit: DisplayUnit, extend: str
+) -> None:
+    """Draw a colour bar for levels of pressure into axes of its own.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+        To be filled.
+    levels : ndarray
+        From 0, ascending [Pa].
+    unit : DisplayUnit
+        Of its ticks.
+    extend : str
+        At which end pressures go beyond, as matplotlib says it.
+    """
+    figure = style.figure_of(axes)
+    _dress_colour_bar(figure.colorbar(_level_colours(levels, unit), cax=axes, extend=extend), unit)
+
+
+def _level_colours(levels: NDArray[np.float64], unit: DisplayUnit) -> ScalarMappable:
+    colours = style.pressure_colours(len(levels) - 1)
+    return ScalarMappable(BoundaryNorm(unit(levels), colours.N), colours)
+
+
+def _dress_colour_bar(bar: Colorbar, unit: DisplayUnit) -> None:
+    bar.set_label(unit.label("Pressure"), size=style.LABEL_SIZE, color=style.INK)
+    bar.ax.tick_params(labelsize=style.TICK_SIZE, width=style.THIN_LINE, length=2.5)
+    bar.outline.set(linewidth=style.THIN_LINE, edgecolor=style.INK)

@@ -1,0 +1,150 @@
+"""The pressure as a surface, smooth up to the rim of the contact."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import binary_dilation
+
+from viscontact.plot.layout.window import Window
+from viscontact.plot.pressure.relief import Relief, relief
+from viscontact.plot.pressure.rim_polygons import beyond_period
+from viscontact.plot.pressure.squared_pressure import squared_pressure
+from viscontact.results.snapshots import Snapshot
+from viscontact.units.axis_units import DisplayUnit
+
+Array = NDArray[np.float64]
+
+#: Cells drawn along each axis at most; of more, the largest of a few stands for all of them.
+_MOST = 180
+# Between the cells the square of the pressure is linear: it is smooth up to the rim. So many points
+# are drawn along each axis, in so many parts of a cell at most.
+_POINTS, _FINEST = 200, 4
+# A rim farther from a point than this is not seen from there [points].
+_TRUSTED = 1.5
+
+
+def pressure_relief(snapshot: Snapshot, window: Window, unit: DisplayUnit) -> Relief:
+    """Make a surface of the pressure in contact.
+
+    Parameters
+    ----------
+    snapshot : Snapshot
+        Pressure and gap.
+    window : Window
+        Whose unit lengths are drawn in.
+    unit : DisplayUnit
+        Of the pressure.
+
+    Returns
+    -------
+    Relief
+        Corners at the centres of the cells in contact, as high as their pressure, some in between,
+        and those at the rim, of no height.
+    """
+    thin = thinned(beyond_period(snapshot).with_border(1), _cells_in_one(snapshot))
+    squared, x, y = _around_contact(_with_corners(squared_pressure(thin)), thin.x, thin.y)
+    parts = max(1, min(_FINEST, _POINTS // max(squared.shape)))
+    squared, x, y = (
+        _refined(_refined(squared, parts).T, parts).T,
+        _refined(x, parts),
+        _refined(y, parts),
+    )
+    pressed = squared > 0
+    points = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1)
+    moved = points + _to_rim(squared) * (x[1] - x[0], y[1] - y[0])
+    points = np.where(pressed[..., None], points, moved)
+    inside = pressed | _beside(pressed)
+    if snapshot.periodic:
+        x_low, x_high, y_low, y_high = snapshot.borders()
+        inside &= ((x_low <= x) & (x <= x_high))[:, None] & (y_low <= y) & (y <= y_high)
+    height = unit(np.sqrt(np.maximum(squared, 0.0)))
+    drawn = window.unit(points)
+    surface = relief(drawn[..., 0], drawn[..., 1], height, height, inside)
+    raised = surface.values > 0
+    return Relief(surface.corners[raised], surface.values[raised])
+
+
+def _around_contact(squared: Array, x: Array, y: Array) -> tuple[Array, Array, Array]:
+    """The part with contact, and a cell more on each side."""
+    i, j = (np.flatnonzero((squared > 0).any(axis=axis)) for axis in (1, 0))
+    rows, columns = slice(max(i[0] - 1, 0), i[-1] + 2), slice(max(j[0] - 1, 0), j[-1] + 2)
+    return squared[rows, columns], x[rows], y[columns]
+
+
+def _with_corners(squared: Array) -> Array:
+    """Continue the square linearly to the cells that share but a corner with the contact."""
+    total, count = np.zeros_like(squared), np.zeros_like(squared)
+    for i, j in ((1, 1), (1, -1), (-1, 1), (-1, -1)):
+        inner = np.roll(squared, (i, j), (0, 1))
+        beside = np.roll(squared, i, 0), np.roll(squared, j, 1)
+        known = (squared == 0) & (inner > 0) & (beside[0] < 0) & (beside[1] < 0)
+        total += np.where(known, beside[0] + beside[1] - inner, 0.0)
+        count += known
+    return np.where(count > 0, total / np.maximum(count, 1), squared)
+
+
+def _refined(values: Array, parts: int) -> Array:
+    """Interpolate along the first axis, so many parts to each interval."""
+    at = np.arange((len(values) - 1) * parts + 1) / parts
+    lower = np.minimum(at.astype(int), len(values) - 2)
+    share = (at - lower).reshape(-1, *[1] * (values.ndim - 1))
+    return np.asarray((1 - share) * values[lower] + share * values[lower + 1])
+
+
+def _to_rim(squared: Array) -> Array:
+    """The way from each point to where the square is zero, as its slope tells, in points."""
+    slope = np.stack([np.gradient(squared, axis=axis) for axis in (0, 1)], axis=-1)
+    steepness = np.square(slope).sum(axis=-1, keepdims=True)
+    way = -squared[..., None] * slope / np.where(steepness > 0, steepness, np.inf)
+    far = np.linalg.norm(way, axis=-1, keepdims=True) > _TRUSTED
+    return np.where(far, 0.0, way)
+
+
+def _cells_in_one(snapshot: Snapshot) -> tuple[int, int]:
+    """How many cells a drawn one stands for, along x and y."""
+    x_low, x_high, y_low, y_high = snapshot.extent()
+    dx, dy = snapshot.cell_size
+    along, across = (x_high - x_low) / dx, (y_high - y_low) / dy
+    return math.ceil(along / _MOST - 1e-9), math.ceil(across / _MOST - 1e-9)
+
+
+def thinned(snapshot: Snapshot, count: tuple[int, int]) -> Snapshot:
+    """Let the largest pressure and the least gap of so many cells stand for all of them.
+
+    Parameters
+    ----------
+    snapshot : Snapshot
+        Pressure and gap.
+    count : tuple of int
+        Along x and along y.
+
+    Returns
+    -------
+    Snapshot
+        Of blocks of cells; what is left over at the upper borders is left out.
+
+    Examples
+    --------
+    >>> at = np.arange(5.0)
+    >>> pressure = np.arange(25.0).reshape(5, 5)
+    >>> thin = thinned(Snapshot(0.0, at, at, pressure, 0 * pressure), (2, 1))
+    >>> thin.x.tolist(), thin.pressure[0].tolist()
+    ([0.5, 2.5], [5.0, 6.0, 7.0, 8.0, 9.0])
+    """
+    if count == (1, 1):
+        return snapshot
+    (i, j), (nx, ny) = count, (n // c for n, c in zip(snapshot.pressure.shape, count, strict=True))
+    x, y = snapshot.x[: nx * i].reshape(nx, i).mean(1), snapshot.y[: ny * j].reshape(ny, j).mean(1)
+    pressure, gap = (
+        field[: nx * i, : ny * j].reshape(nx, i, ny, j)
+        for field in (snapshot.pressure, snapshot.gap)
+    )
+    return Snapshot(snapshot.time, x, y, pressure.max((1, 3)), gap.min((1, 3)))
+
+
+def _beside(contact: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Which cells share an edge or a corner with one in contact."""
+    return np.asarray(binary_dilation(contact, np.ones((3, 3), dtype=np.bool_)), dtype=np.bool_)

@@ -1,0 +1,104 @@
+"""A field over the plane as a lit surface in space."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.colors import Colormap, Normalize
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+from mpl_toolkits.mplot3d.axes3d import Axes3D
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+#: Towards the light, over the viewer's left shoulder, and what reaches the shade.
+_LIGHT = np.array([-0.55, -0.45, 0.7]) / np.linalg.norm([-0.55, -0.45, 0.7])
+_SHADE = 0.58
+
+
+@dataclass(frozen=True, eq=False)
+class Relief:
+    """A surface made of quadrilaterals.
+
+    Parameters
+    ----------
+    corners : ndarray
+        Corners of each, shape (n, 4, 3): x, y and height, as drawn.
+    values : ndarray
+        What colours each, shape (n,).
+    """
+
+    corners: Array
+    values: Array
+
+
+def relief(x: Array, y: Array, height: Array, values: Array, shown: NDArray[np.bool_]) -> Relief:
+    """Make a surface of the quadrilaterals between points of a mesh.
+
+    Parameters
+    ----------
+    x, y, height : ndarray
+        Of the points, shape (nx, ny), as drawn.
+    values : ndarray
+        What colours the surface, at the points, shape (nx, ny).
+    shown : ndarray of bool
+        Which points there are, shape (nx, ny).
+
+    Returns
+    -------
+    Relief
+        Of the quadrilaterals all of whose corners there are, coloured by their mean.
+
+    Examples
+    --------
+    >>> x, y = np.meshgrid([0.0, 1.0, 2.0], [0.0, 1.0], indexing="ij")
+    >>> there = np.array([[True, True], [True, True], [True, False]])
+    >>> relief(x, y, x + y, x + y, there).values.tolist()
+    [1.0]
+    """
+    points = np.stack([x, y, height, values], axis=-1)
+    around = (points[:-1, :-1], points[1:, :-1], points[1:, 1:], points[:-1, 1:])
+    whole = shown[:-1, :-1] & shown[1:, :-1] & shown[1:, 1:] & shown[:-1, 1:]
+    corners = np.stack([each[whole] for each in around], axis=1)
+    return Relief(corners[..., :3], corners[..., 3].mean(axis=1))
+
+
+def draw_relief(axes: Axes3D, surface: Relief, colours: Colormap, norm: Normalize) -> None:
+    """Draw a lit surface into axes whose limits and box are set.
+
+    Parameters
+    ----------
+    axes : Axes3D
+        As `viscontact.plot.layout.solid_axes.solid_panels` makes them.
+    surface : Relief
+        What to draw.
+    colours : Colormap
+        For its values.
+    norm : Normalize
+        From values to colours.
+    """
+    paint = colours(norm(surface.values))
+    paint[:, :3] *= _brightness(axes, surface.corners)[:, None]
+    # Edges of the same colour close the hairlines between neighbours.
+    axes.add_collection3d(
+        Poly3DCollection(
+            surface.corners,
+            facecolors=paint,
+            edgecolors=paint,
+            linewidths=0.3,
+            # Thousands of facets are an image in PDF and SVG; texts and lines are not.
+            rasterized=True,
+        )
+    )
+
+
+def _brightness(axes: Axes3D, corners: Array) -> Array:
+    """How much light each quadrilateral gets, in the proportions of the drawing."""
+    limits = np.array([axes.get_xlim(), axes.get_ylim(), axes.get_zlim()])
+    scale = np.asarray(axes.get_box_aspect()) / (limits[:, 1] - limits[:, 0])
+    placed = corners * scale
+    normal = np.cross(placed[:, 2] - placed[:, 0], placed[:, 3] - placed[:, 1])
+    length = np.linalg.norm(normal, axis=1)
+    normal /= np.where(length > 0, length, 1.0)[:, None]
+    return np.asarray(_SHADE + (1 - _SHADE) * np.maximum(normal @ _LIGHT, 0.0))

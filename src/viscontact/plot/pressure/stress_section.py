@@ -1,0 +1,213 @@
+"""Von Mises stress below the contact, on a section."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.contour import QuadContourSet
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+from numpy.typing import ArrayLike, NDArray
+
+from viscontact.grid import Grid
+from viscontact.halfspace.stress import stress_on_section
+from viscontact.plot.layout import style
+from viscontact.plot.layout.contour_labels import label_contours
+from viscontact.plot.layout.error_band import peak_note
+from viscontact.plot.layout.page import Width, page_width
+from viscontact.results.recorded_case import recorded_grid, recorded_poisson_ratio
+from viscontact.results.snapshots import Snapshot, take_snapshots
+from viscontact.units.axis_units import DisplayUnit, display_unit, time_labels
+from viscontact.units.formatting import in_words
+
+_NAME = "stress-section"
+
+#: The section is drawn to so many half widths of the contact, in depth and to each side.
+_DEEP, _ASIDE = 2.0, 2.0
+_DEPTHS = 61
+#: A section that is as deep as wide, because the grid ends beside the contact, is so high [inch].
+_HIGHEST = 2.2
+# Pressures within so much of each other are equal to what runs are solved to.
+_EQUAL = 1e-5
+
+
+@dataclass(frozen=True)
+class Section:
+    """Von Mises stress on the plane across the contact through its largest pressure.
+
+    Parameters
+    ----------
+    time : float
+        The instant [s].
+    across : ndarray, shape (n,)
+        Positions across the contact, along its shorter extent [m].
+    depths : ndarray, shape (m,)
+        Depths below the surface [m].
+    stress : ndarray, shape (m, n)
+        Von Mises stress [Pa].
+    axis : {"x", "y"}
+        Which way `across` goes.
+    half_width : float
+        Of the largest contact shown, along that axis [m].
+    """
+
+    time: float
+    across: NDArray[np.float64]
+    depths: NDArray[np.float64]
+    stress: NDArray[np.float64]
+    axis: str
+    half_width: float
+
+    @property
+    def largest(self) -> tuple[float, float, float]:
+        """Largest stress [Pa], and where: depth and position across [m]."""
+        row, column = np.unravel_index(int(self.stress.argmax()), self.stress.shape)
+        depth = float(self.depths[row])
+        if 0 < row < len(self.depths) - 1:
+            # The vertex of a parabola: depths in steps would make steps over time.
+            before, here, after = self.stress[row - 1 : row + 2, column]
+            step = self.depths[1] - self.depths[0]
+            depth += float(step * (before - after) / (2 * (before - 2 * here + after)))
+        return float(self.stress.max()), depth, float(self.across[column])
+
+
+def stress_section(
+    results: xr.Dataset, *, times: ArrayLike | None = None, width: Width | None = None
+) -> Figure:
+    """Draw contours of von Mises stress below the contact, one panel an instant.
+
+    Parameters
+    ----------
+    results : xarray.Dataset
+        What `viscontact.simulate` or `viscontact.open_results` returned, with fields stored.
+    times : array_like, optional
+        Instants [s]; the nearest stored ones are drawn. By default the first in contact and the
+        last.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Planes across the contact, along its shorter extent, through the largest pressure; a cross
+        where the stress is largest.
+
+    Raises
+    ------
+    ValueError
+        If no fields are stored, the bodies do not touch, or Poisson's ratio is not known.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    >>> ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(0.1), grid, [1.0], errors=False)
+    >>> [axes.get_ylabel() for axes in stress_section(ds).axes]
+    ['Depth [mm]', 'Von Mises stress [kPa]']
+    """
+    ratio = recorded_poisson_ratio(results)
+    snapshots = take_snapshots(results, times, _NAME, count=2)
+    sections = stress_sections(snapshots, recorded_grid(results), ratio)
+    length = display_unit("m", *(section.half_width * _ASIDE for section in sections))
+    stress = display_unit("Pa", max(section.largest[0] for section in sections))
+    levels = _levels(sections, stress)
+    wide = page_width(width, style.ONE_COLUMN)
+    # Beside a colour bar, below a heading of two lines: one would not have the room.
+    shape = sections[0].depths[-1] / float(np.ptp(sections[0].across))
+    height = 0.45 + (min(shape * (wide - 1.3), _HIGHEST) + 0.42) * len(sections)
+    figure = style.new_figure(wide, height, fixed_aspect=True)
+    panels = figure.subplots(len(sections), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
+    labels, contours = time_labels(section.time for section in sections), []
+    for axes, section, label in zip(panels, sections, labels, strict=True):
+        drawn, lines = _draw(axes, section, levels, length, stress)
+        contours.append(lines)
+        largest, depth, _ = section.largest
+        said = f"largest {in_words(largest, 'Pa', 3)}, {in_words(depth, 'm', 3)} deep"
+        # Below an infinite pressure the stress has no largest value either.
+        style.add_heading(axes, f"t = {label}\n{peak_note([results], [section.time]) or said}")
+    panels[-1].set_xlabel(length.label(sections[-1].axis))
+    bar = figure.colorbar(drawn, ax=panels.tolist(), shrink=0.9, aspect=25, pad=0.02)
+    bar.set_label(stress.label("Von Mises stress"), size=style.LABEL_SIZE, color=style.INK)
+    bar.ax.tick_params(labelsize=style.TICK_SIZE, width=style.THIN_LINE, length=2.5)
+    figure.draw_without_rendering()  # Only now the room for labels is known.
+    for axes, lines in zip(panels, contours, strict=True):
+        label_contours(axes, lines, {level: f"{level:g}" for level in lines.levels})
+    return figure
+
+
+def stress_sections(snapshots: list[Snapshot], grid: Grid, poisson_ratio: float) -> list[Section]:
+    """Return the sections at those of the instants at which the bodies touch."""
+    touching = [snapshot for snapshot in snapshots if snapshot.touching]
+    half_width = max(_half_width(snapshot) for snapshot in touching)
+    return [_section(snapshot, grid, half_width, poisson_ratio) for snapshot in touching]
+
+
+def _half_width(snapshot: Snapshot) -> float:
+    left, right, front, back = snapshot.extent()
+    half_width = min(right - left, back - front) / 2
+    if not snapshot.periodic:
+        return half_width
+    # Contact across the border has no width: the section is drawn as wide as the period then.
+    x_low, x_high, y_low, y_high = snapshot.borders()
+    return min(half_width, min(x_high - x_low, y_high - y_low) / (2 * _ASIDE))
+
+
+def _section(snapshot: Snapshot, grid: Grid, half_width: float, poisson_ratio: float) -> Section:
+    """The section as deep as the largest contact of all that are shown asks for."""
+    left, right, front, back = snapshot.extent()
+    is_long = right - left >= back - front
+    i, j = _place_of_peak(snapshot)
+    depths = np.linspace(0.0, _DEEP * half_width, _DEPTHS)
+    where: dict[str, Any] = {"x": float(snapshot.x[i])} if is_long else {"y": float(snapshot.y[j])}
+    stress = stress_on_section(snapshot.pressure, grid, depths, poisson_ratio, **where)
+    across = snapshot.y if is_long else snapshot.x
+    middle = (front + back) / 2 if is_long else (left + right) / 2
+    near = np.abs(across - middle) <= _ASIDE * half_width
+    return Section(
+        snapshot.time,
+        across[near],
+        depths,
+        stress.von_mises[:, near],
+        "y" if is_long else "x",
+        half_width,
+    )
+
+
+def _place_of_peak(snapshot: Snapshot) -> tuple[int, int]:
+    """The cell of the largest pressure; of equal crests, but for rounding, the middle one."""
+    i, j = np.nonzero(snapshot.pressure >= (1 - _EQUAL) * snapshot.pressure.max())
+    nearest = int(np.hypot(snapshot.x[i], snapshot.y[j]).argmin())
+    return int(i[nearest]), int(j[nearest])
+
+
+def _levels(sections: list[Section], unit: DisplayUnit) -> NDArray[np.float64]:
+    largest = max(section.largest[0] for section in sections)
+    ticks = MaxNLocator(nbins=9, steps=[1, 2, 2.5, 5, 10]).tick_values(0.0, float(unit(largest)))
+    return np.asarray(ticks)
+
+
+def _draw(
+    axes: Axes,
+    section: Section,
+    levels: NDArray[np.float64],
+    length: DisplayUnit,
+    stress: DisplayUnit,
+) -> tuple[QuadContourSet, QuadContourSet]:
+    """The filled contours and their lines."""
+    across, depths = length(section.across), length(section.depths)
+    colours = style.pressure_colours(len(levels) - 1)
+    values = stress(section.stress)
+    filled = axes.contourf(across, depths, values, levels=levels, cmap=colours)
+    lines = axes.contour(
+        across, depths, values, levels=levels[1:-1], colors=style.INK, linewidths=0.5
+    )
+    _, depth, place = section.largest
+    axes.plot(length(place), length(depth), "+", color=style.INK, markersize=8)
+    axes.set(aspect="equal", ylim=(float(depths[-1]), 0.0), ylabel=length.label("Depth"))
+    style.dress(axes)
+    return filled, lines

@@ -1,0 +1,185 @@
+"""What a run was given, what it is worth and where it came from, as chapters of a page."""
+
+from __future__ import annotations
+
+import platform
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import groupby
+from urllib.parse import quote
+from xml.etree.ElementTree import Element
+
+import numpy as np
+import plotly
+import scipy
+import xarray as xr
+
+from viscontact import __version__
+from viscontact.notebook.html import element
+from viscontact.report import accuracy, citation, drawings, limits
+from viscontact.report.inputs import Input, case_file, inputs
+from viscontact.results.summary import LEGEND
+from viscontact.units.formatting import in_words
+
+
+def inputs_chapter(ds: xr.Dataset) -> Iterator[Element]:
+    """Yield the table of inputs, and the case as it was written.
+
+    Parameters
+    ----------
+    ds : xarray.Dataset
+        A result.
+    """
+    tables = [_part(part, list(rows)) for part, rows in groupby(inputs(ds), lambda each: each.part)]
+    if tables:
+        yield element("div", *tables, class_="inputs")
+    else:
+        yield element("p", "This result does not tell what it was made from.", class_="faint")
+    if text := case_file(ds):
+        source = f"data:application/yaml;charset=utf-8,{quote(text)}"
+        link = element("a", "Download", class_="download", download="case.yaml", href=source)
+        yield element(
+            "details", element("summary", "The case as it was run"), link, element("pre", text)
+        )
+
+
+def geometry_chapter(ds: xr.Dataset) -> Iterator[Element]:
+    """Yield the drawing of the indenter.
+
+    Parameters
+    ----------
+    ds : xarray.Dataset
+        A result.
+    """
+    yield element("figure", drawings.geometry(ds))
+    if drawings.is_drawn_from_fields(ds):
+        yield element(
+            "p",
+            "A result does not keep a measured surface. Drawn is the body as the grid of this run "
+            "saw it, told from the stored gap, displacement and approach; its lowest point is at "
+            "zero.",
+            class_="faint",
+        )
+
+
+def material_chapter(ds: xr.Dataset) -> Iterator[Element]:
+    """Yield the curves of each body's material.
+
+    Parameters
+    ----------
+    ds : xarray.Dataset
+        A result.
+    """
+    for title, drawing in drawings.materials(ds):
+        yield element("h3", title)
+        yield element("figure", drawing)
+    yield element(
+        "p",
+        "Φ is the strain deviator per unit stress deviator, so that Φ(0) = 1/(2 G(0)); G is the "
+        "shear modulus.",
+        class_="faint",
+    )
+
+
+def accuracy_chapter(ds: xr.Dataset) -> Iterator[Element]:
+    """Yield the table of errors, and how they are known.
+
+    Parameters
+    ----------
+    ds : xarray.Dataset
+        A result.
+    """
+    ends = (f"t = {in_words(float(ds['time'][k]), 's')}" for k in (0, -1))
+    heads = ("", *ends, "largest", "largest error", "when")
+    yield _table(heads, accuracy.error_rows(ds))
+    yield element("p", LEGEND, class_="faint")
+    yield _account(accuracy.accuracy_lines(ds))
+
+
+def limits_chapter(ds: xr.Dataset) -> Iterator[Element]:
+    """Yield the run's warnings, then what the theory always assumes.
+
+    Parameters
+    ----------
+    ds : xarray.Dataset
+        A result.
+    """
+    warnings = limits.warnings_of(ds)
+    if warnings:
+        items = (element("li", text) for text in warnings)
+        yield element(
+            "div", element("p", "This run warns:"), element("ul", *items), class_="warnings"
+        )
+    else:
+        yield element("p", "This run has no warnings.")
+    yield element("h3", "What the theory always assumes")
+    yield _account(limits.assumptions(ds))
+
+
+def about_chapter(ds: xr.Dataset) -> Iterator[Element]:
+    """Yield versions, and how to cite.
+
+    Parameters
+    ----------
+    ds : xarray.Dataset
+        A result.
+    """
+    version = str(ds.attrs.get("version", "not known"))
+    lines = [("Computed by", f"viscontact {version}")]
+    if "wall_time" in ds.attrs:
+        lines[0] = ("Computed by", f"{lines[0][1]}, {_effort(ds)}")
+    if "transforms" in ds.attrs:
+        lines.append(("Fourier transforms", str(ds.attrs["transforms"])))
+    lines.append(
+        (
+            "Page written by",
+            f"viscontact {__version__}, Python {platform.python_version()}, NumPy "
+            f"{np.__version__}, SciPy {scipy.__version__}, xarray {xr.__version__}, Plotly "
+            f"{plotly.__version__}",
+        )
+    )
+    yield _account(lines)
+    yield element("h3", "How to cite")
+    yield element("p", "If this result is published, please cite the program and the paper:")
+    cited = (
+        element("li", text) for text in (citation.PACKAGE.format(version=version), citation.PAPER)
+    )
+    yield element("ul", *cited)
+
+
+def _effort(ds: xr.Dataset) -> str:
+    seconds = in_words(float(ds.attrs["wall_time"]), "s", 3)
+    return f"{ds.sizes['time']} instants in {seconds}, {int(ds['iterations'].sum())} iterations"
+
+
+def _part(title: str, given: Iterable[Input]) -> Element:
+    rows = (
+        element("tr", element("th", each.name, scope="row"), element("td", each.value))
+        for each in given
+    )
+    return element("table", element("caption", title), element("tbody", *rows))
+
+
+def _table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> Element:
+    head = element("tr", *(element("th", text, class_="number" if text else "") for text in heads))
+    body = (
+        element(
+            "tr",
+            element("th", row[0], scope="row"),
+            *(
+                element("td", text, class_="number", data_head=head)
+                for head, text in zip(heads[1:], row[1:], strict=True)
+            ),
+        )
+        for row in rows
+    )
+    table = element("table", element("thead", head), element("tbody", *body), class_="stacked")
+    return _scrolled(table)
+
+
+def _account(lines: Iterable[tuple[str, str]]) -> Element:
+    said = [part for name, text in lines for part in (element("dt", name), element("dd", text))]
+    return element("dl", *said, class_="account")
+
+
+def _scrolled(table: Element) -> Element:
+    return element("div", table, class_="scroll")

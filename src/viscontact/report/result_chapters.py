@@ -1,0 +1,240 @@
+"""What a run found, as chapters of a page: headline, pressure, histories."""
+
+from __future__ import annotations
+
+import io
+import re
+from collections.abc import Iterator
+from typing import Any, Literal
+from urllib.parse import quote
+from xml.etree.ElementTree import Element
+
+import xarray as xr
+
+from viscontact.notebook.html import element
+from viscontact.report.limits import notices
+from viscontact.report.map_data import MOST_CELLS, section_csv, section_place, strides_of
+from viscontact.report.shown_fields import ShownFields
+from viscontact.results.formatting import headline, told_at
+from viscontact.results.history_csv import write_history
+from viscontact.results.stated_errors import MESH_DEPENDENT
+from viscontact.units.formatting import in_words
+
+_FACTS = {
+    "contact_area": "Contact area",
+    "approach": "Approach",
+    "peak_pressure": "Peak pressure",
+    "mean_pressure": "Mean pressure",
+}
+_WAYS: tuple[tuple[Literal["x", "y"], str], ...] = (("x", "Along x"), ("y", "Across, along y"))
+
+
+def title_of(ds: xr.Dataset) -> str:
+    """Return what a run is called."""
+    return str(ds.attrs.get("title") or "Contact of a creeping body")
+
+
+def heading_of(ds: xr.Dataset, label: str) -> str:
+    """Return what a run is called where it has a name of its own.
+
+    Parameters
+    ----------
+    ds : xarray.Dataset
+        A result.
+    label : str
+        What tells the run from others of the same title; empty if nothing does.
+
+    Examples
+    --------
+    >>> ball = xr.Dataset(attrs={"title": "Ball"})
+    >>> [heading_of(ball, label) for label in ("", "run-2", "Ball, force 2 N")]
+    ['Ball', 'Ball (run-2)', 'Ball, force 2 N']
+    """
+    title = title_of(ds)
+    if not label:
+        return title
+    return label if label.startswith(title) else f"{title} ({label})"
+
+
+def opening(name: str, ds: xr.Dataset, chapters: dict[str, str]) -> Element:
+    """Open the page: title, result in a sentence, what must be known first.
+
+    Parameters
+    ----------
+    name : str
+        What the run is called.
+    ds : xarray.Dataset
+        A result.
+    chapters : dict
+        Titles of the chapters by their place.
+    """
+    links = (element("a", title, href=f"#{place}") for place, title in chapters.items())
+    return element(
+        "header",
+        element("h1", name),
+        element("p", _unbroken(headline(ds)), class_="headline"),
+        *(element("p", text, class_="notice") for text in notices(ds)),
+        _facts(ds),
+        element("nav", *links, aria_label="Chapters"),
+    )
+
+
+def pressure_chapter(ds: xr.Dataset, fields: ShownFields | None) -> Iterator[Element]:
+    """Yield map, sections and outlines, or why there are none.
+
+    Parameters
+    ----------
+    ds : xarray.Dataset
+        A result.
+    fields : ShownFields or None
+        Its fields, if there is contact in them.
+    """
+    if fields is None:
+        yield element("p", _without_fields(ds), class_="faint")
+        return
+    yield _map(fields)
+    yield element("h3", "Sections through the pressure")
+    yield element("div", *(_section(fields, *way) for way in _WAYS), class_="pair")
+    yield element(
+        "p",
+        "Bold: the instant of the slider.",
+        element(
+            "span",
+            " Drag over a figure to enlarge a part of it, double-click to go back.",
+            id="zoom-hint",
+        ),
+        class_="faint",
+    )
+    yield element("h3", "Outline of the contact")
+    yield element("figure", element("div", "", id="outlines", class_="plot"))
+
+
+def history_chapter(
+    ds: xr.Dataset, axis: dict[str, Any], load: list[dict[str, Any]], answers: list[dict[str, Any]]
+) -> Iterator[Element]:
+    """Yield the panels of the load and of what the contact answers.
+
+    Parameters
+    ----------
+    ds : xarray.Dataset
+        A result.
+    axis : dict
+        The axis of time, from `time_axis`.
+    load, answers : list of dict
+        The panels, from `load_panels` and `answer_panels`.
+    """
+    button = element("button", "Show the other scale of time", type="button", id="time-scale")
+    csv = io.StringIO()
+    write_history(ds, csv)
+    yield element(
+        "div",
+        button if axis["log"] is not None else None,
+        _download("Download the history (CSV)", "history.csv", csv.getvalue()),
+        class_="downloads",
+    )
+    yield element("h3", "Load")
+    yield element("div", *map(_panel, load), class_="panels")
+    yield element("h3", "Contact")
+    yield element("div", *map(_panel, answers), class_="panels")
+    told = "Shaded: the error of each value. "
+    if any(panel["note"] == MESH_DEPENDENT for panel in answers):
+        told += "Dashed: the value depends on the mesh, smaller cells give more. "
+    yield element("p", told + "All numbers are in the CSV file, in SI units.", class_="faint")
+
+
+def _facts(ds: xr.Dataset) -> Element:
+    area = ds["contact_area"].values
+    last = -1 if area[-1] > 0 else int(area.argmax())
+    when = "" if area[-1] > 0 else f" at t = {in_words(float(ds['time'][last]), 's')}"
+    return element(
+        "dl",
+        *(
+            element(
+                "div",
+                element("dt", _unbroken(name + when)),
+                element("dd", _unbroken(told_at(ds, scalar, last))),
+            )
+            for scalar, name in _FACTS.items()
+        ),
+        class_="facts",
+    )
+
+
+def _unbroken(text: str) -> str:
+    """Keep numbers together with their units when a line ends there, and ± with the error."""
+    return re.sub(r"(?<=[±=]) (?=\d)|(?<=\d) (?=[a-zA-Zµ²]{1,4}\b)", "\N{NO-BREAK SPACE}", text)
+
+
+def _without_fields(ds: xr.Dataset) -> str:
+    if "pressure" in ds:
+        return "The bodies do not touch at any instant whose fields are stored: there is no map."
+    return (
+        "No fields are stored with this result, so there are no map, no sections and no outlines. "
+        "Run again with output.fields: all, or with a list of instants, to have them."
+    )
+
+
+def _map(fields: ShownFields) -> Element:
+    count = len(fields.snapshots)
+    slider = element(
+        "input",
+        type="range",
+        id="slider",
+        min="0",
+        max=str(count - 1),
+        step="1",
+        value=str(fields.start),
+        aria_label="Instant of the pressure map",
+    )
+    controls = element(
+        "div",
+        element("button", "Play", type="button", id="play"),
+        slider,
+        element("output", "", id="instant", for_="slider"),
+        class_="controls",
+    )
+    account = element("span", "", id="map-account")
+    caption = element("figcaption", account, f". {_remarks(fields)}")
+    return element(
+        "figure", controls, element("div", "", id="map", class_="plot"), caption, class_="map"
+    )
+
+
+def _remarks(fields: ShownFields) -> str:
+    """What the map does not show as it is."""
+    said = ["The line is the outline of the contact; white: no contact."]
+    if fields.window.note:
+        said.append(f"In this drawing {fields.window.note.replace(' stretched', ' is stretched')}.")
+    along_x, along_y = strides_of(fields)
+    if max(along_x, along_y) > 1:
+        said.append(
+            f"To keep the page small the map shows means over {along_x} × {along_y} cells (at most "
+            f"{MOST_CELLS} a side); sections are at full resolution."
+        )
+    if len(fields.snapshots) < fields.stored:
+        said.append(f"{len(fields.snapshots)} of {fields.stored} stored instants are shown.")
+    return " ".join(said)
+
+
+def _section(fields: ShownFields, along: Literal["x", "y"], title: str) -> Element:
+    return element(
+        "figure",
+        element("p", f"{title}, at {section_place(fields, along)}", class_="panel-title"),
+        element("div", "", id=f"section-{along}", class_="plot"),
+        _download("Download (CSV)", f"section-{along}.csv", section_csv(fields, along)),
+    )
+
+
+def _panel(panel: dict[str, Any]) -> Element:
+    note = element("span", f" ({panel['note']})") if panel["note"] else None
+    unit = f" [{panel['unit']}]"
+    return element(
+        "div",
+        element("p", panel["label"] + unit, note, class_="panel-title"),
+        element("div", "", id=f"history-{panel['name']}", class_="plot"),
+    )
+
+
+def _download(text: str, name: str, content: str) -> Element:
+    source = f"data:text/csv;charset=utf-8,{quote(content)}"
+    return element("a", text, class_="download", download=name, href=source)

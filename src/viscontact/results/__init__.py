@@ -1,0 +1,1 @@
+"""Labelled results: variables, datasets, netCDF files, the recorded case."""

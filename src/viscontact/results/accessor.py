@@ -1,0 +1,43 @@
+"""What a result offers beside its variables: `ds.viscontact`."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import xarray as xr
+
+from viscontact.display import Shown, result_plots
+
+
+@xr.register_dataset_accessor("viscontact")
+class ResultAccessor(Shown):
+    """A result of `simulate` or `open_results`, in a few lines and small drawings.
+
+    Displayed in a notebook, or printed, it tells what was found. It is there after
+    ``import viscontact`` and the first of its names that makes or opens results.
+
+    Parameters
+    ----------
+    result : xarray.Dataset
+        The result.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> material = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((32, 32), (4e-3, 4e-3))
+    >>> ds = vc.simulate(vc.Sphere(0.01), material, vc.step(force=0.1), grid, [0.0, 1.0])
+    >>> print(str(ds.viscontact).splitlines()[3].split()[:3])
+    ['force', '100', 'mN']
+    """
+
+    def __init__(self, result: xr.Dataset) -> None:
+        self.result = result
+
+    @property
+    def plot(self) -> Any:
+        """Its figures: ``plot.pressure_map()`` and the like, each of which returns axes."""
+        return result_plots(self.result)
+
+    def __repr__(self) -> str:
+        return str(self)

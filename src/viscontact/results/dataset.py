@@ -1,0 +1,110 @@
+"""From states to a labelled xarray dataset."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from viscontact.grid import Grid
+from viscontact.results.accessor import ResultAccessor as ResultAccessor
+from viscontact.results.enlarged_grid import on_wider
+from viscontact.results.variables import (
+    COORDINATES,
+    ERRORS,
+    FIELDS,
+    OUTCOME_FLAGS,
+    SCALARS,
+    error_name,
+    scalar_attributes,
+)
+from viscontact.state import ContactState
+
+
+def to_dataset(
+    states: Sequence[ContactState],
+    fields: str | Sequence[float],
+    attributes: Mapping[str, Any],
+    errors: Mapping[str, NDArray[np.float64]] | None = None,
+) -> xr.Dataset:
+    """Label the states of a run.
+
+    Parameters
+    ----------
+    states : sequence of ContactState
+        At least one; fields are needed only where they are kept.
+    fields : str or sequence of float
+        As in `simulate`.
+    attributes : mapping
+        Global attributes of the result.
+    errors : mapping of str to ndarray, optional
+        Errors by the scalar's name, over the states, in the scalar's unit.
+
+    Returns
+    -------
+    xarray.Dataset
+        As `simulate` returns it.
+    """
+    times = np.array([state.time for state in states])
+    scalars = {
+        name: (
+            "time",
+            np.array([getattr(state, name) for state in states], dtype=variable.kind),
+            scalar_attributes(name, errors=errors is not None),
+        )
+        for name, variable in SCALARS.items()
+    }
+    scalars |= {
+        error_name(name): ("time", values, ERRORS[error_name(name)].attributes)
+        for name, values in (errors or {}).items()
+    }
+    grid = states[-1].grid  # the widest: a grid is enlarged only
+    dataset = xr.Dataset(scalars, coords=_coordinates(grid, times))
+    dataset["outcome"].attrs.update(OUTCOME_FLAGS)
+    kept = [state for state in states if state.pressure.size]
+    if kept:
+        dataset = dataset.assign(_field_arrays(kept, grid, field_axis(fields)))
+    return dataset.assign_attrs(attributes)
+
+
+def field_axis(fields: str | Sequence[float]) -> str:
+    """Return the dimension on which fields are kept: ``time``, or ``field_time`` for some.
+
+    Parameters
+    ----------
+    fields : str or sequence of float
+        As in `simulate`.
+
+    Examples
+    --------
+    >>> field_axis("all"), field_axis([0.0, 2.0])
+    ('time', 'field_time')
+    """
+    # An array is not to be compared with a word.
+    return "time" if isinstance(fields, str) and fields == "all" else "field_time"
+
+
+def _coordinates(grid: Grid, times: NDArray[np.float64]) -> dict[str, Any]:
+    values = {"time": times, "x": grid.x, "y": grid.y}
+    return {
+        name: (name, values[name], variable.attributes) for name, variable in COORDINATES.items()
+    }
+
+
+def _field_arrays(states: Sequence[ContactState], grid: Grid, axis: str) -> dict[str, Any]:
+    arrays: dict[str, Any] = {
+        name: (
+            (axis, "x", "y"),
+            np.stack([on_wider(name, getattr(s, name), s.grid, grid) for s in states]),
+            variable.attributes,
+        )
+        for name, variable in FIELDS.items()
+    }
+    if axis != "time":
+        instants = np.array([state.time for state in states])
+        attributes = {"units": "s", "long_name": "time of the stored fields"}
+        arrays[axis] = (axis, instants, attributes)
+    return arrays

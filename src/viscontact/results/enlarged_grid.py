@@ -1,0 +1,85 @@
+"""What a result holds and says where its grid has been enlarged while the run went on."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.grid import Grid
+from viscontact.state import ContactState
+from viscontact.units.formatting import in_words
+
+
+def on_wider(name: str, field: NDArray[np.float64], grid: Grid, wider: Grid) -> NDArray[np.float64]:
+    """A field as it stands in a result whose grid was enlarged later.
+
+    Parameters
+    ----------
+    name : str
+        ``pressure``, ``gap`` or ``displacement``.
+    field : ndarray, shape (..., nx, ny)
+        On the grid of its time.
+    grid, wider : Grid
+        That grid, and the result's.
+
+    Returns
+    -------
+    ndarray
+        Beyond the grid of its time pressure is 0, which it was; gap and displacement are NaN there,
+        for nobody has computed them.
+
+    Examples
+    --------
+    >>> small = Grid((4, 4), (1.0, 1.0))
+    >>> on_wider("gap", np.ones((4, 4)), small, small.widened((6, 4)))[:, 0].tolist()
+    [nan, 1.0, 1.0, 1.0, 1.0, nan]
+    """
+    if grid == wider:
+        return field
+    return grid.embed(field, wider, beyond=0.0 if name == "pressure" else np.nan)
+
+
+def enlargement(time: float, before: Grid, after: Grid) -> str:
+    """Say in a line that a grid was enlarged.
+
+    Parameters
+    ----------
+    time : float
+        First instant of the result on the larger grid [s].
+    before, after : Grid
+        The two grids.
+
+    Examples
+    --------
+    >>> small = Grid((32, 16), (2e-3, 1e-3))
+    >>> enlargement(1.5, small, small.widened((48, 16)))
+    't = 1.5 s: from 32 x 16 cells on 2 mm x 1 mm to 48 x 16 cells on 3 mm x 1 mm'
+    """
+    old, new = (
+        f"{grid.shape[0]} x {grid.shape[1]} cells on {in_words(grid.size[0], 'm')} x "
+        f"{in_words(grid.size[1], 'm')}"
+        for grid in (before, after)
+    )
+    return f"t = {in_words(time, 's', 6)}: from {old} to {new}"
+
+
+def enlargements(grid: Grid, states: Sequence[ContactState]) -> list[str]:
+    """Say when the grid of a run was enlarged.
+
+    Parameters
+    ----------
+    grid : Grid
+        The run's first one.
+    states : sequence of ContactState
+        Its states so far; fields are not needed.
+
+    Returns
+    -------
+    list of str
+        A line for each time; empty if it never was.
+    """
+    grids = [grid, *(state.grid for state in states)]
+    pairs = zip(states, grids[:-1], grids[1:], strict=True)
+    return [enlargement(state.time, old, new) for state, old, new in pairs if old != new]

@@ -1,0 +1,85 @@
+"""Results on disk: CF netCDF-4."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import xarray as xr
+
+from viscontact.results.accessor import ResultAccessor as ResultAccessor
+
+#: The result's name in a run directory.
+RESULT_NAME = "result.nc"
+
+
+def save(ds: xr.Dataset, path: str | Path) -> None:
+    """Save a result as CF netCDF-4.
+
+    Parameters
+    ----------
+    ds : xarray.Dataset
+        From `simulate`.
+    path : path-like
+        The file, by custom ending in ``.nc``; replaced if it is there.
+
+    Examples
+    --------
+    >>> import tempfile, xarray
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     save(xarray.Dataset({"force": ("time", [1.0])}), Path(folder) / "run.nc")
+    ...     with open_results(Path(folder) / "run.nc") as ds:
+    ...         float(ds.force[0])
+    1.0
+    """
+    ds.to_netcdf(path, format="NETCDF4", engine="netcdf4")
+
+
+def open_results(path: str | Path) -> xr.Dataset:
+    """Open the result of a run; fields are read when used.
+
+    Parameters
+    ----------
+    path : path-like
+        A run directory or a ``.nc`` file.
+
+    Returns
+    -------
+    xarray.Dataset
+        As `simulate` returns it; a context manager that closes the file.
+
+    Raises
+    ------
+    FileNotFoundError
+        If there is no result.
+    ValueError
+        If the file cannot be read as netCDF.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> ds = xr.Dataset({"force": ("time", [1.0])}, coords={"time": [0.0]})
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     save(ds, Path(folder) / "run.nc")
+    ...     with open_results(Path(folder) / "run.nc") as stored:
+    ...         stored.force.dims
+    ('time',)
+    """
+    file = Path(path)
+    # Absolute: else "~", a blank in front or "file:" mean something of their own to the reader.
+    file = (file / RESULT_NAME if file.is_dir() else file).absolute()
+    if not file.is_file():
+        raise FileNotFoundError(f"no result at {path}")
+    while True:
+        before = _marks(file)
+        try:
+            return xr.open_dataset(file, engine="netcdf4")
+        except (OSError, ValueError) as error:
+            # A run that goes on may have put a newer file there in this very moment.
+            if _marks(file) == before:
+                raise ValueError(f"{file} cannot be read as a netCDF result: {error}") from error
+
+
+def _marks(file: Path) -> tuple[int, int]:
+    """What tells one file from another under the same name."""
+    found = file.stat()
+    return found.st_ino, found.st_mtime_ns

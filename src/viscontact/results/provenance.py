@@ -1,0 +1,148 @@
+"""Nouns as plain data and back: how a result remembers the case it came from."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import fields, is_dataclass
+from typing import Any
+
+import numpy as np
+
+from viscontact.grid import AutomaticGrid, Grid
+from viscontact.indenters import (
+    Chamfer,
+    CombinedIndenter,
+    Cone,
+    CylindricalProfile,
+    Dimples,
+    Ellipsoid,
+    FlatPunch,
+    FullCrown,
+    HeightMap,
+    LogarithmicProfile,
+    Paraboloid,
+    PartialCrown,
+    PlacedIndenter,
+    Pyramid,
+    Revolved,
+    Roller,
+    Sphere,
+    Swept,
+    TabulatedProfile,
+    Torus,
+    TwoRadiiCrown,
+    Waviness,
+    Wedge,
+)
+from viscontact.laws import (
+    BesideSpring,
+    Burgers,
+    CreepSeries,
+    Elastic,
+    FractionalMaxwell,
+    FractionalZener,
+    Maxwell,
+    PowerLaw,
+    RelaxationSeries,
+    TabulatedCreep,
+    TabulatedRelaxation,
+    Zener,
+)
+from viscontact.loads import ApproachHistory, ForceHistory, HarmonicHistory
+from viscontact.materials.material import Material
+
+NOUNS = {
+    noun.__name__: noun
+    for noun in (
+        *(Sphere, Paraboloid, Cone, FlatPunch, Roller, HeightMap, CombinedIndenter),
+        *(CylindricalProfile, FullCrown, PartialCrown, TwoRadiiCrown, Chamfer),
+        *(LogarithmicProfile, TabulatedProfile, PlacedIndenter),
+        *(Ellipsoid, Wedge, Pyramid, Torus, Waviness, Dimples, Revolved, Swept),
+        *(Elastic, Maxwell, Zener, Burgers, CreepSeries, RelaxationSeries),
+        *(PowerLaw, FractionalMaxwell, FractionalZener, BesideSpring),
+        *(TabulatedCreep, TabulatedRelaxation),
+        *(Material, ForceHistory, ApproachHistory, HarmonicHistory, Grid, AutomaticGrid),
+    )
+}
+
+#: Larger maps (measured surfaces) are named by shape and fingerprint, not written out.
+LARGEST_ARRAY = 4096
+
+
+def describe(noun: Any) -> Any:
+    """Turn a noun into plain data: its type's name and its arguments in SI units.
+
+    Parameters
+    ----------
+    noun : object
+        Indenter, law, material, load, grid; numbers, arrays and tuples of these.
+
+    Returns
+    -------
+    object
+        Dicts, lists, strings and numbers that JSON can hold.
+
+    Examples
+    --------
+    >>> describe(Grid((4, 8), (0.1, 0.2)))
+    {'type': 'Grid', 'shape': [4, 8], 'size': [0.1, 0.2], 'periodic': False}
+    """
+    if is_dataclass(noun) and not isinstance(noun, type):
+        arguments = {item.name: describe(getattr(noun, item.name)) for item in fields(noun)}
+        return {"type": type(noun).__name__, **arguments}
+    if isinstance(noun, np.ndarray):
+        # JSON knows no NaN, which is what holes in a map are.
+        is_map = noun.ndim > 1 and (noun.size > LARGEST_ARRAY or not np.isfinite(noun).all())
+        return _fingerprint(noun) if is_map else noun.tolist()
+    if isinstance(noun, np.generic):
+        return noun.item()
+    if isinstance(noun, tuple | list):
+        return [describe(item) for item in noun]
+    if noun is None or isinstance(noun, str | int | float):
+        return noun
+    return {"type": type(noun).__name__, "repr": repr(noun)}
+
+
+def rebuild(description: Any) -> Any:
+    """Make the noun again that a description came from.
+
+    Parameters
+    ----------
+    description : object
+        From `describe`.
+
+    Returns
+    -------
+    object
+        The noun.
+
+    Raises
+    ------
+    ValueError
+        If its type is unknown, or a large array was left out of the description.
+
+    Examples
+    --------
+    >>> rebuild({"type": "Sphere", "radius": 0.01})
+    Sphere(radius=0.01)
+    """
+    if isinstance(description, list):
+        return [rebuild(item) for item in description]
+    if not isinstance(description, dict):
+        return description
+    if "sha256" in description:
+        raise ValueError(
+            f"an array of shape {description['shape']} is too large, or has holes, and is not kept "
+            "in a result; build the indenter from its source again"
+        )
+    noun = NOUNS.get(description.get("type", ""))
+    if noun is None:
+        raise ValueError(
+            f"no noun is called {description.get('type')!r}; known are {sorted(NOUNS)}"
+        )
+    return noun(**{key: rebuild(value) for key, value in description.items() if key != "type"})
+
+
+def _fingerprint(array: np.ndarray[Any, Any]) -> dict[str, Any]:
+    digest = hashlib.sha256(np.ascontiguousarray(array).tobytes()).hexdigest()
+    return {"shape": list(array.shape), "sha256": digest}

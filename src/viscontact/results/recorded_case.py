@@ -1,0 +1,110 @@
+"""The case that a result keeps as JSON: its parts, rebuilt."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import xarray as xr
+
+from viscontact.grid import Grid
+from viscontact.results.provenance import rebuild
+
+
+def case_of(ds: xr.Dataset) -> dict[str, Any]:
+    """Return the case that a result keeps; empty where it keeps none."""
+    try:
+        case = json.loads(str(ds.attrs.get("case", "")))
+    except ValueError:
+        return {}
+    return case if isinstance(case, dict) else {}
+
+
+def recorded_poisson_ratio(results: xr.Dataset) -> float:
+    """Poisson's ratio of the half-space that a result belongs to.
+
+    Parameters
+    ----------
+    results : xarray.Dataset
+        What `simulate` or `open_results` returned.
+
+    Returns
+    -------
+    float
+        [-].
+
+    Raises
+    ------
+    ValueError
+        If it varies in time, or is not told.
+    """
+    material = case_of(results).get("material") or {}
+    ratio = material.get("poisson_ratio")
+    if ratio is not None:
+        return float(ratio)
+    if material.get("bulk_modulus") is not None:
+        raise ValueError(
+            "with an elastic bulk modulus Poisson's ratio varies in time, and the stresses depend "
+            "on more than the present pressure; for an estimate give poisson_ratio="
+        )
+    raise ValueError("the result does not tell Poisson's ratio; give poisson_ratio=")
+
+
+def recorded_grid(results: xr.Dataset) -> Grid:
+    """Grid that a result belongs to.
+
+    Parameters
+    ----------
+    results : xarray.Dataset
+        What `simulate` or `open_results` returned.
+
+    Returns
+    -------
+    Grid
+        From its coordinates, and whether it is periodic from its case.
+    """
+    x, y = results["x"].values, results["y"].values
+    shape = (x.size, y.size)
+    size = (float(x[1] - x[0]) * shape[0], float(y[1] - y[0]) * shape[1])
+    recorded = case_of(results).get("grid") or {}
+    return Grid(shape, size, bool(recorded.get("periodic", False)))
+
+
+def prescribes_approach(ds: xr.Dataset) -> bool:
+    """Tell whether a run's load is an approach, which the force answers."""
+    load = case_of(ds).get("load") or {}
+    return load.get("control") == "approach" or load.get("type") == "ApproachHistory"
+
+
+def recorded_noun(results: xr.Dataset, part: str, figure: str) -> Any:
+    """Rebuild a part of the case that is kept with a result.
+
+    Parameters
+    ----------
+    results : xarray.Dataset
+        What `viscontact.simulate` or `viscontact.open_results` returned.
+    part : str
+        ``"indenter"``, ``"material"``, ``"indenter_material"`` or ``"load"``.
+    figure : str
+        Name of the figure, for the message.
+
+    Returns
+    -------
+    object
+        The indenter, material or load history; None where the case has no such part.
+
+    Raises
+    ------
+    ValueError
+        If the result carries no case, or a part that is too large to be kept.
+    """
+    if "case" not in results.attrs:
+        raise ValueError(
+            f"{figure}: needs to know the {part} of the case, but the result has no attribute "
+            "'case'; give a result as simulate or open_results returned it"
+        )
+    described = case_of(results).get(part)
+    try:
+        return None if described is None else rebuild(described)
+    except ValueError as error:
+        raise ValueError(f"{figure}: cannot rebuild the {part}: {error}") from error

@@ -1,0 +1,159 @@
+"""Pressure and gap at one instant."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.contact.body_edge import Outline
+from viscontact.units.formatting import in_words
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """Pressure and gap at one instant.
+
+    Parameters
+    ----------
+    time : float
+        The instant at which the fields were stored [s].
+    x, y : ndarray
+        Cell centres, shapes (nx,) and (ny,) [m].
+    pressure : ndarray
+        Contact pressure, shape (nx, ny), positive in compression [Pa].
+    gap : ndarray
+        Distance between the bodies, shape (nx, ny), positive when open [m].
+    body_end : Outline, optional
+        Where the indenter ends between the cells, if it does and is known.
+    periodic : bool, optional
+        Whether the fields are one period of a surface that repeats itself without end.
+    """
+
+    time: float
+    x: NDArray[np.float64]
+    y: NDArray[np.float64]
+    pressure: NDArray[np.float64]
+    gap: NDArray[np.float64]
+    body_end: Outline | None = None
+    periodic: bool = False
+
+    @property
+    def touching(self) -> bool:
+        """Whether the bodies are in contact at this instant."""
+        return bool(np.any(self.pressure > 0))
+
+    @property
+    def cell_size(self) -> tuple[float, float]:
+        """Edge lengths (dx, dy) of a cell [m]."""
+        return float(self.x[1] - self.x[0]), float(self.y[1] - self.y[0])
+
+    def extent(self) -> tuple[float, float, float, float]:
+        """Box (x_min, x_max, y_min, y_max) around the cells in contact [m]."""
+        inside = self.pressure > 0
+        return self._box(self.x[inside.any(axis=1)], self.y[inside.any(axis=0)])
+
+    def borders(self) -> tuple[float, float, float, float]:
+        """Box (x_min, x_max, y_min, y_max) around all cells [m]."""
+        return self._box(self.x, self.y)
+
+    def _box(
+        self, x: NDArray[np.float64], y: NDArray[np.float64]
+    ) -> tuple[float, float, float, float]:
+        dx, dy = self.cell_size
+        return (
+            float(x[0] - dx / 2),
+            float(x[-1] + dx / 2),
+            float(y[0] - dy / 2),
+            float(y[-1] + dy / 2),
+        )
+
+    def with_border(self, cells: int) -> Snapshot:
+        """The same fields with more cells at each border.
+
+        Parameters
+        ----------
+        cells : int
+            How many.
+
+        Returns
+        -------
+        Snapshot
+            Those of the next periods if periodic, else cells where nothing touches. What is
+            returned is not periodic.
+
+        Examples
+        --------
+        >>> at = np.array([-1.5, -0.5, 0.5, 1.5])
+        >>> pressure = np.arange(16.0).reshape(4, 4)
+        >>> period = Snapshot(0.0, at, at, pressure, 0 * pressure, periodic=True)
+        >>> period.with_border(1).pressure[0].tolist()  # the last row again
+        [15.0, 12.0, 13.0, 14.0, 15.0, 12.0]
+        """
+        beyond = np.arange(1, cells + 1)[:, None] * self.cell_size
+        x, y = (
+            np.concatenate([at[0] - step[::-1], at, at[-1] + step])
+            for at, step in zip((self.x, self.y), beyond.T, strict=True)
+        )
+        if self.periodic:
+            pressure, gap = (np.pad(each, cells, mode="wrap") for each in (self.pressure, self.gap))
+        else:
+            pressure = np.pad(self.pressure, cells)
+            gap = np.pad(self.gap, cells, constant_values=np.inf)
+        end = self.body_end
+        body_end = None if end is None else _with_border(end, cells, self.periodic)
+        return Snapshot(self.time, x, y, pressure, gap, body_end)
+
+    def section(
+        self, along: Literal["x", "y"] = "x", at: float = 0.0
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Pressure on a line parallel to an axis.
+
+        Parameters
+        ----------
+        along : {"x", "y"}, optional
+            Direction of the line.
+        at : float, optional
+            Where the line crosses the other axis [m]. Between two rows of cells the
+            pressure is interpolated linearly: on an even grid the line through the origin
+            takes the mean of the two middle rows.
+
+        Returns
+        -------
+        positions : ndarray
+            Cell centres along the line [m].
+        pressure : ndarray
+            Pressure there [Pa].
+
+        Raises
+        ------
+        ValueError
+            If the direction is not one of those, or the line misses the grid.
+        """
+        if along not in ("x", "y"):
+            raise ValueError(f"along must be 'x' or 'y', got {along!r}")
+        positions, across = (self.x, self.y) if along == "x" else (self.y, self.x)
+        rows = self.pressure.T if along == "x" else self.pressure
+        if not across[0] <= at <= across[-1]:
+            raise ValueError(
+                f"at must lie on the grid, between {in_words(across[0], 'm')} and "
+                f"{in_words(across[-1], 'm')}, got {in_words(at, 'm')}"
+            )
+        upper = int(np.clip(np.searchsorted(across, at), 1, across.size - 1))
+        share = (at - across[upper - 1]) / (across[upper] - across[upper - 1])
+        return positions, (1 - share) * rows[upper - 1] + share * rows[upper]
+
+
+def _with_border(body_end: Outline, cells: int, periodic: bool) -> Outline:
+    # Where the body ends between one period and the next is not known.
+    along_x = np.pad(body_end.along_x, ((0, 1), (0, 0)), constant_values=np.nan)
+    along_y = np.pad(body_end.along_y, ((0, 0), (0, 1)), constant_values=np.nan)
+    if periodic:
+        along_x, along_y = (np.pad(each, cells, mode="wrap") for each in (along_x, along_y))
+    else:
+        along_x, along_y = (
+            np.pad(each, cells, constant_values=np.nan) for each in (along_x, along_y)
+        )
+    return Outline(along_x[:-1], along_y[:, :-1])

@@ -1,0 +1,243 @@
+"""The stored fields of a result, one instant at a time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike, NDArray
+
+from viscontact.contact.body_edge import Outline, trace_outline
+from viscontact.grid import Grid
+from viscontact.results.recorded_case import recorded_grid, recorded_noun
+from viscontact.results.snapshot import Snapshot as Snapshot
+from viscontact.units.axis_units import time_labels
+from viscontact.units.formatting import in_words
+
+
+def field_times(results: xr.Dataset, figure: str) -> NDArray[np.float64]:
+    """Instants at which pressure and gap are stored.
+
+    Parameters
+    ----------
+    results : xarray.Dataset
+        What `viscontact.simulate` or `viscontact.open_results` returned.
+    figure : str
+        Name of the figure, for the message.
+
+    Returns
+    -------
+    ndarray
+        Instants [s], ascending.
+
+    Raises
+    ------
+    ValueError
+        If the run stored no fields.
+    """
+    missing = [name for name in ("pressure", "gap") if name not in results]
+    if missing:
+        raise ValueError(
+            f"{figure}: needs stored fields, but this result has no {' and no '.join(missing)}; "
+            "run again with fields stored ('output: fields: all' or a list of instants in the "
+            "case file, fields= in Python)"
+        )
+    instants = np.asarray(results[_time_dimension(results)].values, dtype=np.float64)
+    if instants.size == 0:
+        raise ValueError(f"{figure}: needs stored fields, but this result holds none yet")
+    return instants
+
+
+def take_snapshots(
+    results: xr.Dataset, times: ArrayLike | None, figure: str, *, count: int = 5
+) -> list[Snapshot]:
+    """Fields at the stored instants nearest to those asked for.
+
+    Parameters
+    ----------
+    results : xarray.Dataset
+        What `viscontact.simulate` or `viscontact.open_results` returned.
+    times : array_like or None
+        Instants asked for [s]. None: the first instant in contact, the last one, and some in
+        between that are spread evenly on a logarithmic scale.
+    figure : str
+        Name of the figure, for messages.
+    count : int, optional
+        How many instants to take when none are asked for.
+
+    Returns
+    -------
+    list of Snapshot
+        In ascending order, each stored instant at most once.
+
+    Raises
+    ------
+    ValueError
+        If no fields are stored, a time is not a finite number, or the bodies do not touch at
+        any of the instants.
+    """
+    stored = field_times(results, figure)
+    if times is None:
+        chosen = _spread(stored, _in_contact(results, stored), count)
+    else:
+        chosen = _nearest(stored, times, figure)
+    snapshot_of = snapshot_reader(results)
+    snapshots = [snapshot_of(index) for index in chosen]
+    if not any(snapshot.touching for snapshot in snapshots):
+        raise ValueError(
+            f"{figure}: the bodies do not touch at t = "
+            f"{', '.join(in_words(s.time, 's') for s in snapshots) or 'any stored instant'}; "
+            "choose other times"
+        )
+    return snapshots
+
+
+def snapshots_of_runs(
+    runs: Mapping[str, xr.Dataset], times: ArrayLike | None, figure: str
+) -> tuple[list[Snapshot], list[str]]:
+    """Fields of several runs, and what is said above each.
+
+    Parameters
+    ----------
+    runs : mapping of str to xarray.Dataset
+        Results by the name to print.
+    times : array_like or None
+        Instants asked for [s]; None for the last of each run.
+    figure : str
+        Name of the figure, for messages.
+
+    Returns
+    -------
+    snapshots : list of Snapshot
+        Run by run.
+    headings : list of str
+        The run and the instant.
+
+    Raises
+    ------
+    ValueError
+        If there are no runs, or as `take_snapshots` does.
+    """
+    if not runs:
+        raise ValueError(f"{figure}: needs at least one run to compare, got none")
+    snapshots: list[Snapshot] = []
+    headings: list[str] = []
+    for name, run in runs.items():
+        wanted = float(run["time"][-1]) if times is None else times
+        taken = take_snapshots(run, wanted, figure)
+        snapshots += taken
+        headings += [f"{name}, t = {label}" for label in time_labels(s.time for s in taken)]
+    return snapshots, headings
+
+
+def snapshot_reader(results: xr.Dataset) -> Callable[[int], Snapshot]:
+    """Prepare to read fields one stored instant at a time.
+
+    Parameters
+    ----------
+    results : xarray.Dataset
+        What `viscontact.simulate` or `viscontact.open_results` returned, with fields stored.
+
+    Returns
+    -------
+    callable
+        From the number of a stored instant to the fields at it.
+    """
+    body_end, periodic = _body_end(results), recorded_grid(results).periodic
+
+    def read(index: int) -> Snapshot:
+        return replace(_snapshot(results, index), body_end=body_end, periodic=periodic)
+
+    return read
+
+
+def field_at(results: xr.Dataset, name: str, time: float, figure: str) -> NDArray[np.float64]:
+    """Return a field at a stored instant.
+
+    Parameters
+    ----------
+    results : xarray.Dataset
+        What `viscontact.simulate` or `viscontact.open_results` returned.
+    name : str
+        Such as ``"displacement"``.
+    time : float
+        An instant at which fields are stored [s].
+    figure : str
+        Name of the figure, for the message.
+
+    Returns
+    -------
+    ndarray
+        Shape (nx, ny), in SI units.
+
+    Raises
+    ------
+    ValueError
+        If the field is not stored.
+    """
+    if name not in results:
+        raise ValueError(
+            f"{figure}: needs the stored field {name}, which this result does not have; run again "
+            "with fields stored"
+        )
+    field = results[name].sel({_time_dimension(results): time}, method="nearest")
+    return np.asarray(field.transpose("x", "y").values, dtype=np.float64)
+
+
+def _time_dimension(results: xr.Dataset) -> str:
+    return "field_time" if "field_time" in results["pressure"].dims else "time"
+
+
+def _in_contact(results: xr.Dataset, instants: NDArray[np.float64]) -> NDArray[np.bool_]:
+    # From the scalars: all fields of a long run need not fit in memory.
+    peak = results["peak_pressure"].sel(time=instants, method="nearest")
+    return np.asarray(peak.values > 0, dtype=np.bool_)
+
+
+def _body_end(results: xr.Dataset) -> Outline | None:
+    # Only a body that ends has an infinite gap beside it.
+    # The last is known on all of the grid, should that have been enlarged meanwhile.
+    last = results["gap"].isel({_time_dimension(results): -1}).values
+    if np.isfinite(last).all() or "case" not in results.attrs:
+        return None
+    try:
+        indenter = recorded_noun(results, "indenter", "snapshot")
+    except ValueError:  # a measured surface is not kept with the result
+        return None
+    x, y = results["x"].values, results["y"].values
+    size = (float(x[1] - x[0]) * x.size, float(y[1] - y[0]) * y.size)
+    return trace_outline(indenter, Grid((x.size, y.size), size))
+
+
+def _snapshot(results: xr.Dataset, index: int) -> Snapshot:
+    dimension = _time_dimension(results)
+    fields = results[["pressure", "gap"]].isel({dimension: index})
+    pressure, gap = (
+        np.asarray(fields[name].transpose("x", "y").values, dtype=np.float64)
+        for name in ("pressure", "gap")
+    )
+    x, y = results["x"].values, results["y"].values
+    return Snapshot(float(fields[dimension]), x, y, pressure, gap)
+
+
+def _nearest(stored: NDArray[np.float64], times: ArrayLike, figure: str) -> Sequence[int]:
+    wanted = np.atleast_1d(np.asarray(times, dtype=np.float64))
+    if wanted.size == 0 or not np.all(np.isfinite(wanted)):
+        raise ValueError(f"{figure}: times must be finite numbers of seconds, got {times!r}")
+    return sorted({int(np.argmin(np.abs(stored - instant))) for instant in wanted})
+
+
+def _spread(
+    stored: NDArray[np.float64], in_contact: NDArray[np.bool_], count: int
+) -> Sequence[int]:
+    candidates = np.flatnonzero(in_contact)
+    if candidates.size <= count:
+        return [int(index) for index in candidates]
+    instants = stored[candidates]
+    # Two decades back from the end is where creep is seen to happen; earlier, a picture at
+    # each decade would repeat the first one.
+    earliest = max(instants[instants > 0][0], instants[-1] / 100)
+    targets = np.concatenate([instants[:1], np.geomspace(earliest, instants[-1], count)[1:]])
+    return sorted({int(candidates[np.argmin(np.abs(instants - t))]) for t in targets})

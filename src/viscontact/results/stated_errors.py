@@ -1,0 +1,126 @@
+"""What a result states of its own errors, and the words for a value that has no limit."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from viscontact.results.variables import error_name
+
+#: Said of a value whose stated error is infinite, and why it is.
+MESH_DEPENDENT = "depends on the mesh"
+WHY_MESH_DEPENDENT = "the number is the largest mean over a cell, and smaller cells give more"
+
+
+def stated_error(results: xr.Dataset, name: str) -> NDArray[np.float64] | None:
+    """Return half widths of the error bars of a scalar.
+
+    Parameters
+    ----------
+    results : xarray.Dataset
+        What ``simulate`` or ``open_results`` returned.
+    name : str
+        A scalar of the result.
+
+    Returns
+    -------
+    ndarray or None
+        Over time, in the unit of the scalar: NaN where it is not known, inf where the value
+        depends on the mesh. None if the result states none.
+
+    Examples
+    --------
+    >>> run = xr.Dataset({"approach": ("time", [1e-5]), "approach_error": ("time", [1e-7])})
+    >>> stated_error(run, "approach"), stated_error(run, "force")
+    (array([1.e-07]), None)
+    """
+    companion = error_name(name)
+    if companion not in results:
+        return None
+    return np.asarray(results[companion].values, dtype=np.float64)
+
+
+def mesh_dependent(results: xr.Dataset, name: str) -> NDArray[np.bool_]:
+    """Tell at which instants a scalar depends on the mesh.
+
+    Parameters
+    ----------
+    results : xarray.Dataset
+        What ``simulate`` or ``open_results`` returned.
+    name : str
+        A scalar of the result.
+
+    Returns
+    -------
+    ndarray of bool
+        Over time; nowhere if the result states no errors.
+
+    Examples
+    --------
+    >>> run = xr.Dataset({"force": ("time", [1.0, 2.0]), "force_error": ("time", [0.0, np.inf])})
+    >>> mesh_dependent(run, "force").tolist()
+    [False, True]
+    """
+    error = stated_error(results, name)
+    return np.zeros(results.sizes["time"], dtype=np.bool_) if error is None else np.isposinf(error)
+
+
+@dataclass(frozen=True)
+class LargestError:
+    """The largest error bar of a scalar over a run.
+
+    Attributes
+    ----------
+    half_width : float
+        In the unit of the scalar; inf where the value depends on the mesh, NaN where nothing is
+        known.
+    part : float
+        Of the scalar's largest magnitude [-].
+    unknown : int
+        At how many instants there is a value, but its error is not known.
+    time : float
+        When it is first so large [s]; NaN where nothing is known.
+    """
+
+    half_width: float
+    part: float
+    unknown: int
+    time: float
+
+
+def largest_error(ds: xr.Dataset, name: str) -> LargestError | None:
+    """Return the largest error bar of a scalar.
+
+    Parameters
+    ----------
+    ds : xarray.Dataset
+        A result.
+    name : str
+        The scalar.
+
+    Returns
+    -------
+    LargestError or None
+        None if the result states no errors of it, or holds no value.
+
+    Examples
+    --------
+    >>> force = {"force": ("time", [2.0, 4.0]), "force_error": ("time", [0.1, np.nan])}
+    >>> largest_error(xr.Dataset(force, {"time": [0.0, 1.0]}), "force")
+    LargestError(half_width=0.1, part=0.025, unknown=1, time=0.0)
+    """
+    error, values = stated_error(ds, name), np.asarray(ds[name].values, dtype=np.float64)
+    given = ~np.isnan(values)
+    if error is None or not given.any():
+        return None
+    known = given & ~np.isnan(error)
+    unknown = int(given.sum() - known.sum())
+    if not known.any():
+        return LargestError(np.nan, np.nan, unknown, np.nan)
+    at = int(np.where(known, error, -1.0).argmax())
+    half_width, largest = float(error[at]), float(np.abs(values[given]).max())
+    part = half_width / largest if largest > 0 else (np.inf if half_width > 0 else 0.0)
+    return LargestError(half_width, part, unknown, float(ds["time"][at]))

@@ -1,0 +1,123 @@
+"""Stresses below the contact, labelled: from a result to another dataset."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike, NDArray
+
+from viscontact.halfspace.stress import Stress, stress_on_section
+from viscontact.halfspace.stress_influence import COMPONENTS
+from viscontact.results.recorded_case import recorded_grid, recorded_poisson_ratio
+
+#: Depths that are taken when none are given: so many, to so many half widths of the contact.
+DEPTHS, REACH = 61, 2.0
+
+
+def section_stresses(
+    results: xr.Dataset,
+    depths: ArrayLike | None = None,
+    *,
+    x: float | None = None,
+    y: float | None = None,
+    times: Sequence[float] | None = None,
+    poisson_ratio: float | None = None,
+) -> xr.Dataset:
+    """Stresses in the half-space on a plane below the contact, at the stored instants.
+
+    Parameters
+    ----------
+    results : xarray.Dataset
+        What `simulate` or `open_results` returned, with pressure stored.
+    depths : array_like, shape (nz,), optional
+        Depths below the surface, 0 or positive [m]; from 0 to two half widths of the largest
+        contact when left out.
+    x, y : float, optional
+        Where the plane lies: one of them [m]; y = 0 when both are left out.
+    times : sequence of float, optional
+        Instants [s], the nearest stored ones are taken; all when left out.
+    poisson_ratio : float, optional
+        Of the half-space [-]; the result's own when left out.
+
+    Returns
+    -------
+    xarray.Dataset
+        ``stress_xx`` ... ``stress_xy`` (tension positive), ``von_mises`` and ``max_shear`` [Pa]
+        over (time, z, x), or (time, z, y) on a plane of given x.
+
+    Raises
+    ------
+    ValueError
+        If no pressure is stored, Poisson's ratio is not known or varies in time, or an argument
+        makes no sense.
+
+    Notes
+    -----
+    For a constant Poisson's ratio the stresses follow from the present pressure alone, whatever
+    the body remembers: see `viscontact.halfspace.stress`.
+
+    Examples
+    --------
+    A ball makes a body of ν = 0.3 yield below the surface first, at 0.62 of the peak pressure:
+
+    >>> import viscontact as vc
+    >>> steel = vc.Material(vc.Elastic(80e9), poisson_ratio=0.3)
+    >>> grid = vc.Grid((49, 49), (0.6e-3, 0.6e-3))
+    >>> ds = vc.simulate(vc.Paraboloid(0.01, 0.01), steel, vc.step(100.0), grid, [0.0])
+    >>> inside = vc.section_stresses(ds)
+    >>> round(float(inside.von_mises.max() / ds.peak_pressure[0]), 2)
+    0.62
+    """
+    if "pressure" not in results:
+        raise ValueError(
+            "stresses need stored pressure; run again with fields stored ('output: fields: all' "
+            "or a list of instants in the case file, fields= in Python)"
+        )
+    ratio = recorded_poisson_ratio(results) if poisson_ratio is None else poisson_ratio
+    below = _usual_depths(results) if depths is None else np.atleast_1d(np.asarray(depths, float))
+    pressure = _chosen(results["pressure"], times)
+    grid = recorded_grid(results)
+    found = [stress_on_section(field, grid, below, ratio, x=x, y=y) for field in pressure.values]
+    return _labelled(results, pressure, found, below, "x" if x is None else "y")
+
+
+def _chosen(pressure: xr.DataArray, times: Sequence[float] | None) -> xr.DataArray:
+    pressure = pressure.rename({pressure.dims[0]: "time"})
+    return pressure if times is None else pressure.sel(time=list(times), method="nearest")
+
+
+def _usual_depths(results: xr.Dataset) -> NDArray[np.float64]:
+    extents = np.minimum(results["contact_length"], results["contact_width"])
+    half_width = float(extents.max()) / 2
+    if not half_width > 0:
+        raise ValueError("there is no contact at any instant; give depths=")
+    return np.linspace(0.0, REACH * half_width, DEPTHS)
+
+
+def _labelled(
+    results: xr.Dataset,
+    pressure: xr.DataArray,
+    found: Sequence[Stress],
+    depths: NDArray[np.float64],
+    along: str,
+) -> xr.Dataset:
+    fields: dict[str, Any] = {}
+    for name in COMPONENTS:
+        meaning = f"stress component {name}, tension positive"
+        fields[f"stress_{name}"] = (meaning, [stress[name] for stress in found])
+    fields["von_mises"] = ("von Mises stress", [stress.von_mises for stress in found])
+    fields["max_shear"] = ("largest shear stress", [stress.max_shear for stress in found])
+    variables = {
+        name: (("time", "z", along), np.stack(values), {"units": "Pa", "long_name": meaning})
+        for name, (meaning, values) in fields.items()
+    }
+    depth = (
+        "z",
+        depths,
+        {"units": "m", "long_name": "depth below the surface", "positive": "down"},
+    )
+    coordinates = {"time": pressure["time"], "z": depth, along: results[along]}
+    return xr.Dataset(variables, coords=coordinates)

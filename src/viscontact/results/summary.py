@@ -1,0 +1,146 @@
+"""What a run found, a row for each scalar: values with their errors, and the largest error."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+
+from viscontact.results.formatting import NEGLIGIBLE, errors_of, told_in
+from viscontact.results.rounding import is_rounding_tilt
+from viscontact.results.stated_errors import MESH_DEPENDENT, LargestError, largest_error
+from viscontact.results.variables import SCALARS
+from viscontact.units.error_digits import in_error_digits, in_percent
+from viscontact.units.formatting import ReadableUnit, in_words, readable_unit
+
+_ROWS = (
+    *("force", "eccentricity_x", "eccentricity_y", "approach", "tilt_x", "tilt_y"),
+    *("contact_area", "contact_length", "contact_width", "peak_pressure", "mean_pressure", "work"),
+    "loss_per_cycle",
+)
+#: Exactly centred loads leave eccentricities of rounding size [m].
+_ROUNDING = 1e-12
+
+#: What the columns mean.
+LEGEND = (
+    "±: the error of each value at that instant (of 100 true errors 95 are meant to be smaller); "
+    "left out below 0.01 %. Largest error: the worst of the run, in % of the largest value."
+)
+
+
+@dataclass(frozen=True)
+class SummaryRow:
+    """A scalar of a run in words, no digit more than its error supports.
+
+    Attributes
+    ----------
+    name : str
+        Its name in the result.
+    unit : str
+        The unit of the numbers.
+    first, last, largest : str
+        At the first and the last instant, and where its magnitude is largest; each with the error
+        that it has then, unless that is negligible.
+    error : str
+        The largest error over the run, in the unit; or that it is not known, or why there is none.
+    part : str
+        That as a part of the largest value; empty where there is none.
+    when : str
+        When the error is so large; empty where it is negligible at all instants.
+    unknown : int
+        At how many instants the error is not known.
+    """
+
+    name: str
+    unit: str
+    first: str
+    last: str
+    largest: str
+    error: str
+    part: str
+    when: str
+    unknown: int
+
+    @property
+    def title(self) -> str:
+        """Its name in words."""
+        return self.name.replace("_", " ")
+
+    @property
+    def largest_error(self) -> str:
+        """The largest error in short: as a part of the largest value, and when."""
+        if not self.part:
+            return self.error
+        return f"{self.part} at {self.when}" if self.when else self.part
+
+
+def summary_rows(ds: xr.Dataset) -> list[SummaryRow]:
+    """Return what a run found.
+
+    Parameters
+    ----------
+    ds : xarray.Dataset
+        A result.
+
+    Returns
+    -------
+    list of SummaryRow
+        One for each scalar that is more than rounding.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(0.1), vc.Grid((64, 64), (2e-3, 2e-3)))
+    >>> row = next(row for row in summary_rows(ds) if row.name == "force")
+    >>> row.title, row.unit, row.last
+    ('force', 'mN', '100.0')
+    """
+    return [_row(ds, name) for name in told_scalars(ds)]
+
+
+def told_scalars(ds: xr.Dataset) -> list[str]:
+    """Return which scalars of a result a table tells of: not those that are rounding.
+
+    Parameters
+    ----------
+    ds : xarray.Dataset
+        A result.
+    """
+    return [name for name in _ROWS if name in ds and not _is_rounding(ds, name)]
+
+
+def _row(ds: xr.Dataset, name: str) -> SummaryRow:
+    values, errors = np.asarray(ds[name].values, dtype=np.float64), errors_of(ds, name)
+    at_largest = int(np.nanargmax(np.abs(values)))
+    unit = readable_unit(float(values[at_largest]), SCALARS[name].units)
+    # Beside a zero, what counts is what the value becomes.
+    scale = NEGLIGIBLE * float(np.abs(values[at_largest]))
+    errors = np.where((values == 0) & (errors <= scale), 0.0, errors)
+    first, last, largest = (
+        told_in(unit, float(values[k]), float(errors[k])) for k in (0, -1, at_largest)
+    )
+    found = largest_error(ds, name)
+    error, part, when = _error_told(found, unit)
+    unknown = found.unknown if found else 0
+    return SummaryRow(name, unit.symbol, first, last, largest, error, part, when, unknown)
+
+
+def _error_told(found: LargestError | None, unit: ReadableUnit) -> tuple[str, str, str]:
+    """The largest error in the row's unit, as a part of the largest value, and when it is."""
+    if found is None or math.isnan(found.half_width):
+        return "not known", "", ""
+    if math.isinf(found.half_width):
+        return MESH_DEPENDENT, "", ""
+    told, part = in_error_digits(found.half_width / unit.factor), in_percent(found.part)
+    return told, part, in_words(found.time, "s", 3) if found.part > NEGLIGIBLE else ""
+
+
+def _is_rounding(ds: xr.Dataset, name: str) -> bool:
+    values = np.asarray(ds[name].values, dtype=np.float64)
+    if name.startswith("tilt"):
+        return is_rounding_tilt(values, ds["contact_length"].values, ds["approach"].values)
+    largest = float(np.abs(values[np.isfinite(values)]).max(initial=0.0))
+    return largest <= (_ROUNDING if name.startswith("eccentricity") else 0.0)

@@ -1,0 +1,1 @@
+"""Runs: one or many, prepared, forecast, recorded in a directory, as processes."""

@@ -1,0 +1,235 @@
+"""What can be told of a run before it is started, in words."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from viscontact.checks.half_space_theory import SINGULAR_KINDS
+from viscontact.checks.mesh import DOUBTFUL_CELLS
+from viscontact.loads.largest_load import largest_load
+from viscontact.meshing.elastic_estimate import ContactEstimate
+from viscontact.results.stated_errors import MESH_DEPENDENT
+from viscontact.runs.forecast import Forecast, forecast
+from viscontact.runs.preparation import Prepared
+from viscontact.simulation.setup import Run
+from viscontact.units.formatting import in_digits, in_words
+
+#: A load is as large as the largest from this part of it on.
+AS_LARGE = 0.999
+
+#: An end of the body within so many times the grid is drawn as well.
+FARTHEST_END = 1.3
+
+
+def foreseen(prepared: Prepared) -> Forecast:
+    """Foresee a run.
+
+    Parameters
+    ----------
+    prepared : Prepared
+        A case, checked.
+
+    Returns
+    -------
+    Forecast
+        What it will need and what it may find.
+
+    Raises
+    ------
+    CaseError
+        If no contact can carry the load.
+    """
+    try:
+        return forecast(prepared.run, errors=prepared.case.errors)
+    except ValueError as error:
+        raise prepared.case.error(str(error)) from error
+
+
+def verdict(prepared: Prepared, expected: Forecast) -> str:
+    """Say in a line whether anything is wrong with a case.
+
+    Parameters
+    ----------
+    prepared : Prepared
+        A case, checked.
+    expected : Forecast
+        What was foreseen of it.
+    """
+    is_doubtful = bool(warnings_of(prepared, expected))
+    told = "can be read, but:" if is_doubtful else "no problems found"
+    return f"{prepared.case.document.path}: {told}"
+
+
+def drawn_size(run: Run) -> tuple[float, float]:
+    """Return how much of the body is drawn: the grid, and more if the body ends not far beyond it.
+
+    Parameters
+    ----------
+    run : Run
+        A run that has been checked.
+
+    Returns
+    -------
+    tuple of float
+        Extents along x and y [m].
+    """
+    size = list(run.grid.size)
+    for axis in (0, 1):
+        beyond = np.linspace(1.0, FARTHEST_END, 400) * size[axis] / 2
+        places = np.zeros((2, 2, beyond.size))
+        places[axis] = -beyond, beyond
+        gap = run.indenter.gap(places[0], places[1])
+        if np.isinf(gap[:, -1]).any() and np.isfinite(gap[:, 0]).any():
+            last = beyond[np.flatnonzero(np.isfinite(gap).any(axis=0))[-1]]
+            size[axis] = 2.1 * float(last)
+    return size[0], size[1]
+
+
+def needs(prepared: Prepared, expected: Forecast) -> list[tuple[str, str]]:
+    """Return what a run needs: grid, steps, memory, time, each with its name.
+
+    Parameters
+    ----------
+    prepared : Prepared
+        A case, checked.
+    expected : Forecast
+        What was foreseen of it.
+    """
+    run = prepared.run
+    (nx, ny), (lx, ly), (dx, dy) = run.grid.shape, run.grid.size, run.grid.cell_size
+    chosen = " (automatic)" if run.automatic is not None else ""
+    growing = "; more if the grid has to grow" if run.grows else ""
+    period = ", periodic" if run.grid.periodic else ""
+    free = f"of {_bytes(expected.available)} free"
+    return [
+        ("grid", f"{nx} x {ny} cells on {in_words(lx, 'm')} x {in_words(ly, 'm')}{chosen}{period}"),
+        ("cell", f"{in_words(dx, 'm', 3)} x {in_words(dy, 'm', 3)}"),
+        *_grid_error(run),
+        ("time steps", f"{_steps(run)}, up to t = {in_words(float(run.times[-1]), 's')}"),
+        ("fields kept", _kept(prepared.case.fields)),
+        ("memory", f"about {_bytes(expected.memory)} {free}{growing}"),
+        ("run time", f"{_duration(expected.seconds)} on this machine"),
+    ]
+
+
+def _grid_error(run: Run) -> list[tuple[str, str]]:
+    """How exact the cells are, and when, where they were chosen for it."""
+    if run.mesh is None or not run.mesh.errors:
+        return []
+    told = [
+        f"{name.replace('_', ' ')} {in_digits(100 * error, 1)} %"
+        for name, error in run.mesh.errors.items()
+    ]
+    # Broken here: a terminal would break between a number and its unit.
+    when = ";\n".join(_when_largest(run))
+    return [("grid error", f"{', '.join(told)},\n{when}")]
+
+
+def _when_largest(run: Run) -> Iterator[str]:
+    """When the load is largest, for which the cells were chosen; and what is so at other times."""
+    crest, point = largest_load(run.load, float(run.times[-1]))
+    kinks = run.load.kinks[run.load.kinks <= run.times[-1]]
+    instants = np.union1d(run.times, [*kinks, crest])
+    # On the left of a jump, say, it is at one instant only.
+    is_largest = run.load.level_at(instants) >= AS_LARGE * point.level
+    is_largest |= instants == crest
+    first, last = (in_words(float(instants[is_largest][k]), "s", 3) for k in (0, -1))
+    when = f" (t = {first} to {last})" if first != last else f" (t = {first})"
+    comes = np.diff(is_largest.astype(int), prepend=0) > 0
+    if math.isfinite(run.load.longest_step) or np.count_nonzero(comes) > 1:
+        when = f" (first at t = {first})"
+    yield f"at the largest load{'' if is_largest.all() else when}"
+    if not is_largest[instants > 0].all():
+        yield "more at smaller loads, whose contact has fewer cells"
+
+
+def _steps(run: Run) -> str:
+    if run.adaptive is None:
+        return f"{len(run.times) - 1}"
+    return f"as needed for an error of {100 * run.adaptive.tolerance:g} %"
+
+
+def _kept(fields: str | Sequence[float]) -> str:
+    if fields == "none":
+        return "none"
+    when = "every instant" if fields == "all" else f"{len(fields)} instants"
+    return f"pressure, gap and displacement at {when}"
+
+
+def expectations(prepared: Prepared, expected: Forecast) -> tuple[str, list[tuple[str, str]]]:
+    """Return what a run may find: how that is known, and rows; no rows without a load.
+
+    Parameters
+    ----------
+    prepared : Prepared
+        A case, checked.
+    expected : Forecast
+        What was foreseen of it.
+    """
+    found, control = expected.estimate, prepared.run.load.control
+    title = "What to expect, by a quick elastic solve on few cells:"
+    if found is None:
+        return title, []
+    # What is prescribed is known.
+    follows = (
+        ("approach", in_words(found.approach, "m", 3))
+        if control == "force"
+        else ("force", in_words(found.force, "N", 3))
+    )
+    return title, [
+        ("estimate for", f"largest {control}, {expected.compliance}"),
+        ("contact", f"{in_words(found.length, 'm', 3)} long, {in_words(found.width, 'm', 3)} wide"),
+        ("cells in it", f"{expected.cells_along:.0f} along, {expected.cells_across:.0f} across"),
+        ("peak pressure", _peak_told(expected, found)),
+        follows,
+    ]
+
+
+def _peak_told(expected: Forecast, found: ContactEstimate) -> str:
+    told = in_words(found.peak_pressure, "Pa", 3)
+    is_sharp = not SINGULAR_KINDS.isdisjoint(expected.doubts)
+    return f"{MESH_DEPENDENT} ({told} on a coarse one)" if is_sharp else told
+
+
+def warnings_of(prepared: Prepared, expected: Forecast) -> list[str]:
+    """Return what a run would warn of, as far as the coarse solve can tell.
+
+    Parameters
+    ----------
+    prepared : Prepared
+        A case, checked.
+    expected : Forecast
+        What was foreseen of it.
+    """
+    grid = prepared.run.grid
+    if expected.estimate is None:
+        return list(expected.doubts.values())
+    doubts = []
+    if not expected.fits:
+        reach = " and ".join(in_words(far, "m", 3) for far in expected.estimate.reach)
+        ends = " and ".join(in_words(extent / 2, "m", 3) for extent in grid.size)
+        doubts.append(
+            f"the contact will probably overrun the grid: it reaches {reach} from the middle "
+            f"along x and y, and the grid {ends}; enlarge grid.size"
+        )
+    across = (expected.cells_along, expected.cells_across)
+    # Where a contact goes on from period to period there is nothing that the cells lie across.
+    ended = [n for n, k in zip(across, grid.shape, strict=True) if not grid.periodic or n < k]
+    if min(ended, default=math.inf) < DOUBTFUL_CELLS:
+        doubts.append(
+            f"fewer than {DOUBTFUL_CELLS} cells across the contact; use more cells or a smaller "
+            "grid.size"
+        )
+    return doubts + list(expected.doubts.values())
+
+
+def _duration(seconds: float) -> str:
+    return f"about {in_words(seconds, 's', 1)}" if seconds > 1 else "about a second"
+
+
+def _bytes(count: float) -> str:
+    megabytes = count / 1e6
+    return f"{in_digits(megabytes / 1e3, 3)} GB" if megabytes > 1e3 else f"{megabytes:.0f} MB"

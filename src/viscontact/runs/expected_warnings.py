@@ -1,0 +1,123 @@
+"""What a run will warn of, as far as it can be told before its first step."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from viscontact.checks.half_space_theory import Geometry, body_doubts, corner_doubts, strain_doubts
+from viscontact.checks.material import data_doubts, early_doubts, law_doubts, passivity_doubts
+from viscontact.checks.sampling import Sampling, map_doubts, texture_doubts
+from viscontact.checks.singularities import strain_of
+from viscontact.checks.steps import release_doubts, touch_doubts
+from viscontact.materials.material import Material
+from viscontact.meshing.elastic_estimate import ContactEstimate
+from viscontact.simulation.setup import Run
+from viscontact.time_integration.fixed_steps import FixedSteps
+
+#: So many of a run's first instants are looked at for a load that comes before the data do.
+FIRST_INSTANTS = 200
+
+
+def foreseen_doubts(
+    run: Run, estimate: ContactEstimate | None, compliance: float
+) -> dict[str, str]:
+    """Doubts about the material, the steps and the estimated contact of a run.
+
+    Parameters
+    ----------
+    run : Run
+        A run that has been checked.
+    estimate : ContactEstimate or None
+        Its largest contact, coarsely; None without a load.
+    compliance : float
+        The contact compliance of that estimate [1/Pa].
+
+    Returns
+    -------
+    dict of str to str
+        Sentences by kind of doubt, as a run would say them; empty if there is none. Those about
+        a mesh that was given are left to who knows whether the grid fits.
+    """
+    doubts = _material_doubts(run) | _step_doubts(run)
+    if run.mesh is not None:
+        doubts |= run.mesh.doubts
+    return doubts if estimate is None else doubts | _contact_doubts(run, estimate, compliance)
+
+
+def _bodies(run: Run) -> list[Material]:
+    return [body for body in (run.material, run.indenter_material) if body is not None]
+
+
+def _contact_doubts(run: Run, found: ContactEstimate, compliance: float) -> dict[str, str]:
+    geometry = Geometry(
+        run.indenter,
+        found.open_gap,
+        found.rim.grid,
+        thickness=min(body.thickness or math.inf for body in _bodies(run)),
+        indenter_gives=run.indenter_material is not None,
+        foreseen=True,
+    )
+    on_grid = Sampling(run.indenter, run.open_gap, run.grid)
+    within_x = np.abs(run.grid.x - found.centre_x) <= found.length / 2
+    within_y = np.abs(run.grid.y - found.centre_y) <= found.width / 2
+    missed = float(on_grid.missed[np.ix_(within_x, within_y)].max(initial=0.0))
+    strain = 2 * found.approach / min(found.length, found.width)
+    return (
+        strain_doubts(geometry, found.rim, found.motion)
+        | body_doubts(geometry, found.rim)
+        | _corner_doubts(run, geometry, found, compliance)
+        | map_doubts(missed, max(run.grid.cell_size), strain)
+        | texture_doubts(run.indenter.period, max(run.grid.cell_size))
+    )
+
+
+def _corner_doubts(
+    run: Run, geometry: Geometry, found: ContactEstimate, compliance: float
+) -> dict[str, str]:
+    """Doubt about a peak at a corner; far coarser than the run's, a solve tells little of it."""
+    coarse = found.rim.grid.cell_size
+    finest = tuple(max(own, each / 4) for own, each in zip(run.grid.cell_size, coarse, strict=True))
+    grid = replace(run.grid, size=(finest[0] * run.grid.shape[0], finest[1] * run.grid.shape[1]))
+    strain = strain_of(found.peak_pressure, compliance)
+    searched = (max(finest[0], coarse[0]), max(finest[1], coarse[1]))
+    return corner_doubts(replace(geometry, grid=grid), found.peak_place, strain, searched)
+
+
+def _material_doubts(run: Run) -> dict[str, str]:
+    end = float(run.times[-1])
+    doubts = law_doubts(run.memory.error, run.compliance.inversion_error)
+    for body in _bodies(run):
+        doubts |= passivity_doubts(body.law, end)
+    first = max(body.known_from for body in _bodies(run))
+    kinks = run.load.kinks[run.load.kinks <= end]
+    instants = np.union1d(kinks, run.times[:FIRST_INSTANTS])
+    loaded = instants[run.load.level_at(instants) > 0] if first > 0 else instants[:0]
+    for time in loaded.tolist():
+        doubts = early_doubts(first, run.load, time) | doubts
+    return doubts | data_doubts(end, run.measured_until)
+
+
+def _step_doubts(run: Run) -> dict[str, str]:
+    """Of given steps that take much of the load on or off at once; adaptive ones see to it."""
+    end, load = float(run.times[-1]), run.load
+    if run.adaptive is not None or run.compliance(end) == run.compliance.instant:
+        return {}
+    doubts: dict[str, str] = {}
+    steps = FixedSteps(run.times, load).steps
+    times = np.array([step.time for step in steps])
+    before_jumps = np.array([step.before_jump for step in steps])
+    # All at once: a load at a hundred thousand instants one by one takes seconds.
+    levels = np.where(before_jumps, load.level_at(times, side="left"), load.level_at(times))
+    comes_or_goes = np.flatnonzero((levels[:-1] <= 0) != (levels[1:] <= 0)) + 1
+    for k in comes_or_goes.tolist():
+        step, before, after = steps[k], float(levels[k - 1]), float(levels[k])
+        if step.is_jump:
+            continue
+        if before <= 0:
+            doubts = touch_doubts(step.duration, after / load.largest_level) | doubts
+        elif load.control == "force":
+            doubts = release_doubts(step.duration, before / load.largest_level) | doubts
+    return doubts

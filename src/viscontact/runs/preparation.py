@@ -1,0 +1,80 @@
+"""From a case to a run that has been checked."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from viscontact.case import Case
+from viscontact.grid import Grid
+from viscontact.runs.free_memory import available_memory
+from viscontact.runs.resources import least_memory, needed_memory
+from viscontact.simulation.setup import Run, prepare_run
+from viscontact.units.formatting import in_digits
+
+
+@dataclass(frozen=True, eq=False)
+class Prepared:
+    """A case, and the run it makes."""
+
+    case: Case
+    run: Run
+
+
+def prepared(case: Case, threads: int = 1) -> Prepared:
+    """Check everything that can be checked before the first step.
+
+    Parameters
+    ----------
+    case : Case
+        A case that has been read.
+    threads : int
+        Threads of one Fourier transform.
+
+    Returns
+    -------
+    Prepared
+        Ready to run.
+
+    Raises
+    ------
+    CaseError
+        If it cannot be run, or needs more memory than is free.
+    """
+    _refuse_beyond_memory(case)
+    run = _prepared_run(case, threads)
+    _refuse_beyond(case, run.grid, needed_memory(run.grid, run.memory.fields_kept))
+    return Prepared(case, run)
+
+
+def _prepared_run(case: Case, threads: int) -> Run:
+    try:
+        return prepare_run(
+            case.indenter,
+            case.material,
+            case.load,
+            case.grid,
+            case.times,
+            indenter_material=case.indenter_material,
+            tolerance=case.tolerance,
+            fields=case.fields,
+            threads=threads,
+        )
+    except ValueError as error:
+        raise case.error(str(error)) from error
+
+
+def _refuse_beyond_memory(case: Case) -> None:
+    """Refuse the grid before anything of its size is allocated."""
+    if not isinstance(case.grid, Grid):
+        return
+    _refuse_beyond(case, case.grid, least_memory(case.grid, case.material))
+
+
+def _refuse_beyond(case: Case, grid: Grid, needed: float) -> None:
+    available = available_memory()
+    if needed > available:
+        nx, ny = grid.shape
+        raise case.error(
+            f"grid.shape: {nx} x {ny} cells need about {in_digits(needed / 1e9, 3)} GB of memory, "
+            f"{in_digits(available / 1e9, 3)} GB are free; use fewer cells"
+        )

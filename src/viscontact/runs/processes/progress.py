@@ -1,0 +1,82 @@
+"""How far a run of another process has come, as its directory tells."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from contextlib import suppress
+from os import stat_result
+from typing import Any
+
+from viscontact.runs.directory.recorded_run import PROGRESS_NAME
+from viscontact.runs.processes.job import Job, Standing
+
+
+class Course:
+    """How far a run has come.
+
+    Parameters
+    ----------
+    job : Job
+        The run, before its process is started.
+
+    Attributes
+    ----------
+    instants : int
+        How many are complete.
+    time : float
+        The last of them [s].
+    first, last : mapping
+        What the run's lines say of its first and its last instant; empty without any.
+    """
+
+    def __init__(self, job: Job) -> None:
+        self.instants, self.time = 0, 0.0
+        self.first: Mapping[str, Any] = {}
+        self.last: Mapping[str, Any] = {}
+        self._job, self._path = job, job.directory / PROGRESS_NAME
+        self._file, self._read = 0, 0
+        # Lines of an earlier run, which this one replaces, tell nothing.
+        self._earlier = None if job.standing is Standing.STOPPED else self._marks()
+        self.look()
+
+    @property
+    def part(self) -> float:
+        """How much of the run is done: 1 for all of it."""
+        job = self._job
+        if job.instants is None:
+            return min(self.time / job.end, 1.0) if job.end > 0 else 0.0
+        return min(self.instants / job.instants, 1.0)
+
+    def look(self) -> None:
+        """Read what has been written meanwhile; what cannot be read is left for the next time."""
+        marks = self._marks()
+        if marks is None or marks == self._earlier:
+            return
+        file, size, _ = marks
+        if file != self._file or size < self._read:
+            self._file, self._read, self.instants = file, 0, 0
+        with suppress(OSError, ValueError, LookupError, TypeError):
+            with self._path.open("rb") as lines:
+                lines.seek(self._read)
+                whole, newline, _ = lines.read().rpartition(b"\n")
+            if newline:
+                first = self.first if self._read else _line(whole.partition(b"\n")[0])
+                last = _line(whole.rpartition(b"\n")[2])
+                self.first, self.last, self.time = first, last, float(last["time"])
+                self._read += len(whole) + 1
+                self.instants += whole.count(b"\n") + 1
+
+    def _marks(self) -> tuple[int, int, int] | None:
+        """What tells one state of the file from another; None without a file."""
+        with suppress(OSError):
+            found: stat_result = self._path.stat()
+            return found.st_ino, found.st_size, found.st_mtime_ns
+        return None
+
+
+def _line(text: bytes) -> dict[str, Any]:
+    """A line of the run; what is none raises one of the errors that are awaited above."""
+    found: dict[str, Any] = json.loads(text)
+    float(found["time"])
+    return found

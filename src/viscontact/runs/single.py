@@ -1,0 +1,185 @@
+"""Simulate one contact: `simulate`."""
+
+from __future__ import annotations
+
+import time as clock
+import warnings
+from collections.abc import Sequence
+
+import xarray as xr
+from numpy.typing import ArrayLike
+
+from viscontact.accuracy.coarser_runs import history_of
+from viscontact.accuracy.error_bars import ErrorBars, error_bars, unknown_bars
+from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
+from viscontact.grid import AutomaticGrid, Grid
+from viscontact.indenters import Indenter
+from viscontact.loads import LoadHistory
+from viscontact.materials.material import Material
+from viscontact.results.dataset import field_axis, to_dataset
+from viscontact.results.enlarged_grid import enlargements
+from viscontact.simulation.provenance import run_attributes
+from viscontact.simulation.setup import Run, prepare_run
+from viscontact.simulation.state_generator import Progress, march_run
+from viscontact.state import ContactState
+from viscontact.time_integration.requested_times import AdaptiveTimes
+from viscontact.time_integration.run_times import field_instants
+
+
+def simulate(
+    indenter: Indenter,
+    material: Material,
+    load: LoadHistory,
+    grid: Grid | AutomaticGrid | None = None,
+    times: ArrayLike | AdaptiveTimes | None = None,
+    *,
+    indenter_material: Material | None = None,
+    tolerance: float = 1e-6,
+    fields: str | Sequence[float] = "all",
+    threads: int = 1,
+    progress: Progress | None = None,
+    errors: bool = True,
+) -> xr.Dataset:
+    """Press an indenter on a creeping half-space and return what happens over time.
+
+    Parameters
+    ----------
+    indenter : Indenter
+        Shape of the pressed body.
+    material : Material
+        Material of the half-space.
+    load : LoadHistory
+        Force or approach, eccentricity and prescribed tilts over time.
+    grid : Grid or AutomaticGrid, optional
+        Cells that carry the pressure, or what is asked of them: then, and when left out, the
+        run chooses them.
+    times : array_like or AdaptiveTimes, optional
+        Instants of the result, strictly increasing, none before 0 [s]; chosen from load and
+        law when left out. With `adaptive_times` the run chooses its steps, and ``time`` holds
+        those it took.
+    indenter_material : Material, optional
+        Material of the indenter; rigid when left out.
+    tolerance : float, optional
+        Relative error of gap and balances at every instant.
+    fields : {"all", "none"} or sequence of float, optional
+        Instants [s] whose pressure, gap and displacement are kept: all on the dimension
+        ``time``, some on ``field_time``.
+    threads : int, optional
+        Threads of one Fourier transform.
+    progress : callable, optional
+        Called with (state, done, total) after each instant.
+    errors : bool, optional
+        Whether errors of the scalars are estimated, ``peak_pressure_error`` and so on: two
+        coarser companions of the run are marched for that, which takes about two thirds of its
+        own time.
+
+    Returns
+    -------
+    xarray.Dataset
+        Scalars over ``time``, fields over (time or field_time, x, y), all in SI units, each
+        with ``units`` and ``long_name``; the case, warnings and tolerance as attributes.
+
+        Where errors are estimated, a scalar has ``<name>_error`` beside it, over ``time`` and in
+        its own unit: the half width of an error bar, which 95 of 100 true errors do not exceed.
+        It is inf for a peak pressure without a limit (at a sharp edge or point), NaN where
+        nothing is known, 0 for what is zero because nothing touches, and some three times
+        `tolerance` of what is prescribed.
+
+        If the run has enlarged its grid, fields are on the last one: beyond the grid of an
+        earlier instant pressure is 0, and gap and displacement are NaN. The attribute
+        ``grid_enlarged`` says when.
+
+    Raises
+    ------
+    ValueError
+        If an argument makes no sense, with a remedy.
+    ConvergenceError, DomainError
+        If the run stops; ``partial`` holds the completed steps as a dataset.
+
+    Warns
+    -----
+    AccuracyWarning
+        If the result is coarser than one would expect; kept in the attribute ``warnings``.
+
+    See Also
+    --------
+    march : the generator underneath, which yields one state after the other.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Zener(1e6, 1e6, 1e6), poisson_ratio=0.5)
+    >>> ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(0.1), times=vc.uniform_times(5.0, 20))
+    >>> round(float(ds.approach[-1] / ds.approach[0]), 2)  # (J(5 s)/J(0))**(2/3)
+    1.58
+    """
+    run = prepare_run(
+        indenter,
+        material,
+        load,
+        grid,
+        times,
+        indenter_material=indenter_material,
+        tolerance=tolerance,
+        fields=fields,
+        threads=threads,
+    )
+    started = clock.perf_counter()
+    states: list[ContactState] = []
+    keep = set(field_instants(fields, run.times).tolist())
+    keeps_all = field_axis(fields) == "time"
+    try:
+        for state in march_run(run, progress):
+            kept = keeps_all or state.time in keep
+            states.append(state if kept else state.without_fields())
+    except (ConvergenceError, DomainError) as stop:
+        if states:
+            bars = unknown_bars(len(states)) if errors else None
+            stop.partial = labelled(run, states, fields, clock.perf_counter() - started, bars)
+        raise
+    bars = _bars(run, states) if errors else None
+    return labelled(run, states, fields, clock.perf_counter() - started, bars)
+
+
+def _bars(run: Run, states: Sequence[ContactState]) -> ErrorBars:
+    bars = error_bars(run.on(states[-1].grid), history_of(states))
+    for text in bars.warnings:
+        warnings.warn(text, AccuracyWarning, stacklevel=3)
+    return bars
+
+
+def labelled(
+    run: Run,
+    states: Sequence[ContactState],
+    fields: str | Sequence[float],
+    wall_time: float,
+    bars: ErrorBars | None = None,
+) -> xr.Dataset:
+    """Label the states of a run, with what is known of the run as attributes.
+
+    Parameters
+    ----------
+    run : Run
+        Before its first step, on the grid that it started with.
+    states : sequence of ContactState
+        Its states so far, at least one.
+    fields : str or sequence of float
+        As in `simulate`.
+    wall_time : float
+        Duration of the computation [s].
+    bars : ErrorBars, optional
+        Errors of the scalars.
+
+    Returns
+    -------
+    xarray.Dataset
+        As `simulate` returns it.
+    """
+    warned = [text for state in states for text in state.warnings]
+    warned += bars.warnings if bars is not None else ()
+    attributes = run_attributes(run) | {
+        "wall_time": wall_time,
+        "warnings": "\n".join(warned),
+        "grid_enlarged": "\n".join(enlargements(run.grid, states)),
+    }
+    return to_dataset(states, fields, attributes, None if bars is None else bars.values)

@@ -1,0 +1,76 @@
+"""The automatic grid, for those who want to see it before the run does."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from viscontact.checks.arguments import check_kinds
+from viscontact.grid import GRID_QUANTITIES, AutomaticGrid, Grid
+from viscontact.indenters import Indenter
+from viscontact.loads import LoadHistory
+from viscontact.materials.material import Material
+from viscontact.meshing.mesh_choice import choose_mesh
+
+
+def auto_grid(
+    indenter: Indenter,
+    material: Material,
+    load: LoadHistory,
+    tolerance: float = 0.01,
+    *,
+    quantities: Sequence[str] = GRID_QUANTITIES,
+    end: float | None = None,
+    indenter_material: Material | None = None,
+) -> Grid:
+    """Choose a grid for a run.
+
+    Parameters
+    ----------
+    indenter : Indenter
+        Shape of the pressed body.
+    material : Material
+        Material of the half-space.
+    load : LoadHistory
+        Force or approach, eccentricity and prescribed tilts over time.
+    tolerance : float, optional
+        Aimed-at relative error of the named quantities, between 1e-4 and 0.5 [-].
+    quantities : sequence of str, optional
+        What has to be that exact, as in `AutomaticGrid`.
+    end : float, optional
+        Last instant of the run [s]; the load's last point, or the end of all creep, when left
+        out.
+    indenter_material : Material, optional
+        Material of the indenter; rigid when left out.
+
+    Returns
+    -------
+    Grid
+        Holds the contact at the largest compliance under every corner of the load's history,
+        with a margin; fine enough for the tolerance under the largest load, from its first
+        instant on. A peak pressure that has no limit (at a sharp edge or tip) is left out.
+
+    Raises
+    ------
+    ValueError
+        If the tolerance makes no sense, no end of the creep is known, no grid fits, or the
+        tolerance would need millions of cells.
+
+    Notes
+    -----
+    Elastic contacts are solved on a mesh and on cells twice as long, each way; what changes by
+    less than the tolerance on halving the cells, and falls at least as fast as they do, is off by
+    less. Where the change is too large the mesh is refined the way that causes it.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> vc.auto_grid(vc.Sphere(0.01), rubber, vc.step(1.0)).shape
+    (40, 40)
+    """
+    wish = AutomaticGrid(tolerance, quantities)
+    check_kinds(indenter, material, load, None, indenter_material)
+    compliance = material.contact_compliance()
+    if indenter_material is not None:
+        compliance = compliance + indenter_material.contact_compliance()
+    return choose_mesh(indenter, compliance, load, wish, end).grid

@@ -1,0 +1,59 @@
+"""What whole cycles of the load cost in work."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from viscontact.loads.history import Cycle, Moment
+from viscontact.time_integration.fixed_steps import Step
+from viscontact.time_integration.restart_data import Carried
+
+
+class Cycles:
+    """The work at the beginnings and ends of the load's cycles.
+
+    Parameters
+    ----------
+    cycles : sequence of (begin, end)
+        As `LoadHistory.load_cycles`, in order.
+
+    Examples
+    --------
+    >>> cycles = Cycles([((0.0, "left"), (2.0, "right"))])
+    >>> cycles.last_loss
+    nan
+    >>> cycles.pass_by(Step(2.0, 2.0, 2.0, smooth=False), work=3.0)
+    >>> cycles.last_loss
+    3.0
+    """
+
+    def __init__(self, cycles: Sequence[Cycle]) -> None:
+        self._cycles = list(cycles)
+        # Before a jump at time 0 no work has been done.
+        self._begun = 0.0 if cycles and cycles[0][0] == (0.0, "left") else math.nan
+        self.last_loss = math.nan
+
+    def pass_by(self, step: Step, work: float) -> None:
+        """Take note of the work [J] at the end of a step, if a cycle ends or begins there."""
+        if self._cycles and _meets(step, self._cycles[0][1]):
+            self.last_loss = work - self._begun
+            del self._cycles[0]
+        if self._cycles and _meets(step, self._cycles[0][0]):
+            self._begun = work
+
+    def carried(self) -> Carried:
+        """What has to be kept to go on from here."""
+        return {"left": len(self._cycles), "begun": self._begun, "last_loss": self.last_loss}
+
+    def restore(self, carried: Carried) -> None:
+        """Go on from what was `carried` under the same load."""
+        self._cycles = self._cycles[len(self._cycles) - carried["left"] :]
+        self._begun, self.last_loss = carried["begun"], carried["last_loss"]
+
+
+def _meets(step: Step, moment: Moment) -> bool:
+    """Whether a step ends at an instant; without a jump there, it does so on both its sides."""
+    time, side = moment
+    other = (step.before_jump and side == "right") or (step.is_jump and side == "left")
+    return step.time == time and not other

@@ -1,0 +1,226 @@
+"""A run step after step, to be stopped after any of them and gone on with."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from viscontact.contact.domain import HalfSpace
+from viscontact.errors import ConvergenceError, DomainError
+from viscontact.fourier import transforms_by
+from viscontact.grid import Grid
+from viscontact.simulation.grid_enlargement import FREE, Enlargement, next_grid, overrun
+from viscontact.simulation.observer import Observer
+from viscontact.simulation.setup import Run
+from viscontact.simulation.solved_step import SolvedStep
+from viscontact.simulation.step_solution import Instant
+from viscontact.simulation.stepper import Past, Trial
+from viscontact.state import ContactState, Outcome
+from viscontact.time_integration.fixed_steps import Step
+from viscontact.time_integration.restart_data import Carried
+from viscontact.units.formatting import in_words
+
+
+@dataclass(frozen=True, eq=False)
+class Taken:
+    """A step that a run has taken.
+
+    Attributes
+    ----------
+    solved : SolvedStep
+        All that it takes to take it again.
+    state : ContactState or None
+        The state at its end; None for an inner step that nobody asked for.
+    done, left : int
+        Instants asked for that are done, and that are still to come (probably, where the run
+        chooses its steps).
+    """
+
+    solved: SolvedStep
+    state: ContactState | None
+    done: int
+    left: int
+
+
+class March:
+    """A run under way: iterate for its steps, stop after any, and go on another day.
+
+    Parameters
+    ----------
+    run : Run
+        From `prepare_run`.
+    carried : dict, optional
+        What the same run had `carried` after some step: it goes on from there, to the same bits;
+        from the start when left out.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> from viscontact.simulation.setup import prepare_run
+    >>> rubber = vc.Material(vc.Zener(1e6, 1e6, 1e6), poisson_ratio=0.5)
+    >>> grid = vc.Grid((32, 32), (2.4e-3, 2.4e-3))
+    >>> run = prepare_run(vc.Sphere(0.01), rubber, vc.step(0.1), grid, [0.0, 0.5, 1.0])
+    >>> begun = March(run)
+    >>> steps = iter(begun)
+    >>> first = next(steps)
+    >>> resumed = March(run, begun.carried())
+    >>> [step.state.approach for step in resumed] == [step.state.approach for step in steps]
+    True
+    """
+
+    def __init__(self, run: Run, carried: Carried | None = None) -> None:
+        if carried is not None:
+            run = run.on(run.grid.widened(tuple(carried["cells"])))
+        self._run = run
+        self._half_space = _half_space(run)
+        self._past = Past(run, self._half_space)
+        self._steps = run.steps()
+        self._observer = Observer(run)
+        self._done = 0
+        if carried is not None:
+            self._restore(carried)
+
+    def __iter__(self) -> Iterator[Taken]:
+        """Take the steps that are left.
+
+        Raises
+        ------
+        ConvergenceError, DomainError
+            As in `march`.
+        """
+        while self._steps.upcoming() is not None:
+            yield (taken := self._advance())
+            if taken.solved.outcome is Outcome.NOT_CONVERGED:
+                raise ConvergenceError(_not_converged(self._run, taken.solved))
+        self._observer.refuse_coarse_mesh()
+
+    def repeat(self, solved: SolvedStep) -> Taken:
+        """Take a step that has been solved before.
+
+        Parameters
+        ----------
+        solved : SolvedStep
+            The next step, as this run had taken it.
+
+        Raises
+        ------
+        ValueError
+            If it is not the next step of this run, or not one that it would have taken.
+        """
+        for error in solved.refused:
+            self._steps.accepts(error)
+        step = self._steps.upcoming()
+        if step is None or step.time != solved.time:
+            raise ValueError(
+                f"a step to t = {in_words(solved.time, 's', 9)} is not the next one of this run"
+            )
+        if solved.cells != self._run.grid.shape:
+            self._enlarge(self._run.grid.widened(solved.cells))
+        trial = self._past.repeat(step, solved.solution, solved.outcome)
+        if not self._steps.accepts(trial.error.relative):
+            raise ValueError(
+                f"the step to t = {in_words(solved.time, 's', 9)} is not one that this run takes"
+            )
+        self._half_space.keep_patch(solved.patch)
+        return self._taken(step, trial, solved)
+
+    def carried(self) -> Carried:
+        """What has to be kept to go on from here, as plain data."""
+        return {
+            "past": self._past.carried(),
+            "steps": self._steps.carried(),
+            "observer": self._observer.carried(),
+            "patch": list(self._half_space.kept_patch),
+            "cells": list(self._run.grid.shape),
+            "done": self._done,
+        }
+
+    def _restore(self, carried: Carried) -> None:
+        self._past.restore(carried["past"])
+        self._steps.restore(carried["steps"])
+        self._observer.restore(carried["observer"])
+        first_row, last_row, first_column, last_column = carried["patch"]
+        self._half_space.keep_patch((first_row, last_row, first_column, last_column))
+        self._done = carried["done"]
+
+    def _advance(self) -> Taken:
+        """Solve and take the next step; one may be tried again, on a larger grid or shorter."""
+        refused: list[float] = []
+        while True:
+            step = self._steps.upcoming()
+            assert step is not None  # its caller has seen one, and a refused one is replaced
+            trial = self._past.trial(step)
+            if self._outgrows(step, trial):
+                continue
+            failed = trial.outcome is Outcome.NOT_CONVERGED
+            if failed or self._steps.accepts(trial.error.relative):
+                break
+            refused.append(trial.error.relative)
+        patch = self._half_space.kept_patch
+        cells = self._run.grid.shape
+        solved = SolvedStep(step.time, tuple(refused), trial.solution, trial.outcome, patch, cells)
+        return self._taken(step, trial, solved)
+
+    def _outgrows(self, step: Step, trial: Trial) -> bool:
+        """Whether a contact has come near the rim of a grid that may grow, and now has grown."""
+        if not self._run.grows:
+            return False
+        over = overrun(self._half_space.unfold(trial.solution.found.pressure), FREE)
+        if not any(over):
+            return False
+        larger = next_grid(self._run.grid, *over)
+        if larger is None:
+            raise DomainError(_too_large(self._run, step))
+        self._enlarge(larger)
+        return True
+
+    def _enlarge(self, grid: Grid) -> None:
+        """Go on from the same state on a larger grid."""
+        run = self._run.on(grid)
+        half_space = _half_space(run)
+        self._past.enlarge(run, half_space)
+        self._observer.enlarge(run, Enlargement(self._half_space, half_space))
+        self._run, self._half_space = run, half_space
+
+    def _taken(self, step: Step, trial: Trial, solved: SolvedStep) -> Taken:
+        instant = self._past.accept(step, trial)
+        _refuse_rim(self._run, step, instant)
+        state = self._observer.observe(step, trial.point, instant)
+        if step.asked is None:
+            return Taken(solved, None, self._done, self._steps.left)
+        self._done += 1
+        last = step.asked >= float(self._run.times[-1])
+        state = self._observer.judge(state, last=last)
+        return Taken(solved, state, self._done, self._steps.left)
+
+
+def _half_space(run: Run) -> HalfSpace:
+    transforms = transforms_by(run.transforms, run.threads)
+    return HalfSpace(run.grid, mirrored=run.mirrored, transforms=transforms)
+
+
+def _refuse_rim(run: Run, step: Step, instant: Instant) -> None:
+    if run.grid.periodic or not any(overrun(instant.pressure)):
+        return
+    raise DomainError(
+        f"grid: the contact reaches the grid's rim at t = {in_words(step.time, 's', 6)}; enlarge "
+        f"grid.size, now {in_words(run.grid.size[0], 'm')} x {in_words(run.grid.size[1], 'm')}"
+    )
+
+
+def _too_large(run: Run, step: Step) -> str:
+    return (
+        f"grid: the contact outgrows {in_words(run.grid.size[0], 'm')} x "
+        f"{in_words(run.grid.size[1], 'm')} at t = {in_words(step.time, 's', 6)}, and with cells "
+        "as fine as these an automatic grid cannot be larger; give a grid of your own, or look "
+        "whether the load carries the body off"
+    )
+
+
+def _not_converged(run: Run, solved: SolvedStep) -> str:
+    return (
+        f"the contact solver stopped at t = {in_words(solved.time, 's', 6)} with residual "
+        f"{solved.solution.residual:.2g} after {solved.solution.iterations} iterations, short of "
+        f"the tolerance {run.tolerance:g}; likely causes: a resultant that hardly fits under the "
+        f"body, a grid too coarse for the contact, or a tolerance near rounding"
+    )

@@ -1,0 +1,278 @@
+"""From an equilibrium to a state: resultants, sub-cell rim, work, and doubts."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.checks.collector import Doubts
+from viscontact.checks.half_space_theory import Geometry, corner_doubts, geometry_doubts
+from viscontact.checks.material import data_doubts, early_doubts, law_doubts, passivity_doubts
+from viscontact.checks.mesh import REFUSED_CELLS, cells_across_spots, mesh_doubts
+from viscontact.checks.singularities import strain_of
+from viscontact.checks.steps import untold_doubts
+from viscontact.contact.body_edge import trace_outline
+from viscontact.contact.rim import Rim, trace_rim
+from viscontact.errors import DomainError
+from viscontact.loads.history import LoadPoint
+from viscontact.simulation.grid_enlargement import Enlargement
+from viscontact.simulation.load_cycles import Cycles
+from viscontact.simulation.setup import Run
+from viscontact.simulation.step_solution import Instant
+from viscontact.simulation.step_warnings import loading_doubts
+from viscontact.state import ContactState, Outcome
+from viscontact.time_integration.fixed_steps import Step
+from viscontact.time_integration.restart_data import Carried
+
+#: By how much a pressure exceeds the one before that is looked at for corners.
+HIGHER = 1.1
+
+
+class Observer:
+    """Watches a run from step to step, for what needs the step before: work and doubts.
+
+    Parameters
+    ----------
+    run : Run
+        The run it watches.
+    """
+
+    def __init__(self, run: Run) -> None:
+        self._look_at(run)
+        self._doubts = Doubts()
+        self._open = law_doubts(run.memory.error, run.compliance.inversion_error)
+        if run.mesh is not None:
+            self._open |= run.mesh.doubts
+        self._measured_from = max(body.known_from for body in run.bodies)
+        for body in run.bodies:
+            self._open |= passivity_doubts(body.law, float(run.times[-1]))
+        self._work = 0.0
+        self._before: Instant | None = None
+        self._point: LoadPoint | None = None
+        self._cycles = Cycles(run.load.load_cycles)
+        self._largest_area, self._cells_at_largest = 0.0, 0
+        self._largest: NDArray[np.bool_] | None = None  # the contact whose spots are not told yet
+        self._spots_at_largest = 0.0
+        self._peak, self._peak_time, self._peak_told = 0.0, 0.0, 0.0
+        self._looked_at = 0.0
+
+    def _look_at(self, run: Run) -> None:
+        self._run = run
+        self._outline = trace_outline(run.indenter, run.grid)
+        self._geometry = Geometry(
+            run.indenter,
+            run.open_gap,
+            run.grid,
+            thickness=min(body.thickness or math.inf for body in run.bodies),
+            indenter_gives=run.indenter_material is not None,
+        )
+
+    def enlarge(self, run: Run, onto: Enlargement) -> None:
+        """Go on with the same run on a larger grid.
+
+        Parameters
+        ----------
+        run : Run
+            The run on its new grid.
+        onto : Enlargement
+            From the old half-space to the new one.
+        """
+        self._look_at(run)
+        if self._before is not None:
+            self._before = onto.instant(self._before)
+
+    def observe(self, step: Step, point: LoadPoint, instant: Instant) -> ContactState:
+        """Describe the end of a step.
+
+        Parameters
+        ----------
+        step : Step
+            The step.
+        point : LoadPoint
+            The load at its end.
+        instant : Instant
+            What was found there.
+
+        Returns
+        -------
+        ContactState
+            Without warnings yet; see `judge`.
+        """
+        contact = instant.pressure > 0
+        rim = trace_rim(self._run.grid, contact, instant.gap, self._outline)
+        self._work += self._work_of(point, instant)
+        self._cycles.pass_by(step, self._work)
+        self._collect_doubts(step, instant, rim)
+        state = _state(step, instant, rim, self._work, self._cycles.last_loss)
+        if state.contact_area > self._largest_area:
+            self._largest_area, self._cells_at_largest = state.contact_area, state.cells_across
+            self._largest = contact
+        if state.peak_pressure > self._peak and step.time >= self._run.times[0]:
+            self._peak, self._peak_time = state.peak_pressure, step.time
+        self._before = instant
+        return state
+
+    def judge(self, state: ContactState, *, last: bool) -> ContactState:
+        """Attach the doubts met since the last judged state, each kind once a run.
+
+        Parameters
+        ----------
+        state : ContactState
+            From `observe`.
+        last : bool
+            Whether it is the run's last, so that the mesh can be judged at the largest contact.
+
+        Returns
+        -------
+        ContactState
+            With its warnings.
+        """
+        self._peak_told = max(self._peak_told, state.peak_pressure)
+        mesh, untold = {}, {}
+        if last and self._largest_area:
+            mesh = mesh_doubts(self._cells_at_largest, self._cells_across_spots())
+            untold = untold_doubts(self._peak, self._peak_time, self._peak_told)
+        return replace(state, warnings=self._doubts.new(self._open, mesh, untold))
+
+    def refuse_coarse_mesh(self) -> None:
+        """Raise at the run's end if even its largest contact had too few cells.
+
+        Raises
+        ------
+        DomainError
+            If fewer than four cells lay across it.
+        """
+        if not self._largest_area or self._cells_at_largest >= REFUSED_CELLS:
+            return
+        nx, ny = self._run.grid.shape
+        raise DomainError(
+            f"grid: only {self._cells_at_largest} cells lie across the run's largest contact and "
+            f"{REFUSED_CELLS} are the least (20 or more recommended); use more cells than "
+            f"{nx} x {ny} or a smaller grid.size"
+        )
+
+    def carried(self) -> Carried:
+        """What has to be kept to go on from here; asked for after an `observe`."""
+        before = self._before
+        return {
+            "said": self._doubts.said,
+            "open": self._open,
+            "work": self._work,
+            "before": before and vars(before) | {"outcome": int(before.outcome)},
+            "point": self._point and vars(self._point),
+            "cycles": self._cycles.carried(),
+            "largest_area": self._largest_area,
+            "cells_at_largest": self._cells_at_largest,
+            "spots_at_largest": self._cells_across_spots(),
+            "peak": [self._peak, self._peak_time, self._peak_told],
+            "looked_at": self._looked_at,
+        }
+
+    def restore(self, carried: Carried) -> None:
+        """Go on from what was `carried`, in the same run."""
+        self._doubts.said = dict(carried["said"])
+        self._open, self._work = dict(carried["open"]), carried["work"]
+        before, point = carried["before"], carried["point"]
+        self._before = (
+            None if before is None else Instant(**before | {"outcome": Outcome(before["outcome"])})
+        )
+        self._point = None if point is None else LoadPoint(**point)
+        self._cycles.restore(carried["cycles"])
+        self._largest_area = carried["largest_area"]
+        self._cells_at_largest = carried["cells_at_largest"]
+        self._spots_at_largest = carried["spots_at_largest"]
+        self._peak, self._peak_time, self._peak_told = carried["peak"]
+        self._looked_at = carried["looked_at"]
+
+    def _cells_across_spots(self) -> float:
+        """Cells across the spots of the largest contact, counted when they are asked for."""
+        if self._largest is not None:
+            periodic = self._run.grid.periodic
+            self._spots_at_largest = cells_across_spots(self._largest, periodic=periodic)
+            self._largest = None
+        return self._spots_at_largest
+
+    def _collect_doubts(self, step: Step, instant: Instant, rim: Rim) -> None:
+        found = data_doubts(step.time, self._run.measured_until)
+        if instant.outcome is not Outcome.NO_CONTACT:
+            found = self._corner_doubts(step.time, instant) | found
+            found = (
+                geometry_doubts(self._geometry, rim, instant.motion, instant.displacement) | found
+            )
+            found = early_doubts(self._measured_from, self._run.load, step.time, step.side) | found
+        found = loading_doubts(self._run, step, self._before, instant) | found
+        self._open = found | self._open
+
+    def _corner_doubts(self, time: float, instant: Instant) -> dict[str, str]:
+        """Whether the largest pressure so far lies at a corner; where it hardly grew, it stayed."""
+        peak = float(instant.pressure.max())
+        if peak <= HIGHER * self._looked_at:
+            return {}
+        self._looked_at = peak
+        place = self._run.grid.largest_at(instant.pressure)
+        strain = strain_of(peak, float(self._run.compliance(time)))
+        return corner_doubts(self._geometry, place, strain)
+
+    def _work_of(self, point: LoadPoint, instant: Instant) -> float:
+        """Work over a step: exact while the load is held, and for all that is elastic.
+
+        Under a held load the force is constant, or nothing travels: force times approach is exact.
+        Where the load moves it is not, as an elastic contact's force is no straight function of
+        its approach; a cycle in long steps would gain energy. Mean pressure times change of
+        displacement, which moves with the body wherever there is pressure, is exact there by
+        reciprocity, however far the step goes.
+        """
+        before, point_before = self._before, self._point
+        self._point = point
+        if before is None:  # every run starts with a jump
+            return self._run.compliance.instant * instant.energy
+        if point == point_before:
+            travel = instant.motion - before.motion
+            return float((before.resultants + instant.resultants) @ travel / 2)
+        mean = (before.pressure + instant.pressure) / 2
+        moved = instant.displacement - before.displacement
+        return float(np.einsum("ij,ij->", mean, moved)) * self._run.grid.cell_area
+
+
+def _state(
+    step: Step,
+    instant: Instant,
+    rim: Rim,
+    work: float,
+    loss: float,
+) -> ContactState:
+    force, moment_x, moment_y = (float(resultant) for resultant in instant.resultants)
+    touching = force > 0
+    # Where the surface goes on without end there is no middle that a force could be off.
+    centred = touching and not rim.grid.periodic
+    peak = float(instant.pressure.max())
+    # A few cells enclose next to nothing; but no mean pressure exceeds the peak.
+    area = max(rim.area, force / peak) if touching else 0.0
+    return ContactState(
+        time=step.time if step.asked is None else step.asked,
+        pressure=instant.pressure,
+        gap=instant.gap,
+        displacement=instant.displacement,
+        grid=rim.grid,
+        force=force,
+        eccentricity_x=moment_x / force if centred else math.nan,
+        eccentricity_y=moment_y / force if centred else math.nan,
+        approach=float(instant.motion[0]),
+        tilt_x=float(instant.motion[1]),
+        tilt_y=float(instant.motion[2]),
+        contact_area=area,
+        contact_length=rim.length,
+        contact_width=rim.width,
+        peak_pressure=peak,
+        mean_pressure=force / area if touching else 0.0,
+        work=work,
+        loss_per_cycle=loss,
+        time_error=instant.time_error,
+        iterations=instant.iterations,
+        residual=instant.residual,
+        cells_across=rim.cells_across,
+        outcome=instant.outcome,
+    )

@@ -1,0 +1,143 @@
+"""The one loop over time: from an indenter, a material and a load to states."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Iterator, Sequence
+
+from numpy.typing import ArrayLike
+
+from viscontact.errors import AccuracyWarning
+from viscontact.grid import AutomaticGrid, Grid
+from viscontact.indenters import Indenter
+from viscontact.loads import LoadHistory
+from viscontact.materials.material import Material
+from viscontact.simulation.march import March
+from viscontact.simulation.setup import Run, prepare_run
+from viscontact.state import ContactState
+from viscontact.time_integration.requested_times import AdaptiveTimes
+
+#: Called after each instant asked for: the state, how many are done, how many there are; with
+#: adaptive steps, how many there probably are.
+Progress = Callable[[ContactState, int, int], None]
+
+
+def march(
+    indenter: Indenter,
+    material: Material,
+    load: LoadHistory,
+    grid: Grid | AutomaticGrid | None = None,
+    times: ArrayLike | AdaptiveTimes | None = None,
+    *,
+    indenter_material: Material | None = None,
+    tolerance: float = 1e-6,
+    fields: str | Sequence[float] = "all",
+    threads: int = 1,
+    progress: Progress | None = None,
+) -> Iterator[ContactState]:
+    """Press an indenter on a creeping half-space and yield the state at each instant.
+
+    Parameters
+    ----------
+    indenter : Indenter
+        Shape of the pressed body.
+    material : Material
+        Material of the half-space.
+    load : LoadHistory
+        Force or approach, eccentricity and prescribed tilts over time.
+    grid : Grid or AutomaticGrid, optional
+        Cells that carry the pressure, or what is asked of them: then, and when left out, the
+        run chooses them.
+    times : array_like or AdaptiveTimes, optional
+        Instants of the states, strictly increasing, none before 0 [s]; chosen from load and
+        law when left out. At a jump the state is the one just after it. With `adaptive_times`
+        there is a state for each step that the run chooses, and one at each instant of
+        `fields`.
+    indenter_material : Material, optional
+        Material of the indenter; rigid when left out.
+    tolerance : float, optional
+        Relative error of gap and balances at every instant.
+    fields : {"all", "none"} or sequence of float, optional
+        As in `simulate`, checked but not needed here: states carry their fields.
+    threads : int, optional
+        Threads of one Fourier transform.
+    progress : callable, optional
+        Called with (state, done, total) after each instant.
+
+    Returns
+    -------
+    iterator of ContactState
+        All checks of the input are done before it is returned.
+
+    Raises
+    ------
+    ValueError
+        If an argument makes no sense, with a remedy; before the first step.
+    ConvergenceError
+        If the contact solver stagnates, from the iterator.
+    DomainError
+        If pressure reaches the outermost cells of a grid that was given, or of one that cannot be
+        enlarged any further, or the largest contact has fewer than four cells across; from the
+        iterator.
+
+    Notes
+    -----
+    Steps also end at the load's kinks and jumps. Within a step the pressure is linear in time,
+    so the error falls with the square of the step; the paper's piecewise-constant rule (Spinu &
+    Cerlinca 2018, eq. 12) is of first order. Over steps long against the law (always, if it is a
+    dashpot at first) the pressure rises over a part of the step only, lest it ring, and the error
+    is of first order; an `AccuracyWarning` says so where it matters.
+
+    Examples
+    --------
+    A sphere on an elastic half-space, E* = 4/3 MPa, R = 0.75 m, sinks like Hertz's:
+
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6 / 3), poisson_ratio=0.5)
+    >>> grid = vc.Grid((40, 40), (0.26, 0.26))
+    >>> states = vc.march(vc.Paraboloid(0.75, 0.75), rubber, vc.step(2370.0), grid, [0.0])
+    >>> round(next(states).approach, 4)
+    0.0133
+    """
+    run = prepare_run(
+        indenter,
+        material,
+        load,
+        grid,
+        times,
+        indenter_material=indenter_material,
+        tolerance=tolerance,
+        fields=fields,
+        threads=threads,
+    )
+    return march_run(run, progress)
+
+
+def march_run(run: Run, progress: Progress | None = None) -> Iterator[ContactState]:
+    """Yield the states of a run that has been checked.
+
+    Parameters
+    ----------
+    run : Run
+        From `prepare_run`.
+    progress : callable, optional
+        Called with (state, done, total) after each instant.
+
+    Yields
+    ------
+    ContactState
+        One for each of the run's instants.
+
+    Raises
+    ------
+    ConvergenceError, DomainError
+        As in `march`.
+    """
+    for taken in March(run):
+        if taken.state is None:
+            continue
+        for text in taken.state.warnings:
+            warnings.warn(text, AccuracyWarning, stacklevel=2)
+        if progress is not None:
+            progress(taken.state, taken.done, taken.done + taken.left)
+        yield taken.state

@@ -1,0 +1,280 @@
+"""What a run carries from step to step, and how it takes the next one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.contact.domain import HalfSpace
+from viscontact.contact.equilibrium import ContactSolution, solve_contact
+from viscontact.contact.problem import ContactProblem, Guess
+from viscontact.contact.rigid_balance import Support
+from viscontact.loads import LoadPoint
+from viscontact.simulation.grid_enlargement import Enlargement
+from viscontact.simulation.setup import Run
+from viscontact.simulation.step_solution import Instant
+from viscontact.state import Outcome
+from viscontact.time_integration.extrapolation import POINTS, Twin, predict
+from viscontact.time_integration.fixed_steps import Step
+from viscontact.time_integration.hereditary_integral import Memory, Response
+from viscontact.time_integration.internal_variables import RecursiveMemory
+from viscontact.time_integration.restart_data import Carried
+from viscontact.time_integration.step_error import StepError, TimeErrors
+
+#: Errors are measured against the displacement that the pressure causes, but never against less
+#: than this part of the largest displacement of the past: below it rounding would have a say.
+HISTORY_COUNTS = 1e-3
+
+#: Samples each way within a cell when the body's lowest point is looked for; even, so that a
+#: point on a cell's edge or corner is among them.
+TOUCH_SAMPLES = 16
+
+
+@dataclass(frozen=True, eq=False)
+class Posed:
+    """What a step meets, before it is solved.
+
+    Attributes
+    ----------
+    point : LoadPoint
+        The load at its end.
+    response : Response
+        Of the memory to the step.
+    drive : float
+        What the elastic twin moves with, as in `Twin`.
+    problem : ContactProblem
+        What is to be solved.
+    """
+
+    point: LoadPoint
+    response: Response
+    drive: float
+    problem: ContactProblem
+
+
+@dataclass(frozen=True, eq=False)
+class Trial:
+    """A step that has been solved, and not been taken yet.
+
+    Attributes
+    ----------
+    point : LoadPoint
+        The load at its end.
+    solution : ContactSolution
+        Equilibrium there.
+    response : Response
+        Of the memory to the step.
+    twin : Twin
+        Elastic twin of the end.
+    outcome : Outcome
+        How it ended.
+    error : StepError
+        What the step adds to the error of the pressure.
+    """
+
+    point: LoadPoint
+    solution: ContactSolution
+    response: Response
+    twin: Twin
+    outcome: Outcome
+    error: StepError
+
+
+class Past:
+    """What has happened so far: memories, the last twins, the last motion.
+
+    Parameters
+    ----------
+    run : Run
+        The run.
+    half_space : HalfSpace
+        Where it takes place.
+    """
+
+    def __init__(self, run: Run, half_space: HalfSpace) -> None:
+        self._run, self._half_space = run, half_space
+        self._shape = half_space.fold(run.open_gap)
+        self._memory = run.memory.memory((2, *half_space.shape))  # of pressure and of deflection
+        self._force_memory = RecursiveMemory(run.memory.sketch, (1,))
+        self._errors = TimeErrors(run.memory, run.load)
+        self._scale = 1e-12 * max(run.grid.cell_size)
+        self._twins: list[Twin] = []
+        self._motion = np.zeros(3)
+
+    def trial(self, step: Step) -> Trial:
+        """Solve a step, without taking it."""
+        posed = self._posed(step)
+        solution, outcome = self._solved(step, posed)
+        return self._tried(step, posed, solution, outcome)
+
+    def repeat(self, step: Step, solution: ContactSolution, outcome: Outcome) -> Trial:
+        """The trial of a step whose solution is known."""
+        return self._tried(step, self._posed(step), solution, outcome)
+
+    def carried(self) -> Carried:
+        """What has to be kept to go on from here; asked for after an `accept`."""
+        return {
+            "memory": self._memory.carried(),
+            "force_memory": self._force_memory.carried(),
+            "errors": self._errors.carried(),
+            "scale": self._scale,
+            "twins": [vars(twin) for twin in self._twins],
+            "motion": self._motion,
+        }
+
+    def restore(self, carried: Carried) -> None:
+        """Go on from what was `carried`, in the same run."""
+        self._memory.restore(carried["memory"])
+        self._force_memory.restore(carried["force_memory"])
+        self._errors.restore(carried["errors"])
+        self._scale = carried["scale"]
+        self._twins = [Twin(**twin) for twin in carried["twins"]]
+        self._motion = carried["motion"]
+
+    def enlarge(self, run: Run, half_space: HalfSpace) -> None:
+        """Go on in the same run on a larger grid."""
+        grown = Enlargement(self._half_space, half_space).pairs
+        self._run, self._half_space = run, half_space
+        self._shape = half_space.fold(run.open_gap)
+        self._memory.enlarge(grown)
+        self._errors.enlarge(grown)
+        self._twins = [replace(twin, fields=grown(twin.fields)) for twin in self._twins]
+
+    def _posed(self, step: Step) -> Posed:
+        """Ask the memories what the step will meet."""
+        point = self._run.load.at(step.time, side=step.side)
+        response, force_response = (
+            _response(each, step) for each in (self._memory, self._force_memory)
+        )
+        twin_force = float(force_response.of(_force(point))[0])
+        drive = twin_force if point.approach is None else point.approach
+        problem = ContactProblem(
+            self._shape + response.history[1],
+            response.compliance,
+            self._half_space.share(Support.of(point)),
+            self._scale,
+        )
+        return Posed(point, response, drive, problem)
+
+    def _tried(
+        self, step: Step, posed: Posed, solution: ContactSolution, outcome: Outcome
+    ) -> Trial:
+        values = solution.values
+        values.flags.writeable = False  # it will be remembered, without a copy
+        response = posed.response
+        twin = Twin(step.time, posed.drive, response.of(values), solution.motion)
+        error = self._errors.of_step(step, posed.point, values, response)
+        return Trial(posed.point, solution, response, twin, outcome, error)
+
+    def accept(self, step: Step, trial: Trial) -> Instant:
+        """Take a step that has been solved."""
+        known = self._known(step)[1 - POINTS :] if not step.is_jump else []
+        self._twins = [] if trial.outcome is Outcome.NO_CONTACT else [*known, trial.twin]
+        self._motion = trial.solution.motion
+        self._memory.accept(trial.solution.values)
+        self._force_memory.accept(_force(trial.point))
+        time_error = self._errors.after(step, trial.solution.values, trial.error)
+        instant = _whole(self._half_space, trial, time_error)
+        self._scale = max(self._scale, HISTORY_COUNTS * float(trial.twin.fields[1].max()))
+        return instant
+
+    def _known(self, step: Step) -> list[Twin]:
+        """The twins that tell where the next one will be."""
+        return self._twins[-POINTS:] if step.smooth else self._twins[-1:]
+
+    def _solved(self, step: Step, posed: Posed) -> tuple[ContactSolution, Outcome]:
+        point, problem, response = posed.point, posed.problem, posed.response
+        if point.force == 0:
+            untouched = not response.history[1].any()
+            return self._at_touch(problem, untouched=untouched), Outcome.NO_CONTACT
+        given = problem.support.with_prescribed(self._motion)
+        if point.force is None and self._is_clear(problem, given):
+            return _without_pressure(problem, self._half_space, given), Outcome.NO_CONTACT
+        guess = _guess(predict(self._known(step), step.time, posed.drive), response)
+        tolerance = self._run.tolerance
+        solution = solve_contact(problem, self._half_space, guess, tolerance=tolerance)
+        if not solution.converged:
+            return solution, Outcome.NOT_CONVERGED
+        touches = bool(solution.values[0].any())
+        return solution, Outcome.CONVERGED if touches else Outcome.NO_CONTACT
+
+    def _is_clear(self, problem: ContactProblem, motion: NDArray[np.float64]) -> bool:
+        plane = self._half_space.whole.plane.field(motion)
+        return bool((problem.open_gap >= plane).all())
+
+    def _at_touch(self, problem: ContactProblem, *, untouched: bool) -> ContactSolution:
+        """No force: the body is where it just touches the (dented) surface, tilts as they were."""
+        tilts = problem.support.with_prescribed(self._motion) * np.array([0.0, 1.0, 1.0])
+        distance = problem.open_gap - self._half_space.whole.plane.field(tilts)
+        motion = tilts + np.array([float(distance.min()), 0.0, 0.0])
+        apart = _without_pressure(problem, self._half_space, motion)
+        return _at_lowest_point(self._run, apart) if untouched else apart
+
+
+def _force(point: LoadPoint) -> NDArray[np.float64]:
+    """The prescribed force [N], 0 where an approach is prescribed: a field of one number."""
+    return np.array([point.force or 0.0])
+
+
+def _response(memory: Memory, step: Step) -> Response:
+    return memory.jump() if step.is_jump else memory.ramp(step.duration)
+
+
+def _guess(twin: Twin | None, response: Response) -> Guess | None:
+    """From a predicted twin back to the pressure and the deflection that would bring it about."""
+    if twin is None:
+        return None
+    values = np.subtract(twin.fields, response.history, out=twin.fields)  # it was made for this
+    values /= response.compliance
+    return Guess(values[0], values[1], twin.motion)
+
+
+def _without_pressure(
+    problem: ContactProblem, half_space: HalfSpace, motion: NDArray[np.float64]
+) -> ContactSolution:
+    nothing = np.zeros((2, *half_space.shape))
+    gap = problem.open_gap - half_space.whole.plane.field(motion)
+    return ContactSolution(nothing, motion, gap, 0.0, 0, 0, converged=True)
+
+
+def _at_lowest_point(run: Run, apart: ContactSolution) -> ContactSolution:
+    """A flat surface is touched by the body's lowest point, not by the nearest cell centre."""
+    tilts = apart.motion[1:]
+    cells = run.open_gap - np.add.outer(tilts[0] * run.grid.x, tilts[1] * run.grid.y)
+    i, j = np.unravel_index(int(cells.argmin()), cells.shape)
+    part = np.linspace(-1.0, 1.0, 2 * TOUCH_SAMPLES + 1)
+    x = run.grid.x[i] + part[:, None] * run.grid.cell_size[0]
+    y = run.grid.y[j] + part[None, :] * run.grid.cell_size[1]
+    lowest = float((run.indenter.gap(x, y) - tilts[0] * x - tilts[1] * y).min())
+    below = apart.motion[0] - lowest
+    motion = apart.motion - np.array([below, 0.0, 0.0])
+    return replace(apart, motion=motion, gap=apart.gap + below)
+
+
+def _whole(half_space: HalfSpace, trial: Trial, time_error: float) -> Instant:
+    """The instant on the whole grid."""
+    solution = trial.solution
+    found = solution.found
+    fields = {
+        "pressure": half_space.unfold(found.pressure),
+        "gap": half_space.unfold(solution.gap),
+        "displacement": half_space.unfold(trial.twin.fields[1]),
+        "twin": trial.twin.fields,
+    }
+    for field in fields.values():
+        field.flags.writeable = False  # the run goes on from them
+    cell_area = half_space.fold_count * half_space.grid.cell_area  # with its mirror images
+    energy = float(np.einsum("ij,ij->", found.pressure, found.deflection)) / 2
+    return Instant(
+        **fields,
+        motion=found.motion,
+        resultants=half_space.whole.plane.sums(found.pressure) * cell_area,
+        energy=energy * cell_area,
+        residual=solution.residual,
+        iterations=solution.iterations,
+        outcome=trial.outcome,
+        resolved=trial.response.resolved,
+        time_error=time_error,
+    )

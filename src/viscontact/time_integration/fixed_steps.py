@@ -1,0 +1,211 @@
+"""Which steps a run takes: the instants asked for, and the load's kinks and jumps among them."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.loads import LoadHistory
+from viscontact.time_integration.restart_data import Carried
+from viscontact.units.formatting import in_words
+
+#: An instant this close to a kink of the load, relative to it, is meant to be the kink.
+SAME = 1e-9
+
+#: A law is followed from its shortest to its longest time by functions of every decade between.
+SHORTEST_OF_END = 1e-30
+
+#: More steps are more than anyone waits for, and a list of them takes more memory than the fields.
+MOST_STEPS = 1_000_000
+
+
+@dataclass(frozen=True)
+class Step:
+    """One step of a run.
+
+    Attributes
+    ----------
+    time : float
+        Its end [s].
+    duration : float
+        Its length, 0 for a jump [s].
+    asked : float or None
+        The instant asked for that this is, to rounding the same [s]; None for an inner step.
+    smooth : bool
+        Whether the load goes on as before; False for the first step after a kink or jump.
+    before_jump : bool
+        Whether the load jumps right after it.
+    """
+
+    time: float
+    duration: float
+    asked: float | None
+    smooth: bool
+    before_jump: bool = False
+
+    @property
+    def is_jump(self) -> bool:
+        """Whether the load changes at once, at an instant."""
+        return self.duration == 0
+
+    @property
+    def side(self) -> str:
+        """Which value of the load holds at the step's end."""
+        return "left" if self.before_jump else "right"
+
+
+class FixedSteps:
+    """Steps through given instants, and the load's own.
+
+    Parameters
+    ----------
+    times : ndarray
+        Instants asked for, strictly increasing, none before 0 [s]. One that differs from a kink
+        by rounding (a part in 1e9) is taken as the kink.
+    load : LoadHistory
+        Its kinks and jumps up to the last instant are stepped, too, and intervals longer than it
+        allows are divided.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from viscontact.loads import ramp
+    >>> [step.time for step in FixedSteps(np.array([0.0, 2.0]), ramp(1.0, 0.5)).steps]
+    [0.0, 0.5, 2.0]
+    """
+
+    def __init__(self, times: NDArray[np.float64], load: LoadHistory) -> None:
+        wanted = _instants_wanted(times, load)
+        _refuse_endless_span(list(wanted))
+        self.steps = list(_steps(wanted, load))
+        asked = [step.asked is not None for step in self.steps]
+        #: How many of the first steps end at instants asked for.
+        self._told = list(itertools.accumulate(asked, initial=0))
+        self._taken = 0
+
+    @property
+    def instants(self) -> NDArray[np.float64]:
+        """Ends of all steps, a jump's twice [s]."""
+        return np.array([step.time for step in self.steps])
+
+    @property
+    def left(self) -> int:
+        """Instants asked for that are still to come."""
+        return self._told[-1] - self._told[self._taken]
+
+    def upcoming(self) -> Step | None:
+        """The next step; None at the end."""
+        return self.steps[self._taken] if self._taken < len(self.steps) else None
+
+    def accepts(self, error: float) -> bool:
+        """Close the step; steps that are given are taken, whatever error they make."""
+        del error
+        self._taken += 1
+        return True
+
+    def carried(self) -> Carried:
+        """What has to be kept to go on from here."""
+        return {"taken": self._taken}
+
+    def restore(self, carried: Carried) -> None:
+        """Go on from what was `carried` on the same way."""
+        self._taken = carried["taken"]
+
+
+def _instants_wanted(times: NDArray[np.float64], load: LoadHistory) -> dict[float, float | None]:
+    """Where steps end, in order: the instant asked for there, or None."""
+    stops = load.stops
+    wanted: dict[float, float | None] = {}
+    for time, stop in zip(times.tolist(), _kinks_meant(times, stops).tolist(), strict=True):
+        wanted[time if stop in wanted else stop] = time
+    last = max(wanted)
+    for stop in stops[stops <= last].tolist():
+        wanted.setdefault(stop, None)
+    for divided in _divisions(sorted({0.0, *wanted}), load):
+        wanted[divided] = None
+    return dict(sorted(wanted.items()))
+
+
+def _refuse_endless_span(instants: list[float]) -> None:
+    """Refuse a shortest step that is nothing beside the end: no law is followed so far."""
+    steps = np.diff(np.append(0.0, instants))
+    shortest = float(steps.min(initial=np.inf, where=steps > 0))
+    if shortest < SHORTEST_OF_END * instants[-1]:
+        raise ValueError(
+            f"time: steps from {in_words(shortest, 's', 3)} to the end at "
+            f"{in_words(instants[-1], 's', 3)} range over too many decades, at most "
+            f"{-math.log10(SHORTEST_OF_END):.0f}; begin later or end earlier"
+        )
+
+
+def _divisions(instants: list[float], load: LoadHistory) -> Iterator[float]:
+    """Instants that divide intervals longer than the load allows, as long as it moves."""
+    if math.isinf(load.longest_step):
+        return
+    swings = min(instants[-1], float(load.kinks[-1])) / load.longest_step
+    if swings > MOST_STEPS:
+        raise ValueError(
+            f"load: takes {swings:.3g} steps of {in_words(load.longest_step, 's', 3)} for its "
+            f"swings, and {MOST_STEPS} at most can be taken; give fewer cycles, or end the run "
+            "earlier"
+        )
+    for begin, end in itertools.pairwise(instants):
+        if end > load.kinks[-1]:
+            return
+        parts = math.ceil((end - begin) / load.longest_step * (1 - SAME))
+        yield from np.linspace(begin, end, parts + 1)[1:-1].tolist()
+
+
+def _steps(wanted: dict[float, float | None], load: LoadHistory) -> Iterator[Step]:
+    """Steps to these instants, the first a jump at time 0, of size zero under a soft start."""
+    kinks, jumps = set(load.kinks.tolist()), set(load.jumps.tolist())
+    begin = 0.0
+    yield Step(0.0, 0.0, wanted.get(0.0), smooth=False)
+    for instant, asked in wanted.items():
+        if instant == 0:
+            continue
+        smooth = begin not in kinks and begin > 0
+        yield from _up_to(instant, instant - begin, asked, smooth, jumping=instant in jumps)
+        begin = instant
+
+
+def _up_to(
+    instant: float, duration: float, asked: float | None, smooth: bool, *, jumping: bool
+) -> Iterator[Step]:
+    yield Step(instant, duration, None if jumping else asked, smooth, before_jump=jumping)
+    if jumping:
+        yield Step(instant, 0.0, asked, smooth=False)
+
+
+def kink_meant(time: float, kinks: NDArray[np.float64]) -> float:
+    """Return the kink that an instant differs from by rounding only, else the instant [s].
+
+    Parameters
+    ----------
+    time : float
+        The instant [s].
+    kinks : ndarray
+        Kinks of a load, at least one [s].
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> kink_meant(0.1 + 0.2, np.array([0.3])), kink_meant(0.31, np.array([0.3]))
+    (0.3, 0.31)
+    """
+    return float(_kinks_meant(np.array([time]), kinks)[0])
+
+
+def _kinks_meant(times: NDArray[np.float64], kinks: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return for each instant the kink that it differs from by rounding only, else itself [s]."""
+    after = np.clip(np.searchsorted(kinks, times), 0, len(kinks) - 1)
+    before = np.maximum(after - 1, 0)
+    nearer = np.abs(kinks[before] - times) <= np.abs(kinks[after] - times)
+    nearest = np.where(nearer, kinks[before], kinks[after])
+    same = np.abs(nearest - times) <= SAME * np.maximum(nearest, times)
+    return np.where(same, nearest, times)

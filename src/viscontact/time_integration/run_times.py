@@ -1,0 +1,155 @@
+"""The instants of a run, asked for or chosen from load and law, and those that keep fields."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from viscontact.loads import LoadHistory
+from viscontact.materials.compliance import ContactCompliance
+from viscontact.time_integration.fixed_steps import kink_meant
+from viscontact.time_integration.requested_times import AdaptiveTimes, uniform_times
+from viscontact.units.formatting import in_words
+
+#: Steps of a run whose instants are not given.
+DEFAULT_STEPS = 60
+
+
+def run_instants(
+    times: ArrayLike | AdaptiveTimes | None,
+    fields: str | Sequence[float],
+    load: LoadHistory,
+    compliance: ContactCompliance,
+) -> NDArray[np.float64]:
+    """Return the instants of a run.
+
+    Parameters
+    ----------
+    times : array_like, AdaptiveTimes or None
+        As in `march`.
+    fields : str or sequence of float
+        As in `march`.
+    load : LoadHistory
+        What presses.
+    compliance : ContactCompliance
+        J(t).
+
+    Returns
+    -------
+    ndarray
+        The instants, increasing; of adaptive steps those that have to be hit: 0, the end, and
+        instants whose fields are kept [s].
+
+    Raises
+    ------
+    ValueError
+        If they make no sense, or nothing says when the run ends.
+
+    Examples
+    --------
+    >>> from viscontact.materials.compliance import SeriesCompliance
+    >>> from viscontact.loads import step
+    >>> law = SeriesCompliance(1.0, [1.0], [2.0])
+    >>> run_instants(None, "all", step(1.0), law)[[0, 1, -1]].round(3).tolist()
+    [0.0, 0.167, 10.0]
+    """
+    if times is None:
+        return _default_times(load, compliance)
+    if not isinstance(times, AdaptiveTimes):
+        return _checked_times(times)
+    kept = _instants("fields", [0.0] if isinstance(fields, str) else fields)
+    stops = [0.0, times.end, *kept[(kept >= 0) & (kept <= times.end)].tolist()]
+    # What differs from a kink of the load by rounding is stepped, and kept, as the kink.
+    return np.array(sorted({kink_meant(stop, load.kinks) for stop in stops}))
+
+
+def field_instants(
+    fields: str | Sequence[float], times: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Instants whose fields are kept.
+
+    Parameters
+    ----------
+    fields : "all", "none" or sequence of float
+        All instants, none, or some of the run's instants [s].
+    times : ndarray
+        Instants of the run [s].
+
+    Returns
+    -------
+    ndarray
+        Those instants, in order [s].
+
+    Raises
+    ------
+    ValueError
+        If it is another word, or an instant is not one of the run's.
+
+    Examples
+    --------
+    >>> field_instants([0.0, 2.0], np.array([0.0, 1.0, 2.0])).tolist()
+    [0.0, 2.0]
+    """
+    if isinstance(fields, str):
+        if fields not in ("all", "none"):
+            raise ValueError(f"fields must be 'all', 'none' or instants in s, got {fields!r}")
+        return times if fields == "all" else times[:0]
+    wanted = np.unique(_instants("fields", fields))
+    index = np.clip(np.searchsorted(times, wanted), 0, len(times) - 1)
+    index -= (index > 0) & (np.abs(times[index - 1] - wanted) < np.abs(times[index] - wanted))
+    strange = ~np.isclose(times[index], wanted, rtol=1e-9, atol=0.0)
+    if strange.any():
+        raise ValueError(
+            f"fields: {in_words(wanted[strange][0], 's', 6)} is not among the run's times; "
+            f"the nearest is {in_words(times[index][strange][0], 's', 6)}"
+        )
+    return times[index]
+
+
+def _instants(name: str, given: object) -> NDArray[np.float64]:
+    try:
+        array = np.asarray(given)
+    except ValueError:  # rows of unequal length
+        array = np.asarray(None)
+    if array.dtype.kind not in "iuf":
+        raise ValueError(f"{name} must be instants in s, got {given!r}")
+    return array.astype(np.float64)
+
+
+def _checked_times(times: ArrayLike) -> NDArray[np.float64]:
+    instants = np.atleast_1d(_instants("times", times))
+    if instants.ndim != 1 or instants.size == 0 or not np.isfinite(instants).all():
+        raise ValueError(f"times must be one or more finite instants in s, got {times!r}")
+    if instants[0] < 0:
+        raise ValueError(f"times must not be before 0, got {in_words(instants[0], 's', 6)}")
+    falling = np.flatnonzero(np.diff(instants) <= 0)
+    if falling.size:
+        before, after = instants[falling[0]], instants[falling[0] + 1]
+        raise ValueError(
+            f"times must be strictly increasing, got {in_words(before, 's', 6)}, then "
+            f"{in_words(after, 's', 6)}"
+        )
+    return instants
+
+
+def _default_times(load: LoadHistory, compliance: ContactCompliance) -> NDArray[np.float64]:
+    """The load's kinks, and steps to its end or through the creep under a held load."""
+    end = float(load.kinks[-1])
+    if load.level_at(end) > 0:
+        settled = compliance.settled_after
+        if math.isinf(settled):
+            raise ValueError(
+                "times: the law does not say when its creep is over; say when the run ends, e.g. "
+                "times=log_times(first, end, n)"
+            )
+        is_measured = math.isfinite(compliance.measured_until)
+        end = max(end, settled) if is_measured else end + settled
+    if end == 0:
+        return np.zeros(1)
+    kinks = load.kinks[load.kinks <= end]
+    even = uniform_times(end, DEFAULT_STEPS)
+    apart = np.abs(even[:, None] - kinks).min(axis=1) > 1e-9 * end
+    return np.unique(np.concatenate([even[apart], kinks]))

@@ -1,0 +1,229 @@
+"""What the time steps cost: an estimate of the pressure's error, from step to step.
+
+Within a step the pressure is taken for linear in time. What it is not, a bulge of d² q''/12 in the
+mean over a step of length d, enters the memory and acts on as long as the body remembers it: the
+displacement e(t) it amounts to has to be made good by a wrong pressure, J * dq = -e. A memory of
+single numbers follows both, with all bulges of one sign: an estimate of the most that they can have
+come to, not of what they cancel to.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.loads import LoadHistory, LoadPoint
+from viscontact.time_integration.fixed_steps import Step
+from viscontact.time_integration.hereditary_integral import Enlarging, Response
+from viscontact.time_integration.internal_variables import ramp_weights
+from viscontact.time_integration.plan import MemoryPlan
+from viscontact.time_integration.restart_data import Carried
+
+#: The bulge of a first step after a kink is guessed from the curvature in its successor, which is
+#: smaller: after a first touch, where q grows as t^(2/3), by 2.9.
+FIRST = 3.0
+
+#: Curvatures are taken from the steps behind, and lag where they grow.
+SAFETY = 2.0
+
+#: Without any successor: this part of the change over the step, as the central pressure after a
+#: first touch, which goes as t^(1/3), has; under t² from rest it is a sixth.
+ALONE = 1 / 4
+
+#: By this power of the load's level what it does is taken to grow.
+GROWTH = 1 / 4
+
+
+@dataclass(frozen=True, eq=False)
+class StepError:
+    """What one step adds to the error.
+
+    Attributes
+    ----------
+    bulge : float
+        Mean distance of the deflection from the path the memory takes [Pa m].
+    relative : float
+        What it adds to the pressure's error, relative to the largest still to come [-].
+    size : float
+        Largest deflection so far [Pa m].
+    level : float
+        Largest level of the load so far [N or m].
+    rate : ndarray, shape (nx, ny), or None
+        Rate of the deflection over the step [Pa m/s]; None for a jump.
+    """
+
+    bulge: float
+    relative: float
+    size: float
+    level: float
+    rate: NDArray[np.float64] | None = None
+
+
+class TimeErrors:
+    """Follows a run, and estimates the relative error of its pressure owed to the steps so far.
+
+    Parameters
+    ----------
+    plan : MemoryPlan
+        How the run remembers.
+    load : LoadHistory
+        What presses. A first touch is alike at every scale: relative to what it has come to
+        itself, its error would never be small. So a step is judged relative to what is still to
+        come under the largest level, guessed by the fourth root of the level: a sphere's pressure
+        grows as the third root of the force, a cone's not at all.
+    """
+
+    def __init__(self, plan: MemoryPlan, load: LoadHistory) -> None:
+        self._load = load
+        self._level = 0.0
+        self._compliance = plan.sketch
+        #: What each term of J still owes, to bulges and to the wrong pressure together [m].
+        self._owed = np.zeros(plan.sketch.term_count)
+        self._wrong, self._jumped = 0.0, True
+        #: Lengths of the last two steps since a kink, values at their ends; rate over the last.
+        self._past: list[tuple[float, NDArray[np.float64]]] = []
+        self._rate: NDArray[np.float64] | None = None
+        self._pending: tuple[float, float] | None = None
+        self._size = 0.0
+
+    def of_step(
+        self, step: Step, point: LoadPoint, values: NDArray[np.float64], response: Response
+    ) -> StepError:
+        """Return what a step adds to the error of the pressure at its end.
+
+        Parameters
+        ----------
+        step : Step
+            The step, not taken yet.
+        point : LoadPoint
+            The load at its end.
+        values : ndarray, shape (2, nx, ny)
+            Pressure ``p`` [Pa] and deflection ``K p`` [Pa m] at its end.
+        response : Response
+            Of the memory to it.
+
+        Returns
+        -------
+        StepError
+            For the first step after a kink a guess from the change over it.
+        """
+        # Deflections are positive: the kernel is.
+        size, level = max(self._size, float(values[1].max())), max(self._level, point.level)
+        if step.is_jump or not self._past:
+            return StepError(0.0, 0.0, size, level)
+        rate = values[1] - self._past[-1][1][1]
+        rate /= step.duration
+        bulge = self._bulge(step, rate, response)
+        crept = self._compliance(step.duration) - self._compliance.instant
+        to_come = size * self._growth_to_come(level)
+        relative = bulge * crept / (response.compliance * to_come) if size > 0 else 0.0
+        return StepError(bulge, relative, size, level, rate)
+
+    def after(self, step: Step, values: NDArray[np.float64], error: StepError) -> float:
+        """Take a step, and return the estimated relative error of the pressure after it.
+
+        Parameters
+        ----------
+        step, values
+            As in `of_step`.
+        error : StepError
+            From `of_step`.
+
+        Returns
+        -------
+        float
+            Relative to the largest deflection of the run so far [-].
+        """
+        self._size, self._level = error.size, error.level
+        if not step.smooth or step.is_jump:
+            self._settle(alone=True)
+            self._past = self._past[-1:]
+        if step.is_jump:
+            self._past = []
+            if self._compliance.instant > 0:  # else nothing jumps
+                self._wrong = -float(self._owed.sum()) / self._compliance.instant
+                self._jumped = True
+        elif len(self._past) < 2:
+            change = 0.0 if error.rate is None else step.duration * _largest(error.rate)
+            self._pending = (step.duration, change)
+        else:
+            self._settle(alone=False, bulge=error.bulge / step.duration**2)
+            self._remember(step.duration, error.bulge)
+        self._past = [*self._past[-1:], (step.duration, values)]
+        self._rate = error.rate
+        return abs(self._wrong) / self._size if self._size > 0 else 0.0
+
+    def carried(self) -> Carried:
+        """What has to be kept to go on from here."""
+        return {
+            "owed": self._owed,
+            "wrong": self._wrong,
+            "jumped": self._jumped,
+            "past": [{"duration": duration, "values": values} for duration, values in self._past],
+            "pending": None if self._pending is None else list(self._pending),
+            "size": self._size,
+            "level": self._level,
+        }
+
+    def restore(self, carried: Carried) -> None:
+        """Go on from what was `carried`, in the same run."""
+        self._owed, self._wrong = carried["owed"], carried["wrong"]
+        self._jumped = carried["jumped"]
+        self._past = [(point["duration"], point["values"]) for point in carried["past"]]
+        self._rate = self._last_rate()
+        pending = carried["pending"]
+        self._pending = None if pending is None else (pending[0], pending[1])
+        self._size, self._level = carried["size"], carried["level"]
+
+    def enlarge(self, grown: Enlarging) -> None:
+        """Go on with larger fields, which `grown` makes of those that are remembered."""
+        self._past = [(duration, grown(values)) for duration, values in self._past]
+        self._rate = self._last_rate()
+
+    def _growth_to_come(self, level: float) -> float:
+        """By how much pressure and deflection will still grow with the load, at least."""
+        return (self._load.largest_level / level) ** GROWTH if level > 0 else 1.0
+
+    def _bulge(self, step: Step, rate: NDArray[np.float64], response: Response) -> float:
+        before = self._rate if step.smooth else None
+        travel = step.duration * _largest(rate) if response.held or before is None else 0.0
+        late = response.held * travel / 2
+        if before is None:
+            return max(late, ALONE * travel)
+        change = _largest(rate - before)
+        curvature = 2 * change / (step.duration + self._past[-1][0])
+        return SAFETY * step.duration**2 / 12 * curvature + late
+
+    def _last_rate(self) -> NDArray[np.float64] | None:
+        if len(self._past) < 2:
+            return None
+        (_, before), (duration, last) = self._past
+        return np.asarray((last[1] - before[1]) / duration)
+
+    def _settle(self, *, alone: bool, bulge: float = 0.0) -> None:
+        """Remember a first step, with or without a successor that tells the bulge per d²."""
+        if self._pending is None:
+            return
+        duration, change = self._pending
+        guess = ALONE * change
+        if not alone:
+            guess = min(guess, FIRST * duration**2 * bulge)
+        self._remember(duration, guess)
+        self._pending = None
+
+    def _remember(self, duration: float, bulge: float) -> None:
+        """Let a bulge over a step enter the memory, and the pressure go wrong by what it does."""
+        held = ramp_weights(self._compliance, duration, after_jump=True)
+        wrong = ramp_weights(self._compliance, duration, after_jump=self._jumped)
+        self._owed = wrong.decay * self._owed + (held.old + held.new) * bulge
+        self._owed += wrong.old * self._wrong
+        met = self._compliance.instant + float(wrong.new.sum())
+        self._wrong, self._jumped = -float(self._owed.sum()) / met, False
+        self._owed += wrong.new * self._wrong
+
+
+def _largest(field: NDArray[np.float64]) -> float:
+    """Largest absolute value."""
+    return max(float(field.max()), -float(field.min()))

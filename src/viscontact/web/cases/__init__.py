@@ -1,0 +1,1 @@
+"""Cases of the calculator page: reading, coarse variants, drawings."""

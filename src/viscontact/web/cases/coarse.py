@@ -1,0 +1,85 @@
+"""The same case with fewer cells and steps, for an answer in seconds."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from viscontact.case import Case
+from viscontact.grid import Grid
+from viscontact.runs.forecast import Forecast
+from viscontact.runs.preparation import Prepared
+from viscontact.time_integration.requested_times import AdaptiveTimes
+
+#: So many steps and cells, and at least so many cells over each extent of the contact.
+STEPS, CELLS, LEAST_ACROSS = 24, 6000, 16
+
+#: Errors that adaptive steps, an automatic grid, and the solver may make.
+STEP_ERROR, GRID_ERROR, SOLVER_ERROR = 1e-2, 0.1, 1e-4
+
+
+def coarse_settings(prepared: Prepared, expected: Forecast) -> tuple[str, ...]:
+    """Return what to set in a case for an answer in seconds.
+
+    Parameters
+    ----------
+    prepared : Prepared
+        The case, checked.
+    expected : Forecast
+        What was foreseen of it.
+
+    Returns
+    -------
+    tuple of str
+        As ``--set`` takes them; nothing is made finer than it is.
+    """
+    case = prepared.case
+    settings = [*_steps(case), *_cells(case, expected)]
+    if case.errors:
+        settings.append("output.errors=false")
+    if case.tolerance < SOLVER_ERROR:
+        settings.append(f"tolerance={SOLVER_ERROR:g}")
+    return tuple(settings)
+
+
+def without_cells(settings: tuple[str, ...]) -> tuple[str, ...]:
+    """Leave the grid of a case as it is, which may need its cells.
+
+    Parameters
+    ----------
+    settings : tuple of str
+        From `coarse_settings`.
+    """
+    return tuple(each for each in settings if not each.startswith("grid."))
+
+
+def _steps(case: Case) -> Iterator[str]:
+    if isinstance(case.times, AdaptiveTimes):
+        if case.times.tolerance < STEP_ERROR:
+            yield f"time.tolerance={STEP_ERROR:g}"
+        return
+    steps = case.document.data["time"].get("steps")
+    if isinstance(steps, int) and steps > STEPS:
+        yield f"time.steps={STEPS}"
+
+
+def _cells(case: Case, expected: Forecast) -> Iterator[str]:
+    if isinstance(case.grid, Grid):
+        shape = _coarser(case.grid, expected)
+        if shape != case.grid.shape:
+            yield f"grid.shape=[{shape[0]}, {shape[1]}]"
+    elif case.grid is None or case.grid.tolerance < GRID_ERROR:
+        yield f"grid.tolerance={GRID_ERROR:g}"
+
+
+def _coarser(grid: Grid, expected: Forecast) -> tuple[int, int]:
+    """Fewer cells both ways, in equal parts: few in all, and enough across the contact."""
+    part = math.sqrt(CELLS / (grid.shape[0] * grid.shape[1]))
+    for across in (expected.cells_along, expected.cells_across):
+        if across > 0:
+            part = max(part, LEAST_ACROSS / across)
+    if part >= 1:
+        return grid.shape
+    # Even as it was, or odd: whether there is a cell in the middle.
+    nx, ny = (2 * math.ceil(n * part / 2) + n % 2 for n in grid.shape)
+    return min(nx, grid.shape[0]), min(ny, grid.shape[1])

@@ -1,0 +1,109 @@
+"""Drawings of a case before it is run: the indenter, the material's curves, the load."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from viscontact.case import Case, CaseError, Parts
+from viscontact.materials.material import Material
+from viscontact.notebook.curves import law_span
+from viscontact.notebook.shapes import drawn_size as worth_drawing
+from viscontact.plot import creep_curve, draw_indenter, draw_load
+from viscontact.plot.layout.page import Width
+from viscontact.runs.check_report import drawn_size
+from viscontact.runs.forecast import Forecast
+from viscontact.runs.preparation import Prepared
+from viscontact.time_integration.requested_times import AdaptiveTimes
+from viscontact.web.cases.case_reader import Desk
+from viscontact.web.workspace.problems import RequestError, case_problems
+
+#: A law is drawn from so much earlier than the end on [-], at so many points.
+_BACK, _POINTS = 1e-4, 300
+
+
+def drawing(desk: Desk, text: str, what: str, width: Width | None = None) -> Figure:
+    """Draw a part of a case, by itself while the rest of the case cannot be read.
+
+    Parameters
+    ----------
+    desk : Desk
+        Where cases are read.
+    text : str
+        The case.
+    what : str
+        indenter, material, indenter_material or load.
+    width : {"single", "double"} or float, optional
+        As figures take it; a single column suits a phone.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The drawing.
+
+    Raises
+    ------
+    RequestError
+        With all that is wrong with the case, or why it cannot be drawn.
+    """
+    try:
+        return _of_case(desk, text, what, width)
+    except RequestError:
+        alone = _alone(desk.parts(text), what, width)
+        if alone is None:
+            raise
+        return alone
+
+
+def _of_case(desk: Desk, text: str, what: str, width: Width | None) -> Figure:
+    case = desk.case(text)
+    try:
+        if what == "indenter":
+            return _indenter(*desk.foreseen(text), width)
+        if what == "load":
+            return draw_load(case.load, _end(case))
+        return _curves(_material(case, what), _end(case), width)
+    except CaseError as error:
+        raise case_problems(error, case.document.path) from error
+    except ValueError as error:
+        raise RequestError(422, f"the {what} cannot be drawn: {error}") from error
+
+
+def _alone(parts: Parts, what: str, width: Width | None) -> Figure | None:
+    """A part that can be read although the case cannot, over what is worth drawing of it."""
+    try:
+        if what == "indenter" and parts.indenter is not None:
+            return draw_indenter(parts.indenter, worth_drawing(parts.indenter), width=width)
+        if what == "load" and parts.load is not None:
+            end = parts.end or float(parts.load.kinks[-1])
+            return draw_load(parts.load, end)
+        material = parts.indenter_material if what == "indenter_material" else parts.material
+        if what.endswith("material") and material is not None:
+            return _curves(material, parts.end or law_span(material.law)[1], width)
+    except ValueError:  # such as a step without an end
+        return None
+    return None
+
+
+def _indenter(found: Prepared, expected: Forecast, width: Width | None) -> Figure:
+    case, estimate = found.case, expected.estimate
+    contact = None
+    if estimate is not None:
+        contact = (estimate.centre_x, estimate.centre_y, estimate.length, estimate.width)
+    return draw_indenter(case.indenter, drawn_size(found.run), contact=contact, width=width)
+
+
+def _material(case: Case, what: str) -> Material:
+    material = case.indenter_material if what == "indenter_material" else case.material
+    if material is None:
+        raise RequestError(422, "the indenter is rigid: there are no curves of its material")
+    return material
+
+
+def _curves(material: Material, end: float, width: Width | None) -> Figure:
+    return creep_curve(material.law, np.geomspace(_BACK * end, end, _POINTS), width=width)
+
+
+def _end(case: Case) -> float:
+    times = case.times
+    return times.end if isinstance(times, AdaptiveTimes) else float(times[-1])

@@ -1,0 +1,1 @@
+"""Runs of the calculator page: queue, status, live scalars."""

@@ -1,0 +1,1 @@
+"""Folder of the calculator page: files, names, pictures."""

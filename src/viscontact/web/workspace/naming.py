@@ -1,0 +1,175 @@
+"""What cases and runs are called, so that they can be told apart."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterator, Mapping
+from itertools import count
+from typing import Any
+
+from viscontact.runs.directory.differences import differences
+
+#: What a shape, and a law, is known by: the first of these that it has.
+_SIZES = ("radius", "radius_x", "half_angle", "semi_axis_x", "ring_radius", "amplitude", "file")
+_MODULI = ("shear_modulus", "youngs_modulus", "file")
+#: What the load may be given by.
+_LEVELS = ("force", "approach", "mean_pressure", "mean")
+_PROPER = ("zener", "maxwell", "burgers")
+_SECTIONS = ("indenter", "indenter_material", "material", "load", "time")
+#: Keys that mean something else in another section.
+_KEYS = {"grid.shape": "cells", "grid.size": "extents", "time.end": "until"}
+#: Longer values name nothing; so many differences tell two cases apart.
+_LONGEST, _MOST = 24, 2
+
+
+def suggested_title(case: Mapping[str, Any]) -> str:
+    """Return a title for a case that has none of its own.
+
+    Parameters
+    ----------
+    case : mapping
+        The values of a case file, right or wrong.
+
+    Returns
+    -------
+    str
+        The shape, the material and the load, as far as they are known.
+
+    Examples
+    --------
+    >>> suggested_title({
+    ...     "indenter": {"shape": "sphere", "radius": "20 mm"},
+    ...     "material": {"law": "zener", "shear_modulus": "1 GPa"},
+    ...     "load": {"kind": "ramp", "force": "1 kN", "duration": "2 s"}})
+    'Sphere, radius 20 mm, on Zener 1 GPa, ramp to 1 kN in 2 s'
+    """
+    given = case.get("indenter")
+    shapes = given if isinstance(given, list) else [given]
+    body = ", with ".join(_shape(each) for each in shapes)
+    below = _material(case.get("material"))
+    parts = [f"{body}, on {below}" if body and below else body or below, _load(case.get("load"))]
+    told = ", ".join(part for part in parts if part)
+    return told[:1].upper() + told[1:]
+
+
+def label_of(title: str, case: Any, first: Any, taken: Collection[str]) -> str:
+    """Return what a run is called beside others whose cases have the same title.
+
+    Parameters
+    ----------
+    title : str
+        The title.
+    case : dict
+        The values of its case.
+    first : dict or None
+        Those of the first run of that title; None if it is this one.
+    taken : collection of str
+        What those are called that it is to be told from.
+
+    Returns
+    -------
+    str
+        The title, and what is different.
+
+    Examples
+    --------
+    >>> first = {"load": {"force": "1 N"}, "grid": {"shape": [8, 8]}}
+    >>> label_of("Ball", {"load": {"force": "2 N"}}, first, {"Ball"})
+    'Ball, force 2 N, without grid'
+    >>> label_of("Ball", first, first, {"Ball"})
+    'Ball (2)'
+    """
+    changes = () if first is None else differences(first, case)
+    # A list is one value; what is pressed, on what and how, says more than how it is computed.
+    places = dict.fromkeys(each.where.partition("[")[0] for each in changes)
+    places.pop("title", None)
+    told = [_told(place, case) for place in sorted(places, key=_rank)]
+    more = [f"and {len(told) - _MOST} more"] if len(told) > _MOST else []
+    label = " ".join([", ".join([title, *told[:_MOST]]), *more])
+    numbered = (f"{label} ({number})" for number in count(2))
+    return label if label not in taken else next(each for each in numbered if each not in taken)
+
+
+def file_stem(label: str, quality: str) -> str:
+    """Return a name for files that are handed out.
+
+    Parameters
+    ----------
+    label : str
+        What the run is called.
+    quality : str
+        ``"full"`` or ``"coarse"``, which is told.
+
+    Examples
+    --------
+    >>> file_stem("Ball, force 2.5 N", "coarse")
+    'ball-force-2-5-n-coarse'
+    """
+    words = re.findall(r"\w+", label.lower())
+    stem = "-".join(words) or "case"
+    if len(stem) > 80:  # what tells it from others stands at the end
+        stem = f"{stem[:40].strip('-')}-{stem[-39:].strip('-')}"
+    return f"{stem}-coarse" if quality == "coarse" else stem
+
+
+def _shape(given: Any) -> str:
+    if not isinstance(given, Mapping):
+        return _words(given)
+    size = next(_sizes(given, _SIZES), None)
+    if size is None:
+        return _words(given.get("shape"))
+    key, value = size
+    return f"{_words(given.get('shape'))}, {_words(key)} {value}"
+
+
+def _material(given: Any) -> str:
+    if not isinstance(given, Mapping):
+        return _text(given)  # a name of the library
+    law = _words(given.get("law"))
+    for name in _PROPER:
+        law = re.sub(rf"\b{name}\b", name.capitalize(), law)
+    modulus = next((value for _, value in _sizes(given, _MODULI)), "")
+    return f"{law} {modulus}".strip()
+
+
+def _load(given: Any) -> str:
+    if not isinstance(given, Mapping):
+        return ""
+    level = next((value for _, value in _sizes(given, _LEVELS)), "")
+    kind, swing = _words(given.get("kind")), _text(given.get("amplitude"))
+    to = {"step": level, "ramp": f"ramp to {level}", "triangle": f"triangle to {level}"}
+    told = to.get(kind, f"{kind} {level}".strip()) if level else kind
+    duration, aside = _text(given.get("duration")), _text(given.get("eccentricity_x"))
+    told += f" in {duration}" if duration else ""
+    told += f" ± {swing}" if swing else ""
+    return f"{told} off centre by {aside}" if re.match(r"-?[\d.]*[1-9]", aside) else told
+
+
+def _sizes(given: Mapping[Any, Any], keys: tuple[str, ...]) -> Iterator[tuple[str, str]]:
+    return ((key, text) for key in keys if (text := _text(given.get(key))))
+
+
+def _rank(place: str) -> int:
+    section = place.partition(".")[0]
+    return _SECTIONS.index(section) if section in _SECTIONS else len(_SECTIONS)
+
+
+def _told(place: str, case: Any) -> str:
+    """A difference in a few words: the last key, and what is there now."""
+    key, now = _KEYS.get(place) or _words(place.rpartition(".")[2]), case
+    for step in place.split("."):
+        now = now.get(step) if isinstance(now, Mapping) else None
+    if now is None:
+        return f"without {key}"
+    value = _text(" × ".join(map(_text, now)) if isinstance(now, list) else now)
+    return f"{key} {value}" if value.strip("× ") else f"other {key}"
+
+
+def _text(value: Any) -> str:
+    """A short value as it stands there; nothing of any other."""
+    told = str(value) if isinstance(value, str | int | float) else ""
+    return told if len(told) <= _LONGEST else ""
+
+
+def _words(value: Any) -> str:
+    return re.sub(r"[-_]", " ", _text(value))

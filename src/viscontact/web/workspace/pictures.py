@@ -1,0 +1,224 @@
+"""Figures as files for a page, light or dark."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from colorsys import hls_to_rgb, rgb_to_hls
+from contextlib import ExitStack
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+import xarray as xr
+from matplotlib.figure import Figure
+
+from viscontact.plot.layout.saving import written
+from viscontact.results.netcdf import RESULT_NAME, open_results
+from viscontact.units.formatting import in_words
+from viscontact.units.parsing import parse_quantity
+from viscontact.web.workspace.problems import RequestError
+
+Kind = Literal["svg", "png", "pdf"]
+MEDIA_TYPES: dict[str, str] = {
+    **{"svg": "image/svg+xml", "png": "image/png", "pdf": "application/pdf"},
+}
+
+_NO_RESULT = "the run has no result; there is one after its first step"
+#: What is told of a result that cannot be read.
+DAMAGED = "the result of this run is damaged; delete the run, and run its case again"
+
+#: Colours in a drawing, and no names of its parts.
+_COLOUR = re.compile(rb"""(?<=[:\s"'])#([0-9a-fA-F]{6})(?=[;\s"'])""")
+#: White becomes so light [-]: nearly black.
+_WHITE = 0.12
+
+
+@dataclass(frozen=True)
+class Wish:
+    """What a figure is to show, and how.
+
+    Attributes
+    ----------
+    name : str
+        Which figure.
+    kind : str
+        svg, png or pdf.
+    times : tuple of str
+        Instants in words; none for the figure's own choice.
+    is_dark : bool
+        Whether it is to stand on a dark ground.
+    """
+
+    name: str
+    kind: Kind = "svg"
+    times: tuple[str, ...] = ()
+    is_dark: bool = False
+
+    def instants(self) -> list[float] | None:
+        """Return the instants [s]; None for the figure's own choice.
+
+        Raises
+        ------
+        RequestError
+            If one of them cannot be read.
+        """
+        try:
+            return [parse_quantity(text, "time") for text in self.times] or None
+        except ValueError as error:
+            raise RequestError(422, f"time: {error}") from error
+
+
+def figure_of(directory: Path, figures: Mapping[str, Callable[..., Figure]], wish: Wish) -> bytes:
+    """Draw a figure of a run.
+
+    Parameters
+    ----------
+    directory : Path
+        The run's.
+    figures : mapping
+        The figures that there are, by name.
+    wish : Wish
+        What to draw.
+
+    Raises
+    ------
+    RequestError
+        If there is no such figure, or it cannot be drawn.
+    """
+    draw, instants = _named(figures, wish.name), wish.instants()
+    with opened(directory) as ds:
+        _refuse_outside(instants, ds)
+        return _drawn(draw, ds, instants, wish)
+
+
+def comparison_of(
+    runs: Mapping[str, Path], figures: Mapping[str, Callable[..., Figure]], wish: Wish
+) -> bytes:
+    """Draw a figure of several runs.
+
+    Parameters
+    ----------
+    runs : mapping of str to Path
+        Their directories by what they are called in it.
+    figures : mapping
+        The figures that there are, by name.
+    wish : Wish
+        What to draw.
+
+    Raises
+    ------
+    RequestError
+        If there is no such figure, or it cannot be drawn.
+    """
+    draw, instants = _named(figures, wish.name), wish.instants()
+    with ExitStack() as stack:
+        results = {label: stack.enter_context(opened(path)) for label, path in runs.items()}
+        for ds in results.values():
+            _refuse_outside(instants, ds)
+        return _drawn(draw, results, instants, wish)
+
+
+def picture(figure: Figure, wish: Wish) -> bytes:
+    """Return a figure as a file.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+        The figure.
+    wish : Wish
+        Which kind, and for which ground.
+    """
+    if wish.kind != "svg":
+        return written(figure, wish.kind)
+    figure.patch.set_alpha(0.0)
+    for axes in figure.axes:
+        axes.patch.set_alpha(0.0)
+    drawn = written(figure, "svg")
+    return on_dark(drawn) if wish.is_dark else drawn
+
+
+def on_dark(drawing: bytes) -> bytes:
+    """Return a drawing in colours for a dark ground: what was light is dark, in the same hue.
+
+    Parameters
+    ----------
+    drawing : bytes
+        SVG as matplotlib writes it.
+
+    Examples
+    --------
+    >>> on_dark(b'<svg ><path style="fill: #ffffff; stroke: #000000"/></svg>')
+    b'<svg fill="#ffffff" ><path style="fill: #1f1f1f; stroke: #ffffff"/></svg>'
+    """
+    recoloured = _COLOUR.sub(lambda found: _opposite(found[1].decode()).encode(), drawing)
+    # What has no colour of its own is black.
+    return recoloured.replace(b"<svg ", f'<svg fill="{_opposite("000000")}" '.encode(), 1)
+
+
+def _opposite(colour: str) -> str:
+    red, green, blue = (int(colour[i : i + 2], 16) / 255 for i in (0, 2, 4))
+    hue, lightness, saturation = rgb_to_hls(red, green, blue)
+    turned = hls_to_rgb(hue, 1 - (1 - _WHITE) * lightness, saturation)
+    return "#" + "".join(f"{round(255 * part):02x}" for part in turned)
+
+
+def opened(directory: Path) -> xr.Dataset:
+    """Open the result of a run.
+
+    Parameters
+    ----------
+    directory : Path
+        The run's.
+
+    Raises
+    ------
+    RequestError
+        If there is nothing to see yet, or any more.
+    """
+    try:
+        ds = open_results(directory)
+    except (OSError, ValueError) as error:
+        raise RequestError(409, _why_none(directory)) from error
+    if not ds.sizes.get("time"):
+        ds.close()
+        raise RequestError(409, _NO_RESULT)
+    return ds
+
+
+def _why_none(directory: Path) -> str:
+    """Why a result cannot be read: it is whole at every moment, unless somebody meddles with it."""
+    if not directory.parent.exists():
+        return "what this run kept is gone from the folder; delete the run here"
+    if (directory / RESULT_NAME).exists():
+        return DAMAGED
+    return _NO_RESULT
+
+
+def _named(figures: Mapping[str, Callable[..., Figure]], name: str) -> Callable[..., Figure]:
+    if name not in figures:
+        raise RequestError(
+            404, f"no figure is called {name[:40]!r}. There are {', '.join(figures)}"
+        )
+    return figures[name]
+
+
+def _drawn(
+    draw: Callable[..., Figure], results: Any, instants: Sequence[float] | None, wish: Wish
+) -> bytes:
+    try:
+        return picture(draw(results, times=instants), wish)
+    except ValueError as error:
+        raise RequestError(422, str(error)) from error
+
+
+def _refuse_outside(instants: Sequence[float] | None, ds: xr.Dataset) -> None:
+    start, end = (float(ds["time"][index]) for index in (0, -1))
+    slack = 1e-9 * end
+    for instant in instants or ():
+        if not start - slack <= instant <= end + slack:
+            raise RequestError(
+                422,
+                f"time: {in_words(instant, 's')} lies outside the run, which goes from "
+                f"{in_words(start, 's')} to {in_words(end, 's')}",
+            )

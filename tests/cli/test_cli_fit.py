@@ -1,0 +1,160 @@
+"""`viscontact fit`: tables in, law, shift factors, section and figure out; never a traceback."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from viscontact import reference
+from viscontact.case import read_material
+from viscontact.cli import main
+from viscontact.laws import WLF, Maxwell, RelaxationSeries
+from viscontact.materials.material import Material
+
+T = np.geomspace(0.1, 100.0, 25)
+E = RelaxationSeries(1e9, [2e9, 1e9], [1.0, 30.0])
+RULE = WLF(293.15, 12.0, 70.0)
+
+
+def written(path: Path, heads: tuple[str, ...], *columns: np.ndarray) -> Path:
+    """Write a table as a person would: one header row with units, SI or not."""
+    rows = [",".join(f"{value:.9g}" for value in row) for row in zip(*columns, strict=True)]
+    path.write_text("\n".join([",".join(heads), *rows]) + "\n", encoding="utf-8")
+    return path
+
+
+@pytest.fixture
+def relaxation(tmp_path: Path) -> Path:
+    heads = ("time [s]", "E [MPa]")
+    return written(tmp_path / "relaxation.csv", heads, T, E.relaxation(T) / 1e6)
+
+
+@pytest.fixture
+def sets(tmp_path: Path) -> Path:
+    """Three temperatures; at 20 °C the law is E itself."""
+    celsius = np.array([15.0, 20.0, 25.0])
+    modulus = np.concatenate([E.relaxation(T / RULE.factor(c + 273.15)) for c in celsius]) / 1e6
+    heads = ("time [s]", "E [MPa]", "T [°C]")
+    return written(tmp_path / "sets.csv", heads, np.tile(T, 3), modulus, np.repeat(celsius, T.size))
+
+
+def test_the_section_printed_and_written_is_the_law_of_the_data(relaxation, tmp_path, capsys):
+    out, figure = tmp_path / "m.yaml", tmp_path / "fit.png"
+    command = ["fit", str(relaxation), "--poisson-ratio", "0.3", "--yaml", str(out)]
+    assert main([*command, "-o", str(figure)]) == 0
+    printed = capsys.readouterr().out
+    assert "RelaxationSeries of 2 terms to 25 rows of uniaxial data" in printed
+    assert out.read_text(encoding="utf-8").strip() in printed
+    law = read_material(out).law
+    np.testing.assert_allclose(law.relaxation(T), E.relaxation(T) / 2.6, rtol=2e-3)
+    assert figure.stat().st_size > 10_000
+
+
+def test_several_temperatures_give_shift_factors_and_the_law_at_any_of_them(sets, tmp_path, capsys):
+    out = tmp_path / "m.yaml"
+    command = ["fit", str(sets), "--poisson-ratio", "0.3", "--yaml", str(out)]
+    assert main([*command, "-o", str(tmp_path / "master.pdf")]) == 0
+    printed = capsys.readouterr().out
+    assert "3 sets, shifted to 20 °C" in printed
+    assert "WLF with C1 = " in printed
+    [row] = [line for line in printed.splitlines() if line.strip().startswith("25.00")]
+    assert float(row.split()[1]) == pytest.approx(np.log10(RULE.factor(298.15)), abs=0.02)
+    at_20 = read_material(out).law.relaxation(T)
+    np.testing.assert_allclose(at_20, E.relaxation(T) / 2.6, rtol=0.01)
+    assert main([*command, "--temperature", "17 degC"]) == 0
+    # Between two sets ln a_T is straight, which WLF is not: 2 % of a decade, here.
+    at_17 = read_material(out).law.relaxation(T)
+    wanted = E.relaxation(T / RULE.factor(290.15)) / 2.6
+    np.testing.assert_allclose(at_17, wanted, rtol=0.03)
+
+
+def test_an_indentation_record_gives_its_material(tmp_path, capsys):
+    t = np.linspace(0.0, 4.0, 41)
+    d = 1e-6 * np.minimum(t, 4 - t) / 2
+    material = Material(Maxwell(1e6, 2e6), 0.45)
+    force = reference.press_axisymmetric(
+        reference.SphereProfile(5e-6),
+        t,
+        approach=d,
+        creep_compliance=material.contact_compliance(),
+    ).force
+    heads = ("time [s]", "approach [um]", "force [uN]")
+    file = written(tmp_path / "record.csv", heads, t, 1e6 * d, 1e6 * force)
+    out = tmp_path / "m.yaml"
+    command = ["fit", str(file), "--indenter", "sphere 5 um", "--law", "maxwell"]
+    options = ["--poisson-ratio", "0.45", "--yaml", str(out), "-o", str(tmp_path / "i.svg")]
+    assert main([*command, *options]) == 0
+    assert "(95%: " in capsys.readouterr().out
+    found = read_material(out)
+    assert found.poisson_ratio == pytest.approx(0.45)
+    np.testing.assert_allclose(found.law(t), material.law(t), rtol=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ([], "uniaxial data need --poisson-ratio"),
+        (["--poisson-ratio", "0.7"], "not above 0.5, got 0.7"),
+        (["--bulk-modulus", "4 mm"], "--bulk-modulus: cannot read '4 mm' as a pressure"),
+        (["--bulk-modulus", "1 MPa"], "is too small"),
+        (["--poisson-ratio", "0.3", "--reference", "20 degC"], "there is one set"),
+        (["--poisson-ratio", "0.3", "--indenter", "sphere 5 um"], "time, approach and force"),
+        (["--poisson-ratio", "0.3", "--terms", "99"], "from 0 to 12"),
+        (["--data", "tensile", "--poisson-ratio", "0.3"], "one of shear, uniaxial, got 'tensile'"),
+        (["--poisson-ratio", "0.3", "-o", "fit.bmp"], "choose one of these formats"),
+        (["--poisson-ratio", "0.3", "--yaml", "no/such/m.yaml"], "no/such/m.yaml: "),
+    ],
+)
+def test_what_cannot_be_done_is_refused_in_one_line(options, said, relaxation, capsys):
+    assert main(["fit", str(relaxation), *options]) == 2
+    lines = capsys.readouterr().err.splitlines()
+    assert len(lines) == 1
+    assert said in lines[0]
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (["--reference", "50 degC"], "within those of the sets, 288.15 to 298.15 K, got 323.15 K"),
+        (["--reference", "20"], "--reference: 20 has no unit"),
+        (["--temperature", "80 degC"], "between 288.15 and 298.15 K, got 353.15 K"),
+    ],
+)
+def test_a_temperature_that_was_not_measured_is_refused(options, said, sets, capsys):
+    assert main(["fit", str(sets), "--poisson-ratio", "0.3", *options]) == 2
+    assert said in capsys.readouterr().err
+
+
+def test_a_bad_value_is_named_by_its_line_in_the_file(tmp_path, capsys):
+    modulus = E.relaxation(T) / 1e6
+    modulus[4] = -modulus[4]
+    file = written(tmp_path / "bad.csv", ("time [s]", "E [MPa]"), T, modulus)
+    assert main(["fit", str(file), "--poisson-ratio", "0.3"]) == 2
+    said = capsys.readouterr().err
+    assert "bad.csv:6" in said or "line 6" in said
+
+
+def test_a_file_that_is_not_there_is_refused(tmp_path, capsys):
+    assert main(["fit", str(tmp_path / "no.csv"), "--data", "shear"]) == 2
+    assert "no.csv" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("options", "named"),
+    [
+        (["--fluid"], "--fluid does not go with an indentation record"),
+        (["--data", "shear", "--reference", "20 degC"], "--data, --reference does not go with"),
+        (["--terms", "0"], "terms"),
+    ],
+)
+def test_options_that_an_indentation_record_has_no_use_for_are_refused(
+    tmp_path, capsys, options, named
+):
+    t = np.linspace(0.0, 4.0, 9)
+    heads = ("time [s]", "approach [um]", "force [uN]")
+    file = written(tmp_path / "record.csv", heads, t, t, t**1.5)
+    command = ["fit", str(file), "--indenter", "sphere 5 um", "--poisson-ratio", "0.5"]
+    assert main([*command, *options]) == 2
+    assert named in capsys.readouterr().err

@@ -1,0 +1,47 @@
+"""The examples of the manual's gallery: each runs as it stands, draws, and checks its number."""
+
+from __future__ import annotations
+
+import ast
+import runpy
+import warnings
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import pytest
+from matplotlib.figure import Figure
+
+GALLERY = Path(__file__).parents[2] / "docs" / "gallery"
+SCRIPTS = sorted(GALLERY.glob("plot_*.py"))
+# What takes less than half a second runs every time.
+QUICK = ("02", "08", "10", "12", "13", "14")
+
+
+def names_of(scripts: list[Path]) -> list[object]:
+    """The scripts as parameters, those that take longer marked slow."""
+    return [
+        pytest.param(
+            script, id=script.stem, marks=() if script.stem[5:7] in QUICK else pytest.mark.slow
+        )
+        for script in scripts
+    ]
+
+
+@pytest.mark.parametrize("script", names_of(SCRIPTS))
+def test_example_draws_and_its_number_is_right(
+    script: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    plt.switch_backend("Agg")
+    # A warning that an example does not say why it leaves aside is an error here.
+    with warnings.catch_warnings():
+        made = runpy.run_path(str(script), run_name="__main__")
+    assert capsys.readouterr().out.strip()
+    assert [value for value in made.values() if isinstance(value, Figure)]
+    plt.close("all")
+
+
+def test_there_are_at_least_ten_examples_each_of_which_checks_a_number() -> None:
+    assert len(SCRIPTS) >= 10
+    for script in SCRIPTS:
+        tree = ast.parse(script.read_text(encoding="utf-8"))
+        assert any(isinstance(node, ast.Assert) for node in ast.walk(tree)), script.name

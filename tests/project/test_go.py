@@ -1,0 +1,248 @@
+"""The front door of a clone: `./go`, the lock and `.ci/run`."""
+
+from __future__ import annotations
+
+import importlib.util
+import re
+import subprocess
+import sys
+import tomllib
+from importlib.machinery import SourceFileLoader
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+import viscontact
+
+ROOT = Path(__file__).parents[2]
+LOCK = (ROOT / "requirements.lock").read_text(encoding="utf-8")
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+
+
+@pytest.fixture
+def go(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleType:
+    """Return `go` as a module that believes itself in an empty clone, and installs nothing."""
+    monkeypatch.setattr(sys, "dont_write_bytecode", True)
+    loader = SourceFileLoader("go", str(ROOT / "go"))
+    spec = importlib.util.spec_from_loader("go", loader)
+    assert spec is not None
+    module = importlib.util.module_from_spec(spec)
+    loader.exec_module(module)
+    (tmp_path / "requirements.lock").write_text("numpy==2.2")
+    (tmp_path / "pyproject.toml").write_text("")
+    for name in ("LOCK", "VENV", "STAMP", "LOG", "PYTHON"):
+        inside = getattr(module, name).relative_to(module.ROOT)
+        monkeypatch.setattr(module, name, tmp_path / inside)
+    monkeypatch.setattr(module, "ROOT", tmp_path)
+    monkeypatch.setattr(module, "run", lambda args: 0)
+    return module
+
+
+class Installer:
+    """Stands in for venv and pip: notes what is asked, may be interrupted."""
+
+    def __init__(self, go: ModuleType, monkeypatch: pytest.MonkeyPatch) -> None:
+        self.go = go
+        self.asked: list[str] = []  # the commands, but for making the empty environment
+        self.environments = 0
+        self.interrupted = False
+        monkeypatch.setattr(go, "install", self)
+
+    def __call__(self, command: list[str], args: list[str]) -> None:
+        if "venv" in command:
+            self.environments += 1
+            self.go.PYTHON.parent.mkdir(parents=True)
+            self.go.PYTHON.touch()
+            if "uv" not in command[0]:
+                self.go.PYTHON.with_name("pip").touch()
+            return
+        self.asked.append(" ".join([*command, *args]))
+        if self.interrupted:
+            raise KeyboardInterrupt
+
+
+@pytest.fixture
+def installer(go: ModuleType, monkeypatch: pytest.MonkeyPatch) -> Installer:
+    return Installer(go, monkeypatch)
+
+
+def test_a_second_start_installs_nothing(go: ModuleType, installer: Installer) -> None:
+    assert go.main(["test"]) == 0
+    assert (installer.environments, len(installer.asked)) == (1, 2)
+    assert go.main(["test"]) == 0
+    assert (installer.environments, len(installer.asked)) == (1, 2)
+
+
+@pytest.mark.parametrize("name", ["requirements.lock", "pyproject.toml"])
+def test_a_changed_lock_or_project_is_installed_into_the_same_environment(
+    go: ModuleType, installer: Installer, name: str
+) -> None:
+    go.main(["test"])
+    (go.ROOT / name).write_text("changed")
+    go.main(["test"])
+    assert (installer.environments, len(installer.asked)) == (1, 4)
+
+
+def test_an_interrupted_set_up_is_begun_again(
+    go: ModuleType, installer: Installer, capsys: pytest.CaptureFixture[str]
+) -> None:
+    installer.interrupted = True
+    assert go.main(["test"]) == 130
+    assert "the next start begins the set-up again" in capsys.readouterr().err
+    installer.interrupted = False
+    assert go.main(["test"]) == 0
+    assert installer.environments == 2
+    assert go.is_ready()
+
+
+def test_an_environment_of_uv_is_made_anew_where_uv_is_gone(
+    go: ModuleType, installer: Installer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # It has no pip inside.
+    monkeypatch.setattr(go.shutil, "which", lambda name: "/bin/uv")
+    go.main(["test"])
+    monkeypatch.setattr(go.shutil, "which", lambda name: None)
+    go.main(["test"])
+    assert installer.environments == 1
+    (go.ROOT / "pyproject.toml").write_text("changed")
+    go.main(["test"])
+    assert installer.environments == 2
+
+
+def test_a_moved_clone_is_set_up_anew(go: ModuleType, installer: Installer) -> None:
+    # Environments and editable installs hold absolute paths.
+    go.main(["test"])
+    go.ROOT = go.ROOT / "elsewhere"
+    go.ROOT.mkdir()
+    (go.ROOT / "pyproject.toml").write_text("")
+    assert not go.is_ready()
+
+
+@pytest.mark.parametrize("uv", [None, "/bin/uv"])
+def test_only_hashed_files_are_installed(
+    go: ModuleType, installer: Installer, monkeypatch: pytest.MonkeyPatch, uv: str | None
+) -> None:
+    monkeypatch.setattr(go.shutil, "which", lambda name: uv)
+    go.main(["test"])
+    packages, project = installer.asked
+    assert "--require-hashes" in packages
+    assert "--no-deps --no-build-isolation --editable" in project
+
+
+@pytest.mark.parametrize(
+    ("said", "line"),
+    [
+        ("Max retries exceeded with url: /simple/numpy/", "set-up needs the network once"),
+        ("dns error: failed to lookup address", "set-up needs the network once"),
+        ("... ensurepip is not available ...", "install python3-venv, or uv"),
+        ("first\nERROR: no space left on device", r"set-up failed \(ERROR: no space left"),
+    ],
+)
+def test_a_failed_set_up_says_why_in_one_line(go: ModuleType, said: str, line: str) -> None:
+    script = f"import sys; sys.exit({said!r})"
+    with pytest.raises(go.TaskError, match=line) as caught:
+        go.install([sys.executable, "-c", script], [])
+    assert "\n" not in str(caught.value)
+
+
+def test_an_old_python_is_refused_by_number(
+    go: ModuleType, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert go.main(["demo"], (3, 10)) == 2
+    assert "needs Python 3.11 or newer, and this is 3.10" in capsys.readouterr().err
+
+
+def test_an_unknown_task_is_refused_with_the_known_ones(
+    go: ModuleType, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert go.main(["tset"]) == 2
+    assert "no task 'tset'; there are demo, test, lint" in capsys.readouterr().err
+
+
+def test_without_a_task_all_are_listed() -> None:
+    said = subprocess.run(
+        [sys.executable, ROOT / "go"], text=True, capture_output=True, check=True
+    ).stdout
+    for task in ("demo", "test", "lint", "docs", "bench", "build", "lock"):
+        assert re.search(rf"^  {task} +\w", said, re.MULTILINE)
+
+
+def test_arguments_reach_pytest_and_slow_means_all(
+    go: ModuleType, installer: Installer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    ran: list[list[str]] = []
+    monkeypatch.setattr(go, "run", lambda args: ran.append(args) or 0)
+    go.main(["test", "--slow", "-x"])
+    assert ran[0][-3:] == ["-m", "", "-x"]
+
+
+def test_the_manual_is_built_strictly_and_without_what_is_gone(
+    go: ModuleType, installer: Installer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    ran: list[list[str]] = []
+    monkeypatch.setattr(go, "run", lambda args: ran.append(args) or 1)
+    kept, gone, page = (
+        go.ROOT / "docs" / place
+        for place in ("examples/plot_a.rst", "examples/plot_b.rst", "reference/generated/x.rst")
+    )
+    for made in (kept, page, go.ROOT / "docs" / "gallery" / "plot_a.py"):
+        made.parent.mkdir(parents=True, exist_ok=True)
+        made.touch()
+    assert go.main(["docs", "-D", "plot_gallery=0"]) == 1
+    assert {"-W", "-n", "-D", "plot_gallery=0"} <= set(ran[0])
+    assert kept.exists()
+    assert not page.exists()
+    gone.touch()
+    go.main(["docs"])
+    assert not gone.exists()
+
+
+# --- the lock -----------------------------------------------------------------------------------
+
+
+def canonical(name: str) -> str:
+    return re.sub(r"[-_.]+", "-", name).lower()
+
+
+def locked() -> list[str]:
+    """Return the lock's entries, each a version with its marker and hashes."""
+    return re.split(r"^(?=[a-z0-9])", LOCK, flags=re.MULTILINE)[1:]
+
+
+def test_every_locked_file_has_its_hash_and_no_address() -> None:
+    assert len(locked()) > 40
+    for entry in locked():
+        assert re.match(r"[\w.-]+==\S+", entry)
+        assert re.search(r"--hash=sha256:[0-9a-f]{64}", entry)
+    for foreign in ("://", "/simple", "--index", "--extra-index", "--find-links", " @ ", "+cpu"):
+        assert foreign not in LOCK
+
+
+def test_the_lock_covers_every_dependency_and_the_build_backend() -> None:
+    system = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["build-system"]
+    wanted = [*PROJECT["dependencies"], *system["requires"]]
+    wanted += [need for extra in PROJECT["optional-dependencies"].values() for need in extra]
+    names = {canonical(re.split(r"[\[<>=!~; ]", need)[0]) for need in wanted} - {"viscontact"}
+    assert names <= {canonical(entry.split("==")[0]) for entry in locked()}
+
+
+# --- what is built and checked ------------------------------------------------------------------
+
+
+def test_ci_ends_with_the_readme_test_command() -> None:
+    lines = (ROOT / ".ci" / "run").read_text(encoding="utf-8").strip().splitlines()
+    assert lines[-1] == "./go test"
+    assert "./go lint" in lines
+    assert "./go docs" in lines
+
+
+def test_the_extras_are_those_promised() -> None:
+    promised = {"plot", "fast", "surfaces", "fit", "web", "all", "test", "docs", "dev"}
+    assert set(PROJECT["optional-dependencies"]) == promised
+
+
+def test_the_version_is_the_same_everywhere() -> None:
+    assert PROJECT["version"] == viscontact.__version__
+    citation = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
+    assert f"version: {viscontact.__version__}\n" in citation

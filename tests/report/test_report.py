@@ -1,0 +1,347 @@
+"""The page of a run: what it says is what the result holds, and nobody's text becomes markup."""
+
+from __future__ import annotations
+
+import base64
+import csv
+import io
+import json
+import re
+from html.parser import HTMLParser
+from pathlib import Path
+from typing import Any
+from urllib.parse import quote, unquote
+
+import numpy as np
+import pytest
+import xarray as xr
+from ruamel.yaml import YAML
+
+import viscontact as vc
+from synthetic_results import maxwell_pressure, maxwell_sphere, roller
+from viscontact.cli import main
+from viscontact.notebook.html import as_script
+from viscontact.plot.pressure.rim_polygons import rim_curves
+from viscontact.report import report_page
+from viscontact.report.accuracy import accuracy_lines
+from viscontact.report.histories import answer_panels, load_panels
+from viscontact.report.inputs import inputs
+from viscontact.report.limits import notices
+from viscontact.report.map_data import map_data, section_csv, strides_of
+from viscontact.report.recorded_surface import recorded_surface
+from viscontact.report.run_data import run_data
+from viscontact.report.shown_fields import shown_fields
+from viscontact.results.formatting import headline
+from viscontact.results.snapshots import take_snapshots
+
+TIMES = (0.0, 1.0, 10.0, 100.0, 300.0)
+_MARKUP = "</title></script><script>alert(1)</script><img src=x onerror=alert(2)>"
+
+
+def _run(times: tuple[float, ...] = TIMES, **options: Any) -> xr.Dataset:
+    """A sphere on a Maxwell half-space in closed form, with all that a result states."""
+    return _told(maxwell_sphere(times, **options))
+
+
+def _told(ds: xr.Dataset) -> xr.Dataset:
+    """A result written down, with what a run says of itself."""
+    count = ds.sizes["time"]
+    plain = {"residual": 1e-7, "time_error": 1e-4, "work": 1e-3, "loss_per_cycle": np.nan}
+    for name, value in {**plain, "iterations": 9, "cells_across": 40, "outcome": 0}.items():
+        ds[name] = "time", np.full(count, value), {"units": "1"}
+    for name in ("contact_area", "approach", "peak_pressure", "contact_length"):
+        ds[f"{name}_error"] = 0.01 * ds[name]
+    return ds.assign_attrs(wall_time=2.0, memory="recursion, exact for a series law")
+
+
+class _Page(HTMLParser):
+    """What a browser would find in a page, as far as these tests ask."""
+
+    def __init__(self, page: str) -> None:
+        super().__init__()
+        self.attributes: list[tuple[str, str, str]] = []
+        self.scripts: list[str] = []
+        self.words: list[str] = []
+        self._within = ""
+        self.feed(page)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self._within = tag
+        self.attributes += [(tag, name, value or "") for name, value in attrs]
+        if tag == "script":
+            self.scripts.append("")
+
+    def handle_endtag(self, tag: str) -> None:
+        self._within = ""
+
+    def handle_data(self, data: str) -> None:
+        if self._within == "script":
+            self.scripts[-1] += data
+        elif self._within != "style":
+            self.words.append(data)
+
+    @property
+    def text(self) -> str:
+        return " ".join(" ".join(self.words).split())
+
+    @property
+    def data(self) -> dict[str, Any]:
+        found: dict[str, Any] = json.loads(self.scripts[0])
+        return found
+
+    def download(self, name: str) -> list[list[str]]:
+        """Rows of a table that can be downloaded."""
+        place = self.attributes.index(("a", "download", name))
+        link = next(v for tag, key, v in self.attributes[place:] if (tag, key) == ("a", "href"))
+        head, content = link.split(",", 1)
+        assert head == "data:text/csv;charset=utf-8"
+        return list(csv.reader(io.StringIO(unquote(content))))
+
+
+@pytest.fixture(scope="module")
+def page() -> _Page:
+    return _Page(report_page(_run()))
+
+
+def test_a_page_asks_for_nothing_outside(page: _Page) -> None:
+    links = {"src", "href", "action", "srcset", "poster", "data", "background"}
+    asked = [value for _, name, value in page.attributes if name in links]
+    assert len(asked) > 10
+    assert [value for value in asked if not value.startswith(("data:", "#"))] == []
+    [policy] = [value for _, name, value in page.attributes if "default-src" in value]
+    assert policy.startswith("default-src 'none';")
+    assert "http" not in policy
+
+
+def test_text_of_users_is_never_markup(page: _Page) -> None:
+    named = ("title", "warnings", "memory", "version", "grid_enlarged")
+    found = _Page(report_page(_run(fields=False).assign_attrs(dict.fromkeys(named, _MARKUP))))
+    assert len(found.scripts) == len(page.scripts) == 3
+    assert not any("alert(1)" in script for script in found.scripts)
+    assert not [each for each in found.attributes if each[1] == "onerror"]
+    assert found.text.count("<img src=x onerror=alert(2)>") >= len(named)
+    assert found.data["map"] is None
+    assert "No fields are stored" in found.text
+    # The run's own warnings come before what the theory always assumes.
+    assert 0 < found.text.index("This run warns:") < found.text.index("No friction")
+
+
+def test_a_map_holds_the_pressure(page: _Page) -> None:
+    drawn = page.data["map"]
+    assert (drawn["unit"], drawn["pressureUnit"]) == ("µm", "MPa")
+    x, y = (np.array(drawn[name]) * 1e-6 for name in "xy")
+    radius = np.hypot(x, y[:, None])
+    for part, instant in zip(drawn["parts"], TIMES, strict=True):
+        parts = np.frombuffer(base64.b64decode(part), "<u2").reshape(y.size, x.size)
+        pressure = parts / drawn["steps"] * drawn["peak"] * 1e6
+        # Half a step of 1/65535 of the peak, a whole one at the rim.
+        exact = maxwell_pressure(radius, instant)
+        np.testing.assert_allclose(pressure, exact, atol=1.6e-5 * drawn["peak"] * 1e6)
+
+
+def test_outlines_are_the_smooth_rims_of_the_figures(page: _Page) -> None:
+    last = take_snapshots(_run(), TIMES[-1], "rim")[0]
+    (curve,) = rim_curves(last)
+    drawn = page.data["map"]["rims"][-1]
+    assert (drawn["x"][-1], drawn["y"][-1]) == (None, None)
+    told = np.array([drawn["x"][:-1], drawn["y"][:-1]]).T * 1e-6
+    np.testing.assert_allclose(told, curve, atol=1e-4 * np.abs(curve).max())
+
+
+def test_a_fine_map_shows_means_that_keep_the_force() -> None:
+    ds = _told(roller(times=(1000.0,), shape=(900, 32)))
+    fields = shown_fields(ds)
+    drawn = map_data(fields)
+    assert (len(drawn["x"]) <= 256, strides_of(fields)) == (True, (4, 1))
+    cell = (drawn["x"][1] - drawn["x"][0]) * (drawn["y"][1] - drawn["y"][0]) * 1e-6
+    parts = np.frombuffer(base64.b64decode(drawn["parts"][0]), "<u2")
+    force = parts.sum() / drawn["steps"] * drawn["peak"] * 1e6 * cell
+    exact = ds["pressure"].values.sum() * float((ds.x[1] - ds.x[0]) * (ds.y[1] - ds.y[0]))
+    assert force == pytest.approx(exact, rel=1e-4)  # half a step of 1/65535 in each cell
+
+
+def test_csv_files_hold_every_digit(page: _Page) -> None:
+    ds = _run()
+    head, *rows = page.download("history.csv")
+    column = head.index("contact_area_error [m^2]")
+    assert [float(row[0]) for row in rows] == list(TIMES)
+    assert [float(row[column]) for row in rows] == ds["contact_area_error"].values.tolist()
+    head, *rows = page.download("section-x.csv")
+    assert head[-1] == "pressure at 300.0 s [Pa]"
+    middle = ds["pressure"].values[-1, :, 31:33].mean(axis=1)  # an even grid: y = 0 lies between
+    assert [float(row[-1]) for row in rows] == middle.tolist()
+
+
+def test_bands_are_the_errors_of_the_result(page: _Page) -> None:
+    [panel] = [each for each in page.data["answers"] if each["name"] == "contact_area"]
+    assert panel["unit"] == "mm²"
+    np.testing.assert_allclose(panel["half"], np.array(panel["value"]) * 0.01, rtol=1e-5)
+    assert panel["note"] == ""
+    [panel] = [each for each in page.data["answers"] if each["name"] == "contact_width"]
+    assert (set(panel["half"]), panel["note"]) == ({None}, "error not known")
+
+
+def test_a_peak_that_depends_on_the_mesh_is_marked() -> None:
+    ds = _run(fields=False)
+    ds["peak_pressure_error"][:] = np.inf
+    [panel] = [each for each in answer_panels(ds) if each["name"] == "peak_pressure"]
+    assert (set(panel["half"]), panel["mesh"]) == ({None}, True)
+    assert re.search(r"the peak pressure [\d.]+ MPa \(depends on the mesh\)\.", headline(ds))
+    assert "smaller cells give more" in dict(accuracy_lines(ds))["Depends on the mesh"]
+
+
+def test_the_first_sentence_gives_the_result_with_errors() -> None:
+    ds = _run(fields=False)
+    ds["contact_area"][-1], ds["contact_area_error"][-1] = 57.634e-6, 0.149e-6
+    said = "After 300 s the contact covers 57.63 ± 0.15 mm² under 50 N;"
+    assert headline(ds).startswith(said)
+
+
+def test_a_contact_that_is_lost_is_told_where_it_was_largest() -> None:
+    ds = _run()
+    for name in ("contact_area", "peak_pressure", "pressure"):
+        ds[name][-1] = 0.0
+    assert headline(ds).startswith("At t = 100 s, when it is largest, the contact covers")
+    assert "from t = 300 s to the end, t = 300 s, they do not touch" in headline(ds)
+    drawn = map_data(shown_fields(ds))
+    assert (drawn["start"], drawn["peaks"][-1]) == (3, "")
+
+
+def test_a_run_that_ended_early_says_so() -> None:
+    ds = _run(fields=False)
+    said = "The run ended at t = 10 s, before its last instant, t = 300 s"
+    [notice] = notices(ds.isel(time=slice(0, 3)))
+    assert (notices(ds), notice[: len(said)]) == ([], said)
+
+
+def test_sections_run_through_the_resultant_or_else_the_largest_pressure() -> None:
+    ds = _run(times=(300.0,))
+    assert shown_fields(ds).through == (0.0, 0.0)  # late, a Maxwell body's peak is at the rim
+    two = ds.copy(deep=True)
+    two["pressure"][0, 8:-8] = 0.0  # two spots
+    assert two["pressure"].values[0, 31].max() == 0
+    x, _ = shown_fields(two).through
+    assert abs(x) >= float(ds.x[-8])
+
+
+def test_inputs_have_units(page: _Page) -> None:
+    for told in ("radius 10 mm", "shear modulus 1 GPa", "force 50 N", "Poisson's ratio 0.5"):
+        assert told in page.text
+
+
+def test_what_is_prescribed_is_the_load_and_the_rest_is_the_answer() -> None:
+    ds = _run(fields=False)
+    case = json.loads(ds.attrs["case"])
+    motion = {"type": "HarmonicHistory", "control": "approach", "mean": 2e-6, "period": 2.0}
+    moved = ds.assign_attrs(case=json.dumps(case | {"load": motion}))
+    assert [each["name"] for each in load_panels(ds)] == ["force"]
+    assert "approach" in [each["name"] for each in answer_panels(ds)]
+    assert [each["name"] for each in load_panels(moved)] == ["approach"]
+    assert "force" in [each["name"] for each in answer_panels(moved)]
+    assert ("mean", "2 µm") in [(each.name, each.value) for each in inputs(moved)]
+
+
+@pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")  # few cells and steps
+def test_a_measured_surface_is_drawn_from_the_fields() -> None:
+    axis = np.linspace(-60e-6, 60e-6, 66)  # 66² heights: more than a result keeps
+    bumps = 3e-7 * np.cos(axis[:, None] * 1.5e5) * np.sin(axis * 1e5 + 1)
+    body = vc.Sphere(2e-3) + vc.HeightMap(axis, axis, bumps)
+    material = vc.Material(vc.Zener(1e9, 1e9, 1e9), 0.4)
+    load = vc.step(force=0.02, eccentricity_x=2e-6)
+    grid = vc.Grid((40, 40), (100e-6, 100e-6))
+    ds = vc.simulate(body, material, load, grid, [0.0, 1.0], errors=False)
+    exact = body.gap(grid.x[:, None], grid.y)
+    surface = recorded_surface(ds)
+    # To the tolerance of the gaps, 1e-6 of the largest displacement, some 0.4 µm.
+    found = surface.gap(grid.x[:, None], grid.y)
+    np.testing.assert_allclose(found, exact - exact.min(), rtol=0, atol=1e-12)
+    page = _Page(report_page(ds))
+    assert "Not drawn" not in page.text
+    assert "as the grid of this run saw it" in page.text
+    told = _Page(report_page(ds.drop_vars(["gap", "displacement"]))).text
+    assert "Not drawn: the surface is a measured one" in told
+
+
+def test_a_long_run_stays_below_15_megabytes(page: _Page) -> None:
+    times = np.linspace(0.0, 300.0, 60)
+    ds = _told(roller(times=(0.0, 300.0), shape=(512, 256)))
+    fields = shown_fields(ds.isel(time=np.arange(60) % 2).assign_coords(time=times))
+    assert (len(fields.snapshots), fields.stored) == (24, 60)
+    rest = sum(map(len, page.scripts[1:])) + sum(len(value) for *_, value in page.attributes)
+    sections = sum(len(quote(section_csv(fields, way))) for way in ("x", "y"))
+    assert len(as_script(map_data(fields))) + sections + rest < 13e6
+
+
+def test_the_citation_is_that_of_the_file(page: _Page) -> None:
+    file = Path(__file__).parents[2] / "CITATION.cff"
+    cited = YAML(typ="safe").load(file)
+    [paper] = cited["references"]
+    assert cited["title"] in page.text
+    for told in (paper["title"], str(paper["year"]), paper["authors"][0]["family-names"]):
+        assert told in page.text
+
+
+# --- the command
+
+
+def test_report_writes_a_page_beside_the_result(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    run = tmp_path / "run"
+    run.mkdir()
+    vc.save(_run(), run / "result.nc")
+    assert main(["report", str(run)]) == 0
+    assert capsys.readouterr().out.strip() == str(run / "report.html")
+    page = (run / "report.html").read_text(encoding="utf-8")
+    assert page.startswith("<!DOCTYPE html>")
+    # Runs of a case that was changed have its title; their directories tell them apart.
+    assert re.search(r"<h1>(.*?)</h1>", page)[1].endswith(" (run)")
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["no-run"], "no-run: no result there"),
+        (
+            ["run.nc", "-o", "a.pdf"],
+            "a.pdf: a report is a page of HTML; name it so, e.g. -o a.html",
+        ),
+        (["run.nc", "-o", "nowhere/a.html"], "nowhere/a.html: there is no directory nowhere"),
+    ],
+)
+def test_what_cannot_be_reported_is_refused_in_a_line(
+    words: list[str],
+    said: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    vc.save(_run(times=(0.0, 1.0), fields=False), tmp_path / "run.nc")
+    assert main(["report", *words]) == 2
+    error = capsys.readouterr().err
+    assert error.startswith(said)
+    assert error.count("\n") == 1
+    assert [path.name for path in tmp_path.iterdir()] == ["run.nc"]
+
+
+def test_run_data_is_the_result_in_si_units_and_fits_into_json() -> None:
+    ds = _run()
+    ds["peak_pressure_error"][:] = np.inf
+    ds["approach_error"][0] = np.nan
+    data = json.loads(json.dumps(run_data(ds), allow_nan=False))
+    scalars, shown = data["scalars"], data["map"]
+    assert data["time"] == list(TIMES)
+    # The radius of a Hertz contact is sqrt(R d): the area is pi R d, here with R = 10 mm. The
+    # area is counted in cells, 30 to 50 across.
+    area, approach = (scalars[name]["value"] for name in ("contact_area", "approach"))
+    assert area == pytest.approx(np.pi * 0.01 * np.array(approach), rel=0.03)
+    assert scalars["peak_pressure"]["mesh"]
+    assert scalars["peak_pressure"]["error"] == [None] * len(TIMES)
+    assert [each is None for each in scalars["approach"]["error"]] == [True] + [False] * 4
+    # All the force is in the map: its cells times their pressure.
+    x, y = (shown["lengthFactor"] * np.diff(shown[way][:2])[0] for way in ("x", "y"))
+    parts = np.frombuffer(base64.b64decode(shown["parts"][0]), "<u2")
+    pressure = parts.sum() / shown["steps"] * shown["peak"] * shown["pressureFactor"]
+    assert pressure * x * y == pytest.approx(scalars["force"]["value"][0], rel=0.01)
+    assert shown["times"] == list(TIMES)

@@ -1,0 +1,90 @@
+"""Stresses of a result: labelled, with its own Poisson's ratio, drawn."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import viscontact as vc
+from viscontact import plot
+from viscontact.halfspace.stress import stress_on_section
+
+GRID = vc.Grid((40, 40), (2.6e-3, 2.6e-3))
+
+
+def pressed(material: vc.Material, fields: str | list[float] = "all") -> xr.Dataset:
+    return vc.simulate(
+        vc.Paraboloid(0.01, 0.01), material, vc.step(0.1), GRID, [0.0, 0.3, 0.6, 1.0], fields=fields
+    )
+
+
+@pytest.fixture(scope="module")
+def results() -> xr.Dataset:
+    return pressed(vc.Material(vc.Zener(1e6, 1e6, 1e6), 0.3), [0.0, 1.0])
+
+
+def test_stresses_are_those_of_each_instants_pressure(results: xr.Dataset) -> None:
+    depths = np.linspace(0, 1e-3, 7)
+    found = vc.section_stresses(results, depths, x=1e-4)
+    assert found.von_mises.dims == ("time", "z", "y")
+    assert found.time.values.tolist() == [0.0, 1.0]
+    for index in range(2):
+        exact = stress_on_section(results.pressure.values[index], GRID, depths, 0.3, x=1e-4)
+        for name in ("xx", "yz"):
+            ours = found[f"stress_{name}"].values[index]
+            assert ours == pytest.approx(exact[name], rel=1e-9, abs=1e-6)
+        assert found.max_shear.values[index] == pytest.approx(exact.max_shear, rel=1e-9)
+
+
+def test_creeping_ball_is_strained_most_as_hertzs_at_every_instant(results: xr.Dataset) -> None:
+    # Johnson (1985), section 4.5: 0.620 p0 at 0.481 a for nu = 0.3, whatever p0 and a have become
+    found = vc.section_stresses(results)
+    scalars = results.sel(time=found.time)
+    radius = np.sqrt(scalars.contact_area.values / np.pi)
+    for index in range(2):
+        stress = found.von_mises.values[index]
+        assert stress.max() / scalars.peak_pressure.values[index] == pytest.approx(0.62, rel=0.01)
+        deepest = found.z.values[stress.max(axis=1).argmax()]
+        assert deepest / radius[index] == pytest.approx(0.48, abs=0.04)
+
+
+def test_every_variable_has_unit_and_name(results: xr.Dataset) -> None:
+    found = vc.section_stresses(results, [1e-4], times=[0.9])
+    assert found.time.values.tolist() == [1.0]
+    for variable in found.data_vars.values():
+        assert variable.attrs["units"] == "Pa"
+        assert variable.attrs["long_name"]
+    assert found.z.attrs["units"] == "m"
+
+
+def test_poisson_ratio_that_varies_is_refused_until_one_is_given() -> None:
+    bulky = pressed(vc.Material(vc.Zener(1e6, 1e6, 1e6), bulk_modulus=1e9))
+    with pytest.raises(ValueError, match="varies in time"):
+        vc.section_stresses(bulky)
+    assert vc.section_stresses(bulky, poisson_ratio=0.5).von_mises.max() > 0
+    bulky.attrs.pop("case")
+    with pytest.raises(ValueError, match="does not tell Poisson's ratio"):
+        vc.section_stresses(bulky)
+
+
+def test_result_without_fields_or_contact_is_refused() -> None:
+    material = vc.Material(vc.Elastic(1e6), 0.3)
+    with pytest.raises(ValueError, match="stresses need stored pressure"):
+        vc.section_stresses(pressed(material, fields="none"))
+    apart = vc.simulate(vc.Sphere(0.01), material, vc.step(0.0), GRID, [0.0])
+    with pytest.raises(ValueError, match="no contact at any instant"):
+        vc.section_stresses(apart)
+
+
+def test_figures_tell_the_largest_stress_and_its_depth(results: xr.Dataset) -> None:
+    found = vc.section_stresses(results, np.linspace(0, 1e-3, 101))
+    figure = plot.stress_section(results)
+    headings = figure.axes[0].get_title(loc="left") + figure.axes[0].get_title(loc="right")
+    largest = float(found.von_mises[0].max()) / 1e3
+    said = float(headings.split("largest ")[1].split()[0])
+    assert said == pytest.approx(largest, rel=0.01)
+    above, below = plot.von_mises_history(results).axes
+    drawn = above.lines[0].get_ydata()
+    assert drawn == pytest.approx(found.von_mises.max(("z", "x")).values / 1e3, rel=0.01)
+    assert below.lines[0].get_ydata()[0] < below.lines[0].get_ydata()[1]

@@ -1,0 +1,114 @@
+"""The log of a run: a line for each state, whatever happens in between."""
+
+from __future__ import annotations
+
+import errno
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from viscontact.results.variables import SCALARS
+from viscontact.runs.directory.progress_log import ProgressLog
+from viscontact.state import ContactState
+from written_states import state
+
+
+def lines_of(path: Path) -> list[dict[str, Any]]:
+    """Read the lines as any program would that knows JSON, and nothing but JSON."""
+
+    def refuse(word: str) -> None:
+        raise AssertionError(f"{word} is not JSON")
+
+    text = path.read_text(encoding="utf-8")
+    assert text == "" or text.endswith("\n")
+    return [json.loads(line, parse_constant=refuse) for line in text.splitlines()]
+
+
+def entries(of: ContactState) -> dict[str, Any]:
+    """What a line has to say of a state, read back."""
+    found = {name: getattr(of, name) for name in ("time", *SCALARS)}
+    known = {k: None if isinstance(v, float) and math.isnan(v) else v for k, v in found.items()}
+    outcome = ("converged", "no_contact", "not_converged")[of.outcome]
+    return {**known, "outcome": outcome, "warnings": list(of.warnings)}
+
+
+def test_lines_hold_every_scalar_to_the_last_bit(tmp_path: Path) -> None:
+    with ProgressLog(tmp_path / "progress.jsonl") as log:
+        for row in range(8):
+            log.append(state(row))
+            assert log.count == row + 1
+            # on its way already: nothing waits in memory
+            assert lines_of(tmp_path / "progress.jsonl") == [
+                entries(state(k)) for k in range(row + 1)
+            ]
+
+
+def test_whole_numbers_of_numpy_stay_whole(tmp_path: Path) -> None:
+    with ProgressLog(tmp_path / "log") as log:
+        log.append(ContactState(**{**vars(state(0)), "cells_across": np.int64(7)}))
+    assert '"cells_across": 7,' in (tmp_path / "log").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("kept", range(6))
+def test_cut_anywhere_the_log_goes_on_with_the_same_lines(kept: int, tmp_path: Path) -> None:
+    path = tmp_path / "progress.jsonl"
+    with ProgressLog(path) as log:
+        for row in range(6):
+            log.append(state(row))
+    whole = path.read_bytes()
+    ends = [0, *(at + 1 for at, byte in enumerate(whole) if byte == ord("\n"))]
+    # A killed process leaves a part of the line it was at; all parts of it are tried.
+    for end in range(ends[kept], len(whole), 7):
+        path.write_bytes(whole[:end])
+        with ProgressLog.resume(path, kept) as log:
+            assert log.count == kept
+            assert path.read_bytes() == whole[: ends[kept]]
+            for row in range(kept, 6):
+                log.append(state(row))
+        assert path.read_bytes() == whole
+
+
+@pytest.mark.parametrize(
+    ("content", "found"), [(b"", 0), (b"{}\n{}\n{}", 2), (b"\xff\n" + b"x" * 200_000, 1)]
+)
+def test_log_that_lacks_lines_is_refused_and_left_alone(
+    content: bytes, found: int, tmp_path: Path
+) -> None:
+    path = tmp_path / "progress.jsonl"
+    path.write_bytes(content)
+    with pytest.raises(ValueError, match=rf"has {found} whole lines.*had written 3.*--overwrite"):
+        ProgressLog.resume(path, 3)
+    assert path.read_bytes() == content
+
+
+def test_log_that_cannot_be_read_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match="cannot be read"):
+        ProgressLog.resume(tmp_path / "progress.jsonl", 1)
+    with pytest.raises(ValueError, match="cannot be read"):
+        ProgressLog.resume(tmp_path, 1)
+
+
+def test_line_that_found_no_room_is_taken_back(tmp_path: Path) -> None:
+    # A file whose size is limited takes a part of a line, as a disk does that is nearly full.
+    resource = pytest.importorskip("resource")
+    path = tmp_path / "progress.jsonl"
+    with ProgressLog(path) as log:
+        log.append(state(0))
+        whole = path.read_bytes()
+        before = resource.getrlimit(resource.RLIMIT_FSIZE)
+        for room in (0, 10):
+            resource.setrlimit(resource.RLIMIT_FSIZE, (len(whole) + room, before[1]))
+            try:
+                with pytest.raises(OSError, match=r"could not be written whole|too large") as full:
+                    log.append(state(1))
+            finally:
+                resource.setrlimit(resource.RLIMIT_FSIZE, before)
+            assert full.value.errno in (None, errno.EFBIG)
+            assert path.read_bytes() == whole
+            assert log.count == 1
+        log.append(state(1))
+    assert lines_of(path) == [entries(state(0)), entries(state(1))]

@@ -1,0 +1,439 @@
+"""What a run saves of itself: bits that come back as they were, and damage that is noticed."""
+
+from __future__ import annotations
+
+import dataclasses
+import errno
+import io
+import os
+import shutil
+import stat
+import time as clock
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import viscontact as vc
+from viscontact import fourier
+from viscontact.contact.equilibrium import ContactSolution
+from viscontact.runs.directory.checkpoint import (
+    STATE_NAME,
+    Checkpoint,
+    load_checkpoint,
+    save_checkpoint,
+)
+from viscontact.runs.directory.npz_archive import read_plain, write_plain
+from viscontact.runs.directory.recorded_run import PROGRESS_NAME, ChangedCaseError, Recorded
+from viscontact.runs.directory.recorder import RunRecord
+from viscontact.runs.directory.step_log import LOG_NAME, StepLog, logged_steps
+from viscontact.simulation import stepper
+from viscontact.simulation.setup import Run, prepare_run
+from viscontact.simulation.solved_step import SolvedStep
+from viscontact.state import Outcome
+
+COUNT = 12
+
+
+def sphere_run(force: float = 0.1, count: int = COUNT) -> Run:
+    rubber = vc.Material(vc.Zener(1e6, 1e6, 1e6), poisson_ratio=0.5)
+    grid, times = vc.Grid((24, 24), (2.4e-3, 2.4e-3)), np.linspace(0.0, 1.0, count)
+    return prepare_run(vc.Sphere(0.01), rubber, vc.step(force), grid, times)
+
+
+@pytest.fixture
+def recorded(tmp_path: Path) -> Recorded:
+    """A run of a sphere, and an empty directory for it."""
+    return Recorded(tmp_path, sphere_run(), [0.0, 1.0])
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The directory of the same run, uninterrupted."""
+    directory = tmp_path_factory.mktemp("whole")
+    finish(RunRecord(Recorded(directory, sphere_run(), [0.0, 1.0])))
+    return directory
+
+
+def finish(record: RunRecord) -> None:
+    for _ in record.steps():
+        pass
+    record.finish()
+
+
+def stop_after(record: RunRecord, instants: int) -> None:
+    """March so far, then leave everything as a process that is killed would."""
+    for _ in record.steps():
+        if record.kept == instants:
+            break
+    record.close()
+
+
+def same_bits(one: Path, other: Path) -> bool:
+    with xr.open_dataset(one / "result.nc") as a, xr.open_dataset(other / "result.nc") as b:
+        same = a.sizes == b.sizes and set(a.variables) == set(b.variables)
+        return same and all(a[v].values.tobytes() == b[v].values.tobytes() for v in a.variables)
+
+
+def contents(directory: Path) -> dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in directory.iterdir()}
+
+
+# --- plain data -------------------------------------------------------------------------------
+
+
+def test_plain_data_come_back_to_the_last_bit() -> None:
+    fixed = np.array([1.5, -0.0, np.nan])
+    fixed.flags.writeable = False
+    signalling = np.array([0x7FF0000000000001], dtype="u8").view("f8")
+    given: dict[str, Any] = {
+        "fixed": fixed,
+        "payload": signalling,
+        "columns": np.asfortranarray(np.arange(6.0).reshape(2, 3)),
+        "every other": np.arange(10.0)[::2],
+        "empty": np.empty((0, 3)),
+        "scalar": np.array(3.0),
+        "words": ["ü", None, True, 7, 5e-324, -0.0],
+        "deep": {"a": [{"b": fixed}, [fixed]]},
+        "not finite": [float("inf"), float("-inf")],
+    }
+    file = io.BytesIO()
+    write_plain(file, given)
+    read = read_plain(file)
+    assert list(read) == list(given)
+    for name in ("fixed", "payload", "columns", "every other", "empty", "scalar"):
+        assert read[name].tobytes() == given[name].tobytes()
+        assert read[name].shape == given[name].shape
+    # of whether a sum over it runs by rows or by columns, its last bits may depend
+    assert read["columns"].flags.f_contiguous
+    assert read["fixed"].flags.writeable  # who goes on from it may write to it
+    assert read["words"] == given["words"]
+    assert str(read["words"][-1]) == "-0.0"
+    assert read["deep"]["a"][1][0].tobytes() == fixed.tobytes()
+    assert read["not finite"] == given["not finite"]
+
+
+def test_damage_anywhere_is_refused_or_without_effect() -> None:
+    given = {"time": 1.5, "field": np.arange(6.0), "past": [np.ones((2, 2)), None]}
+    file = io.BytesIO()
+    write_plain(file, given)
+    whole = file.getvalue()
+    refused = 0
+    for position in range(len(whole)):
+        for changed in (whole[position] ^ 0x01, whole[position] ^ 0xFF):
+            damaged = whole[:position] + bytes([changed]) + whole[position + 1 :]
+            try:
+                read = read_plain(io.BytesIO(damaged))
+            except ValueError:
+                refused += 1
+                continue
+            assert read["time"] == 1.5, position
+            assert read["field"].tobytes() == given["field"].tobytes(), position
+            assert read["past"][0].tobytes() == np.ones((2, 2)).tobytes(), position
+    # what is left is padding, dates and the like
+    assert refused > len(whole)
+
+
+def test_plain_data_cut_short_anywhere_are_refused() -> None:
+    file = io.BytesIO()
+    write_plain(file, {"field": np.arange(6.0)})
+    whole = file.getvalue()
+    for end in range(len(whole)):
+        with pytest.raises(ValueError, match="damaged"):
+            read_plain(io.BytesIO(whole[:end]))
+
+
+def test_pickled_objects_are_never_loaded() -> None:
+    file = io.BytesIO()
+    np.savez(file, outline=np.array({"a": 1}, dtype=object))
+    with pytest.raises(ValueError, match="damaged, or was written by something else"):
+        read_plain(file)
+
+
+# --- log of steps -----------------------------------------------------------------------------
+
+
+def solved(number: int) -> SolvedStep:
+    random = np.random.default_rng(number)
+    values, motion = random.random((2, 4, 3)), random.random(3)
+    solution = ContactSolution(
+        values, motion, random.random((4, 3)), 1e-7, number, 2, converged=True
+    )
+    return SolvedStep(
+        number / 7, (0.5,) * number, solution, Outcome.CONVERGED, (0, 4, 0, 3), (4, 3)
+    )
+
+
+def test_log_cut_anywhere_gives_its_whole_steps(tmp_path: Path) -> None:
+    path = tmp_path / LOG_NAME
+    ends = []
+    with StepLog(path, "ours", 5) as log:
+        for number in (5, 6, 7):
+            log.append(solved(number))
+            ends.append(path.stat().st_size)
+    content = path.read_bytes()
+    # every byte of the head and around each end, and every seventh elsewhere
+    edges = {end + near for end in ends for near in range(-20, 30)} | set(range(100))
+    for end in sorted((edges | set(range(0, len(content), 7))) & set(range(len(content) + 1))):
+        path.write_bytes(content[:end])
+        times = [step.time for step in logged_steps(path, "ours", 5)]
+        assert times == [5 / 7, 6 / 7, 7 / 7][: sum(whole <= end for whole in ends)]
+
+
+def test_log_gives_steps_to_the_last_bit_and_only_those_wanted(tmp_path: Path) -> None:
+    path = tmp_path / LOG_NAME
+    with StepLog(path, "ours", 3) as log:
+        for number in range(3, 6):
+            log.append(solved(number))
+    fourth, fifth = logged_steps(path, "ours", 4)
+    assert (fourth.time, fifth.time, fifth.refused) == (4 / 7, 5 / 7, (0.5,) * 5)
+    for name in ("pressure", "deflection", "motion", "gap"):
+        assert fourth.plain()[name].tobytes() == solved(4).plain()[name].tobytes()
+    assert list(logged_steps(path, "ours", 2)) == []  # the step between is not there
+    assert list(logged_steps(path, "another run's", 3)) == []
+    assert list(logged_steps(tmp_path / "none", "ours", 3)) == []
+
+
+def test_log_damaged_anywhere_gives_the_steps_before(tmp_path: Path) -> None:
+    path = tmp_path / LOG_NAME
+    with StepLog(path, "ours", 0) as log:
+        log.append(solved(0))
+        begin = path.stat().st_size
+        log.append(solved(1))
+    content = path.read_bytes()
+    for position in (*range(begin, begin + 40), *range(begin + 40, len(content), 7)):
+        damaged = bytearray(content)
+        damaged[position] ^= 0xFF
+        path.write_bytes(damaged)
+        assert [step.time for step in logged_steps(path, "ours", 0)] == [0.0]
+
+
+# --- a run and its directory ------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("instants", [1, 2, 7, COUNT])
+def test_run_goes_on_to_the_same_bits(instants: int, recorded: Recorded, whole: Path) -> None:
+    stop_after(RunRecord(recorded), instants)
+    record = RunRecord.resume(recorded)
+    assert (record.resumed, record.kept, record.published) == (instants,) * 3
+    assert record.reached == recorded.run.times[instants - 1]
+    finish(record)
+    assert same_bits(recorded.directory, whole)
+    lines = [(each / PROGRESS_NAME).read_bytes() for each in (recorded.directory, whole)]
+    assert lines[0] == lines[1]
+    assert sorted(contents(recorded.directory)) == [PROGRESS_NAME, "result.nc"]
+
+
+def test_run_that_is_stopped_after_every_step_ends_in_the_same_bits(
+    recorded: Recorded, whole: Path
+) -> None:
+    stop_after(RunRecord(recorded), 1)
+    for instants in range(2, COUNT + 1):
+        stop_after(RunRecord.resume(recorded), instants)
+    finish(RunRecord.resume(recorded))
+    assert same_bits(recorded.directory, whole)
+
+
+def test_what_a_checkpoint_saves_is_on_the_disk_in_an_order_that_a_power_cut_respects(
+    recorded: Recorded, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("viscontact.runs.directory.recorder.PAUSE", 0.0)
+    monkeypatch.setattr("viscontact.runs.directory.recorder.SHARE", 0.0)
+    events: list[tuple[str, int, int]] = []
+    replace = os.replace
+
+    def flush(descriptor: int) -> None:
+        found = os.fstat(descriptor)
+        events.append(("flushed", found.st_ino, found.st_mtime_ns))
+
+    def replacing(source: Path, target: Path) -> None:
+        found = Path(source).stat()
+        events.append((Path(target).name, found.st_ino, found.st_mtime_ns))
+        replace(source, target)
+
+    monkeypatch.setattr(os, "fsync", flush)
+    monkeypatch.setattr(os, "replace", replacing)
+    record = RunRecord(recorded)
+    lines = recorded.directory / PROGRESS_NAME
+    for _ in record.steps():
+        if record.kept == 1:  # from here on the directory is this run's
+            events.clear()
+            continue
+        names = [name for name, *_ in events]
+        saved = names.index(STATE_NAME)
+        assert names.index("result.nc") < saved
+        assert ("flushed", lines.stat().st_ino, lines.stat().st_mtime_ns) in events[:saved]
+        for at in (names.index("result.nc"), saved):
+            assert events[at - 1] == ("flushed", *events[at][1:])
+        if os.name != "nt":
+            assert events[saved + 1][:2] == ("flushed", recorded.directory.stat().st_ino)
+        events.clear()
+    record.close()
+
+
+def test_file_system_that_flushes_no_directories_is_no_obstacle(
+    recorded: Recorded, whole: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    flush = os.fsync
+
+    def flushing(descriptor: int) -> None:
+        if stat.S_ISDIR(os.fstat(descriptor).st_mode):
+            raise OSError(errno.EINVAL, "Invalid argument")
+        flush(descriptor)
+
+    monkeypatch.setattr(os, "fsync", flushing)
+    finish(RunRecord(recorded))
+    assert same_bits(recorded.directory, whole)
+
+
+def test_course_of_a_finished_run_is_on_the_disk_before_its_state_is_gone(
+    recorded: Recorded, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    flushed: list[tuple[int, int]] = []
+
+    def flush(descriptor: int) -> None:
+        flushed.append((os.fstat(descriptor).st_ino, os.fstat(descriptor).st_size))
+
+    monkeypatch.setattr(os, "fsync", flush)
+    finish(RunRecord(recorded))
+    course = (recorded.directory / PROGRESS_NAME).stat()
+    assert (course.st_ino, course.st_size) in flushed
+
+
+def test_steps_since_the_checkpoint_are_not_solved_again(
+    recorded: Recorded, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    stop_after(RunRecord(recorded), 7)
+    # the first step's: the others came within its second
+    assert load_checkpoint(recorded.directory / STATE_NAME).steps < 7
+
+    def solving(*arguments: Any, **options: Any) -> None:
+        raise AssertionError("solved again")
+
+    monkeypatch.setattr("viscontact.simulation.stepper.solve_contact", solving)
+    assert RunRecord.resume(recorded).resumed == 7
+
+
+def test_first_step_that_fails_changes_nothing(
+    recorded: Recorded, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    stop_after(RunRecord(recorded), 3)
+    before = contents(recorded.directory)
+
+    solve = stepper.solve_contact
+
+    def failing(*arguments: Any, **options: Any) -> ContactSolution:
+        return dataclasses.replace(solve(*arguments, **options), converged=False)
+
+    other = dataclasses.replace(recorded, run=sphere_run(0.2))
+    monkeypatch.setattr(stepper, "solve_contact", failing)
+    record = RunRecord(other)
+    with pytest.raises(vc.ConvergenceError):
+        list(record.steps())
+    record.close()
+    assert contents(recorded.directory) == before
+
+
+def test_log_of_another_run_is_not_taken_for_ones_own(
+    recorded: Recorded, whole: Path, tmp_path: Path
+) -> None:
+    (tmp_path / "other").mkdir()
+    other = Recorded(tmp_path / "other", sphere_run(0.2), [0.0, 1.0])
+    for each in (recorded, other):
+        stop_after(RunRecord(each), 5)
+    shutil.copy(other.directory / LOG_NAME, recorded.directory / LOG_NAME)
+    shutil.rmtree(other.directory)
+    finish(RunRecord.resume(recorded))
+    assert same_bits(recorded.directory, whole)
+
+
+def test_result_of_another_run_is_not_gone_on_with(recorded: Recorded, tmp_path: Path) -> None:
+    (tmp_path / "other").mkdir()
+    other = Recorded(tmp_path / "other", sphere_run(0.2), [0.0, 1.0])
+    for each in (recorded, other):
+        stop_after(RunRecord(each), 5)
+    shutil.copy(other.directory / "result.nc", recorded.directory / "result.nc")
+    shutil.rmtree(other.directory)
+    before = contents(recorded.directory)
+    with pytest.raises(ValueError, match="is of another run than"):
+        RunRecord.resume(recorded)
+    assert contents(recorded.directory) == before
+
+
+def test_changed_run_is_refused_with_the_difference(recorded: Recorded) -> None:
+    stop_after(RunRecord(recorded), 2)
+    before = contents(recorded.directory)
+    with pytest.raises(ChangedCaseError) as refusal:
+        RunRecord.resume(dataclasses.replace(recorded, run=sphere_run(0.2)))
+    assert [str(each) for each in refusal.value.changes] == [
+        "load.force[1]: was 0.1, is now 0.2",
+    ]
+    with pytest.raises(ChangedCaseError, match="fields"):
+        RunRecord.resume(dataclasses.replace(recorded, fields="none"))
+    assert contents(recorded.directory) == before
+
+
+def test_state_of_another_version_is_refused(
+    recorded: Recorded, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(Checkpoint.__init__, "__defaults__", ("0.0.1",))
+    stop_after(RunRecord(recorded), 2)
+    with pytest.raises(ValueError, match=r"was saved by viscontact 0\.0\.1"):
+        RunRecord.resume(recorded)
+
+
+def test_durations_are_right_when_the_clock_is_set_back(
+    recorded: Recorded, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shown = iter(range(10**9, 0, -3600))
+    monkeypatch.setattr(clock, "time", lambda: float(next(shown)))
+    began = clock.monotonic()
+    stop_after(RunRecord(recorded), 5)
+    finish(RunRecord.resume(recorded))
+    with vc.open_results(recorded.directory) as ds:
+        assert 0 < ds.attrs["wall_time"] < clock.monotonic() - began
+
+
+def test_hard_link_to_a_result_keeps_it_as_it_was(
+    recorded: Recorded, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("viscontact.runs.directory.recorder.PAUSE", 0.0)
+    monkeypatch.setattr("viscontact.runs.directory.recorder.SHARE", 0.0)
+    record = RunRecord(recorded)
+    linked = recorded.directory / "snapshot.nc"
+    for _ in record.steps():
+        if record.kept == 4:
+            linked.hardlink_to(recorded.directory / "result.nc")
+            before = linked.read_bytes()
+    record.finish()
+    assert linked.read_bytes() == before
+
+
+def test_a_run_stays_with_the_transforms_it_was_begun_with(
+    recorded: Recorded, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run = dataclasses.replace(recorded.run, transforms="scipy")
+    begun = RunRecord(dataclasses.replace(recorded, run=run))
+    next(iter(begun.steps()))
+    begun.close()
+    monkeypatch.setattr(fourier, "ducc0", object())  # as if it had been installed since
+    faster = dataclasses.replace(recorded, run=sphere_run())
+    assert faster.run.transforms == "ducc0"
+    finish(RunRecord.resume(faster))
+    assert vc.open_results(recorded.directory).attrs["transforms"] == "scipy"
+
+
+def test_a_run_whose_transforms_are_gone_is_not_gone_on_with(
+    recorded: Recorded, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    begun = RunRecord(recorded)
+    next(iter(begun.steps()))
+    begun.close()
+    path = recorded.directory / STATE_NAME
+    saved = dataclasses.replace(load_checkpoint(path), transforms="ducc0")
+    save_checkpoint(path, saved)
+    monkeypatch.setattr(fourier, "ducc0", None)
+    with pytest.raises(ValueError, match=r"begun with the Fourier transforms of ducc0.*fast"):
+        RunRecord.resume(recorded)

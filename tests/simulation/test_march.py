@@ -1,0 +1,167 @@
+"""A run that is stopped after any of its steps and gone on with ends in the same bits."""
+
+from __future__ import annotations
+
+import io
+import math
+from dataclasses import fields, replace
+
+import numpy as np
+import pytest
+
+import viscontact as vc
+from viscontact.runs.directory.npz_archive import read_plain, write_plain
+from viscontact.simulation.march import March, Taken
+from viscontact.simulation.setup import Run, prepare_run
+from viscontact.time_integration.restart_data import Carried
+
+pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
+
+GRID = vc.Grid((36, 24), (3e-3, 2e-3))
+SMALL = vc.Grid((16, 16), (2e-3, 2e-3))  # for runs of many steps
+ZENER = vc.Material(vc.Zener(1e6, 5e5, 1e6), 0.5)
+POWER = vc.Material(vc.PowerLaw(2e-7, 0.3, 1.0, instant=3e-7), 0.4)
+UP_AND_DOWN = vc.ForceHistory([0, 1, 2, 2, 3, 4, 5], [0, 0.2, 0.2, 0.05, 0, 0, 0.1])
+
+
+def rough() -> vc.Indenter:
+    axis = np.linspace(-2e-3, 2e-3, 30)
+    height = 2e-6 * np.random.default_rng(3).standard_normal((30, 30))
+    return vc.HeightMap(axis, axis, height) + vc.Sphere(0.02)
+
+
+def roller() -> vc.Roller:
+    return vc.Roller(4e-3, 0.8e-3, 0.01)
+
+
+RUNS = {
+    "series law, up, jump, away and back": lambda: prepare_run(
+        vc.Sphere(0.01), ZENER, UP_AND_DOWN, GRID, vc.uniform_times(5.0, 9)
+    ),
+    "power law, eccentric roller": lambda: prepare_run(
+        roller(), POWER, vc.ramp(0.1, 1.0, eccentricity_x=1e-4), GRID, vc.uniform_times(2.0, 20)
+    ),
+    "rough, off both axes": lambda: prepare_run(
+        rough(),
+        ZENER,
+        vc.step(0.02, eccentricity_x=5e-5, eccentricity_y=2e-5),
+        GRID,
+        vc.log_times(0.01, 3.0, 7),
+    ),
+    "adaptive swing": lambda: prepare_run(
+        vc.Sphere(0.01), ZENER, vc.harmonic(0.1, 0.06, 2.0, 1), SMALL, vc.adaptive_times(2.2, 0.03)
+    ),
+    "adaptive power law in a soft start": lambda: prepare_run(
+        vc.Sphere(0.01), POWER, vc.ramp(0.1, 1.0), GRID, vc.adaptive_times(3.0, 0.03), fields=[2.0]
+    ),
+    "stage, contact lost": lambda: prepare_run(
+        vc.Sphere(0.01),
+        ZENER,
+        vc.ApproachHistory([0, 1, 1.3, 3], [0, 2e-5, 0, 1.6e-5]),
+        GRID,
+        vc.uniform_times(3.0, 15),
+    ),
+    "cycles of a triangle": lambda: prepare_run(
+        vc.Sphere(0.01),
+        ZENER,
+        vc.ForceHistory(np.arange(7.0), [0, 0.1, 0, 0.1, 0, 0.1, 0]),
+        GRID,
+        vc.uniform_times(6.0, 18),
+    ),
+}
+
+
+def same(one: object, other: object) -> bool:
+    """Equal to the last bit, NaN included."""
+    if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
+        return one.dtype == other.dtype and one.tobytes() == other.tobytes()
+    if isinstance(one, float) and isinstance(other, float) and math.isnan(one):
+        return math.isnan(other)
+    return one == other
+
+
+def through_a_file(carried: Carried) -> Carried:
+    file = io.BytesIO()
+    write_plain(file, carried)
+    return read_plain(file)
+
+
+def leaves(value: object, where: str = "") -> dict[str, object]:
+    """Plain data as a flat dict of numbers, texts and the bytes of arrays."""
+    if isinstance(value, dict):
+        inner = [leaves(each, f"{where}.{key}") for key, each in value.items()]
+    elif isinstance(value, list):
+        inner = [leaves(each, f"{where}[{number}]") for number, each in enumerate(value)]
+    else:
+        return {where: value.tobytes() if isinstance(value, np.ndarray) else repr(value)}
+    return {place: leaf for each in inner for place, leaf in each.items()}
+
+
+def differing(ours: list[Taken], theirs: list[Taken]) -> list[str]:
+    """What differs between two ends of one run."""
+    found = []
+    assert len(ours) == len(theirs)
+    for one, other in zip(ours, theirs, strict=True):
+        assert (one.state is None) == (other.state is None)
+        assert (one.done, one.left) == (other.done, other.left)
+        if one.state is None or other.state is None:
+            continue
+        names = [field.name for field in fields(vc.ContactState)]
+        found += [
+            f"{name} at t = {one.state.time:g}"
+            for name in names
+            if not same(getattr(one.state, name), getattr(other.state, name))
+        ]
+    return found
+
+
+@pytest.fixture(params=RUNS, scope="module")
+def run(request: pytest.FixtureRequest) -> Run:
+    return RUNS[request.param]()
+
+
+def test_run_goes_on_from_what_it_carried_after_any_step(run: Run) -> None:
+    whole = list(March(run))
+    assert len(whole) > 7
+    march = March(run)
+    every = max(1, len(whole) // 5)  # a swing has hundreds
+    for count, _ in enumerate(march, 1):
+        if count < 3 or count % every == 0:
+            resumed = list(March(run, through_a_file(march.carried())))
+            assert differing(whole[count:], resumed) == []
+
+
+def test_what_was_carried_is_what_is_carried_on(run: Run) -> None:
+    # Some of it counts only in runs that are rare, such as those with long steps after a jump.
+    march = March(run)
+    for _, _ in zip(march, range(8), strict=False):
+        carried = through_a_file(march.carried())
+        assert leaves(March(run, carried).carried()) == leaves(carried)
+
+
+def test_steps_solved_before_are_taken_again_to_the_same_bits(run: Run) -> None:
+    whole = list(March(run))
+    for count in (1, len(whole) // 2, len(whole) - 1):
+        march = March(run)
+        repeated = [march.repeat(taken.solved) for taken in whole[:count]]
+        assert differing(whole[:count], repeated) == []
+        assert differing(whole[count:], list(march)) == []
+
+
+def test_step_of_another_run_is_refused(run: Run) -> None:
+    march = March(run)
+    whole = list(March(run))
+    with pytest.raises(ValueError, match="is not the next one of this run"):
+        march.repeat(whole[-1].solved)
+
+
+def test_step_whose_error_this_run_does_not_allow_is_refused() -> None:
+    # Else what is remembered would be a step ahead of the time.
+    run = RUNS["adaptive swing"]()
+    march, whole = March(run), list(March(run))
+    for taken in whole[:-1]:
+        march.repeat(taken.solved)
+    last = whole[-1].solved
+    wrong = replace(last.solution, values=9 * last.solution.values)
+    with pytest.raises(ValueError, match="is not one that this run takes"):
+        march.repeat(replace(last, solution=wrong))

@@ -1,0 +1,170 @@
+"""The cases users run against theory: they pass, they can fail, and the table says so."""
+
+import csv
+import math
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+import pytest
+
+from viscontact.cli import main
+from viscontact.errors import ConvergenceError
+from viscontact.laws import Zener
+from viscontact.materials.material import Material
+from viscontact.verify import CASES, Case, Comparison, Quantity, run_cases, write_table
+from viscontact.verify.case import observed_order, run_case
+from viscontact.verify.creeping import G, every_body, zener
+from viscontact.verify.growing import _step
+
+#: Those that take more than a second in their fast form.
+LONG = ("stage", "force swings", "dent", "flat punch, harmonic", "TabulatedRelaxation")
+
+BALL = CASES[0]
+
+
+def off_by(error, name="a ball"):
+    """A case whose error falls from 4 to 1 times a given one."""
+
+    def compare(level):
+        return (Comparison(1.0, 1.0 + error, 4 * error / level),)
+
+    return Case(name, "Hertz 1882", (Quantity("approach", "m", 0.1, 0.01),), (1, 2, 4), compare)
+
+
+@pytest.mark.parametrize(
+    "case",
+    [
+        pytest.param(
+            case,
+            id=case.name,
+            marks=[pytest.mark.slow] if any(part in case.name for part in LONG) else [],
+        )
+        for case in CASES
+    ],
+)
+def test_every_case_is_within_its_fast_bounds(case):
+    for result in run_case(case, fast=True):
+        assert result.passed, result
+
+
+@pytest.mark.slow
+def test_all_cases_are_within_their_full_bounds_and_fall_as_theory_says():
+    """Second order in approach, force and dent; the sub-cell rim of order one to two."""
+    results = run_cases()
+    assert [result for result in results if not result.passed] == []
+    smooth = ("approach", "force", "dent")
+    orders = {
+        (result.case, result.quantity): result.order
+        for result in results
+        if result.quantity in smooth and not (math.isnan(result.order) or "punch" in result.case)
+    }
+    assert len(orders) > 20
+    assert {name: order for name, order in orders.items() if not 1.6 < order < 2.6} == {}
+
+
+def test_every_law_has_its_case():
+    names = {body.name for body in every_body()}
+    assert names >= {
+        *("Elastic", "Maxwell", "Zener", "Burgers", "CreepSeries", "RelaxationSeries"),
+        *("PowerLaw", "FractionalMaxwell", "FractionalZener"),
+        *("TabulatedCreep", "TabulatedRelaxation"),
+    }
+    assert len({case.name for case in CASES}) == len(CASES)
+
+
+def test_the_theory_of_each_body_is_its_own_inverse():
+    """∫ J(t - t') dM(t') = 1 (Boltzmann): what the cases trust, by a plain product rule."""
+    for body in every_body():
+        end = min(body.end, 300.0)
+        edges = end * np.linspace(0, 1, 4001) ** 2
+        modulus = body.relaxation(edges)
+        lags = end - (edges[1:] + edges[:-1]) / 2
+        total = body.creep(np.array([end]))[0] * modulus[0] + body.creep(lags) @ np.diff(modulus)
+        assert total == pytest.approx(1.0, abs=2e-3), body.name
+
+
+def test_a_law_that_is_one_percent_off_fails():
+    wrong = Material(Zener(2.02 * G, 2.02 * G, 202 * G), 0.5)
+    (case,) = (case for case in CASES if case.name == "ball under a sudden force, Zener")
+    twisted = replace(case, compare=partial(_step, replace(zener(), material=wrong)))
+    assert not any(result.passed for result in run_case(twisted, fast=True)[:2])
+
+
+def test_an_error_beyond_its_bound_fails_and_order_is_the_slope():
+    # At the finest of three levels the error is the given one, at the finer of two twice that.
+    (full,) = run_cases(cases=[off_by(0.02)])
+    assert (full.error, full.bound, full.passed) == (0.02, 0.01, False)
+    assert full.order == pytest.approx(1.0)
+    (fast,) = run_cases(cases=[off_by(0.02)], fast=True)
+    assert (fast.error, fast.bound, fast.passed) == (0.04, 0.1, True)
+
+
+def test_no_order_is_claimed_at_the_solver_s_tolerance():
+    assert math.isnan(observed_order((1, 2, 4), [1e-6, 1e-9, 1e-9]))
+    assert math.isnan(observed_order((1,), [1e-3]))
+
+
+def test_a_case_that_stops_is_a_failure_with_its_reason():
+    def compare(level):
+        raise ConvergenceError(f"stopped at {level}")
+
+    (result,) = run_cases(cases=[replace(off_by(0.0), compare=compare)])
+    assert not result.passed
+    assert math.isnan(result.error)
+    assert result.failure == "stopped at 1"
+
+
+@pytest.fixture
+def two_cases(monkeypatch):
+    """The command with one real case, and one more."""
+
+    def use(other):
+        monkeypatch.setattr(
+            "viscontact.cli.results.verification_table.run_cases",
+            partial(run_cases, cases=[BALL, other]),
+        )
+
+    return use
+
+
+def test_the_command_ends_with_0_only_if_all_pass(two_cases, capsys):
+    two_cases(off_by(1e-4))
+    assert main(["verify", "--fast"]) == 0
+    said = capsys.readouterr()
+    assert "Hertz 1882" in said.out
+    assert "11.2035 µm" in said.out  # of a ball of 10 mm under 10 N, E* = 2 GPa
+    assert "4 of 4 within their bounds" in said.out
+    assert "case 1/2: sphere" in said.err
+    two_cases(off_by(0.5, "a brick"))
+    assert main(["verify", "--fast"]) == 1
+    said = capsys.readouterr()
+    assert "FAILED" in said.out
+    assert "1 comparisons with exact solutions failed" in said.err
+
+
+def test_the_table_is_written_where_it_is_asked_for(two_cases, capsys, tmp_path):
+    two_cases(off_by(1e-4))
+    assert main(["verify", "--fast", "-o", str(tmp_path / "table.md")]) == 0
+    lines = (tmp_path / "table.md").read_text(encoding="utf-8").splitlines()
+    assert lines[0].startswith("| case | reference | quantity |")
+    assert {line.count("|") for line in lines} == {10}
+    assert len(lines) == 2 + 4
+    assert main(["verify", "--fast", "-o", str(tmp_path / "table.csv")]) == 0
+    with (tmp_path / "table.csv").open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [row["passed"] for row in rows] == ["True"] * 4
+    assert float(rows[0]["exact"]) == pytest.approx(1.12035e-5, rel=1e-5)
+
+
+@pytest.mark.parametrize("name", ["table.txt", "missing/table.md"])
+def test_a_bad_place_for_the_table_is_refused_before_anything_runs(name, tmp_path, capsys):
+    assert main(["verify", "-o", str(tmp_path / name)]) == 2
+    said = capsys.readouterr()
+    assert name in said.err
+    assert said.out == ""
+
+
+def test_write_table_names_the_kinds_it_knows(tmp_path):
+    with pytest.raises(ValueError, match=r"\.md or \.csv"):
+        write_table([], tmp_path / "table.html")

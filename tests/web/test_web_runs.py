@@ -1,0 +1,457 @@
+"""Runs of the calculator page: the same numbers as the command line's, followed and stopped."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time as clock
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+import xarray as xr
+from fastapi.testclient import TestClient
+
+from viscontact.cli import main
+from web.calculator_page import CASE, LONG_CASE, asking, begun, followed, status, until
+
+
+@pytest.fixture
+def client(tmp_path: Path) -> Iterator[TestClient]:
+    with asking(tmp_path / "page") as client:
+        yield client
+
+
+def numbers(result: Path | bytes) -> dict[str, bytes]:
+    """Return all numbers of a result to the last bit."""
+    with xr.open_dataset(io.BytesIO(result) if isinstance(result, bytes) else result) as ds:
+        return {str(name): ds[name].values.tobytes() for name in ds.variables}
+
+
+def by_command_line(text: str, folder: Path) -> Path:
+    """Run a case as anybody could type it, and return its result."""
+    case = folder / "typed.yaml"
+    case.write_text(text, encoding="utf-8")
+    assert main(["run", str(case), "-q"]) == 0
+    return folder / "typed" / "result.nc"
+
+
+def strict(text: str) -> Any:
+    """Read JSON as browsers do, who know no NaN."""
+
+    def refuse(word: str) -> None:
+        raise ValueError(f"{word} is no JSON")
+
+    return json.loads(text, parse_constant=refuse)
+
+
+def test_a_run_ends_in_the_numbers_of_the_command_line(client: TestClient, tmp_path: Path) -> None:
+    run = begun(client)
+    events = followed(client, run)
+    states = list(dict.fromkeys(event["state"] for event in events))
+    assert states[-2:] == ["running", "done"]
+    parts = [event["part"] for event in events]
+    assert parts == sorted(parts)
+    assert parts[-1] == 1
+    last = events[-1]
+    assert (last["step"], last["steps"], last["time"]) == (4, 4, "5 s")
+    assert last["stage"] == "over"
+    assert last["field_times_text"] == ["0 s", "5 s"]
+
+    there = client.get(f"/api/runs/{run}/result.nc")
+    assert re.search(r'filename="?zener-sphere\.nc', there.headers["content-disposition"])
+    (tmp_path / "ours.nc").write_bytes(there.content)
+    typed = by_command_line(CASE, tmp_path)
+    assert numbers(tmp_path / "ours.nc") == numbers(typed)
+
+    with xr.open_dataset(typed) as ds:
+        rows = list(csv.DictReader(io.StringIO(client.get(f"/api/runs/{run}/history.csv").text)))
+        pressures = [float(row["peak_pressure [Pa]"]) for row in rows]
+        assert pressures == ds["peak_pressure"].values.tolist()
+        found = {row["name"]: row for row in last["table"]}
+        peak = found["peak_pressure"]
+        assert float(peak["end"].split(" ± ")[0]) == pytest.approx(
+            float(ds["peak_pressure"][-1]) / 1e6, rel=1e-2
+        )
+        assert peak["unit"] == "MPa"
+        assert peak["error"] != ""
+        area = last["scalars"]["contact_area"]
+        assert area["value"] == float(ds["contact_area"][-1])
+        assert "eccentricity_x" not in last["scalars"]  # 0 but for rounding
+
+        # What is drawn while it is at work, in two parts.
+        whole = strict(client.get(f"/api/runs/{run}/grown").text)
+        assert whole["peak_pressure"] == pressures
+        assert whole["time"] == ds["time"].values.tolist()
+    lines = (tmp_path / "page" / "runs" / run / "run" / "progress.jsonl").read_bytes()
+    after = lines.index(b"\n") + 1
+    rest = client.get(f"/api/runs/{run}/grown", params={"after": after}).json()
+    assert (rest["begun"], rest["after"]) == (after, len(lines))
+    assert rest["time"] == whole["time"][1:]
+    again = client.get(f"/api/runs/{run}/grown", params={"after": len(lines) + 1}).json()
+    assert (again["begun"], again["time"]) == (0, whole["time"])
+
+    case = client.get(f"/api/runs/{run}/case.yaml").text
+    assert case == CASE
+    assert client.get(f"/api/runs/{run}/given").json() == {"yaml": CASE, "quality": "full"}
+    told = strict(client.get(f"/api/runs/{run}/data").text)
+    assert told["scalars"]["peak_pressure"]["value"] == pytest.approx(pressures, rel=1e-8)
+    strict(client.get(f"/api/runs/{run}").text)
+
+    assert client.delete(f"/api/runs/{run}").status_code == 204
+    assert client.get(f"/api/runs/{run}").status_code == 404
+    assert client.get("/api/runs").json() == []
+    assert list((tmp_path / "page" / "runs").iterdir()) == []
+
+
+@pytest.mark.slow
+def test_a_run_is_cancelled_and_goes_on_to_the_same_numbers(
+    client: TestClient, tmp_path: Path
+) -> None:
+    text = CASE.replace("steps: 4", "steps: 400")
+    run = begun(client, text)
+    until(lambda: status(client, run)["step"] > 3)
+    assert client.get(f"/api/runs/{run}/result.nc").status_code == 409  # it is being written
+    client.post(f"/api/runs/{run}/cancel")
+    told = followed(client, run)[-1]
+    assert told["state"] == "cancelled"
+    assert told["resumable"]
+    assert 3 < told["step"] < 400
+    assert told["message"].startswith(f"cancelled after step {told['step']} of 400, at t = ")
+    assert told["message"].endswith("; what it has computed is kept")
+    kept = client.get(f"/api/runs/{run}/history.csv").text
+    assert len(kept.splitlines()) == told["step"] + 2
+
+    assert client.post(f"/api/runs/{run}/resume").json()["state"] in ("waiting", "running")
+    assert client.post(f"/api/runs/{run}/resume").status_code == 409  # once is enough
+    events = followed(client, run)
+    assert events[-1]["state"] == "done"
+    stages = list(dict.fromkeys(event["stage"] for event in events))
+    assert stages[-3:] == ["steps", "errors", "over"]
+    parts = [event["part"] for event in events]
+    assert parts == sorted(parts)
+    (tmp_path / "ours.nc").write_bytes(client.get(f"/api/runs/{run}/result.nc").content)
+    assert numbers(tmp_path / "ours.nc") == numbers(by_command_line(text, tmp_path))
+
+
+def test_no_more_runs_than_allowed_are_at_work_and_coarse_ones_come_first(tmp_path: Path) -> None:
+    with asking(tmp_path / "page", at_once=1) as client:
+        first = begun(client, LONG_CASE)
+        full, coarse = begun(client, LONG_CASE), begun(client, CASE, "coarse")
+        states = [status(client, run)["state"] for run in (first, full, coarse)]
+        assert states == ["running", "waiting", "waiting"]
+        newest_first = [each["id"] for each in client.get("/api/runs").json()]
+        assert newest_first == [coarse, full, first]
+        client.post(f"/api/runs/{first}/cancel")
+        until(lambda: status(client, first)["over"])
+        until(lambda: status(client, coarse)["state"] == "running")
+        assert status(client, full)["state"] == "waiting"
+        told = client.post(f"/api/runs/{full}/cancel").json()  # one that has computed nothing
+        assert told["message"] == "cancelled before its first step; there is nothing to show yet"
+        assert told["resumable"]
+        client.post(f"/api/runs/{full}/resume")
+        client.delete(f"/api/runs/{full}")  # one that waits is forgotten at once
+        assert client.get(f"/api/runs/{full}").status_code == 404
+        client.delete(f"/api/runs/{coarse}")  # one at work is stopped first
+        until(lambda: [path.name for path in (tmp_path / "page" / "runs").iterdir()] == [first])
+
+
+def test_runs_whose_cases_have_one_title_are_told_apart(tmp_path: Path) -> None:
+    with asking(tmp_path / "page", at_once=0) as client:  # all wait
+        stronger = CASE.replace("4 N", "8.5 N")
+        other = stronger.replace("steps: 4", "steps: 5").replace("10 mm", "9 mm")
+        nameless = CASE.replace("title: Zener sphere\n", "")
+        asked = [(LONG_CASE, "full"), (CASE, "coarse"), (stronger, "full"), (stronger, "full")]
+        finer = LONG_CASE.replace("shape: [24, 24]", "shape: [32, 24]")
+        asked += [(other, "coarse"), (finer, "full"), (nameless, "full")]
+        runs = [begun(client, *each) for each in asked]
+        told = [status(client, run)["label"] for run in runs]
+        assert told == [
+            "Zener sphere",
+            "Zener sphere, steps 4, without errors",
+            "Zener sphere, force 8.5 N, steps 4 and 1 more",
+            "Zener sphere, force 8.5 N, steps 4 and 1 more (2)",
+            "Zener sphere, radius 9 mm, force 8.5 N and 2 more",
+            "Zener sphere, cells 32 × 24",
+            "Sphere, radius 10 mm, on Zener 10 MPa, 4 N",
+        ]
+        files = [client.get(f"/api/runs/{run}/case.yaml").headers for run in runs]
+        names = [each["content-disposition"] for each in files]
+        assert len(set(names)) == len(runs)
+        assert "zener-sphere-steps-4-without-errors-coarse.yaml" in names[1]
+
+
+def test_a_run_whose_case_is_damaged_hinders_none_of_the_same_title(tmp_path: Path) -> None:
+    with asking(tmp_path / "page", at_once=0) as client:
+        damaged = begun(client, CASE)
+        (tmp_path / "page" / "runs" / damaged / "given" / "case.yaml").write_bytes(b"\xff")
+        assert status(client, begun(client, CASE))["label"].startswith("Zener sphere")
+
+
+@pytest.mark.slow
+def test_a_run_that_stops_says_why_in_the_words_of_the_command_line(
+    client: TestClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = CASE.replace("[4 mm, 4 mm]", "[1 mm, 1 mm]")  # the contact overruns the grid
+    told = followed(client, begun(client, text))[-1]
+    assert told["state"] == "failed"
+    assert not told["resumable"]
+    case = tmp_path / "typed.yaml"
+    case.write_text(text, encoding="utf-8")
+    assert main(["run", str(case), "-q"]) == 1
+    first = capsys.readouterr().err.splitlines()[0]
+    (problem, *_) = told["problems"]
+    assert first == f"{case}:{problem['line']}: {problem['path']}: {problem['message']}"
+    assert told["message"].endswith(problem["message"])
+    # Where the page has buttons, nothing is said of what to type.
+    assert not any("run it again" in each["message"] for each in told["problems"])
+
+
+def test_nothing_is_shown_of_a_run_before_its_first_step(tmp_path: Path) -> None:
+    with asking(tmp_path / "page", at_once=1) as client:
+        first, waiting = begun(client, LONG_CASE), begun(client)
+        told = status(client, waiting)
+        assert (told["state"], told["table"], told["figures"]) == ("waiting", [], [])
+        for name in ("figure/history.svg", "report.html", "history.csv", "data", "result.nc"):
+            answer = client.get(f"/api/runs/{waiting}/{name}")
+            assert answer.status_code == 409, name
+            assert answer.json()["problems"][0]["message"]
+        client.delete(f"/api/runs/{waiting}")
+        client.delete(f"/api/runs/{first}")
+
+
+@pytest.mark.slow
+def test_a_coarse_run_hands_out_the_case_that_gives_its_numbers(
+    client: TestClient, tmp_path: Path
+) -> None:
+    run = begun(
+        client, CASE.replace("[24, 24]", "[96, 96]").replace("steps: 4", "steps: 90"), "coarse"
+    )
+    told = followed(client, run)[-1]
+    assert told["state"] == "done"
+    assert told["steps"] == 24
+    assert all(row["error"] == "" for row in told["table"])
+    text = client.get(f"/api/runs/{run}/case.yaml").text
+    assert "errors: false" in text
+    (tmp_path / "ours.nc").write_bytes(client.get(f"/api/runs/{run}/result.nc").content)
+    assert numbers(tmp_path / "ours.nc") == numbers(by_command_line(text, tmp_path))
+
+
+@pytest.mark.slow
+def test_figures_and_reports_of_a_run_can_be_had(client: TestClient) -> None:
+    named = CASE.replace("4 N", "2 N").replace("Zener sphere", r"for $4 or \bad{$5")  # no formula
+    run, other = begun(client), begun(client, named, "coarse")
+    for each in (run, other):
+        followed(client, each)
+    for figure in status(client, run)["figures"]:
+        answer = client.get(f"/api/runs/{run}/figure/{figure}.png")
+        # A figure that says nothing of this run, such as hysteresis under one step, says so.
+        assert answer.status_code in (200, 422), answer.text
+        expected = b"\x89PNG" if answer.status_code == 200 else b'{"problems"'
+        assert answer.content.startswith(expected)
+    answer = client.get(f"/api/runs/{run}/figure/pressure-map.pdf", params={"time": "5 s"})
+    assert answer.content.startswith(b"%PDF")
+    for time, why in (("9 s", "lies outside the run"), ("5 N", "cannot read '5 N' as a time")):
+        answer = client.get(f"/api/runs/{run}/figure/pressure-map.svg", params={"time": time})
+        assert answer.status_code == 422
+        assert why in answer.json()["problems"][0]["message"]
+    assert client.get(f"/api/runs/{run}/figure/no-such.svg").status_code == 404
+    stronger = begun(client, CASE.replace("4 N", "8 N"), "coarse")
+    followed(client, stronger)
+    both = client.get("/api/compare.svg", params={"runs": f"{run},{other},{stronger}"})
+    for name in ("Zener sphere", "for $4 or", "Zener sphere, force 8 N (coarse)"):
+        assert name in both.text
+    assert both.headers["content-type"] == "image/svg+xml"
+    assert client.get("/api/compare.svg", params={"runs": run}).status_code == 422
+    assert "<h1>Zener sphere, force 8 N (coarse)</h1>" in client.get(
+        f"/api/runs/{stronger}/report.html").text  # fmt: skip
+    saved = client.get(f"/api/runs/{run}/report.html")
+    assert saved.headers["content-disposition"].startswith("attachment")
+    shown = client.get(f"/api/runs/{run}/report.html", params={"view": True})
+    assert shown.content == saved.content
+    assert "content-disposition" not in shown.headers
+    assert shown.headers["content-security-policy"].startswith("sandbox ")
+
+
+@pytest.mark.skipif(os.name == "nt", reason="there, sizes of files have no such limit")
+def test_a_full_disk_is_told_and_leaves_nothing_behind(client: TestClient, tmp_path: Path) -> None:
+    import resource
+
+    usual = resource.getrlimit(resource.RLIMIT_FSIZE)
+    # What is over the limit fails as on a full disk, with an error of the system.
+    before = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (100, usual[1]))
+    try:
+        file = client.post("/api/files?name=a.csv", content=b"1" * 1000)
+        run = client.post("/api/runs", json={"yaml": CASE})
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, usual)
+        signal.signal(signal.SIGXFSZ, before)
+    assert (file.status_code, run.status_code) == (507, 507)
+    assert file.json()["problems"][0]["message"] == "a.csv cannot be kept: File too large"
+    assert "cannot be kept" in run.json()["problems"][0]["message"]
+    assert list((tmp_path / "page" / "runs").iterdir()) == []
+    assert {path.name for path in (tmp_path / "page" / "files").iterdir()} == {"rough-patch.npz"}
+
+
+def test_a_damaged_run_hides_no_other_one(tmp_path: Path) -> None:
+    asked = {
+        **{"title": "whole", "quality": "full", "created": "", "settings": [], "instants": 3},
+        **{"end": 1.0, "work": 1.0, "memory": 1.0, "errors": False, "state": "done", "said": []},
+    }
+    damages = ({}, {"title": 5}, {"instants": "x"}, {"settings": 1}, {"end": None})
+    for number, damage in enumerate(damages):
+        (tmp_path / "runs" / str(number) / "run").mkdir(parents=True)
+        told = json.dumps({**asked, **damage})
+        (tmp_path / "runs" / str(number) / "asked.json").write_text(told, encoding="utf-8")
+    (tmp_path / "runs" / "0" / "run" / "progress.jsonl").write_bytes(b"5\n[]\n")
+    with asking(tmp_path) as client:
+        answer = client.get("/api/runs")
+    assert answer.status_code == 200
+    assert [(run["title"], run["step"]) for run in answer.json()] == [("whole", 0)]
+
+
+# --- the process ------------------------------------------------------------------------------
+
+
+class Served:
+    """`viscontact serve`, as anybody could type it."""
+
+    def __init__(self, folder: Path) -> None:
+        command = [sys.executable, "-m", "viscontact", "serve", "--no-open", "--port", "0"]
+        self.process = subprocess.Popen(
+            [*command, "--dir", str(folder)],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        assert self.process.stdout is not None
+        address = self.process.stdout.readline().split()[0]
+        self.client = httpx.Client(base_url=address, timeout=60)
+
+    def end(self, number: int) -> tuple[int, str]:
+        """Send it a signal, and return its exit code and what it said."""
+        self.process.send_signal(number)
+        _, said = self.process.communicate(timeout=60)
+        self.client.close()
+        return self.process.returncode, said
+
+
+@pytest.fixture
+def serving(tmp_path: Path) -> Iterator[Callable[[], Served]]:
+    """Return a function that starts a server; none outlasts its test."""
+    servers: list[Served] = []
+
+    def start() -> Served:
+        servers.append(Served(tmp_path / "page"))
+        return servers[-1]
+
+    yield start
+    for server in servers:
+        if server.process.poll() is None:
+            server.process.kill()
+            server.process.communicate()
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(os.name == "nt", reason="there, only the console asks processes to stop")
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL])
+def test_a_server_stopped_in_mid_run_shows_the_run_again_and_goes_on_with_it(
+    serving: Callable[[], Served], tmp_path: Path, number: int
+) -> None:
+    text = LONG_CASE.replace("4000", "600")
+    first = serving()
+    run = begun(first.client, text)
+    waiting = [begun(first.client, text) for _ in range(2)][-1]
+    until(lambda: status(first.client, run)["step"] > 3)
+    code, _ = first.end(number)
+    assert code == (-number if number == signal.SIGKILL else 0)
+
+    second = serving()
+    # One whose server was killed finishes its step by itself.
+    until(lambda: all(each["over"] for each in second.client.get("/api/runs").json()))
+    told = status(second.client, run)
+    assert told["state"] == "interrupted"
+    assert told["resumable"]
+    assert 3 < told["step"] < 600
+    assert status(second.client, waiting)["state"] == "interrupted"
+    for each in (run, waiting):
+        second.client.post(f"/api/runs/{each}/resume")
+    results = []
+    for each in (run, waiting):
+        assert followed(second.client, each)[-1]["state"] == "done"
+        results.append(tmp_path / f"{each}.nc")
+        results[-1].write_bytes(second.client.get(f"/api/runs/{each}/result.nc").content)
+    whole = numbers(by_command_line(text, tmp_path))
+    assert [numbers(result) for result in results] == [whole, whole]
+    assert second.end(signal.SIGINT)[0] == 0
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(os.name == "nt", reason="there, only the console asks processes to stop")
+def test_a_server_answers_until_it_is_asked_to_end_and_its_runs_have_saved(
+    serving: Callable[[], Served], tmp_path: Path
+) -> None:
+    server = serving()
+    assert server.client.base_url.host == "127.0.0.1"
+    run = begun(server.client, LONG_CASE)
+    until(lambda: status(server.client, run)["step"] > 3)
+    # A second one may not write to the same folder.
+    again = [sys.executable, "-m", "viscontact", "serve", "--no-open", "--port", "0"]
+    refused = subprocess.run(
+        [*again, "--dir", str(tmp_path / "page")],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=60,
+    )
+    assert refused.returncode == 2
+    assert refused.stderr.count("\n") == 1
+    assert "another viscontact serves from there" in refused.stderr
+    with ThreadPoolExecutor(1) as pool:
+        seen = pool.submit(followed, server.client, run)
+        clock.sleep(0.5)
+        code, said = server.end(signal.SIGTERM)
+        assert seen.result()[-1]["state"] == "interrupted"  # whoever looks on sees the end
+    assert code == 0
+    assert said.splitlines() == ["stopping after this step; once more to stop now", "ended"]
+    (asked,) = (tmp_path / "page" / "runs").glob("*/asked.json")
+    assert json.loads(asked.read_text(encoding="utf-8"))["state"] == "interrupted"
+    assert (asked.parent / "run" / "state.npz").is_file()
+
+
+def test_a_port_that_is_taken_is_refused_in_a_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    import socket
+
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        port = taken.getsockname()[1]
+        words = ["serve", "--no-open", "--port", str(port), "--dir", str(tmp_path)]
+        assert main(words) == 2
+    said = capsys.readouterr().err
+    assert said.startswith(f"--port {port}: cannot be used: ")
+    assert said.count("\n") == 1
+
+
+def test_without_the_extra_a_line_names_it(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name in [name for name in sys.modules if name.startswith("viscontact.web")]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, "uvicorn", None)  # what an import of it meets
+    assert main(["serve", "--no-open"]) == 2
+    assert capsys.readouterr().err == (
+        "the calculator page needs uvicorn: pip install 'viscontact[web]'\n"
+    )
