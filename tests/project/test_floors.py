@@ -1,7 +1,8 @@
-"""The package is a stack of floors: what is imported lies below.
+"""The package is a stack of floors: a room imports from lower floors only, without exceptions.
 
-The imports are read with `ast`, wherever they stand, those under `TYPE_CHECKING` included: to
-name another module's type is to know it.
+A room is a folder of the package, or a module at its root. The imports are read with `ast`,
+wherever they are, those under `TYPE_CHECKING` included: to name another module's type is to know
+it.
 """
 
 from __future__ import annotations
@@ -18,308 +19,39 @@ import viscontact
 
 PACKAGE = Path(viscontact.__file__).parent
 
-# The floors from the ground up. A new module gets its place here; think twice before it is high.
+# The floors from the ground up. Rooms on one floor do not import each other.
 FLOORS = (
-    (
-        "errors",
-        "shown",
-        "real",
-        "readable",
-        "carried",
-        "free_memory",
-        "grid",
-        "load",
-        "indenters",
-        "laws",
-    ),  # 0 words: they do not know each other
-    (
-        "compliance",
-        "material",
-        "influence",
-        "stress_influence",
-        "memory",
-        "state",
-        "step_solution",
-        "outline",
-        "rim",
-        "hull",
-        "richardson",
-    ),  # 1 single ideas
-    (
-        "transforms",
-        "convolution",
-        "waves",
-        "preconditioner",
-        "subsurface",
-        "balance",
-        "bedding",
-        "half_space",
-    ),  # 2 operators on fields
-    (
-        "contact_problem",
-        "search",
-        "contact",
-    ),  # 3 equilibrium at one instant
-    (
-        "stepping",
-        "schedule",
-        "time_error",
-        "adaptive",
-        "prediction",
-        "plausibility",
-        "mesh_doubts",
-        "doubts",
-        "material_doubts",
-        "sampling_doubts",
-        "sharpness",
-        "geometry_doubts",
-        "estimate",
-        "extent",
-        "mesh_trial",
-        "facets",
-        "resolution",
-        "instants",
-        "admission",
-        "mesh",
-        "automatic_grid",
-        "period",
-        "run",
-        "footprint",
-        "loading_doubts",
-        "growth",
-        "cycles",
-        "observation",
-        "solved_step",
-        "past",
-        "step_by_step",
-        "marching",
-        "looser_load",
-        "companions",
-        "grid_levels",
-        "error_bars",
-    ),  # 4 time
-    (
-        "accessor",
-        "description",
-        "outgrown",
-        "variables",
-        "dataset",
-        "run_description",
-        "single",
-        "many_runs",
-        "results",
-        "stated_errors",
-        "history_csv",
-        "recorded_case",
-        "stresses",
-        "recording",
-    ),  # 5 labels and files
-    (
-        "examples",
-        "cross_section",
-        "markup",
-        "units",
-        "particulars",
-        "told",
-        "tables",
-        "surfaces",
-        "cards",
-        "materials",
-        "identification",
-        "notebook",
-        "foresight",
-        "forecast",
-        "case",
-        "preparation",
-        "inspection",
-        "summary",
-        "plot",
-        "report",
-        "verify",
-    ),  # 6 people
-    (
-        "processes",
-        "web",
-        "cli",
-        "__main__",
-    ),  # 7 shell
+    ("errors", "display", "fourier", "units", "examples", "reference"),
+    ("grid", "indenters", "laws", "loads", "tables"),
+    ("materials", "halfspace", "surfaces", "state"),
+    ("contact", "time_integration", "identification"),
+    ("checks", "meshing", "results", "case"),
+    ("simulation", "plot", "notebook"),
+    ("accuracy", "report", "verify"),
+    ("runs",),
+    ("web",),
+    ("cli",),
+    ("__main__",),
 )
-# Neighbours on a floor of which the first needs the second; the second stands to the left above.
-NEIGHBOURS = {
-    ("load", "real"),  # what counts as a number
-    ("load", "shown"),  # in a notebook, as all nouns
-    ("indenters", "shown"),
-    ("laws", "shown"),
-    ("grid", "shown"),
-    ("indenters", "real"),
-    ("grid", "real"),
-    ("indenters", "readable"),  # what a refusal says
-    ("load", "readable"),
-    ("laws", "readable"),
-    ("material", "compliance"),  # what contact sees of it
-    ("memory", "compliance"),  # the past is weighted by it
-    ("rim", "outline"),  # where the body ends inside a cell
-    ("bedding", "balance"),  # which resultants the first guess carries
-    ("half_space", "balance"),  # the rigid planes and the operators over one grid
-    ("half_space", "convolution"),
-    ("half_space", "waves"),
-    ("half_space", "transforms"),  # whoever of them is there
-    ("convolution", "transforms"),
-    ("waves", "transforms"),
-    ("search", "contact_problem"),
-    ("contact", "contact_problem"),
-    ("contact", "search"),  # which finds the pressure
-    ("adaptive", "stepping"),  # what is wished for
-    ("adaptive", "schedule"),  # its steps are steps
-    ("adaptive", "time_error"),
-    ("time_error", "schedule"),
-    ("instants", "stepping"),  # when none are given
-    ("instants", "schedule"),  # what is meant to be a kink
-    ("run", "stepping"),
-    ("run", "instants"),
-    ("run", "admission"),  # what is refused
-    ("run", "period"),  # what is no period
-    ("run", "schedule"),  # where its steps come from
-    ("run", "adaptive"),
-    ("run", "mesh"),  # the grid when none is given
-    ("automatic_grid", "admission"),  # of nouns that are none
-    ("automatic_grid", "mesh"),  # as a run has it
-    ("mesh", "extent"),  # holds the contact
-    ("facets", "estimate"),
-    ("mesh", "facets"),
-    ("resolution", "mesh_trial"),  # after trial
-    ("mesh", "mesh_trial"),  # of an elastic contact
-    ("mesh", "resolution"),  # and resolves it,
-    ("observation", "run"),  # which instants are kept
-    ("observation", "schedule"),  # the step that ended
-    ("observation", "material_doubts"),
-    ("observation", "geometry_doubts"),
-    ("geometry_doubts", "sharpness"),  # where a body ends, and its corners
-    ("observation", "sharpness"),
-    ("geometry_doubts", "sampling_doubts"),  # what the grid does not see
-    ("extent", "estimate"),  # of the contact that has to fit
-    ("forecast", "foresight"),  # of doubts
-    ("footprint", "adaptive"),  # which steps are likely
-    ("footprint", "run"),
-    ("footprint", "schedule"),
-    ("loading_doubts", "plausibility"),  # by how much of it a step may change
-    ("loading_doubts", "run"),
-    ("loading_doubts", "schedule"),
-    ("observation", "loading_doubts"),
-    ("observation", "plausibility"),  # which warnings it deserves
-    ("past", "run"),
-    ("past", "schedule"),  # a step to be taken
-    ("past", "prediction"),  # starts from a prediction,
-    ("past", "time_error"),  # makes an error,
-    ("cycles", "schedule"),
-    ("observation", "cycles"),  # what they cost
-    ("growth", "extent"),  # how large a grid may become
-    ("past", "growth"),  # what it is on a larger grid,
-    ("observation", "growth"),
-    ("step_by_step", "growth"),  # which is needed when the contact outgrows its own
-    ("step_by_step", "run"),
-    ("step_by_step", "schedule"),  # the loop goes through the schedule's steps,
-    ("step_by_step", "past"),  # takes each,
-    ("step_by_step", "solved_step"),  # or takes it as it was solved before,
-    ("step_by_step", "observation"),  # and observes where it ended
-    ("marching", "run"),
-    ("marching", "stepping"),
-    ("marching", "step_by_step"),
-    ("dataset", "accessor"),  # what a result offers beside its variables
-    ("results", "accessor"),
-    ("dataset", "outgrown"),  # fields on a grid that has been enlarged meanwhile
-    ("recording", "outgrown"),
-    ("companions", "looser_load"),
-    ("companions", "run"),
-    ("companions", "schedule"),  # coarser steps
-    ("companions", "sharpness"),
-    ("companions", "step_by_step"),  # are marched as any run
-    ("grid_levels", "companions"),  # beside their run
-    ("error_bars", "grid_levels"),
-    ("error_bars", "companions"),
-    ("error_bars", "run"),
-    ("dataset", "variables"),
-    ("history_csv", "variables"),  # which are written, and in which units
-    ("stated_errors", "variables"),  # what an error is called
-    ("recording", "variables"),
-    ("recording", "dataset"),  # the file is laid out as the dataset is
-    ("recording", "description"),  # whose a record is
-    ("recording", "results"),  # what the result is called
-    ("told", "units"),
-    ("notebook", "units"),
-    ("notebook", "particulars"),  # are its tables
-    ("notebook", "told"),
-    ("notebook", "markup"),
-    ("notebook", "cross_section"),  # is what it draws
-    ("notebook", "surfaces"),  # measured things as well
-    ("notebook", "cards"),
-    ("notebook", "identification"),
-    ("case", "units"),
-    ("case", "materials"),  # which may be given by name
-    ("case", "cards"),  # materials of other programs
-    ("case", "tables"),  # loads and materials may be measured ones
-    ("preparation", "case"),  # makes a run of it
-    ("summary", "told"),
-    ("summary", "units"),
-    ("inspection", "preparation"),
-    ("inspection", "forecast"),  # in words
-    ("surfaces", "tables"),  # maps in text files
-    ("surfaces", "units"),
-    ("case", "surfaces"),  # which may be pressed
-    ("cards", "tables"),  # the text of a file, whatever its encoding
-    ("cards", "units"),
-    ("tables", "units"),
-    ("materials", "units"),
-    ("plot", "units"),
-    ("plot", "particulars"),  # what is told beside an indenter
-    ("plot", "identification"),  # data, what was fitted, and what is left
-    ("plot", "cross_section"),
-    ("report", "plot"),  # has drawings of it
-    ("report", "markup"),
-    ("report", "notebook"),  # has drawings for phones
-    ("report", "particulars"),
-    ("report", "summary"),  # is its table of errors
-    ("report", "told"),
-    ("report", "units"),
-    ("plot", "materials"),  # curves are drawn over the points they rest on
-    ("cli", "processes"),  # several runs
-    ("web", "processes"),
-    ("cli", "web"),  # the command that serves it
-    ("many_runs", "single"),
-    ("recording", "run_description"),
-    ("run_description", "description"),
-    ("single", "dataset"),
-    ("single", "outgrown"),
-    ("single", "run_description"),
-    ("companions", "mesh_doubts"),
-    ("half_space", "preconditioner"),
-    ("observation", "doubts"),
-    ("observation", "mesh_doubts"),
-    ("preconditioner", "transforms"),
-    ("preconditioner", "waves"),
-    ("step_solution", "state"),
-    ("stresses", "recorded_case"),
-    ("recorded_case", "description"),
-    ("__main__", "cli"),  # python -m viscontact
-}
-# Who may ask the front door, which loads names from any floor when they are used: nouns that are
-# asked to show themselves, as notebooks ask the noun and not the page it is shown on.
-AT_THE_FRONT_DOOR = {"shown"}
-# The exact solutions stand aside: they rest on the lower floors, and the product computes nothing
-# with what it is checked against, so only people's floors may show them.
-REFERENCE_RESTS_ON, REFERENCE_SEEN_FROM = 1, 6
-# Other people's packages, and the lowest floor that may import them.
+MOST_FLOORS, MOST_ROOT_MODULES = 12, 8
+# The front door loads names of all floors when they are first used. The displays of objects in
+# notebooks are drawn on a high floor, so the mixin that objects derive from asks there for them.
+AT_THE_FRONT_DOOR = {"display", "web", "cli"}
+# Exact solutions: what computes a result must not reach them, by however many imports.
+COMPUTES = ("simulation", "accuracy", "runs")
+# Other packages, and the rooms from whose floor on they may be imported.
 OTHERS = {
-    "numpy": 0, "scipy": 0,
-    "ducc0": 2,
-    "xarray": 5, "netCDF4": 5, "filelock": 5,
-    "pint": 6, "pydantic": 6, "pydantic_core": 6, "ruamel": 6,
-    "SurfaceTopography": 6,
-    "matplotlib": 6, "mpl_toolkits": 6, "PIL": 6, "imageio_ffmpeg": 6, "contourpy": 6, "plotly": 6,
-    "typer": 7, "click": 7, "rich": 7,
-    "fastapi": 7, "starlette": 7, "uvicorn": 7,
+    "numpy": "errors", "scipy": "errors", "ducc0": "fourier",
+    "xarray": "results", "netCDF4": "results", "filelock": "results",
+    "pydantic": "case", "pydantic_core": "case", "ruamel": "materials",
+    "SurfaceTopography": "surfaces",
+    "matplotlib": "plot", "mpl_toolkits": "plot", "PIL": "plot", "imageio_ffmpeg": "plot",
+    "contourpy": "plot", "plotly": "plot",
+    "typer": "cli", "click": "cli", "rich": "cli",
+    "fastapi": "web", "starlette": "web", "uvicorn": "web",
 }  # fmt: skip
-TOP = len(FLOORS) - 1
+# The only file that may import it.
+ONLY_IN = {"pint": "units/parsing.py"}
 
 
 @dataclass(frozen=True)
@@ -382,15 +114,20 @@ def imports(name: str, path: Path) -> Iterator[Import]:
     yield from walk(ast.parse(path.read_text(encoding="utf-8")), hidden=False)
 
 
-def fault_of_other(floor: int, target: str) -> str | None:
+def fault_of_other(place: str, floor: int, target: str) -> str | None:
     """Return what is wrong with an import of another package, if anything."""
     other = target.split(".")[0]
     if other in sys.stdlib_module_names:
         return None
+    if other in ONLY_IN and not place.startswith(ONLY_IN[other]):
+        return f"imports {other}: only {ONLY_IN[other]} may"
+    if other in ONLY_IN:
+        return None
     if other not in OTHERS:
         return f"imports {other}: give it a reason in pyproject.toml and a floor in OTHERS"
-    if floor < OTHERS[other]:
-        return f"imports {other} on floor {floor}: it begins on floor {OTHERS[other]}"
+    lowest = floor_of(OTHERS[other]) or 0
+    if floor < lowest:
+        return f"imports {other} on floor {floor}: it begins on floor {lowest}"
     return None
 
 
@@ -402,14 +139,8 @@ def fault_of_own(part: str, floor: int, found: Import, root: str) -> str | None:
     if wanted in (part, "__version__"):
         return None
     below = floor_of(wanted)
-    if wanted == "reference":
-        allowed = floor >= REFERENCE_SEEN_FROM
-    elif below is None:  # a name of the package's front door, which knows all floors
-        allowed = floor == TOP or part in AT_THE_FRONT_DOOR
-    else:
-        limit = REFERENCE_RESTS_ON + 1 if part == "reference" else floor
-        allowed = below < limit or (part, wanted) in NEIGHBOURS
-    if allowed:
+    # A name without a floor is one of the package's front door.
+    if part in AT_THE_FRONT_DOOR if below is None else below < floor:
         return None
     return f"imports {found.target}: {root}.{part} (floor {floor}) may import lower floors only"
 
@@ -418,41 +149,60 @@ def faults(package: Path) -> list[str]:
     """Return every breach of the floors in a package, one line each."""
     lines = []
     for name, path in modules(package).items():
-        part = part_of(name)
-        floor = REFERENCE_RESTS_ON if part == "reference" else floor_of(part)
+        part, place = part_of(name), path.relative_to(package).as_posix()
+        floor = floor_of(part)
         if floor is None:
-            lines.append(f"{name} has no floor: give it one in FLOORS of tests/test_floors.py")
+            lines.append(
+                f"{name} has no floor: give it one in FLOORS of tests/project/test_floors.py"
+            )
             continue
         for found in imports(name, path):
             own = found.target.split(".")[0] in (package.name, "*")
             fault = (
                 fault_of_own(part, floor, found, package.name)
                 if own
-                else fault_of_other(floor, found.target)
+                else fault_of_other(place, floor, found.target)
             )
             if fault:
                 lines.append(f"{found.where}: {fault}")
     return lines
 
 
+def reached_from(rooms: tuple[str, ...]) -> set[str]:
+    """Return the modules that rooms import, directly or through others."""
+    files = modules(PACKAGE)
+    reached: set[str] = set()
+    ahead = [name for name in files if part_of(name) in rooms]
+    while ahead:
+        name = ahead.pop()
+        if name in reached:
+            continue
+        reached.add(name)
+        for found in imports(name, files[name]):
+            ahead += [
+                each for each in (found.target, found.target.rpartition(".")[0]) if each in files
+            ]
+    return reached
+
+
 def test_imports_point_down() -> None:
     assert "\n".join(faults(PACKAGE)) == ""
 
 
-def test_neighbours_need_only_those_to_their_left() -> None:
-    for above, below in NEIGHBOURS:
-        floor = FLOORS[floor_of(above) or 0]
-        assert floor.index(below) < floor.index(above)
+def test_what_computes_results_does_not_reach_the_exact_solutions() -> None:
+    assert [name for name in reached_from(COMPUTES) if part_of(name) == "reference"] == []
+    assert "reference" in {part_of(name) for name in reached_from(("verify",))}
 
 
-def test_no_neighbour_is_listed_in_vain() -> None:
-    needed = {
-        (part_of(name), part_of(found.target))
-        for name, path in modules(PACKAGE).items()
-        for found in imports(name, path)
-        if found.target.startswith(f"{PACKAGE.name}.")
+def test_there_are_few_floors_and_few_modules_at_the_root() -> None:
+    assert len(FLOORS) <= MOST_FLOORS
+    assert len(list(PACKAGE.glob("*.py"))) <= MOST_ROOT_MODULES
+
+
+def test_every_room_with_a_floor_is_there() -> None:
+    assert {part_of(name) for name in modules(PACKAGE)} == {
+        part for floor in FLOORS for part in floor
     }
-    assert needed >= NEIGHBOURS
 
 
 @pytest.mark.parametrize("name", viscontact.__all__)
@@ -460,38 +210,36 @@ def test_every_exported_name_is_where_the_front_door_says(name: str) -> None:
     assert getattr(viscontact, name) is not None
 
 
-# The rules are tested on forged packages of one or two files; a fault must be found, and named.
+# The rules are tested on forged packages of one module; a fault must be found, and named.
 FORGED = {
-    "upward": ("grid", "from viscontact.march import march", "may import lower floors only"),
+    "upward": ("grid", "from viscontact.simulation.march import March", "lower floors only"),
     "upward, relative": ("grid", "from . import contact", "may import lower floors only"),
     "upward, as a type": (
         "grid",
-        "if TYPE_CHECKING:\n    from .march import march",
+        "if TYPE_CHECKING:\n    from .simulation import march",
         "may import lower floors only",
     ),
-    "neighbour": ("laws", "import viscontact.grid", "may import lower floors only"),
+    "same floor": ("laws", "import viscontact.grid", "may import lower floors only"),
     "hidden": (
-        "marching",
+        "simulation",
         "def f():\n    from viscontact.grid import Grid",
         "inside a function",
     ),
     "made up at run time": ("results", "import_module(name)", "inside a function"),
     "front door": ("case", "from viscontact import Sphere", "may import lower floors only"),
-    "oracle in the product": ("marching", "from viscontact import reference", "lower floors only"),
-    "oracle on the product": ("reference", "import viscontact.contact", "lower floors only"),
-    "heavy and low": ("contact", "def f():\n    import xarray as xr", "begins on floor 5"),
-    "shell below": ("case", "import typer", "begins on floor 7"),
-    "stranger": ("grid", "import pandas", "a reason in pyproject.toml"),
-    "homeless": ("utils", "", "has no floor"),
+    "reference on the product": ("reference", "import viscontact.contact", "lower floors only"),
+    "heavy and low": ("contact", "def f():\n    import xarray as xr", "begins on floor 4"),
+    "command line below": ("case", "import typer", "begins on floor 9"),
+    "pint elsewhere": ("case", "import pint", "only units/parsing.py may"),
+    "unknown package": ("grid", "import pandas", "a reason in pyproject.toml"),
+    "without a floor": ("utils", "", "has no floor"),
 }
 SOUND = {
-    "downward": ("marching", "from viscontact.contact import solve"),
-    "listed neighbour": ("step_by_step", "from .schedule import Step"),
-    "own part": ("laws", "from viscontact.laws.series import CreepSeries"),
-    "late in the shell": ("cli", "def f():\n    import viscontact\n    import rich"),
-    "version": ("dataset", "from viscontact import __version__"),
-    "oracle on the ground": ("reference", "from viscontact.grid import Grid"),
-    "oracle shown": ("plot", "from viscontact import reference"),
+    "downward": ("simulation", "from viscontact.contact.equilibrium import solve_contact"),
+    "own room": ("laws", "from viscontact.laws.series import CreepSeries"),
+    "late in the command line": ("cli", "def f():\n    import viscontact\n    import rich"),
+    "version": ("results", "from viscontact import __version__"),
+    "reference shown": ("plot", "from viscontact import reference"),
     "standard library": ("grid", "import math"),
 }
 
