@@ -22,17 +22,6 @@ _NO_ROOM = ("failed to map segment", "cannot allocate memory", "Cannot allocate 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line.
 
-    Parameters
-    ----------
-    arguments : sequence of str, optional
-        What was typed behind ``viscontact``; the process's arguments when left out.
-
-    Returns
-    -------
-    int
-        The exit code: 0 done, 2 refused before anything was created, 1 stopped during the
-        work, 130 interrupted.
-
     Examples
     --------
     >>> main(["--version"])

@@ -39,18 +39,7 @@ _PLOTLY = "plotly.min.js"
 
 
 def new_app(calculator: Calculator) -> ASGIApp:
-    """Return the application.
-
-    Parameters
-    ----------
-    calculator : Calculator
-        What answers.
-
-    Returns
-    -------
-    callable
-        What answers requests, by ASGI.
-    """
+    """Return the application."""
 
     @asynccontextmanager
     async def at_work(app: FastAPI) -> AsyncIterator[None]:

@@ -31,26 +31,7 @@ _GONE = 499
 
 
 class Calculator:
-    """All that the page's requests need.
-
-    Parameters
-    ----------
-    folder : Folder
-        Where files and runs are kept.
-    at_once : int
-        So many runs are computed at once.
-
-    Attributes
-    ----------
-    folder : Folder
-        The same.
-    desk : Desk
-        Where cases are read.
-    workshop : Workshop
-        Where runs are computed.
-    is_to_end : bool
-        Whether no run is begun any more, and those at work are to save and end.
-    """
+    """All that the page's requests need."""
 
     def __init__(self, folder: Folder, at_once: int) -> None:
         self.folder, self.desk = folder, Desk(folder)
@@ -61,33 +42,14 @@ class Calculator:
         self._found: WeakKeyDictionary[Work, tuple[str, dict[str, Any]]] = WeakKeyDictionary()
 
     async def do(self, work: Callable[[], T], request: Request | None = None) -> T:
-        """Do heavy work in a thread, one piece after the other: HDF5 knows no threads.
-
-        Parameters
-        ----------
-        work : callable
-            The work.
-        request : Request, optional
-            Who waits for it; if they do so no longer, it is not begun.
-
-        Raises
-        ------
-        RequestError
-            If nobody waits for it any more.
-        """
+        """Do heavy work in a thread, one piece after the other: HDF5 knows no threads."""
         async with self._turn:
             if request is not None and await request.is_disconnected():
                 raise RequestError(_GONE, "nobody waits for the answer")
             return await run_in_threadpool(work)
 
     async def status(self, work: Work) -> dict[str, Any]:
-        """Return how a run stands, with what its result says once it is over.
-
-        Parameters
-        ----------
-        work : Work
-            The run.
-        """
+        """Return how a run stands, with what its result says once it is over."""
         if not work.is_over:
             return status_of(work, {})
         key = f"{work.asked.state} {work.course.instants} {__version__}"
@@ -109,13 +71,7 @@ class Calculator:
         return found
 
     async def events(self, work: Work) -> AsyncIterator[str]:
-        """Yield how a run stands, at once and whenever that changes, until it is over.
-
-        Parameters
-        ----------
-        work : Work
-            The run.
-        """
+        """Yield how a run stands, at once and whenever that changes, until it is over."""
         before, quiet = "", 0
         while True:
             told = json.dumps(await self.status(work), allow_nan=False, ensure_ascii=False)

@@ -38,13 +38,7 @@ _HEADERS = {
 
 
 class Guard:
-    """Lets no request through that is another site's or too large, and marks every answer.
-
-    Parameters
-    ----------
-    app : callable
-        What answers, by ASGI.
-    """
+    """Lets no request through that is another site's or too large, and marks every answer."""
 
     def __init__(self, app: ASGIApp) -> None:
         self._app = app

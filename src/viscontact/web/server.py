@@ -32,18 +32,7 @@ class PortError(Exception):
 
 
 def listening(port: int | None) -> socket.socket:
-    """Return a socket on this machine alone.
-
-    Parameters
-    ----------
-    port : int or None
-        Its port, 0 for any that is free; None for the first of the usual ones that is.
-
-    Raises
-    ------
-    PortError
-        If the port cannot be used.
-    """
+    """Return a socket on this machine alone."""
     if port is not None:
         return _bound(port)
     for usual in USUAL_PORTS:
@@ -55,13 +44,7 @@ def listening(port: int | None) -> socket.socket:
 
 
 def address_of(listener: socket.socket) -> str:
-    """Return the address to type into a browser.
-
-    Parameters
-    ----------
-    listener : socket
-        From `listening`.
-    """
+    """Return the address to type into a browser."""
     return f"http://{HOST}:{listener.getsockname()[1]}/"
 
 
@@ -72,28 +55,7 @@ def serve(
     is_to_stop: Callable[[], bool],
     on_start: Callable[[], None],
 ) -> None:
-    """Serve the page until somebody wants it to end, and the runs at work have saved.
-
-    Parameters
-    ----------
-    path : Path
-        The folder in which files and runs are kept.
-    listener : socket
-        From `listening`.
-    at_once : int or None
-        So many runs are computed at once.
-    is_to_stop : callable
-        Whether somebody wants it to end.
-    on_start : callable
-        Called once as soon as it answers.
-
-    Raises
-    ------
-    DirectoryInUse
-        If another server uses the folder.
-    OSError
-        If the folder cannot be made or written to.
-    """
+    """Serve the page until somebody wants it to end, and the runs at work have saved."""
     path.mkdir(parents=True, exist_ok=True)
     with locked(path), closing(listener):
         calculator = Calculator(Folder(path), at_once or usual_at_once())

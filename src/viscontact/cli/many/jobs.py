@@ -25,25 +25,7 @@ from viscontact.units.formatting import in_digits
 
 
 def checked_jobs(request: ManyRequest, interruption: Interruption) -> list[Job]:
-    """Check runs, all of them before any is refused.
-
-    Parameters
-    ----------
-    request : ManyRequest
-        What is asked for.
-    interruption : Interruption
-        Who may stop it.
-
-    Returns
-    -------
-    list of Job
-        One for each.
-
-    Raises
-    ------
-    typer.Exit
-        With code 2, after all problems of all runs have been printed; nothing has been created.
-    """
+    """Check runs, all of them before any is refused."""
     jobs: list[Job] = []
     problems: dict[str, list[RunRequest]] = {}
     requests = request.runs()
@@ -62,40 +44,12 @@ def checked_jobs(request: ManyRequest, interruption: Interruption) -> list[Job]:
 
 
 def fitting(jobs: Sequence[Job]) -> int:
-    """Return how many runs at once, whichever they are, fit into the memory that is free.
-
-    Parameters
-    ----------
-    jobs : sequence of Job
-        The runs.
-
-    Returns
-    -------
-    int
-        At least 1: none has been admitted that does not fit alone.
-    """
+    """Return how many runs at once, whichever they are, fit into the memory that is free."""
     return max(1, resources.fitting((job.memory for job in jobs), available_memory()))
 
 
 def doubts(jobs: Sequence[Job], wanted: int, at_once: int, threads: int) -> list[str]:
-    """Say where more is asked for than the machine has.
-
-    Parameters
-    ----------
-    jobs : sequence of Job
-        The runs.
-    wanted : int
-        How many were to go on at once.
-    at_once : int
-        How many will.
-    threads : int
-        Threads of each.
-
-    Returns
-    -------
-    list of str
-        A line each.
-    """
+    """Say where more is asked for than the machine has."""
     lines = []
     if at_once < min(wanted, len(jobs)):
         needed = sum(sorted(job.memory for job in jobs)[-wanted:])

@@ -27,13 +27,7 @@ _LINE_PART, _LINE_SECONDS = 0.1, 30.0
 
 
 class Shown:
-    """Runs, shown as they go on; this one shows nothing.
-
-    Parameters
-    ----------
-    jobs : sequence of Job
-        All runs.
-    """
+    """Runs, shown as they go on; this one shows nothing."""
 
     def __init__(self, jobs: Sequence[Job]) -> None:
         self._work = {job.directory: job.work for job in jobs}
@@ -42,24 +36,12 @@ class Shown:
         self._ended = 0
 
     def goes_on(self, active: Sequence[Child]) -> None:
-        """Show how far the runs have come.
-
-        Parameters
-        ----------
-        active : sequence of Child
-            Those at work.
-        """
+        """Show how far the runs have come."""
         for child in active:
             self._parts[child.job.directory] = child.course.part
 
     def ends(self, ended: Ended) -> None:
-        """Show that a run has ended.
-
-        Parameters
-        ----------
-        ended : Ended
-            How.
-        """
+        """Show that a run has ended."""
         self._ended += 1
         self._parts[ended.job.directory] = 1.0
 
@@ -129,20 +111,7 @@ class _Bars(Shown):
 
 @contextmanager
 def shown_runs(jobs: Sequence[Job], *, quiet: bool) -> Iterator[Shown]:
-    """Show how several runs go on.
-
-    Parameters
-    ----------
-    jobs : sequence of Job
-        The runs.
-    quiet : bool
-        Show nothing.
-
-    Yields
-    ------
-    Shown
-        To be told what happens.
-    """
+    """Show how several runs go on."""
     if quiet or not jobs:
         yield Shown(jobs)
     elif sys.stderr.isatty():

@@ -14,20 +14,7 @@ from viscontact.runs.processes.request import RunRequest, command, no_option
 
 @dataclass(frozen=True)
 class ManyRequest:
-    """The words behind ``viscontact run`` with several cases, or values that are varied.
-
-    Attributes
-    ----------
-    cases : tuple of Path
-        The case files.
-    common : RunRequest
-        What is asked for of every run; its case counts for nothing, and its output is the
-        directory in which those of the runs lie.
-    varied : tuple of str
-        The values of ``--vary``.
-    jobs : int
-        How many go on at once.
-    """
+    """The words behind ``viscontact run`` with several cases, or values that are varied."""
 
     cases: tuple[Path, ...]
     common: RunRequest
@@ -35,13 +22,7 @@ class ManyRequest:
     jobs: int = 1
 
     def runs(self) -> list[RunRequest]:
-        """Every run on its own.
-
-        Raises
-        ------
-        typer.Exit
-            With code 2, if the values that are varied cannot be read.
-        """
+        """Every run on its own."""
         found = []
         for case in self.cases:
             for variation in variations(self.varied, self.common.settings):

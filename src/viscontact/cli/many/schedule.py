@@ -24,19 +24,7 @@ PAUSE = 0.05
 
 
 def execute_many(request: ManyRequest) -> None:
-    """Run several cases, each into its directory.
-
-    Parameters
-    ----------
-    request : ManyRequest
-        Which, and how many at once.
-
-    Raises
-    ------
-    typer.Exit
-        With code 2 if any was refused before anything was created, 1 if any was stopped during
-        the run, 130 if they were interrupted.
-    """
+    """Run several cases, each into its directory."""
     if request.common.overwrite and request.common.resume:
         refuse("--resume goes on with runs and --overwrite begins them anew: give one of them")
     quiet = request.common.quiet

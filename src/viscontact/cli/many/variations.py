@@ -15,16 +15,7 @@ _OPENING, _CLOSING, _QUOTES = "[{", "]}", "\"'"
 
 @dataclass(frozen=True)
 class Variation:
-    """One combination of varied values.
-
-    Attributes
-    ----------
-    settings : tuple of str
-        The values, as for ``--set``.
-    name : str
-        What tells its run from the others, fit for the name of a directory; empty where nothing
-        is varied.
-    """
+    """One combination of varied values."""
 
     settings: tuple[str, ...] = ()
     name: str = ""
@@ -32,23 +23,6 @@ class Variation:
 
 def variations(varied: Sequence[str], settings: Sequence[str] = ()) -> list[Variation]:
     """Return every combination of the values of `--vary`, the last key's changing fastest.
-
-    Parameters
-    ----------
-    varied : sequence of str
-        Such as ``load.force=5kN,10kN``: commas within brackets or quotes belong to a value.
-    settings : sequence of str
-        The values of ``--set``, which none of these may be.
-
-    Returns
-    -------
-    list of Variation
-        A single one, without settings, if nothing is varied.
-
-    Raises
-    ------
-    typer.Exit
-        With code 2, if one is not of that form.
 
     Examples
     --------
@@ -71,13 +45,6 @@ def variations(varied: Sequence[str], settings: Sequence[str] = ()) -> list[Vari
 
 def as_typed(line: str, varied: Sequence[str]) -> str:
     """Return what is said of a setting under the option by which it was given.
-
-    Parameters
-    ----------
-    line : str
-        A line of a run, which knows settings only.
-    varied : sequence of str
-        The values of ``--vary``.
 
     Examples
     --------

@@ -25,18 +25,7 @@ class Wishes:
     law: str
 
     def options(self, table: Table) -> FitOptions:
-        """Return what the fit of a series is asked for.
-
-        Parameters
-        ----------
-        table : Table
-            The measured values: its headings may say what kind of test it is.
-
-        Raises
-        ------
-        ValueError
-            If nothing says so, or uniaxial data come without anything about the volume.
-        """
+        """Return what the fit of a series is asked for."""
         data = self.data or table.data
         if data is None:
             raise ValueError(
@@ -64,19 +53,7 @@ class Wishes:
             raise ValueError(f"--bulk-modulus: {error}") from None
 
     def indenter_of(self, table: Table) -> Indenter:
-        """Return what made an indentation record.
-
-        Parameters
-        ----------
-        table : Table
-            The record.
-
-        Raises
-        ------
-        ValueError
-            If it was not said, or not what the body's volume does; if an option was given that a
-            record has no use for.
-        """
+        """Return what made an indentation record."""
         if self.indenter is None:
             raise ValueError(
                 f"{table.source.name}: an indentation record needs --indenter, such as "
@@ -109,16 +86,6 @@ class Wishes:
 def read_kelvin(option: str, text: str) -> float:
     """Return the temperature given behind an option [K].
 
-    Parameters
-    ----------
-    option, text : str
-        Such as ``"--reference"`` and ``"23 degC"``.
-
-    Raises
-    ------
-    ValueError
-        If it is no temperature.
-
     Examples
     --------
     >>> read_kelvin("--reference", "20 degC")
@@ -132,16 +99,6 @@ def read_kelvin(option: str, text: str) -> float:
 
 def read_indenter(text: str) -> Indenter:
     """Return the indenter given behind ``--indenter``.
-
-    Parameters
-    ----------
-    text : str
-        Such as ``"sphere 5 um"``.
-
-    Raises
-    ------
-    ValueError
-        If it is none, or its size cannot be read.
 
     Examples
     --------

@@ -43,21 +43,7 @@ def report_fit(
     *,
     width: str | float | None = None,
 ) -> None:
-    """Fit, print, draw and write, or refuse in one line.
-
-    Parameters
-    ----------
-    file : Path
-        The table.
-    wishes : Wishes
-        The options.
-    output : Path or None
-        The figure's file.
-    section : Path or None
-        Where the material section goes as well.
-    width : str or float or None, optional
-        Of the figure, as `viscontact.plot` takes it [m].
-    """
+    """Fit, print, draw and write, or refuse in one line."""
     table = _read(file)
     if table.left_out:
         say(f"{file.name}: not understood and left out: {', '.join(table.left_out)}")

@@ -43,27 +43,7 @@ class Typed:
 
 
 def find_material(which: str, typed: Typed, *, writes: bool = False) -> Shown:
-    """Return a material by its shipped name, or from a file of any kind.
-
-    Parameters
-    ----------
-    which : str
-        The name, or the file.
-    typed : Typed
-        How the file is meant.
-    writes : bool, optional
-        Whether units are also those of what is written.
-
-    Returns
-    -------
-    Shown
-        The material.
-
-    Raises
-    ------
-    typer.Exit
-        With code 2, after the reason has been printed.
-    """
+    """Return a material by its shipped name, or from a file of any kind."""
     idle = ["data", "set", "name", "poisson_ratio", "bulk_modulus"]
     units = [] if writes else ["modulus_unit", "time_unit", "temperature_unit"]
     if which in materials.names():

@@ -29,13 +29,7 @@ _WRITTEN = {".inp": "abaqus", ".mac": "ansys", ".cdb": "ansys", ".csv": "csv"}
 
 
 def list_library(output: Path | None = None) -> None:
-    """Print the shipped library.
-
-    Parameters
-    ----------
-    output : Path or None
-        A figure that cannot be drawn of all at once: refused.
-    """
+    """Print the shipped library."""
     if output is not None:
         refuse(f"{output}: a figure shows one material; name it, e.g. pmma-paper")
     entries = [library.entry(name) for name in library.names()]
@@ -58,17 +52,7 @@ def list_library(output: Path | None = None) -> None:
 
 
 def show_material(shown: Shown, output: Path | None, width: str | float | None = None) -> None:
-    """Print, and draw if a file is named, one material.
-
-    Parameters
-    ----------
-    shown : Shown
-        The material.
-    output : Path or None
-        The figure's file.
-    width : str or float or None, optional
-        Of the figure, as `viscontact.plot` takes it [m].
-    """
+    """Print, and draw if a file is named, one material."""
     if output is not None and (form := _WRITTEN.get(output.suffix.lower())):
         refuse(f"{output}: -o alone is a figure (.png, .pdf or .svg); add --to {form}")
     if shown.entry is not None:

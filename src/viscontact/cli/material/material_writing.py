@@ -25,19 +25,7 @@ _FIGURES = (".png", ".pdf", ".svg")
 
 
 def write_material(shown: Shown, form: str, typed: Typed, output: Path | None) -> None:
-    """Write a material to a file, or print it.
-
-    Parameters
-    ----------
-    shown : Shown
-        The material.
-    form : str
-        One of `FORMS`.
-    typed : Typed
-        Its units.
-    output : Path or None
-        The file; None for stdout.
-    """
+    """Write a material to a file, or print it."""
     if output is not None and output.suffix.lower() in _FIGURES:
         refuse(f"{output}: with --to, -o is what is written; leave --to out for a figure")
     if output is not None and _is_same(output, Path(shown.name)):

@@ -19,23 +19,7 @@ _ANY_TIMES = (1e-3, 1e6)
 
 @dataclass(frozen=True)
 class Shown:
-    """A material to show or to write.
-
-    Parameters
-    ----------
-    name : str
-        What was typed: a shipped name, or a file.
-    material : Material
-        The material.
-    entry : Entry or None
-        Its entry, if it is from the library.
-    card_name : str
-        Its name in a card, if it is from one that names it.
-    shift : Shift or None
-        How a card shifts its times; the material is that of the reference temperature.
-    notes : tuple of str
-        What stood in the file and is not used.
-    """
+    """A material to show or to write."""
 
     name: str
     material: Material

@@ -34,45 +34,18 @@ class Attempt:
         return standing(self.request, self.recorded, self.prepared.case)
 
     def say(self, line: str) -> None:
-        """Say a line unless only errors are wanted.
-
-        Parameters
-        ----------
-        line : str
-            The line.
-        """
+        """Say a line unless only errors are wanted."""
         if not self.request.quiet:
             say(line)
 
     def made(self, instants: int, reached: float | None) -> str:
-        """Say how far the run has come.
-
-        Parameters
-        ----------
-        instants : int
-            Instants that are complete.
-        reached : float or None
-            The last of them [s].
-        """
+        """Say how far the run has come."""
         run = self.recorded.run
         return progress_made(instants, reached, run.times.tolist(), run.adaptive)
 
 
 def attempted(request: RunRequest, interruption: Interruption) -> Attempt:
-    """Return a run that is asked for, checked; nothing is created.
-
-    Parameters
-    ----------
-    request : RunRequest
-        What is asked for.
-    interruption : Interruption
-        Who may stop it.
-
-    Raises
-    ------
-    typer.Exit
-        With code 2, after all problems have been printed.
-    """
+    """Return a run that is asked for, checked; nothing is created."""
     directory = _directory(request)
     prepared = prepare(request.case, request.settings, request.threads)
     case = prepared.case

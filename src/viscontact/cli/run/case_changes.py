@@ -21,23 +21,7 @@ _OF_NO_ACCOUNT = ("title",)
 
 
 def case_changes(kept: Path, case: Case, computed: Iterable[Difference]) -> list[str]:
-    """Say what has changed in a case.
-
-    Parameters
-    ----------
-    kept : Path
-        The case as it was run.
-    case : Case
-        The case now.
-    computed : iterable of Difference
-        How the runs differ that the two describe, in SI units: shown where the files do not tell,
-        as when a table that they name has changed.
-
-    Returns
-    -------
-    list of str
-        A line each.
-    """
+    """Say what has changed in a case."""
     try:
         written = differences(read_document(kept).data, parse(case.text)[0])
     except CaseError:

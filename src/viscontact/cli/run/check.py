@@ -27,18 +27,7 @@ _NAMES = len("peak pressure")
 
 
 def print_forecast(prepared: Prepared) -> Forecast:
-    """Print what a run will need and what it may find.
-
-    Parameters
-    ----------
-    prepared : Prepared
-        A case, checked.
-
-    Returns
-    -------
-    Forecast
-        What was printed.
-    """
+    """Print what a run will need and what it may find."""
     try:
         expected = foreseen(prepared)
     except CaseError as error:
@@ -63,19 +52,7 @@ def draw_body(
     picture: Path | None,
     width: str | float | None = None,
 ) -> None:
-    """Draw the indenter, on the grid's part of the surface and as far as it goes beside it.
-
-    Parameters
-    ----------
-    prepared : Prepared
-        A case, checked.
-    expected : Forecast
-        Its contact is shaded.
-    picture : Path or None
-        The file; None for CASE-indenter.png beside the case.
-    width : str or float or None, optional
-        Of the figure, as `viscontact.plot` takes it [m].
-    """
+    """Draw the indenter, on the grid's part of the surface and as far as it goes beside it."""
     plot, found, run = plot_package(), expected.estimate, prepared.run
     contact = found and (found.centre_x, found.centre_y, found.length, found.width)
     path = prepared.case.document.path

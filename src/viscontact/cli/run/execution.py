@@ -37,36 +37,7 @@ def execute(
     threads: int = 1,
     quiet: bool = False,
 ) -> Path:
-    """Run a case and write its result.
-
-    Parameters
-    ----------
-    path : Path
-        The case file.
-    output : Path, optional
-        The run's directory; beside the file when left out.
-    overwrite : bool
-        Replace the result that the directory holds.
-    resume : bool
-        Go on with it; start where there is none, and do nothing where it is finished.
-    settings : sequence of str, optional
-        The values of ``--set``.
-    threads : int
-        Threads of one Fourier transform.
-    quiet : bool
-        Print errors only.
-
-    Returns
-    -------
-    Path
-        The run's directory.
-
-    Raises
-    ------
-    typer.Exit
-        With code 2 if refused before anything was created, 1 if stopped during the run, 130
-        if interrupted.
-    """
+    """Run a case and write its result."""
     if overwrite and resume:
         refuse("--resume goes on with a run and --overwrite begins it anew: give one of them")
     request = RunRequest(path, output, overwrite, resume, tuple(settings or ()), threads, quiet)
@@ -242,13 +213,7 @@ def _say_finished(attempt: Attempt) -> None:
 
 
 def tidy(directory: Path) -> None:
-    """Remove what a finished run has left that was killed in its last moment.
-
-    Parameters
-    ----------
-    directory : Path
-        The run's.
-    """
+    """Remove what a finished run has left that was killed in its last moment."""
     with suppress(OSError, DirectoryInUse), locked(directory):
         remove_traces(directory)
 

@@ -29,15 +29,7 @@ _NAMES = (CASE_NAME, RESULT_NAME, STATE_NAME, LOG_NAME, PROGRESS_NAME)
 
 
 def chosen_directory(case: Path, output: Path | None) -> Path:
-    """Return where a run goes: as asked, or CASE/ beside the case file.
-
-    Parameters
-    ----------
-    case : Path
-        The case file.
-    output : Path or None
-        What the user asked for.
-    """
+    """Return where a run goes: as asked, or CASE/ beside the case file."""
     if output is not None:
         return output
     if not case.suffix:
@@ -46,18 +38,7 @@ def chosen_directory(case: Path, output: Path | None) -> Path:
 
 
 def refuse_no_directory(directory: Path) -> None:
-    """Refuse what cannot be the directory of a run.
-
-    Parameters
-    ----------
-    directory : Path
-        Where the run is to go.
-
-    Raises
-    ------
-    typer.Exit
-        With code 2.
-    """
+    """Refuse what cannot be the directory of a run."""
     try:
         directory.exists()
     except OSError as error:  # such as a name that is too long
@@ -72,22 +53,7 @@ def refuse_no_directory(directory: Path) -> None:
 
 
 def refuse_occupied(directory: Path, case: Case, *, overwrite: bool) -> None:
-    """Refuse a directory in which something of the user's would be lost.
-
-    Parameters
-    ----------
-    directory : Path
-        Where the run is to go.
-    case : Case
-        The case that is run.
-    overwrite : bool
-        Whether an earlier result may be replaced.
-
-    Raises
-    ------
-    typer.Exit
-        With code 2.
-    """
+    """Refuse a directory in which something of the user's would be lost."""
     kept, is_runs = directory / CASE_NAME, is_of_a_run(directory)
     # What a run has left that was stopped in its first step is nothing to lose.
     if not overwrite and _holds_an_instant(directory / RESULT_NAME):
@@ -108,21 +74,7 @@ def refuse_occupied(directory: Path, case: Case, *, overwrite: bool) -> None:
 
 
 def write_case(directory: Path, case: Case) -> None:
-    """Write the case as it is run, and the files it names, each all at once.
-
-    Parameters
-    ----------
-    directory : Path
-        The run's.
-    case : Case
-        The case.
-
-    Raises
-    ------
-    OSError
-        If that fails, or such a file no longer holds what the run is from; what was there is
-        whole.
-    """
+    """Write the case as it is run, and the files it names, each all at once."""
     for file in case.file_names:
         if digest(file) != case.digests[file]:
             raise OSError(f"{file} was changed while the run was being prepared")
@@ -135,18 +87,7 @@ def write_case(directory: Path, case: Case) -> None:
 
 @contextmanager
 def taken(directory: Path) -> Iterator[None]:
-    """Make the directory, and keep other runs out of it for as long as the block goes on.
-
-    Parameters
-    ----------
-    directory : Path
-        The run's.
-
-    Raises
-    ------
-    typer.Exit
-        With code 2, if it cannot be written to, or another run is at work there.
-    """
+    """Make the directory, and keep other runs out of it for as long as the block goes on."""
     is_new = not directory.exists()
     try:
         directory.mkdir(parents=True, exist_ok=True)
@@ -172,13 +113,7 @@ def is_same_file(one: Path, other: Path) -> bool:
 
 
 def is_of_a_run(directory: Path) -> bool:
-    """Whether a run has begun there, be it that it came to nothing: one of its files is ours.
-
-    Parameters
-    ----------
-    directory : Path
-        Where that run would have been.
-    """
+    """Whether a run has begun there, be it that it came to nothing: one of its files is ours."""
     if any(is_ours(directory / name) for name, is_ours in _WRITTEN.items()):
         return True
     try:

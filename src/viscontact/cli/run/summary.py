@@ -25,13 +25,7 @@ _GAP = 2
 
 
 def print_summary(directory: Path) -> None:
-    """Print what a finished run found, what it took, and what to doubt.
-
-    Parameters
-    ----------
-    directory : Path
-        Where its result is: all of it, whichever process has computed what.
-    """
+    """Print what a finished run found, what it took, and what to doubt."""
     with open_results(directory) as ds:
         _print(ds, directory)
 

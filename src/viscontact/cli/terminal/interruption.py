@@ -24,17 +24,7 @@ _ONE_REQUEST = 2.0
 
 
 class Interruption:
-    """Whether somebody has asked to stop.
-
-    Attributes
-    ----------
-    requested : bool
-        Whether the run is to stop after its step.
-    seen : bool
-        Whether anything of the kind has come at all.
-    over : bool
-        Whether all is done: a request that comes now is too late, and changes nothing.
-    """
+    """Whether somebody has asked to stop."""
 
     def __init__(self) -> None:
         self.requested = False
@@ -98,18 +88,7 @@ class Interruption:
 
 @contextmanager
 def watched_interruption(*, until_exit: bool = False) -> Iterator[Interruption]:
-    """Catch Ctrl-C and polite requests to end, for as long as the block runs.
-
-    Parameters
-    ----------
-    until_exit : bool
-        Afterwards the process ends: a request that comes too late must not change how.
-
-    Yields
-    ------
-    Interruption
-        Ask it after each step.
-    """
+    """Catch Ctrl-C and polite requests to end, for as long as the block runs."""
     standing = getattr(signal.getsignal(signal.SIGINT), "__self__", None)
     if isinstance(standing, Interruption):
         yield standing  # one for all who ask

@@ -21,22 +21,7 @@ _LINE_PART, _LINE_SECONDS = 0.1, 30.0
 
 @contextmanager
 def shown_progress(total: int | None, done: int = 0, *, quiet: bool) -> Iterator[Report]:
-    """Show how a run goes on.
-
-    Parameters
-    ----------
-    total : int or None
-        Number of instants; None where the run chooses its steps, so that all totals are guesses.
-    done : int
-        How many are done already: they say nothing about the time that is left.
-    quiet : bool
-        Show nothing.
-
-    Yields
-    ------
-    callable
-        To be called with (state, done, total) after each instant.
-    """
+    """Show how a run goes on."""
     if quiet:
         yield lambda state, done, total: None
     elif sys.stderr.isatty():
@@ -57,18 +42,7 @@ def shown_progress(total: int | None, done: int = 0, *, quiet: bool) -> Iterator
 
 @contextmanager
 def frames_shown(total: int) -> Iterator[Callable[[int, int], None]]:
-    """Show on a terminal how a film is drawn; elsewhere, where it takes a while, say nothing.
-
-    Parameters
-    ----------
-    total : int
-        Frames.
-
-    Yields
-    ------
-    callable
-        To be called with (frames done, frames).
-    """
+    """Show on a terminal how a film is drawn; elsewhere, where it takes a while, say nothing."""
     if not sys.stderr.isatty():
         yield lambda done, total: None
         return

@@ -25,13 +25,7 @@ from viscontact.web.workspace.request import Asked
 
 @dataclass(frozen=True)
 class Desk:
-    """Where cases are read.
-
-    Attributes
-    ----------
-    folder : Folder
-        Where the files are that they may name.
-    """
+    """Where cases are read."""
 
     folder: Folder
     _foreseen: dict[str, tuple[Prepared, Forecast]] = field(default_factory=dict, repr=False)
@@ -41,16 +35,6 @@ class Desk:
 
         What was asked for last is kept: a check, a drawing and a run of one case come after each
         other, and an automatic grid is found once for all of them.
-
-        Parameters
-        ----------
-        text : str
-            The case.
-
-        Raises
-        ------
-        RequestError
-            With all that is wrong with it.
         """
         if text in self._foreseen:
             whole, expected = self._foreseen[text]
@@ -66,81 +50,28 @@ class Desk:
         return found
 
     def values(self, text: str) -> Any:
-        """Return the values of a case, as its text has them.
-
-        Parameters
-        ----------
-        text : str
-            The case.
-
-        Raises
-        ------
-        RequestError
-            If it is no YAML, or no mapping.
-        """
+        """Return the values of a case, as its text has them."""
         try:
             return document_of(text, self.folder.case).data
         except CaseError as error:
             raise case_problems(error, self.folder.case) from error
 
     def case(self, text: str) -> Case:
-        """Read a case.
-
-        Parameters
-        ----------
-        text : str
-            The case.
-
-        Raises
-        ------
-        RequestError
-            With all that is wrong with it.
-        """
+        """Read a case."""
         try:
             return read_case_text(text, self.folder.case)
         except CaseError as error:
             raise case_problems(error, self.folder.case) from error
 
     def parts(self, text: str) -> Parts:
-        """Read what can be read of a case that is still being written.
-
-        Parameters
-        ----------
-        text : str
-            The case.
-
-        Raises
-        ------
-        RequestError
-            If it is no YAML, or no mapping.
-        """
+        """Read what can be read of a case that is still being written."""
         try:
             return read_parts(text, self.folder.case)
         except CaseError as error:
             raise case_problems(error, self.folder.case) from error
 
     def prepared(self, text: str, quality: str) -> tuple[Prepared, tuple[str, ...]]:
-        """Read and check a case.
-
-        Parameters
-        ----------
-        text : str
-            The case.
-        quality : str
-            ``"full"``, or ``"coarse"`` for fewer cells and steps.
-
-        Returns
-        -------
-        Prepared
-            The run it makes.
-        tuple of str
-            What was set in it for that quality.
-
-        Raises
-        ------
-        RequestError
-            With all that is wrong with it.
-        """
+        """Read and check a case."""
         whole, expected = self.foreseen(text)
         if quality == "full":
             return whole, ()
@@ -155,20 +86,7 @@ class Desk:
             raise case_problems(error, self.folder.case) from error
 
     def check(self, text: str, quality: str) -> dict[str, Any]:
-        """Check a case, and say how large it is, how long it takes and what to expect.
-
-        Parameters
-        ----------
-        text : str
-            The case.
-        quality : str
-            ``"full"`` or ``"coarse"``.
-
-        Raises
-        ------
-        RequestError
-            With all that is wrong with it.
-        """
+        """Check a case, and say how large it is, how long it takes and what to expect."""
         if quality == "full":
             run, expected = self.foreseen(text)
         else:
@@ -196,29 +114,7 @@ class Desk:
     def new_run(
         self, text: str, quality: str, others: Sequence[tuple[str, Asked]] = ()
     ) -> tuple[str, Asked]:
-        """Check a case, and keep it and all that it reads, to be run.
-
-        Parameters
-        ----------
-        text : str
-            The case.
-        quality : str
-            ``"full"`` or ``"coarse"``.
-        others : sequence
-            Runs that it is to be told from, the oldest first.
-
-        Returns
-        -------
-        str
-            Where the run is kept.
-        Asked
-            What was asked for.
-
-        Raises
-        ------
-        RequestError
-            With all that is wrong with the case.
-        """
+        """Check a case, and keep it and all that it reads, to be run."""
         found, settings = self.prepared(text, quality)
         run, case = found.run, found.case
         title = case.title or suggested_title(case.document.data) or "Untitled case"
@@ -255,11 +151,6 @@ class Desk:
 
 def filled(value: Any) -> Any:
     """Return values without those that are empty.
-
-    Parameters
-    ----------
-    value : dict, list, str, int, float, bool or None
-        Values as a form has them.
 
     Examples
     --------

@@ -19,20 +19,7 @@ STEP_ERROR, GRID_ERROR, SOLVER_ERROR = 1e-2, 0.1, 1e-4
 
 
 def coarse_settings(prepared: Prepared, expected: Forecast) -> tuple[str, ...]:
-    """Return what to set in a case for an answer in seconds.
-
-    Parameters
-    ----------
-    prepared : Prepared
-        The case, checked.
-    expected : Forecast
-        What was foreseen of it.
-
-    Returns
-    -------
-    tuple of str
-        As ``--set`` takes them; nothing is made finer than it is.
-    """
+    """Return what to set in a case for an answer in seconds."""
     case = prepared.case
     settings = [*_steps(case), *_cells(case, expected)]
     if case.errors:
@@ -43,13 +30,7 @@ def coarse_settings(prepared: Prepared, expected: Forecast) -> tuple[str, ...]:
 
 
 def without_cells(settings: tuple[str, ...]) -> tuple[str, ...]:
-    """Leave the grid of a case as it is, which may need its cells.
-
-    Parameters
-    ----------
-    settings : tuple of str
-        From `coarse_settings`.
-    """
+    """Leave the grid of a case as it is, which may need its cells."""
     return tuple(each for each in settings if not each.startswith("grid."))
 
 

@@ -23,29 +23,7 @@ _BACK, _POINTS = 1e-4, 300
 
 
 def drawing(desk: Desk, text: str, what: str, width: Width | None = None) -> Figure:
-    """Draw a part of a case, by itself while the rest of the case cannot be read.
-
-    Parameters
-    ----------
-    desk : Desk
-        Where cases are read.
-    text : str
-        The case.
-    what : str
-        indenter, material, indenter_material or load.
-    width : {"single", "double"} or float, optional
-        As figures take it; a single column suits a phone.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The drawing.
-
-    Raises
-    ------
-    RequestError
-        With all that is wrong with the case, or why it cannot be drawn.
-    """
+    """Draw a part of a case, by itself while the rest of the case cannot be read."""
     try:
         return _of_case(desk, text, what, width)
     except RequestError:

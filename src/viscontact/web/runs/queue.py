@@ -20,20 +20,7 @@ def usual_at_once() -> int:
 
 
 class Workshop:
-    """All runs of a folder.
-
-    Parameters
-    ----------
-    folder : Folder
-        Where they are kept.
-    at_once : int
-        So many are computed at once.
-
-    Attributes
-    ----------
-    is_closing : bool
-        Whether no more is begun.
-    """
+    """All runs of a folder."""
 
     def __init__(self, folder: Folder, at_once: int) -> None:
         self._folder, self.at_once, self.is_closing = folder, at_once, False
@@ -47,50 +34,20 @@ class Workshop:
         return [work for work in reversed(self._works.values()) if not work.is_unwanted]
 
     def work(self, name: str) -> Work:
-        """Return a run.
-
-        Parameters
-        ----------
-        name : str
-            What it is called.
-
-        Raises
-        ------
-        RequestError
-            If there is none.
-        """
+        """Return a run."""
         work = self._works.get(name)
         if work is None or work.is_unwanted:
             raise RequestError(404, f"there is no run {name[:40]!r}; it may have been removed")
         return work
 
     def ask(self, name: str, asked: Asked) -> Work:
-        """Let a run wait for its turn.
-
-        Parameters
-        ----------
-        name : str
-            What it is called.
-        asked : Asked
-            What was asked for.
-        """
+        """Let a run wait for its turn."""
         self._works[name] = work = Work(self._folder, name, asked)
         self.look()
         return work
 
     def cancel(self, work: Work) -> None:
-        """Stop a run as Ctrl-C does: its step is finished, and what it has done is kept.
-
-        Parameters
-        ----------
-        work : Work
-            The run; if it is over, nothing happens.
-
-        Raises
-        ------
-        RequestError
-            If it belongs to a server that was killed.
-        """
+        """Stop a run as Ctrl-C does: its step is finished, and what it has done is kept."""
         if work.is_foreign:
             raise RequestError(
                 409,
@@ -100,18 +57,7 @@ class Workshop:
         work.stop("cancelled")
 
     def resume(self, work: Work) -> None:
-        """Go on with a run that stopped early.
-
-        Parameters
-        ----------
-        work : Work
-            The run.
-
-        Raises
-        ------
-        RequestError
-            If there is nothing to go on with.
-        """
+        """Go on with a run that stopped early."""
         if not work.can_go_on:
             raise RequestError(
                 409, f"this run is {work.asked.state}; there is nothing to go on with"
@@ -120,18 +66,7 @@ class Workshop:
         self.look()
 
     def forget(self, work: Work) -> None:
-        """Remove a run and all that is kept of it; one at work is cancelled first.
-
-        Parameters
-        ----------
-        work : Work
-            The run.
-
-        Raises
-        ------
-        RequestError
-            If it belongs to a server that was killed, or its files cannot be removed.
-        """
+        """Remove a run and all that is kept of it; one at work is cancelled first."""
         self.cancel(work)
         work.is_unwanted = True
         self.look()

@@ -25,28 +25,7 @@ OVER = ("done", "cancelled", "interrupted", "failed")
 
 
 class Work:
-    """A run, from the wish for it on.
-
-    Parameters
-    ----------
-    folder : Folder
-        Where it is kept.
-    name : str
-        What it is called.
-    asked : Asked
-        What was asked for, and how it stood when that was kept.
-
-    Attributes
-    ----------
-    name : str
-        What it is called.
-    asked : Asked
-        What was asked for, and how it stands.
-    course : Course
-        How far it has come.
-    is_unwanted : bool
-        Whether it is to be forgotten as soon as it has ended.
-    """
+    """A run, from the wish for it on."""
 
     def __init__(self, folder: Folder, name: str, asked: Asked) -> None:
         self.name, self.asked, self.is_unwanted = name, asked, False
@@ -113,13 +92,7 @@ class Work:
             self._end(ended)
 
     def stop(self, state: str) -> None:
-        """Let it finish its step, save and end; one that waits is over at once.
-
-        Parameters
-        ----------
-        state : str
-            What it is to be called then: cancelled or interrupted.
-        """
+        """Let it finish its step, save and end; one that waits is over at once."""
         if self.asked.state == "waiting":
             self.stand(state)
         elif self._child is not None:
@@ -170,15 +143,7 @@ class Work:
         return each * ahead
 
     def stand(self, state: str, *said: str) -> None:
-        """Take down how it stands, here and in the folder.
-
-        Parameters
-        ----------
-        state : str
-            How.
-        *said : str
-            What it has to say for itself.
-        """
+        """Take down how it stands, here and in the folder."""
         self.asked = replace(self.asked, state=state, said=said)
         with suppress(OSError):  # a full disk; who asks is told nevertheless
             self._folder.keep(self.name, self.asked)

@@ -31,15 +31,7 @@ _WITHOUT_COMMAND = re.compile(r"^the run: (?=the run )|; [^;]*--overwrite[^;]*$"
 
 
 def status_of(work: Work, found: Mapping[str, Any]) -> dict[str, Any]:
-    """Return how a run stands.
-
-    Parameters
-    ----------
-    work : Work
-        The run.
-    found : mapping
-        What its result says, from `found_by`; empty while it is at work.
-    """
+    """Return how a run stands."""
     asked, course, left = work.asked, work.course, work.seconds_left
     problems = _problems(work)
     # Of one that failed, its own words say more.
@@ -70,18 +62,7 @@ def status_of(work: Work, found: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def found_by(directory: Path) -> dict[str, Any]:
-    """Return what the result of a run says, in words.
-
-    Parameters
-    ----------
-    directory : Path
-        The run's.
-
-    Returns
-    -------
-    dict
-        Parts of its status; none of them if there is no result yet.
-    """
+    """Return what the result of a run says, in words."""
     if not (directory / RESULT_NAME).is_file():
         return {}
     with open_results(directory) as ds:

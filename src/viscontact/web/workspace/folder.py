@@ -36,18 +36,7 @@ _ASKED_FORM = TypeAdapter(Asked)
 
 
 class Folder:
-    """Where files that cases may name, and runs, are kept.
-
-    Parameters
-    ----------
-    path : Path
-        The folder; made if it is not there.
-
-    Attributes
-    ----------
-    path : Path
-        The same, absolute.
-    """
+    """Where files that cases may name, and runs, are kept."""
 
     def __init__(self, path: Path) -> None:
         self.path = path.absolute()
@@ -70,20 +59,7 @@ class Folder:
         ]
 
     def put_file(self, name: str, content: bytes) -> None:
-        """Keep a file under a name; one of that name is replaced.
-
-        Parameters
-        ----------
-        name : str
-            A plain name.
-        content : bytes
-            What it holds.
-
-        Raises
-        ------
-        RequestError
-            If that is no plain name, or it cannot be written.
-        """
+        """Keep a file under a name; one of that name is replaced."""
         path = self._file(name)
         try:
             _write(path, content)
@@ -92,40 +68,14 @@ class Folder:
             raise RequestError(507, why) from error
 
     def remove_file(self, name: str) -> None:
-        """Remove a file.
-
-        Parameters
-        ----------
-        name : str
-            Its name.
-
-        Raises
-        ------
-        RequestError
-            If there is none of that name.
-        """
+        """Remove a file."""
         path = self._file(name)
         if not path.is_file():
             raise RequestError(404, f"there is no file {name!r}")
         path.unlink()
 
     def new_run(self, text: str, asked: Asked, data: Mapping[Path, str]) -> str:
-        """Keep a case that is to be run, and what it reads.
-
-        Parameters
-        ----------
-        text : str
-            The case as it was given.
-        asked : Asked
-            What was asked for.
-        data : mapping of Path to str
-            The files that it reads, and what they are called in it.
-
-        Returns
-        -------
-        str
-            What the run is called from now on.
-        """
+        """Keep a case that is to be run, and what it reads."""
         name = f"{clock.strftime('%Y%m%d-%H%M%S', clock.gmtime())}-{secrets.token_hex(3)}"
         given = self.path / _RUNS / name / _GIVEN
         with ExitStack() as undoing:
@@ -139,15 +89,7 @@ class Folder:
         return name
 
     def keep(self, name: str, asked: Asked) -> None:
-        """Keep how a run stands.
-
-        Parameters
-        ----------
-        name : str
-            The run.
-        asked : Asked
-            How it stands.
-        """
+        """Keep how a run stands."""
         told = json.dumps(asdict(asked), ensure_ascii=False, indent=1)
         _write(self.path / _RUNS / name / _ASKED, told.encode())
 
@@ -158,30 +100,12 @@ class Folder:
                 yield path.parent.name, _ASKED_FORM.validate_json(path.read_bytes())
 
     def keep_found(self, name: str, key: str, found: dict[str, Any]) -> None:
-        """Keep what the result of a run says, so that it need not be read again.
-
-        Parameters
-        ----------
-        name : str
-            The run.
-        key : str
-            What tells this result from one that it has later.
-        found : dict
-            What it says.
-        """
+        """Keep what the result of a run says, so that it need not be read again."""
         told = json.dumps({"key": key, "found": found}, allow_nan=False)
         _write(self.path / _RUNS / name / _FOUND, told.encode())
 
     def found(self, name: str, key: str) -> dict[str, Any] | None:
-        """Return what the result of a run was found to say; None if that is not kept.
-
-        Parameters
-        ----------
-        name : str
-            The run.
-        key : str
-            As it was kept.
-        """
+        """Return what the result of a run was found to say; None if that is not kept."""
         try:
             kept = json.loads((self.path / _RUNS / name / _FOUND).read_text(encoding="utf-8"))
             return dict(kept["found"]) if kept["key"] == key else None
@@ -189,18 +113,7 @@ class Folder:
             return None
 
     def remove_run(self, name: str) -> None:
-        """Remove a run and all that is kept of it; of one that lies elsewhere, the link to it.
-
-        Parameters
-        ----------
-        name : str
-            The run.
-
-        Raises
-        ------
-        OSError
-            If it cannot be removed.
-        """
+        """Remove a run and all that is kept of it; of one that lies elsewhere, the link to it."""
         place = self.path / _RUNS / name
         if place.is_symlink():  # somebody keeps it elsewhere, where nothing is ours to remove
             place.unlink()
@@ -223,17 +136,7 @@ class Folder:
         return self.path / _RUNS / name / "report.html"
 
     def keep_report(self, name: str, page: bytes, made_from: int) -> None:
-        """Keep the report of a run, with the time at which the result it tells of was written.
-
-        Parameters
-        ----------
-        name : str
-            The run.
-        page : bytes
-            The report.
-        made_from : int
-            That time [ns].
-        """
+        """Keep the report of a run, with the time at which the result it tells of was written."""
         _write(self.report(name), page)
         os.utime(self.report(name), ns=(made_from, made_from))
 
@@ -253,13 +156,7 @@ class Folder:
 
 
 def usual_folder() -> Path:
-    """Return where data of programs belong on this system, below the user's own folder.
-
-    Returns
-    -------
-    Path
-        Such as ``~/.local/share/viscontact``.
-    """
+    """Return where data of programs belong on this system, below the user's own folder."""
     if sys.platform == "win32":
         base = Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local")
     elif sys.platform == "darwin":

@@ -25,16 +25,6 @@ _LONGEST, _MOST = 24, 2
 def suggested_title(case: Mapping[str, Any]) -> str:
     """Return a title for a case that has none of its own.
 
-    Parameters
-    ----------
-    case : mapping
-        The values of a case file, right or wrong.
-
-    Returns
-    -------
-    str
-        The shape, the material and the load, as far as they are known.
-
     Examples
     --------
     >>> suggested_title({
@@ -54,22 +44,6 @@ def suggested_title(case: Mapping[str, Any]) -> str:
 
 def label_of(title: str, case: Any, first: Any, taken: Collection[str]) -> str:
     """Return what a run is called beside others whose cases have the same title.
-
-    Parameters
-    ----------
-    title : str
-        The title.
-    case : dict
-        The values of its case.
-    first : dict or None
-        Those of the first run of that title; None if it is this one.
-    taken : collection of str
-        What those are called that it is to be told from.
-
-    Returns
-    -------
-    str
-        The title, and what is different.
 
     Examples
     --------
@@ -92,13 +66,6 @@ def label_of(title: str, case: Any, first: Any, taken: Collection[str]) -> str:
 
 def file_stem(label: str, quality: str) -> str:
     """Return a name for files that are handed out.
-
-    Parameters
-    ----------
-    label : str
-        What the run is called.
-    quality : str
-        ``"full"`` or ``"coarse"``, which is told.
 
     Examples
     --------

@@ -36,19 +36,7 @@ _WHITE = 0.12
 
 @dataclass(frozen=True)
 class Wish:
-    """What a figure is to show, and how.
-
-    Attributes
-    ----------
-    name : str
-        Which figure.
-    kind : str
-        svg, png or pdf.
-    times : tuple of str
-        Instants in words; none for the figure's own choice.
-    is_dark : bool
-        Whether it is to stand on a dark ground.
-    """
+    """What a figure is to show, and how."""
 
     name: str
     kind: Kind = "svg"
@@ -56,13 +44,7 @@ class Wish:
     is_dark: bool = False
 
     def instants(self) -> list[float] | None:
-        """Return the instants [s]; None for the figure's own choice.
-
-        Raises
-        ------
-        RequestError
-            If one of them cannot be read.
-        """
+        """Return the instants [s]; None for the figure's own choice."""
         try:
             return [parse_quantity(text, "time") for text in self.times] or None
         except ValueError as error:
@@ -70,22 +52,7 @@ class Wish:
 
 
 def figure_of(directory: Path, figures: Mapping[str, Callable[..., Figure]], wish: Wish) -> bytes:
-    """Draw a figure of a run.
-
-    Parameters
-    ----------
-    directory : Path
-        The run's.
-    figures : mapping
-        The figures that there are, by name.
-    wish : Wish
-        What to draw.
-
-    Raises
-    ------
-    RequestError
-        If there is no such figure, or it cannot be drawn.
-    """
+    """Draw a figure of a run."""
     draw, instants = _named(figures, wish.name), wish.instants()
     with opened(directory) as ds:
         _refuse_outside(instants, ds)
@@ -95,22 +62,7 @@ def figure_of(directory: Path, figures: Mapping[str, Callable[..., Figure]], wis
 def comparison_of(
     runs: Mapping[str, Path], figures: Mapping[str, Callable[..., Figure]], wish: Wish
 ) -> bytes:
-    """Draw a figure of several runs.
-
-    Parameters
-    ----------
-    runs : mapping of str to Path
-        Their directories by what they are called in it.
-    figures : mapping
-        The figures that there are, by name.
-    wish : Wish
-        What to draw.
-
-    Raises
-    ------
-    RequestError
-        If there is no such figure, or it cannot be drawn.
-    """
+    """Draw a figure of several runs."""
     draw, instants = _named(figures, wish.name), wish.instants()
     with ExitStack() as stack:
         results = {label: stack.enter_context(opened(path)) for label, path in runs.items()}
@@ -120,15 +72,7 @@ def comparison_of(
 
 
 def picture(figure: Figure, wish: Wish) -> bytes:
-    """Return a figure as a file.
-
-    Parameters
-    ----------
-    figure : matplotlib.figure.Figure
-        The figure.
-    wish : Wish
-        Which kind, and for which ground.
-    """
+    """Return a figure as a file."""
     if wish.kind != "svg":
         return written(figure, wish.kind)
     figure.patch.set_alpha(0.0)
@@ -140,11 +84,6 @@ def picture(figure: Figure, wish: Wish) -> bytes:
 
 def on_dark(drawing: bytes) -> bytes:
     """Return a drawing in colours for a dark ground: what was light is dark, in the same hue.
-
-    Parameters
-    ----------
-    drawing : bytes
-        SVG as matplotlib writes it.
 
     Examples
     --------
@@ -164,18 +103,7 @@ def _opposite(colour: str) -> str:
 
 
 def opened(directory: Path) -> xr.Dataset:
-    """Open the result of a run.
-
-    Parameters
-    ----------
-    directory : Path
-        The run's.
-
-    Raises
-    ------
-    RequestError
-        If there is nothing to see yet, or any more.
-    """
+    """Open the result of a run."""
     try:
         ds = open_results(directory)
     except (OSError, ValueError) as error:

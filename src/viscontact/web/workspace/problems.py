@@ -16,17 +16,7 @@ _KEY = re.compile(r"([A-Za-z_][\w-]*(?:\[\d+\])*(?:\.[A-Za-z_][\w-]*(?:\[\d+\])*
 
 @dataclass(frozen=True)
 class Problem:
-    """One thing that is wrong.
-
-    Attributes
-    ----------
-    message : str
-        What, and what to do.
-    path : str
-        The key of the case that it is about; empty if it is about none.
-    line : int or None
-        The line of the case.
-    """
+    """One thing that is wrong."""
 
     message: str
     path: str = ""
@@ -34,22 +24,7 @@ class Problem:
 
 
 class RequestError(Exception):
-    """A request that is not granted.
-
-    Parameters
-    ----------
-    status : int
-        HTTP's code.
-    *problems : Problem or str
-        Why not.
-
-    Attributes
-    ----------
-    status : int
-        The same.
-    body : dict
-        What is answered.
-    """
+    """A request that is not granted."""
 
     def __init__(self, status: int, *problems: Problem | str) -> None:
         super().__init__(*problems)
@@ -59,27 +34,12 @@ class RequestError(Exception):
 
 
 def case_problems(error: CaseError, path: Path) -> RequestError:
-    """Return what is wrong with a case as an answer.
-
-    Parameters
-    ----------
-    error : CaseError
-        All that is wrong.
-    path : Path
-        What the case was called when it was read.
-    """
+    """Return what is wrong with a case as an answer."""
     return RequestError(422, *(problem_of(line, path) for line in error.problems))
 
 
 def problem_of(line: str, path: Path) -> Problem:
     """Take a message of the command line apart.
-
-    Parameters
-    ----------
-    line : str
-        Such as ``case.yaml:6: load.force: cannot read '10 MPa' as a force``.
-    path : Path
-        What the case is called in it; that it lies in a folder is left out.
 
     Examples
     --------
@@ -98,26 +58,12 @@ def problem_of(line: str, path: Path) -> Problem:
 
 
 def without_folder(text: str, folder: Path) -> str:
-    """Leave out where files lie, which says nothing to whoever has sent them.
-
-    Parameters
-    ----------
-    text : str
-        A message.
-    folder : Path
-        The folder.
-    """
+    """Leave out where files lie, which says nothing to whoever has sent them."""
     return re.sub(rf"{re.escape(str(folder))}[/\\]", "", text)
 
 
 def lines_of(problems: Iterable[Problem]) -> list[str]:
-    """Return problems as lines of text.
-
-    Parameters
-    ----------
-    problems : iterable of Problem
-        The problems.
-    """
+    """Return problems as lines of text."""
     return [f"{each.path}: {each.message}" if each.path else each.message for each in problems]
 
 
