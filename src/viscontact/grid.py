@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from numbers import Real
 from typing import Any
 
@@ -52,8 +52,8 @@ class Grid(Shown):
     [-0.0075, -0.0025, 0.0025, 0.0075]
     """
 
-    shape: tuple[int, int]
-    size: tuple[float, float]
+    shape: tuple[int, int] = field(metadata={"unit": "1"})
+    size: tuple[float, float] = field(metadata={"unit": "m"})
     periodic: bool = False
 
     def __post_init__(self) -> None:
@@ -206,7 +206,7 @@ class AutomaticGrid(Shown):
     AutomaticGrid(tolerance=0.005, quantities=('approach',))
     """
 
-    tolerance: float = 0.01
+    tolerance: float = field(default=0.01, metadata={"unit": "1"})
     quantities: Sequence[str] = GRID_QUANTITIES
 
     def __post_init__(self) -> None:

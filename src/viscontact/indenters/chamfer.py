@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -47,9 +47,9 @@ class Chamfer(Profile):
     array([0. , 0.5, inf])
     """
 
-    angle: float
-    length: float
-    corner_radius: float = 0.0
+    angle: float = field(metadata={"unit": "rad"})
+    length: float = field(metadata={"unit": "m"})
+    corner_radius: float = field(default=0.0, metadata={"unit": "m"})
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "length", positive_length("Chamfer: length", self.length))

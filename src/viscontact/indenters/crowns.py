@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -57,7 +57,7 @@ class FullCrown(Profile):
     [1.0, inf]
     """
 
-    crown_radius: float
+    crown_radius: float = field(metadata={"unit": "m"})
 
     def __post_init__(self) -> None:
         radius = positive_length("FullCrown: crown_radius", self.crown_radius)
@@ -107,8 +107,8 @@ class PartialCrown(Profile):
     [0.0, 1.0]
     """
 
-    crown_radius: float
-    end_length: float | None = None
+    crown_radius: float = field(metadata={"unit": "m"})
+    end_length: float | None = field(default=None, metadata={"unit": "m"})
 
     def __post_init__(self) -> None:
         _set_lengths(self, "crown_radius")
@@ -167,10 +167,10 @@ class TwoRadiiCrown(Profile):
     [0.0, 1.0, 4.5]
     """
 
-    crown_radius: float
-    crown_length: float
-    end_radius: float
-    end_length: float | None = None
+    crown_radius: float = field(metadata={"unit": "m"})
+    crown_length: float = field(metadata={"unit": "m"})
+    end_radius: float = field(metadata={"unit": "m"})
+    end_length: float | None = field(default=None, metadata={"unit": "m"})
 
     def __post_init__(self) -> None:
         _set_lengths(self, "crown_radius", "crown_length", "end_radius")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -38,9 +38,9 @@ class Ellipsoid(Indenter):
     ([0.0, 1.0, inf], (0.05, 0.2))
     """
 
-    semi_axis_x: float
-    semi_axis_y: float
-    semi_axis_z: float
+    semi_axis_x: float = field(metadata={"unit": "m"})
+    semi_axis_y: float = field(metadata={"unit": "m"})
+    semi_axis_z: float = field(metadata={"unit": "m"})
 
     def __post_init__(self) -> None:
         for name in ("semi_axis_x", "semi_axis_y", "semi_axis_z"):

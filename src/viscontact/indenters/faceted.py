@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -36,8 +36,8 @@ class Wedge(Indenter):
     [0.0, 3.0, inf]
     """
 
-    half_angle: float
-    half_length: float | None = None
+    half_angle: float = field(metadata={"unit": "rad"})
+    half_length: float | None = field(default=None, metadata={"unit": "m"})
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "half_angle", acute_angle("Wedge: half_angle", self.half_angle))
@@ -79,8 +79,8 @@ class Pyramid(Indenter):
     [3.0, 3.0, 4.0]
     """
 
-    half_angle: float
-    faces: int
+    half_angle: float = field(metadata={"unit": "rad"})
+    faces: int = field(metadata={"unit": "1"})
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "half_angle", acute_angle("Pyramid: half_angle", self.half_angle))

@@ -36,9 +36,9 @@ class FlatPunch(Indenter):
     [0.0, inf]
     """
 
-    radius: float | None = None
-    half_length: float | None = field(default=None, kw_only=True)
-    half_width: float | None = field(default=None, kw_only=True)
+    radius: float | None = field(default=None, metadata={"unit": "m"})
+    half_length: float | None = field(default=None, kw_only=True, metadata={"unit": "m"})
+    half_width: float | None = field(default=None, kw_only=True, metadata={"unit": "m"})
 
     def __post_init__(self) -> None:
         rectangle = (self.half_length is not None, self.half_width is not None)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -51,9 +51,9 @@ class HeightMap(Indenter):
     [0.0, 1.0, inf]
     """
 
-    x: NDArray[np.float64]
-    y: NDArray[np.float64]
-    height: NDArray[np.float64]
+    x: NDArray[np.float64] = field(metadata={"unit": "m"})
+    y: NDArray[np.float64] = field(metadata={"unit": "m"})
+    height: NDArray[np.float64] = field(metadata={"unit": "m"})
     holes: bool
 
     def __init__(self, x: ArrayLike, y: ArrayLike, height: ArrayLike, holes: bool = False) -> None:

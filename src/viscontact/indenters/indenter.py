@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -186,9 +186,9 @@ class PlacedIndenter(Indenter):
     """
 
     body: Indenter
-    angle: float = 0.0
-    x: float = 0.0
-    y: float = 0.0
+    angle: float = field(default=0.0, metadata={"unit": "rad"})
+    x: float = field(default=0.0, metadata={"unit": "m"})
+    y: float = field(default=0.0, metadata={"unit": "m"})
 
     def __post_init__(self) -> None:
         if not isinstance(self.body, Indenter):

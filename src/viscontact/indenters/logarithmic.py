@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -58,9 +58,9 @@ class LogarithmicProfile(Profile):
     [0.0, 0.2854, 5.0]
     """
 
-    amplitude: float
-    crown_ratio: float = 1.0
-    end_drop: float | None = None
+    amplitude: float = field(metadata={"unit": "m"})
+    crown_ratio: float = field(default=1.0, metadata={"unit": "1"})
+    end_drop: float | None = field(default=None, metadata={"unit": "m"})
 
     def __post_init__(self) -> None:
         amplitude = positive_length("LogarithmicProfile: amplitude", self.amplitude)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -40,8 +40,8 @@ class Revolved(Indenter):
     [0.0, 50.0, 100.0, inf]
     """
 
-    r: tuple[float, ...]
-    drops: tuple[float, ...]
+    r: tuple[float, ...] = field(metadata={"unit": "m"})
+    drops: tuple[float, ...] = field(metadata={"unit": "m"})
     interpolation: str
 
     def __init__(self, r: ArrayLike, drops: ArrayLike, interpolation: str = "smooth") -> None:
@@ -94,9 +94,9 @@ class Swept(Indenter):
     [0.0, 1.0, inf]
     """
 
-    y: tuple[float, ...]
-    drops: tuple[float, ...]
-    half_length: float | None
+    y: tuple[float, ...] = field(metadata={"unit": "m"})
+    drops: tuple[float, ...] = field(metadata={"unit": "m"})
+    half_length: float | None = field(metadata={"unit": "m"})
     interpolation: str
 
     def __init__(

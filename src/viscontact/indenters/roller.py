@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -68,9 +68,9 @@ class Roller(Indenter):
     (4.15, 0.006)
     """
 
-    radius: float
-    half_length: float
-    crown_radius: float | None
+    radius: float = field(metadata={"unit": "m"})
+    half_length: float = field(metadata={"unit": "m"})
+    crown_radius: float | None = field(metadata={"unit": "m"})
     profile: Profile | None
     cross_section: str
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -36,7 +36,7 @@ class Sphere(Indenter):
     1.0
     """
 
-    radius: float
+    radius: float = field(metadata={"unit": "m"})
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "radius", positive_length("Sphere: radius", self.radius))
@@ -71,8 +71,8 @@ class Paraboloid(Indenter):
     2.0
     """
 
-    radius_x: float
-    radius_y: float
+    radius_x: float = field(metadata={"unit": "m"})
+    radius_y: float = field(metadata={"unit": "m"})
 
     def __post_init__(self) -> None:
         for name in ("radius_x", "radius_y"):
@@ -111,7 +111,7 @@ class Cone(Indenter):
     5.0
     """
 
-    half_angle: float
+    half_angle: float = field(metadata={"unit": "rad"})
 
     def __post_init__(self) -> None:
         half_angle = real_number("Cone: half_angle", self.half_angle, "rad")

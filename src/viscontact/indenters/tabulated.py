@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -42,8 +42,8 @@ class TabulatedProfile(Profile):
     [5.0, 0.0, inf]
     """
 
-    x: tuple[float, ...]
-    drops: tuple[float, ...]
+    x: tuple[float, ...] = field(metadata={"unit": "m"})
+    drops: tuple[float, ...] = field(metadata={"unit": "m"})
     interpolation: str = "smooth"
 
     def __init__(self, x: ArrayLike, drops: ArrayLike, interpolation: str = "smooth") -> None:

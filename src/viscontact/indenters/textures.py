@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -53,11 +53,11 @@ class Waviness(Indenter):
     [0.0, 1.0, 2.0]
     """
 
-    amplitude: float
-    wavelength_x: float | None = None
-    wavelength_y: float | None = None
-    phase_x: float = 0.0
-    phase_y: float = 0.0
+    amplitude: float = field(metadata={"unit": "m"})
+    wavelength_x: float | None = field(default=None, metadata={"unit": "m"})
+    wavelength_y: float | None = field(default=None, metadata={"unit": "m"})
+    phase_x: float = field(default=0.0, metadata={"unit": "rad"})
+    phase_y: float = field(default=0.0, metadata={"unit": "rad"})
 
     def __post_init__(self) -> None:
         amplitude = positive_length("Waviness: amplitude", self.amplitude)
@@ -126,9 +126,9 @@ class Dimples(Indenter):
     [1.0, 1.0, 0.0]
     """
 
-    depth: float
-    radius: float
-    spacing: float
+    depth: float = field(metadata={"unit": "m"})
+    radius: float = field(metadata={"unit": "m"})
+    spacing: float = field(metadata={"unit": "m"})
     pattern: str = "square"
 
     def __post_init__(self) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -38,8 +38,8 @@ class Torus(Indenter):
     [0.0, 1.0, inf]
     """
 
-    ring_radius: float
-    tube_radius: float
+    ring_radius: float = field(metadata={"unit": "m"})
+    tube_radius: float = field(metadata={"unit": "m"})
 
     def __post_init__(self) -> None:
         for name in ("ring_radius", "tube_radius"):

@@ -7,6 +7,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from viscontact.units.numbers import unit_of
+
 
 def positive(name: str, value: float, unit: str) -> float:
     """Return `value` as a float; ValueError unless it is positive and finite."""
@@ -40,12 +42,11 @@ def one_of(name: str, word: str, words: tuple[str, ...]) -> None:
         raise ValueError(f"{name}: must be one of {', '.join(map(repr, words))}, got {word!r}")
 
 
-def make_positive(noun: object, **units: str) -> None:
-    """Check the named fields of a frozen `noun` with `positive` and store them as floats."""
-    for field, unit in units.items():
-        store(
-            noun, **{field: positive(f"{type(noun).__name__}.{field}", getattr(noun, field), unit)}
-        )
+def make_positive(noun: object, *fields: str) -> None:
+    """Check fields of a frozen `noun` with `positive`, in their units, and store them as floats."""
+    for field in fields:
+        name, unit = f"{type(noun).__name__}.{field}", unit_of(type(noun), field) or ""
+        store(noun, **{field: positive(name, getattr(noun, field), unit)})
 
 
 def store(noun: object, **values: object) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import KW_ONLY, dataclass, replace
+from dataclasses import KW_ONLY, dataclass, field, replace
 from functools import cached_property
 from typing import Literal
 
@@ -61,8 +61,8 @@ class TabulatedCreep(Law):
     (2e-09, 4.0, 100.0)
     """
 
-    times: Sequence[float]
-    compliance: Sequence[float]
+    times: Sequence[float] = field(metadata={"unit": "s"})
+    compliance: Sequence[float] = field(metadata={"unit": "1/Pa"})
     _: KW_ONLY
     before: Literal["first", "slope"] = "first"
     beyond: Literal["slope", "last"] = "slope"

@@ -7,7 +7,7 @@ the strain in time, 0 <= a <= 1.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import scipy
@@ -58,14 +58,14 @@ class FractionalMaxwell(Law):
     (5e-07, 1.06419, 427584)
     """
 
-    shear_modulus: float
-    time: float
-    exponent: float
-    second_exponent: float = 0.0
+    shear_modulus: float = field(metadata={"unit": "Pa"})
+    time: float = field(metadata={"unit": "s"})
+    exponent: float = field(metadata={"unit": "1"})
+    second_exponent: float = field(default=0.0, metadata={"unit": "1"})
 
     def __post_init__(self) -> None:
         owner = type(self).__name__
-        arguments.make_positive(self, shear_modulus="Pa", time="s")
+        arguments.make_positive(self, "shear_modulus", "time")
         late = arguments.exponent(f"{owner}.exponent", self.exponent)
         early = arguments.non_negative(f"{owner}.second_exponent", self.second_exponent, "")
         if not early < late:

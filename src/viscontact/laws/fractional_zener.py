@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,14 +53,14 @@ class FractionalZener(Law):
     (3000000, 1855167, 0.166667)
     """
 
-    shear_modulus: float
-    equilibrium_modulus: float
-    time: float
-    exponent: float
+    shear_modulus: float = field(metadata={"unit": "Pa"})
+    equilibrium_modulus: float = field(metadata={"unit": "Pa"})
+    time: float = field(metadata={"unit": "s"})
+    exponent: float = field(metadata={"unit": "1"})
 
     def __post_init__(self) -> None:
         owner = type(self).__name__
-        arguments.make_positive(self, shear_modulus="Pa", time="s")
+        arguments.make_positive(self, "shear_modulus", "time")
         rest = arguments.non_negative(
             f"{owner}.equilibrium_modulus", self.equilibrium_modulus, "Pa"
         )

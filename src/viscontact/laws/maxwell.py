@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from viscontact.laws.arguments import make_positive
 from viscontact.laws.law import slowing
@@ -31,10 +31,10 @@ class Elastic(SeriesLaw):
     (5e-10, 1000000000)
     """
 
-    shear_modulus: float
+    shear_modulus: float = field(metadata={"unit": "Pa"})
 
     def __post_init__(self) -> None:
-        make_positive(self, shear_modulus="Pa")
+        make_positive(self, "shear_modulus")
 
     @classmethod
     def from_shear(cls, shear_modulus: float) -> Elastic:
@@ -128,11 +128,11 @@ class Maxwell(SeriesLaw):
     (5e-10, 1e-09, 0.367879)
     """
 
-    shear_modulus: float
-    viscosity: float
+    shear_modulus: float = field(metadata={"unit": "Pa"})
+    viscosity: float = field(metadata={"unit": "Pa s"})
 
     def __post_init__(self) -> None:
-        make_positive(self, shear_modulus="Pa", viscosity="Pa s")
+        make_positive(self, "shear_modulus", "viscosity")
 
     @classmethod
     def from_shear(cls, shear_modulus: float, viscosity: float) -> Maxwell:

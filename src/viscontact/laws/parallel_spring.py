@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -59,12 +59,12 @@ class BesideSpring(Law):
     """
 
     law: Law
-    shear_modulus: float
+    shear_modulus: float = field(metadata={"unit": "Pa"})
 
     def __post_init__(self) -> None:
         if not isinstance(self.law, Law):
             raise ValueError(f"BesideSpring.law: must be a law such as PowerLaw, got {self.law!r}")
-        make_positive(self, shear_modulus="Pa")
+        make_positive(self, "shear_modulus")
 
     def slowed(self, factor: float) -> BesideSpring:
         """Return the law with every time multiplied by a factor > 0."""

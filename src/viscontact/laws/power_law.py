@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import scipy
@@ -60,13 +60,13 @@ class PowerLaw(Law):
     (0.0, 0.002, 159.1549)
     """
 
-    compliance: float
-    exponent: float
-    reference_time: float
-    instant: float = 0.0
+    compliance: float = field(metadata={"unit": "1/Pa"})
+    exponent: float = field(metadata={"unit": "1"})
+    reference_time: float = field(metadata={"unit": "s"})
+    instant: float = field(default=0.0, metadata={"unit": "1/Pa"})
 
     def __post_init__(self) -> None:
-        arguments.make_positive(self, compliance="1/Pa", reference_time="s")
+        arguments.make_positive(self, "compliance", "reference_time")
         arguments.store(
             self,
             exponent=arguments.exponent("PowerLaw.exponent", self.exponent),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import KW_ONLY, dataclass, replace
+from dataclasses import KW_ONLY, dataclass, field, replace
 from functools import cached_property
 from typing import Literal
 
@@ -60,8 +60,8 @@ class TabulatedRelaxation(Law):
     (2000000000.0, 1.25e-10, True)
     """
 
-    times: Sequence[float]
-    modulus: Sequence[float]
+    times: Sequence[float] = field(metadata={"unit": "s"})
+    modulus: Sequence[float] = field(metadata={"unit": "Pa"})
     _: KW_ONLY
     before: Literal["first", "slope"] = "first"
     beyond: Literal["slope", "last"] = "slope"

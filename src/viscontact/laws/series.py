@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Self
 
@@ -96,10 +96,10 @@ class CreepSeries(SeriesLaw):
     (1e-09, 2.264241, 500000000)
     """
 
-    instant: float
-    amplitudes: Sequence[float]
-    times: Sequence[float]
-    fluidity: float = 0.0
+    instant: float = field(metadata={"unit": "1/Pa"})
+    amplitudes: Sequence[float] = field(metadata={"unit": "1/Pa"})
+    times: Sequence[float] = field(metadata={"unit": "s"})
+    fluidity: float = field(default=0.0, metadata={"unit": "1/(Pa s)"})
 
     def __post_init__(self) -> None:
         instant = arguments.non_negative("CreepSeries.instant", self.instant, "1/Pa")
@@ -251,9 +251,9 @@ class RelaxationSeries(SeriesLaw):
     (3000000000.0, 0.166667)
     """
 
-    equilibrium: float
-    moduli: Sequence[float]
-    times: Sequence[float]
+    equilibrium: float = field(metadata={"unit": "Pa"})
+    moduli: Sequence[float] = field(metadata={"unit": "Pa"})
+    times: Sequence[float] = field(metadata={"unit": "s"})
 
     def __post_init__(self) -> None:
         equilibrium = arguments.non_negative("RelaxationSeries.equilibrium", self.equilibrium, "Pa")

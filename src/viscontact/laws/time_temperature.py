@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import ClassVar, overload
 
 import numpy as np
@@ -109,12 +109,12 @@ class WLF(Shift):
     2.614e-09
     """
 
-    reference_temperature: float
-    c1: float
-    c2: float
+    reference_temperature: float = field(metadata={"unit": "K"})
+    c1: float = field(metadata={"unit": "1"})
+    c2: float = field(metadata={"unit": "K"})
 
     def __post_init__(self) -> None:
-        arguments.make_positive(self, reference_temperature="K", c1="(decimal)", c2="K")
+        arguments.make_positive(self, "reference_temperature", "c1", "c2")
 
     def _log_factor(self, temperature: NDArray[np.float64]) -> NDArray[np.float64]:
         above = temperature - self.reference_temperature
@@ -155,11 +155,11 @@ class Arrhenius(Shift):
     0.3387
     """
 
-    reference_temperature: float
-    activation_energy: float
+    reference_temperature: float = field(metadata={"unit": "K"})
+    activation_energy: float = field(metadata={"unit": "J/mol"})
 
     def __post_init__(self) -> None:
-        arguments.make_positive(self, reference_temperature="K", activation_energy="J/mol")
+        arguments.make_positive(self, "reference_temperature", "activation_energy")
 
     def _log_factor(self, temperature: NDArray[np.float64]) -> NDArray[np.float64]:
         scale = self.activation_energy / GAS_CONSTANT
@@ -194,8 +194,8 @@ class TabulatedShift(Shift):
     10.0000
     """
 
-    temperatures: Sequence[float]
-    factors: Sequence[float]
+    temperatures: Sequence[float] = field(metadata={"unit": "K"})
+    factors: Sequence[float] = field(metadata={"unit": "1"})
     _OWNER: ClassVar[str] = "TabulatedShift"
 
     def __post_init__(self) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from viscontact.laws.arguments import make_positive
 from viscontact.laws.law import slowing
@@ -37,12 +37,12 @@ class Zener(SeriesLaw):
     (5e-10, 1.0, 0.5)
     """
 
-    shear_modulus: float
-    delayed_modulus: float
-    viscosity: float
+    shear_modulus: float = field(metadata={"unit": "Pa"})
+    delayed_modulus: float = field(metadata={"unit": "Pa"})
+    viscosity: float = field(metadata={"unit": "Pa s"})
 
     def __post_init__(self) -> None:
-        make_positive(self, shear_modulus="Pa", delayed_modulus="Pa", viscosity="Pa s")
+        make_positive(self, "shear_modulus", "delayed_modulus", "viscosity")
 
     @classmethod
     def from_shear(cls, shear_modulus: float, delayed_modulus: float, viscosity: float) -> Zener:
@@ -156,19 +156,13 @@ class Burgers(SeriesLaw):
     (5e-10, 1.5, 1.0)
     """
 
-    shear_modulus: float
-    viscosity: float
-    delayed_modulus: float
-    delayed_viscosity: float
+    shear_modulus: float = field(metadata={"unit": "Pa"})
+    viscosity: float = field(metadata={"unit": "Pa s"})
+    delayed_modulus: float = field(metadata={"unit": "Pa"})
+    delayed_viscosity: float = field(metadata={"unit": "Pa s"})
 
     def __post_init__(self) -> None:
-        make_positive(
-            self,
-            shear_modulus="Pa",
-            viscosity="Pa s",
-            delayed_modulus="Pa",
-            delayed_viscosity="Pa s",
-        )
+        make_positive(self, "shear_modulus", "viscosity", "delayed_modulus", "delayed_viscosity")
 
     @classmethod
     def from_shear(

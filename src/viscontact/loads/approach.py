@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from typing import ClassVar
 
 import numpy as np
@@ -56,10 +56,10 @@ class ApproachHistory(PiecewiseHistory):
     eccentricity_x: ClassVar[float] = 0.0  # no force is prescribed that could act off centre
     eccentricity_y: ClassVar[float] = 0.0
 
-    times: NDArray[np.float64]
-    approach: NDArray[np.float64]
-    tilt_x: float | NDArray[np.float64] | None
-    tilt_y: float | NDArray[np.float64] | None
+    times: NDArray[np.float64] = field(metadata={"unit": "s"})
+    approach: NDArray[np.float64] = field(metadata={"unit": "m"})
+    tilt_x: float | NDArray[np.float64] | None = field(metadata={"unit": "rad"})
+    tilt_y: float | NDArray[np.float64] | None = field(metadata={"unit": "rad"})
 
     def __init__(
         self,
@@ -70,11 +70,11 @@ class ApproachHistory(PiecewiseHistory):
     ) -> None:
         # Written out, so that lists are welcome and arrays are what comes back.
         instants = arguments.instants(times)
-        values = arguments.values("approach", approach, instants.size)
+        values = arguments.values(ApproachHistory, "approach", approach, instants.size)
         levels = np.broadcast_to(values, instants.shape)
-        _, _, *tilts = arguments.tail(instants.size, 0.0, 0.0, tilt_x, tilt_y)
-        for field, value in zip(fields(self), (instants, levels, *tilts), strict=True):
-            object.__setattr__(self, field.name, value)
+        tilts = arguments.tail(ApproachHistory, instants.size, tilt_x=tilt_x, tilt_y=tilt_y)
+        for item, value in zip(fields(self), (instants, levels, *tilts), strict=True):
+            object.__setattr__(self, item.name, value)
 
     def at(self, time: float, *, side: str = "right") -> LoadPoint:
         """Return what is prescribed at an instant.
@@ -130,7 +130,7 @@ class ApproachHistory(PiecewiseHistory):
         >>> ApproachHistory([1.0], [1e-6]).approach_at([0.0, 1.0, 2.0]).tolist()
         [0.0, 1e-06, 1e-06]
         """
-        instants = arguments.numbers("times", times)
+        instants = arguments.numbers("times", times, "s")
         approach = self._interpolate(self.approach, instants, side)
         return np.where(self._started(instants, side), approach, min(float(self.approach[0]), 0.0))
 

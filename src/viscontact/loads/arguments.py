@@ -8,20 +8,11 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from viscontact.units.numbers import as_real
-
-_UNITS = {
-    "times": "s",
-    "force": "N",
-    "approach": "m",
-    "eccentricity_x": "m",
-    "eccentricity_y": "m",
-    "tilt_x": "rad",
-    "tilt_y": "rad",
-}
+from viscontact.units.numbers import as_real, unit_of
 
 #: What histories prescribe besides force or approach.
-TAIL = ("eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y")
+TILTS = ("tilt_x", "tilt_y")
+TAIL = ("eccentricity_x", "eccentricity_y", *TILTS)
 
 
 def finite_number(name: str, value: object, unit: str) -> float:
@@ -85,7 +76,7 @@ def instants(times: ArrayLike) -> NDArray[np.float64]:
     >>> instants([0, 1, 1]).tolist()
     [0.0, 1.0, 1.0]
     """
-    given = numbers("times", times)
+    given = numbers("times", times, "s")
     if given.ndim != 1 or given.size == 0:
         raise ValueError(
             f"times must be a list of at least one instant in s, got shape {given.shape}"
@@ -103,29 +94,11 @@ def instants(times: ArrayLike) -> NDArray[np.float64]:
     return given
 
 
-def values(name: str, given: ArrayLike, count: int) -> float | NDArray[np.float64]:
-    """Return a quantity of a history: a scalar, or one value a point, read-only.
-
-    Parameters
-    ----------
-    name : str
-        The argument's name.
-    given : array_like
-        A finite scalar, or finite values, shape (count,).
-    count : int
-        Number of points in the history.
-
-    Raises
-    ------
-    ValueError
-        If the shape does not fit or a value is not a finite number.
-
-    Examples
-    --------
-    >>> values("tilt_x", [0, 1e-3], count=2).tolist()
-    [0.0, 0.001]
-    """
-    array = numbers(name, given)
+def values(
+    owner: type, name: str, given: ArrayLike | None, count: int
+) -> float | NDArray[np.float64]:
+    """Return field `name` of a history: finite, a scalar or shape (count,), read-only."""
+    array = numbers(name, given, unit_of(owner, name) or "")
     if array.shape not in ((), (count,)):
         raise ValueError(
             f"{name} must be a scalar or have one value for each of the {count} times, "
@@ -134,27 +107,9 @@ def values(name: str, given: ArrayLike, count: int) -> float | NDArray[np.float6
     return float(array) if array.ndim == 0 else array
 
 
-def forces(given: ArrayLike, count: int) -> NDArray[np.float64]:
-    """Return the force at each point of a history, read-only, shape (count,) [N].
-
-    Parameters
-    ----------
-    given : array_like
-        A scalar, or one value a point, none negative [N].
-    count : int
-        Number of points in the history.
-
-    Raises
-    ------
-    ValueError
-        If the shape does not fit, or a value is negative or not a finite number.
-
-    Examples
-    --------
-    >>> forces(5, count=2).tolist()
-    [5.0, 5.0]
-    """
-    force = np.broadcast_to(values("force", given, count), (count,))
+def forces(owner: type, given: ArrayLike, count: int) -> NDArray[np.float64]:
+    """Return the force at each point of a history, none negative, shape (count,) [N]."""
+    force = np.broadcast_to(values(owner, "force", given, count), (count,))
     for lowest in force[force < 0][:1]:
         raise ValueError(
             f"force must be zero or more, got {lowest} N: a negative force pulls, and adhesion "
@@ -165,7 +120,7 @@ def forces(given: ArrayLike, count: int) -> NDArray[np.float64]:
 
 def refuse_both(
     axis: str,
-    eccentricity: float | NDArray[np.float64],
+    eccentricity: float | NDArray[np.float64] | None,
     tilt: float | NDArray[np.float64] | None,
 ) -> None:
     """Raise ValueError if an axis has both a prescribed tilt and an eccentricity.
@@ -182,7 +137,7 @@ def refuse_both(
         )
 
 
-def numbers(name: str, given: ArrayLike) -> NDArray[np.float64]:
+def numbers(name: str, given: ArrayLike | None, unit: str) -> NDArray[np.float64]:
     """Return finite numbers of any shape as a read-only copy.
 
     Parameters
@@ -191,6 +146,8 @@ def numbers(name: str, given: ArrayLike) -> NDArray[np.float64]:
         The argument's name.
     given : array_like
         What the user gave.
+    unit : str
+        The unit the numbers are taken in.
 
     Raises
     ------
@@ -199,7 +156,7 @@ def numbers(name: str, given: ArrayLike) -> NDArray[np.float64]:
 
     Examples
     --------
-    >>> numbers("times", [0, 2]).tolist()
+    >>> numbers("times", [0, 2], "s").tolist()
     [0.0, 2.0]
     """
     try:
@@ -207,7 +164,7 @@ def numbers(name: str, given: ArrayLike) -> NDArray[np.float64]:
     except ValueError:  # rows of unequal length
         array = np.asarray(None)
     if array.dtype.kind not in "iuf":
-        raise ValueError(f"{name} must be numbers in {_UNITS[name]}, got {given!r}")
+        raise ValueError(f"{name} must be numbers in {unit}, got {given!r}")
     copy = array.astype(np.float64)
     if not np.isfinite(copy).all():
         raise ValueError(f"{name} must be finite, got {copy[~np.isfinite(copy)].flat[0]}")
@@ -216,41 +173,13 @@ def numbers(name: str, given: ArrayLike) -> NDArray[np.float64]:
 
 
 def tail(
-    count: int,
-    eccentricity_x: ArrayLike,
-    eccentricity_y: ArrayLike,
-    tilt_x: ArrayLike | None,
-    tilt_y: ArrayLike | None,
+    owner: type, count: int, **given: ArrayLike | None
 ) -> list[float | NDArray[np.float64] | None]:
-    """Return eccentricities and tilts of a history, each a scalar, a read-only array, or None.
-
-    Parameters
-    ----------
-    count : int
-        Number of points in the history.
-    eccentricity_x, eccentricity_y : float or array_like
-        Where the force acts [m].
-    tilt_x, tilt_y : float or array_like or None
-        Prescribed slopes [rad].
-
-    Raises
-    ------
-    ValueError
-        If a shape does not fit, or an axis has both a tilt and an eccentricity.
-
-    Examples
-    --------
-    >>> tail(2, 1e-3, 0.0, None, None)
-    [0.001, 0.0, None, None]
-    """
-    eccentricities = [
-        values("eccentricity_x", eccentricity_x, count),
-        values("eccentricity_y", eccentricity_y, count),
-    ]
-    tilts = [
-        None if tilt is None else values(name, tilt, count)
-        for name, tilt in (("tilt_x", tilt_x), ("tilt_y", tilt_y))
-    ]
-    for axis, eccentricity, tilt in zip("xy", eccentricities, tilts, strict=True):
-        refuse_both(axis, eccentricity, tilt)
-    return [*eccentricities, *tilts]
+    """Return eccentricities [m] and tilts [rad] of a history, as `values`; a tilt may be None."""
+    checked = {
+        name: values(owner, name, value, count) if value is not None or name not in TILTS else None
+        for name, value in given.items()
+    }
+    for axis in "xy":
+        refuse_both(axis, checked.get(f"eccentricity_{axis}", 0.0), checked[f"tilt_{axis}"])
+    return list(checked.values())

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from functools import cached_property
 
 import numpy as np
@@ -54,12 +54,12 @@ class ForceHistory(PiecewiseHistory):
     10.0
     """
 
-    times: NDArray[np.float64]
-    force: NDArray[np.float64]
-    eccentricity_x: float | NDArray[np.float64]
-    eccentricity_y: float | NDArray[np.float64]
-    tilt_x: float | NDArray[np.float64] | None
-    tilt_y: float | NDArray[np.float64] | None
+    times: NDArray[np.float64] = field(metadata={"unit": "s"})
+    force: NDArray[np.float64] = field(metadata={"unit": "N"})
+    eccentricity_x: float | NDArray[np.float64] = field(metadata={"unit": "m"})
+    eccentricity_y: float | NDArray[np.float64] = field(metadata={"unit": "m"})
+    tilt_x: float | NDArray[np.float64] | None = field(metadata={"unit": "rad"})
+    tilt_y: float | NDArray[np.float64] | None = field(metadata={"unit": "rad"})
 
     def __init__(
         self,
@@ -72,10 +72,17 @@ class ForceHistory(PiecewiseHistory):
     ) -> None:
         # Written out, so that lists are welcome and arrays are what comes back.
         instants = arguments.instants(times)
-        tail = arguments.tail(instants.size, eccentricity_x, eccentricity_y, tilt_x, tilt_y)
-        read = (instants, arguments.forces(force, instants.size), *tail)
-        for field, value in zip(fields(self), read, strict=True):
-            object.__setattr__(self, field.name, value)
+        tail = arguments.tail(
+            ForceHistory,
+            instants.size,
+            eccentricity_x=eccentricity_x,
+            eccentricity_y=eccentricity_y,
+            tilt_x=tilt_x,
+            tilt_y=tilt_y,
+        )
+        read = (instants, arguments.forces(ForceHistory, force, instants.size), *tail)
+        for item, value in zip(fields(self), read, strict=True):
+            object.__setattr__(self, item.name, value)
 
     def at(self, time: float, *, side: str = "right") -> LoadPoint:
         """Return what is prescribed at an instant.
@@ -133,7 +140,7 @@ class ForceHistory(PiecewiseHistory):
         >>> ForceHistory([0.0], [10.0]).force_at([0.0, 1.0], side="left").tolist()
         [0.0, 10.0]
         """
-        instants = arguments.numbers("times", times)
+        instants = arguments.numbers("times", times, "s")
         force = self._interpolate(self.force, instants, side)
         counts = self._started(instants, side) & (force >= NEGLIGIBLE * self.largest_force)
         return np.where(counts, force, 0.0)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,6 +16,9 @@ from viscontact.loads.history import Control, Cycle, LoadHistory, LoadPoint
 #: Steps of a cycle when nothing finer is asked for. A line through a 128th of a sine misses it by
 #: 2e-4 of the amplitude in the mean, and the loss of a cycle under it comes out to some 6e-4.
 STEPS_PER_CYCLE = 128
+
+
+_LEVEL_UNITS = {"force": "N", "approach": "m"}  # by the value of `control`
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,15 +46,15 @@ class HarmonicHistory(LoadHistory):
     """
 
     control: Control
-    mean: float
-    amplitude: float
-    period: float
-    cycles: int
-    phase: float = 0.0
-    eccentricity_x: float = 0.0
-    eccentricity_y: float = 0.0
-    tilt_x: float | None = None
-    tilt_y: float | None = None
+    mean: float = field(metadata={"unit": _LEVEL_UNITS})
+    amplitude: float = field(metadata={"unit": _LEVEL_UNITS})
+    period: float = field(metadata={"unit": "s"})
+    cycles: int = field(metadata={"unit": "1"})
+    phase: float = field(default=0.0, metadata={"unit": "rad"})
+    eccentricity_x: float = field(default=0.0, metadata={"unit": "m"})
+    eccentricity_y: float = field(default=0.0, metadata={"unit": "m"})
+    tilt_x: float | None = field(default=None, metadata={"unit": "rad"})
+    tilt_y: float | None = field(default=None, metadata={"unit": "rad"})
 
     @property
     def end(self) -> float:
@@ -72,7 +75,7 @@ class HarmonicHistory(LoadHistory):
 
     def level_at(self, times: ArrayLike, *, side: str = "right") -> NDArray[np.float64]:
         """Return the force [N] or the approach [m] at many instants [s], any shape."""
-        instants = arguments.numbers("times", times)
+        instants = arguments.numbers("times", times, "s")
         turns = np.minimum(instants, self.end) / self.period
         # Whole turns are taken off first: sin(2 π n) is not 0 in floating point.
         angle = 2 * math.pi * (turns - np.floor(turns)) + self.phase

@@ -13,8 +13,6 @@ from numpy.typing import NDArray
 from viscontact.loads import arguments
 from viscontact.loads.history import Cycle, LoadHistory, Moment
 
-_TILTS = ("tilt_x", "tilt_y")
-
 
 @dataclass(frozen=True, eq=False, init=False)
 class PiecewiseHistory(LoadHistory):
@@ -61,7 +59,7 @@ class PiecewiseHistory(LoadHistory):
         level = self.level_at(times, side=side)
         if self.control == "force":
             return np.asarray(level != 0)
-        tilts = [of for of in (getattr(self, name) for name in _TILTS) if of is not None]
+        tilts = [of for of in (getattr(self, name) for name in arguments.TILTS) if of is not None]
         tilted = [self._interpolate(of, times, side) != 0 for of in tilts]
         return np.asarray(np.logical_or.reduce([level > 0, *tilted]))
 

@@ -12,6 +12,7 @@ from viscontact.loads.force import ForceHistory
 from viscontact.loads.harmonic import HarmonicHistory
 from viscontact.loads.history import Control
 from viscontact.units.formatting import in_words
+from viscontact.units.numbers import unit_of
 
 #: A harmonic load of more cycles than this is a mistake: each takes dozens of steps.
 MOST_CYCLES = 100_000
@@ -203,8 +204,7 @@ def harmonic(
     [10.0, 15.0, 5.0, 10.0, 10.0]
     """
     control, middle = _control("harmonic", mean, approach, force_is="mean")
-    unit = "N" if control == "force" else "m"
-    swing = finite_number("harmonic: amplitude", amplitude, unit)
+    swing = _number("amplitude", amplitude, control)
     if control == "force" and abs(swing) > middle:
         raise ValueError(
             "harmonic: the force must never be negative, but swings between "
@@ -223,7 +223,7 @@ def harmonic(
         amplitude=swing,
         period=_positive_duration("harmonic: period", period),
         cycles=int(turns),
-        phase=finite_number("harmonic: phase", phase, "rad"),
+        phase=_number("phase", phase),
         **tail,
     )
 
@@ -252,14 +252,21 @@ def _scalar_tail(
 ) -> dict[str, Any]:
     if control == "approach":
         _refuse_eccentric_approach(eccentricity_x, eccentricity_y)
-    given = (eccentricity_x, eccentricity_y, tilt_x, tilt_y)
-    # One point's worth of a history, with the checks it makes; a list of one is no scalar, though.
-    arguments.tail(1, *given)
-    units = ("m", "m", "rad", "rad")
-    return {
-        name: None if value is None else finite_number(f"harmonic: {name}", value, unit)
-        for name, value, unit in zip(arguments.TAIL, given, units, strict=True)
+    given = {
+        "eccentricity_x": eccentricity_x,
+        "eccentricity_y": eccentricity_y,
+        "tilt_x": tilt_x,
+        "tilt_y": tilt_y,
     }
+    # The checks of a history with one point; below, a list of one number is refused as well.
+    arguments.tail(HarmonicHistory, 1, **given)
+    return {name: None if value is None else _number(name, value) for name, value in given.items()}
+
+
+def _number(name: str, value: object, control: Control = "force") -> float:
+    """Return field `name` of a harmonic load as a float, or refuse it."""
+    unit = unit_of(HarmonicHistory, name, control) or ""
+    return finite_number(f"harmonic: {name}", value, unit)
 
 
 def _refuse_eccentric_approach(eccentricity_x: float, eccentricity_y: float) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import KW_ONLY, dataclass
+from dataclasses import KW_ONLY, dataclass, field
 
 import numpy as np
 
@@ -53,11 +53,11 @@ class Material(Shown):
     """
 
     law: Law
-    poisson_ratio: float | None = None
+    poisson_ratio: float | None = field(default=None, metadata={"unit": "1"})
     _: KW_ONLY
-    bulk_modulus: float | None = None
-    measured_until: float | None = None
-    thickness: float | None = None
+    bulk_modulus: float | None = field(default=None, metadata={"unit": "Pa"})
+    measured_until: float | None = field(default=None, metadata={"unit": "s"})
+    thickness: float | None = field(default=None, metadata={"unit": "m"})
 
     def __post_init__(self) -> None:
         if not isinstance(self.law, Law):

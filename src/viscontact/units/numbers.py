@@ -1,9 +1,23 @@
-"""What counts as a plain number."""
+"""Numbers that users give: the units of arguments, and the conversion to float."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
+from dataclasses import Field
 from numbers import Real
+from typing import Any
+
+
+def unit_of(owner: type, argument: str, control: str = "") -> str | None:
+    """Return the unit of a dataclass field, from ``field(metadata={"unit": "m"})``.
+
+    None for names, flags and other objects, which have no unit; "1" for dimensionless numbers. A
+    unit that depends on the field `control` (force or approach) is a mapping in the metadata.
+    """
+    of_fields: dict[str, Field[Any]] = owner.__dataclass_fields__  # type: ignore[attr-defined]
+    unit: str | Mapping[str, str] | None = of_fields[argument].metadata.get("unit")
+    return unit[control] if isinstance(unit, Mapping) else unit
 
 
 def as_real(value: object) -> float | None:

@@ -1,0 +1,34 @@
+"""The unit of an argument is written once, with the dataclass field."""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+import typing
+
+import pytest
+
+from viscontact.laws import WLF, Arrhenius, TabulatedShift
+from viscontact.loads.history import Control
+from viscontact.results.provenance import NOUNS
+from viscontact.units.dimensions import DIMENSIONS
+from viscontact.units.numbers import unit_of
+
+CLASSES = (*NOUNS.values(), WLF, Arrhenius, TabulatedShift)
+NUMERIC = re.compile(r"\b(float|int|NDArray)\b")
+UNITS = {dimension.unit for dimension in DIMENSIONS.values()} | {"1"}
+
+
+@pytest.mark.parametrize("owner", CLASSES, ids=lambda owner: owner.__name__)
+def test_numeric_fields_have_a_unit_and_other_fields_have_none(owner: type) -> None:
+    for field in dataclasses.fields(owner):
+        units = {unit_of(owner, field.name, control) for control in typing.get_args(Control)}
+        wanted = UNITS if NUMERIC.search(str(field.type)) else {None}
+        assert units <= wanted, f"{owner.__name__}.{field.name}"
+
+
+def test_a_unit_may_depend_on_what_a_load_controls() -> None:
+    harmonic = NOUNS["HarmonicHistory"]
+    assert unit_of(harmonic, "mean", "force") == "N"
+    assert unit_of(harmonic, "mean", "approach") == "m"
+    assert unit_of(harmonic, "phase") == "rad"
