@@ -174,7 +174,7 @@ def test_triangle_of_force_follows_ting_with_second_order(rise):
 
 @pytest.mark.parametrize("profile", [SPHERE, CONE], ids=["sphere", "cone"])
 def test_cycles_on_a_maxwell_body_follow_the_closed_form(profile):
-    """Contact is lost three times, and made again in the dent."""
+    """Contact is lost three times, and made again on the residual indentation."""
     exact = reference.ting_cycles(profile, 1e-5, 1.0, 2e9, 1.0)
     errors = []
     for n in [20, 40, 80]:

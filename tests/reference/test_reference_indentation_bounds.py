@@ -1,4 +1,4 @@
-"""What holds for an indentation whatever its history, and which histories are refused."""
+"""Invariants of an indentation under any history, and refused histories."""
 
 import itertools
 import math
@@ -13,8 +13,8 @@ from viscontact import reference
 from viscontact.reference.indentation_march import (
     Law,
     OutgrownError,
-    course,
     deepest_approach,
+    load_steps,
     march,
 )
 from viscontact.reference.lag_means import lag_mean
@@ -59,7 +59,7 @@ def test_no_history_pulls_or_penetrates(levels, profile):
     load=st.floats(1e-2, 1e2), stiffness=st.floats(1e-2, 1e2), slowness=st.floats(1e-2, 1e2),
     shift=st.floats(0, 1e3),
 )  # fmt: skip
-def test_contact_scales_with_load_modulus_and_time_and_forgets_the_clock(
+def test_contact_scales_with_load_modulus_and_time_and_is_invariant_in_time(
     load, stiffness, slowness, shift
 ):
     """Force by c and J by 1/c leave the geometry; w goes with (F J)^(2/3); time only stretches."""
@@ -111,13 +111,13 @@ def test_means_of_a_compliance_are_used_where_it_has_them():
     np.testing.assert_allclose(with_means.approach, without.approach, rtol=1e-9)
 
 
-def test_contact_over_the_last_rod_is_noticed():
-    steps = course(np.zeros(1), np.ones(1), by_approach=False, substeps=1)
+def test_contact_beyond_the_last_rod_is_an_error():
+    steps = load_steps(np.zeros(1), np.ones(1), by_approach=False, substeps=1)
     law = Law(lambda start, end: np.full_like(end, 1 / 2e9), 1 / 2e9)
     deepest = reference.hertz_sphere(1.0, 0.01, 2e9).approach
     assert deepest < deepest_approach(SPHERE, steps, law) < 1.01 * deepest
-    [moment] = march(placed_rods(SPHERE, 1.01 * deepest, 20), steps, law)
-    assert moment.settled.approach == pytest.approx(deepest, rel=1e-12)
+    [result] = march(placed_rods(SPHERE, 1.01 * deepest, 20), steps, law)
+    assert result.state.approach == pytest.approx(deepest, rel=1e-12)
     with pytest.raises(OutgrownError):
         list(march(placed_rods(SPHERE, 0.99 * deepest, 20), steps, law))
 

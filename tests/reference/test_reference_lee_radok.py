@@ -289,6 +289,6 @@ def recovering(t):
         ),
     ],
 )
-def test_what_the_solution_cannot_take_is_refused(call, message):
+def test_unsuitable_arguments_are_refused(call, message):
     with pytest.raises(ValueError, match=message):
         call()

@@ -1,4 +1,4 @@
-"""A flat punch keeps its contact, so Boltzmann's superposition is all there is to its history."""
+"""Histories of a flat punch against Boltzmann's superposition."""
 
 import math
 
@@ -27,7 +27,7 @@ def test_punch_under_a_staircase_follows_superposition():
     assert contact.pressure(1e-3, 4.0) == pytest.approx(p.pressure(1e-3), rel=1e-12)
 
 
-def test_punch_held_by_a_force_swings_as_its_complex_compliance_says():
+def test_punch_oscillates_under_a_force_by_its_complex_compliance():
     omega, cycles, n = 2 * math.pi / 1.3, 12, 60
     t = np.linspace(0, cycles * 1.3, cycles * n + 1)
     contact = reference.press_axisymmetric(
@@ -40,8 +40,8 @@ def test_punch_held_by_a_force_swings_as_its_complex_compliance_says():
     )
     # By the formula, a hundred retardation times later.
     late = 300 * 1.3 + t[:n]
-    swing = reference.punch_harmonic_start(late, 10.0, 4.0, omega, 0.002, *TERMS)
-    turned = 2j / n * swing @ np.exp(-1j * omega * late)
+    response = reference.punch_harmonic_start(late, 10.0, 4.0, omega, 0.002, *TERMS)
+    turned = 2j / n * response @ np.exp(-1j * omega * late)
     assert abs(turned) == pytest.approx(steady.approach_amplitude, rel=1e-12)
     assert -np.angle(turned) == pytest.approx(steady.phase_lag, rel=1e-10)
     # By the march, when the creep has almost faded.

@@ -1,4 +1,4 @@
-"""Exact solutions to check against: everything in SI units, nothing of the solver inside.
+"""Exact solutions for verification, in SI units, independent of the solver.
 
 The elastic ones take the contact modulus E* [Pa], the viscoelastic ones a creep compliance
 J(t) [1/Pa] and its convolution inverse M(t) [Pa] as callables, or just one of the two.

@@ -1,4 +1,4 @@
-"""What every exact solution asks of its arguments."""
+"""Argument checks of the exact solutions."""
 
 from __future__ import annotations
 
@@ -15,20 +15,6 @@ Values: TypeAlias = np.float64 | NDArray[np.float64]
 def require_positive(unit: str, **arguments: float) -> None:
     """Refuse arguments that are not positive and finite.
 
-    Parameters
-    ----------
-    unit : str
-        Their unit, for the message.
-    **arguments : float
-        The arguments by name.
-
-    Raises
-    ------
-    ValueError
-        If one of them is zero, negative, infinite or not a number.
-
-    Examples
-    --------
     >>> require_positive("m", radius=-0.01)
     Traceback (most recent call last):
     ...

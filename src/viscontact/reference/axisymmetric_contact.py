@@ -1,4 +1,4 @@
-"""What came of pressing a round indenter: its history, the pressure and the dent."""
+"""Result of an axisymmetric viscoelastic contact: history, pressure and surface displacement."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class AxisymmetricContact:
     force : ndarray, shape (n,)
         Force on the half-space, 0 without contact [N].
     approach : ndarray, shape (n,)
-        Approach; under no force where the body just touches the dented surface [m].
+        Approach; under no force where the body just touches the deformed surface [m].
     contact_radius : ndarray, shape (n,)
         Radius of the contact circle, 0 without contact [m].
     work : ndarray, shape (n,)
@@ -125,7 +125,7 @@ class AxisymmetricContact:
         Returns
         -------
         float or ndarray
-            The displacement, of the dent too that is left when contact is lost [m].
+            The displacement, including the residual one after contact is lost [m].
 
         Raises
         ------
@@ -161,7 +161,7 @@ class AxisymmetricContact:
         return np.where(distance[..., 0] == 0, v[0], u)[()]
 
     def _with_front(self, t: float, v: Array) -> tuple[Array, Array]:
-        """Add the contact's edge, where v stops following the indenter, to the places."""
+        """Add the contact radius, where v stops following the indenter, to the radii."""
         a = float(self._at(t, self.contact_radius))
         k = int(np.searchsorted(self.places, a))
         if not 0 < k < len(self.places) or a == self.places[k]:
@@ -170,7 +170,7 @@ class AxisymmetricContact:
         return np.insert(self.places, k, a), np.insert(v, k, edge)
 
     def _at(self, t: float, history: Array) -> Array:
-        """Give a history's value at an instant."""
+        """Interpolate a history linearly at time t [s]."""
         if not self.times[0] <= t <= self.times[-1]:
             raise ValueError(
                 f"t: wanted an instant from {self.times[0]:.6g} s to {self.times[-1]:.6g} s, "
@@ -185,7 +185,7 @@ class AxisymmetricContact:
 
 
 def _slopes(depths: Array, values: Array) -> Array:
-    """Give the slope over depth within each element, 0 where it has no extent."""
+    """Slope over depth within each element, 0 where it has no extent."""
     rises, extents = np.diff(values), np.diff(depths)
     return np.divide(rises, extents, out=np.zeros_like(rises), where=extents > 0)
 

@@ -1,4 +1,4 @@
-"""Load histories that never fall, as the Lee-Radok solution needs them."""
+"""Monotonically increasing load histories of the Lee-Radok solution."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from viscontact.reference.hereditary import TimeFunction, accumulated, averaged,
 
 
 class GrowingLoad(Protocol):
-    """A load history that never falls, as the Lee-Radok solution needs it."""
+    """Load history that never decreases."""
 
     @property
     def corners(self) -> tuple[float, ...]:
@@ -29,15 +29,9 @@ class GrowingLoad(Protocol):
 
 @dataclass(frozen=True)
 class SuddenLoad:
-    """A force applied at time 0 and held.
+    """Force applied at time 0 and held."""
 
-    Attributes
-    ----------
-    force : float
-        The force [N].
-    """
-
-    force: float
+    force: float  # [N]
     corners = (0.0,)
 
     def at(self, times: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -53,18 +47,10 @@ class SuddenLoad:
 
 @dataclass(frozen=True)
 class RampedLoad:
-    """A force that rises in proportion to time, then is held.
+    """Force that increases linearly with time, then is held."""
 
-    Attributes
-    ----------
-    force : float
-        The force that is held [N].
-    duration : float
-        Time of its rise [s].
-    """
-
-    force: float
-    duration: float
+    force: float  # force that is held [N]
+    duration: float  # time of its rise [s]
 
     @property
     def corners(self) -> tuple[float, ...]:

@@ -1,9 +1,10 @@
-"""Quadrature for Boltzmann integrals whose functions of time are known as callables only.
+"""Quadrature of hereditary integrals with kernels given as callables.
 
 Creep and relaxation are smooth on a logarithmic scale of time: each relaxation time, however
-short, lives at its own decade. So intervals are halved again and again towards the end where
-things happen fast, and polynomials of degree 16 serve on each panel. Algebraic singularities
-at such an end (a square-root start, a power law) are resolved by the same halving.
+short, has its own decade. So intervals are halved repeatedly towards the end where the functions
+vary fast, with polynomials of degree 16 on each panel. Algebraic singularities at such an end (a
+square-root start, a power law) are resolved by the same halving.
+
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ _GAUSS, _WEIGHTS = legendre.leggauss(_DEGREE)
 
 
 def _stieltjes_matrix() -> NDArray[np.float64]:
-    """Give B with: integral of k ds over a panel = sum of k(Gauss node j) B_ji s(node i).
+    """Matrix B with: integral of k ds over a panel = sum of k(Gauss node j) B_ji s(node i).
 
     It does not depend on the panel's length, as the integral does not. Where k is constant it
     gives k times the difference of s, whatever s does in between.
@@ -36,13 +37,13 @@ def _stieltjes_matrix() -> NDArray[np.float64]:
 
 
 def _panels(edges: NDArray[np.float64], nodes: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Place ``nodes``, given on [-1, 1], in every panel between ``edges``."""
+    """Map ``nodes``, given on [-1, 1], to every panel between ``edges``."""
     half = np.diff(edges)[:, None] / 2
     return edges[:-1, None] + half * (1 + nodes)
 
 
 def _halved(times: int) -> NDArray[np.float64]:
-    """Give the edges of panels on [0, 1] halved towards 0 so many times."""
+    """Edges of panels on [0, 1], halved ``times`` times towards 0."""
     return np.concatenate([[0.0], 0.5 ** np.arange(times, -1, -1)])
 
 
@@ -61,22 +62,8 @@ _INNERMOST_WEIGHTS = np.diff(_TO_ZERO**3)[:, None] / 2 * _WEIGHTS
 
 
 def evaluate(function: TimeFunction, times: ArrayLike) -> NDArray[np.float64]:
-    """Evaluate a function of time on an array of any shape.
+    """Values of a function of time [s] at times of any shape; a constant may return a scalar.
 
-    Parameters
-    ----------
-    function : callable
-        Takes a one-dimensional array of times [s]; may return a scalar for a constant.
-    times : array_like
-        Times of any shape [s].
-
-    Returns
-    -------
-    ndarray
-        The values, in the shape of ``times``.
-
-    Examples
-    --------
     >>> evaluate(lambda t: 2 * t, [[1.0, 2.0]]).tolist()
     [[2.0, 4.0]]
     """
@@ -86,22 +73,8 @@ def evaluate(function: TimeFunction, times: ArrayLike) -> NDArray[np.float64]:
 
 
 def accumulated(function: TimeFunction, times: ArrayLike) -> NDArray[np.float64]:
-    """Integrate a function of time from 0 to each of many instants.
+    """Integral from 0 to each time >= 0 [s] of a function smooth in log t and finite at 0.
 
-    Parameters
-    ----------
-    function : callable
-        A function smooth on a logarithmic scale of time, finite at 0.
-    times : array_like
-        Upper limits, at least 0, of any shape [s].
-
-    Returns
-    -------
-    ndarray
-        The integrals, in the shape of ``times``, in the function's unit times second.
-
-    Examples
-    --------
     >>> print(f"{accumulated(np.sqrt, 9.0):.12f}")
     18.000000000000
     """
@@ -123,24 +96,8 @@ def accumulated(function: TimeFunction, times: ArrayLike) -> NDArray[np.float64]
 def averaged(
     function: TimeFunction, starts: NDArray[np.float64], length: float
 ) -> NDArray[np.float64]:
-    """Average a function of time over intervals that begin no earlier than their own length.
+    """Mean over [start, start + length] [s] of a function smooth in log t; each start >= length.
 
-    Parameters
-    ----------
-    function : callable
-        A function smooth on a logarithmic scale of time.
-    starts : ndarray
-        Beginnings of the intervals, each at least ``length`` [s].
-    length : float
-        Their common length [s].
-
-    Returns
-    -------
-    ndarray
-        The averages, in the shape of ``starts``.
-
-    Examples
-    --------
     >>> print(f"{averaged(np.square, np.array([3.0]), 3.0)[0]:.10f}")
     21.0000000000
     """
@@ -150,22 +107,8 @@ def averaged(
 def averaged_between(
     function: TimeFunction, starts: NDArray[np.float64], ends: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Average a function of time over intervals that begin no earlier than their own length.
+    """Mean over intervals [s] that begin no earlier than their length; the value where it is 0.
 
-    Parameters
-    ----------
-    function : callable
-        A function smooth on a logarithmic scale of time.
-    starts, ends : ndarray
-        The intervals; one without length gives the function itself there [s].
-
-    Returns
-    -------
-    ndarray
-        The averages, in the shape of ``starts``.
-
-    Examples
-    --------
     >>> print(averaged_between(np.square, np.array([3.0, 3.0]), np.array([6.0, 3.0])).round(10))
     [21.  9.]
     """
@@ -181,30 +124,13 @@ def superposed(
     end: NDArray[np.float64],
     now: NDArray[np.float64],
 ) -> NDArray[np.float64]:
-    """Superpose past increments of a path: integral over t' of kernel(now - t') d path(t').
+    """Hereditary integral of kernel(now - t') d path(t') from start to end, shape (n,).
 
-    Parameters
-    ----------
-    kernel : callable
-        A function of the lag, smooth on a logarithmic scale; integrably infinite at 0 at most.
-    path : callable
-        Called with instants of shape (n, panels, nodes), one row for each integral; smooth but
-        for an algebraic singularity at ``start``.
-    start, end, now : ndarray, shape (n,)
-        Limits of each integral and the instant it is felt at, start <= end <= now [s].
+    The kernel is a function of the lag, smooth on a logarithmic scale and at most integrably
+    infinite at 0, where it is never evaluated. The path is called with times of shape (n, panels,
+    nodes) and not differentiated; it is smooth but for an algebraic singularity at start <= end <=
+    now [s].
 
-    Returns
-    -------
-    ndarray, shape (n,)
-        The integrals, in the units of kernel times path.
-
-    Notes
-    -----
-    A Stieltjes integral: neither function is differentiated by the caller, and the kernel is
-    never asked for its value at lag 0.
-
-    Examples
-    --------
     >>> zero, one = np.zeros(1), np.ones(1)
     >>> print(f"{superposed(lambda lag: np.exp(-lag), np.sqrt, zero, one, one)[0]:.12f}")
     0.538079506913

@@ -1,4 +1,4 @@
-"""Hertz's elastic point contacts: the circle under a sphere and the ellipse.
+"""Hertz's elastic point contacts: circular and elliptical.
 
 ``contact_modulus`` is E* [Pa] in u = 1/(π E*) * integral of p/r: 1/E* is the sum over both
 bodies of (1 - nu²)/E, or the contact compliance J of a law at one instant.
@@ -86,7 +86,7 @@ def hertz_sphere(force: float, radius: float, contact_modulus: float) -> SphereC
     Notes
     -----
     a³ = 3 F R / (4 E*), approach = a²/R, p0 = 2 E* a / (π R) = 3 F / (2 π a²): exact for the
-    paraboloid r²/(2R), which stands for the sphere while a is small against R.
+    paraboloid r²/(2R), which approximates the sphere while a is small against R.
 
     References
     ----------
@@ -214,7 +214,7 @@ def hertz_elliptical(
 
 
 def _axis_ratio(radius_ratio: float) -> float:
-    """Give a_x/a_y of the contact ellipse whose bodies have R_x/R_y = ``radius_ratio``."""
+    """Axis ratio a_x/a_y of the contact ellipse of bodies with R_x/R_y = ``radius_ratio``."""
     if radius_ratio < 1:
         return 1 / _axis_ratio(1 / radius_ratio)
     wanted = math.log(radius_ratio)
@@ -229,6 +229,6 @@ def _axis_ratio(radius_ratio: float) -> float:
 
 
 def _hemisphere(square: Values) -> Values:
-    """Give sqrt(1 - square) where it is real, else 0."""
+    """Real part of sqrt(1 - square)."""
     height: Values = np.sqrt(np.maximum(1 - square, 0.0))
     return height

@@ -1,4 +1,4 @@
-"""Axisymmetric viscoelastic indentation under any history, as long as the contact is a circle."""
+"""Axisymmetric viscoelastic contact under an arbitrary load history, for circular contact areas."""
 
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact.reference.axisymmetric_contact import AxisymmetricContact
 from viscontact.reference.hereditary import TimeFunction
 from viscontact.reference.indentation_march import (
-    Course,
     Law,
-    Moment,
+    LoadSteps,
     OutgrownError,
-    course,
+    StepEnd,
     deepest_approach,
+    load_steps,
     march,
 )
 from viscontact.reference.lag_means import instant_compliance, lag_mean
 from viscontact.reference.profiles import Profile
 from viscontact.reference.rods import Rods, placed_rods
 
-_SCOUTS = 24  # elements that find out how deep a force goes, before others are placed
+_COARSE_ELEMENTS = 24  # of a first solution that finds the largest approach under a force
 
 
 def press_axisymmetric(
@@ -38,8 +38,8 @@ def press_axisymmetric(
 ) -> AxisymmetricContact:
     """Press a round indenter on a viscoelastic half-space by any history of approach or force.
 
-    Loading, holding, unloading, loss of contact, recovery of the dent and contact again, in any
-    order, as long as the contact is one full circle.
+    Loading, holding, unloading, loss of contact, recovery of the surface and renewed contact, in
+    any order, as long as the contact is one full circle.
 
     Parameters
     ----------
@@ -69,7 +69,7 @@ def press_axisymmetric(
     Raises
     ------
     ValueError
-        If times, histories or numbers make no sense, if the load jumps where J(0) = 0, or if
+        If times, histories or numbers are inconsistent, if the load jumps where J(0) = 0, or if
         the contact is found to be a ring, by steps too long for the law or otherwise.
 
     Notes
@@ -83,7 +83,7 @@ def press_axisymmetric(
     v = w - g(s), g(s) = s integral of f'(r)/sqrt(s² - r²) over r < s. Outside χ = 0 and
     v >= w - g, with which u >= w - f. A smooth edge carries no infinite pressure: χ(a) = 0. So
     an s loses contact when its χ falls to 0, and takes it when w - g(s) meets its own recovery.
-    On the first way in χ(s, t) = integral of M(t - t') dw(t') from t_s, where w = g(s), to t;
+    During first loading χ(s, t) = integral of M(t - t') dw(t') from t_s, where w = g(s), to t;
     that it falls to 0 is Ting's equation for t_1 = t_s.
 
     Each s is a scalar Volterra equation. The transform is linear in time within a step, with the
@@ -92,7 +92,7 @@ def press_axisymmetric(
     rising force the approach begins like t^(2/3), and ends so under a falling one, which evenly
     spaced `times` follow with order 5/3 only: see `clustered_times`. With J(0) = 0, J like t^n,
     the order in time is 2 - n. Steps must resolve the law: where J grows by many times J(0)
-    within one, linear χ may ring; `resolution_error` tells.
+    within one, linear χ may ring; `resolution_error` shows it.
 
     References
     ----------
@@ -104,7 +104,7 @@ def press_axisymmetric(
     Examples
     --------
     A sphere on a Maxwell body, in and out at constant speed: contact is lost at
-    t = ln(2 e - 1) relaxation times (Ting), long before the way back is done.
+    t = ln(2 e - 1) relaxation times (Ting), long before the unloading ends.
 
     >>> from viscontact.reference.profiles import SphereProfile
     >>> contact = press_axisymmetric(
@@ -118,11 +118,11 @@ def press_axisymmetric(
     load = np.asarray(force if approach is None else approach, dtype=np.float64)
     _require_history(instants, load, controlled, one=(approach is None) != (force is None))
     _require_counts(elements=elements, substeps=substeps)
-    steps = course(instants, load, by_approach=approach is not None, substeps=substeps)
+    steps = load_steps(instants, load, by_approach=approach is not None, substeps=substeps)
     law = Law(lag_mean(creep_compliance), instant_compliance(creep_compliance))
-    rods, moments = _marched(profile, steps, law, elements)
-    kept = [moments[k] for k in steps.given]
-    radii = profile.reach(np.array([moment.settled.front for moment in kept]))
+    rods, results = _marched(profile, steps, law, elements)
+    kept = [results[k] for k in steps.given]
+    radii = profile.reach(np.array([result.state.front for result in kept]))
     return AxisymmetricContact(
         profile=profile,
         creep_compliance=creep_compliance,
@@ -130,24 +130,26 @@ def press_axisymmetric(
         elements=elements,
         substeps=substeps,
         times=instants,
-        force=np.array([moment.settled.force for moment in kept]),
-        approach=np.array([moment.settled.approach for moment in kept]),
-        contact_radius=np.where([moment.settled.reached > 0 for moment in kept], radii, 0.0),
-        work=np.cumsum([moment.work for moment in moments])[steps.given],
-        touched=np.array([moment.touched for moment in moments if moment.touched is not None]),
-        lost=np.array([moment.lost for moment in moments if moment.lost is not None]),
+        force=np.array([result.state.force for result in kept]),
+        approach=np.array([result.state.approach for result in kept]),
+        contact_radius=np.where([result.state.reached > 0 for result in kept], radii, 0.0),
+        work=np.cumsum([result.work for result in results])[steps.given],
+        touched=np.array([result.touched for result in results if result.touched is not None]),
+        lost=np.array([result.lost for result in results if result.lost is not None]),
         places=rods.places,
-        transformed_pressure=np.array([moment.settled.chi for moment in kept]),
-        transformed_displacement=np.array([moment.displacement for moment in kept]),
+        transformed_pressure=np.array([result.state.chi for result in kept]),
+        transformed_displacement=np.array([result.displacement for result in kept]),
     )
 
 
-def _marched(profile: Profile, steps: Course, law: Law, elements: int) -> tuple[Rods, list[Moment]]:
-    """March with rods that reach far enough."""
+def _marched(
+    profile: Profile, steps: LoadSteps, law: Law, elements: int
+) -> tuple[Rods, list[StepEnd]]:
+    """Solve with elements whose range covers the largest contact radius."""
     deepest = deepest_approach(profile, steps, law)
-    if not steps.by_approach and elements > _SCOUTS:
-        _, scouted = _marched(profile, steps, law, _SCOUTS)
-        deepest = 1.002 * max(moment.settled.approach for moment in scouted) or deepest
+    if not steps.by_approach and elements > _COARSE_ELEMENTS:
+        _, coarse = _marched(profile, steps, law, _COARSE_ELEMENTS)
+        deepest = 1.002 * max(result.state.approach for result in coarse) or deepest
     while True:
         rods = placed_rods(profile, deepest, elements)
         try:
@@ -177,7 +179,7 @@ class ResolutionError:
 
 
 def resolution_error(contact: AxisymmetricContact) -> ResolutionError:
-    """Estimate the error of an indentation from a second march, twice as fine.
+    """Estimate the error of an indentation from a second solution, twice as fine.
 
     Parameters
     ----------
@@ -218,7 +220,7 @@ def resolution_error(contact: AxisymmetricContact) -> ResolutionError:
 
 
 def clustered_times(corners: ArrayLike, count: int) -> NDArray[np.float64]:
-    """Place instants between the corners of a history, closer and closer towards each of them.
+    """Times between the corners of a history, clustered towards each corner.
 
     Parameters
     ----------
@@ -248,7 +250,7 @@ def clustered_times(corners: ArrayLike, count: int) -> NDArray[np.float64]:
 def _require_history(
     times: NDArray[np.float64], load: NDArray[np.float64], controlled: str, *, one: bool
 ) -> None:
-    """Refuse histories that make no sense."""
+    """Check the times and the load history."""
     if not one:
         raise ValueError("press_axisymmetric: wanted either approach= or force=, not both or none")
     if times.ndim != 1 or times.size == 0 or not np.all(np.isfinite(times)):
@@ -273,7 +275,7 @@ def _require_history(
 
 
 def _require_counts(**counts: int) -> None:
-    """Refuse counts below 1."""
+    """Check that counts are at least 1."""
     for name, count in counts.items():
         if count < 1:
             raise ValueError(f"{name}: wanted 1 or more, got {count!r}")

@@ -1,4 +1,4 @@
-"""The march of an axisymmetric contact through a history of approach or force."""
+"""Time stepping of an axisymmetric contact under prescribed approach or force."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from scipy.optimize import brentq
 from viscontact.reference.lag_means import LagMean
 from viscontact.reference.profiles import Profile
 from viscontact.reference.rod_history import RodHistory
-from viscontact.reference.rods import Rods, Settled, Step, settle, settle_under
+from viscontact.reference.rods import Rods, RodState, Step, solve_at_approach, solve_at_force
 
 Array = NDArray[np.float64]
 
@@ -21,46 +21,21 @@ _RING = 1e-6  # of the deepest approach: a rod that is open wider inside the con
 
 
 @dataclass(frozen=True)
-class Course:
-    """A history of approach or force, step by step.
+class LoadSteps:
+    """History of approach or force, divided into steps."""
 
-    Attributes
-    ----------
-    times, load : ndarray, shape (n,)
-        Ends of the steps and the approach [m] or force [N] there; equal times are a jump.
-    by_approach : bool
-        Whether the load is an approach.
-    given : ndarray of int
-        Which steps end at the instants of the caller.
-    """
-
+    # ends of the steps [s] and the approach [m] or force [N] there; equal times are a jump
     times: Array
     load: Array
-    by_approach: bool
-    given: NDArray[np.intp]
+    by_approach: bool  # whether the load is an approach
+    given: NDArray[np.intp]  # which steps end at the instants of the caller
 
 
-def course(times: Array, load: Array, *, by_approach: bool, substeps: int) -> Course:
-    """Cut the intervals of a history into steps.
+def load_steps(times: Array, load: Array, *, by_approach: bool, substeps: int) -> LoadSteps:
+    """Divide the intervals of a history into equal steps; a jump is one step.
 
-    Parameters
-    ----------
-    times, load : ndarray, shape (n,)
-        The history [s], [m] or [N].
-    by_approach : bool
-        Whether the load is an approach.
-    substeps : int
-        Steps that each interval is cut into; a jump is one step.
-
-    Returns
-    -------
-    Course
-        The steps, the first a jump to the first value.
-
-    Examples
-    --------
     >>> history = np.array([0.0, 2.0, 2.0]), np.array([1.0, 3.0, 4.0])
-    >>> steps = course(*history, by_approach=False, substeps=2)
+    >>> steps = load_steps(*history, by_approach=False, substeps=2)
     >>> steps.times.tolist(), steps.load.tolist(), steps.given.tolist()
     ([0.0, 1.0, 2.0, 2.0], [1.0, 2.0, 3.0, 4.0], [0, 2, 3])
     """
@@ -70,62 +45,37 @@ def course(times: Array, load: Array, *, by_approach: bool, substeps: int) -> Co
     cut_times, cut_load = np.interp(place, given, times), np.interp(place, given, load)
     if not by_approach:
         cut_load[cut_load <= _NO_FORCE * load.max()] = 0.0
-    return Course(cut_times, cut_load, by_approach, given)
+    return LoadSteps(cut_times, cut_load, by_approach, given)
 
 
 @dataclass(frozen=True)
 class Law:
-    """A compliance as the march needs it: its means over lags, and J(0) [1/Pa]."""
+    """Compliance: its means over lags, and J(0) [1/Pa]."""
 
     mean: LagMean
     instant: float
 
 
 @dataclass(frozen=True)
-class Moment:
-    """The end of a step.
+class StepEnd:
+    """State at the end of a step."""
 
-    Attributes
-    ----------
-    settled : Settled
-        The rods.
-    displacement : ndarray, shape (rods,)
-        Their displacement [m].
-    work : float
-        Work of the load over the step [J].
-    touched, lost : float or None
-        Instant within the step when contact was made, or lost altogether [s].
-    """
-
-    settled: Settled
-    displacement: Array
-    work: float = 0.0
+    state: RodState
+    displacement: Array  # [m], shape (rods,)
+    work: float = 0.0  # work of the load over the step [J]
+    # instant within the step when contact was made, or lost altogether [s]
     touched: float | None = None
     lost: float | None = None
 
 
-def deepest_approach(profile: Profile, steps: Course, law: Law) -> float:
-    """Bound the approach of a history from above.
+def deepest_approach(profile: Profile, steps: LoadSteps, law: Law) -> float:
+    """Upper bound of the approach over a history [m].
 
-    Parameters
-    ----------
-    profile : Profile
-        The indenter.
-    steps : Course
-        The history.
-    law : Law
-        The compliance.
+    Under force control it is the approach of a contact that never shrinks, under a force that never
+    falls: 2 (s g(s) - integral of g) = J * dF.
 
-    Returns
-    -------
-    float
-        The largest approach; under force control that of a contact which never shrinks, under
-        a force that never falls, 2 (s g(s) - integral of g) = J * dF [m].
-
-    Examples
-    --------
     >>> from viscontact.reference.profiles import SphereProfile
-    >>> steps = course(np.zeros(1), np.ones(1), by_approach=False, substeps=1)
+    >>> steps = load_steps(np.zeros(1), np.ones(1), by_approach=False, substeps=1)
     >>> elastic = Law(lambda start, end: np.full_like(end, 0.75), 0.75)
     >>> print(f"{deepest_approach(SphereProfile(1.0), steps, elastic):.3f}")  # (9/16 / E*²)^(1/3)
     0.682
@@ -148,68 +98,46 @@ def deepest_approach(profile: Profile, steps: Course, law: Law) -> float:
 
 
 class OutgrownError(Exception):
-    """The contact has grown over the last rod."""
+    """Contact radius beyond the last rod."""
 
 
-def march(rods: Rods, steps: Course, law: Law) -> Iterator[Moment]:
-    """March through a history.
-
-    Parameters
-    ----------
-    rods : Rods
-        The rods.
-    steps : Course
-        The history.
-    law : Law
-        The compliance.
-
-    Yields
-    ------
-    Moment
-        The end of each step.
-
-    Raises
-    ------
-    OutgrownError
-        If the rods do not reach far enough.
-    ValueError
-        If the load jumps where J(0) = 0, or the contact is no longer a full circle.
-    """
+def march(rods: Rods, steps: LoadSteps, law: Law) -> Iterator[StepEnd]:
+    """Solve step by step; OutgrownError if the contact exceeds the last rod."""
     history = RodHistory(law.mean, len(rods.places), len(steps.times))
     none = np.zeros(len(rods.places))
-    now, rate = Moment(Settled(0.0, none, none, 0, 0.0, 0.0), none), 0.0
+    now, rate = StepEnd(RodState(0.0, none, none, 0, 0.0, 0.0), none), 0.0
     begin = steps.times[0]
     for end, load in zip(steps.times, steps.load, strict=True):
-        before = now.settled
+        before = now.state
         step = _next_step(rods, history, law, now, begin, end)
         if step.compliance == 0:
-            now = Moment(_unchanged(rods, steps, step, before, load, end), now.displacement)
+            now = StepEnd(_unchanged(rods, steps, step, before, load, end), now.displacement)
         else:
             guess = before.approach + rate * step.duration
             after = (
-                settle(rods, step, load)
+                solve_at_approach(rods, step, load)
                 if steps.by_approach
-                else (settle_under(rods, step, load, guess))
+                else (solve_at_force(rods, step, load, guess))
             )
             _require_circle(rods, steps, step, after, load, end)
-            now = _remember(rods, history, step, before, after, (begin, end))
+            now = _recorded(rods, history, step, before, after, (begin, end))
         yield now
         if step.duration > 0:
-            rate = (now.settled.approach - before.approach) / step.duration
+            rate = (now.state.approach - before.approach) / step.duration
         begin = end
 
 
 def _next_step(
-    rods: Rods, history: RodHistory, law: Law, now: Moment, begin: float, end: float
+    rods: Rods, history: RodHistory, law: Law, now: StepEnd, begin: float, end: float
 ) -> Step:
-    """Gather what is known of a step before it is taken."""
-    before, duration = now.settled, end - begin
+    """Known quantities of the next step."""
+    before, duration = now.state, end - begin
     opening = now.displacement + rods.depths - before.approach
     return Step(
         duration=float(duration),
         before=before.chi,
         open_before=np.maximum(opening, 0.0),
-        crept=history.recall(end),
+        crept=history.displacement_at(end),
         compliance=float(law.mean(np.zeros(1), np.array([duration]))[0]),
         within=lambda lags: law.mean(np.zeros_like(lags), lags),
         instant=law.instant,
@@ -217,9 +145,9 @@ def _next_step(
 
 
 def _unchanged(
-    rods: Rods, steps: Course, step: Step, before: Settled, load: float, end: float
-) -> Settled:
-    """Take a jump of a body without instant compliance, which may only be none."""
+    rods: Rods, steps: LoadSteps, step: Step, before: RodState, load: float, end: float
+) -> RodState:
+    """State after a jump of a body with J(0) = 0: unchanged, or refused."""
     approach = load if steps.by_approach else before.approach
     apart = before.force == 0 and approach <= step.touching(rods.depths)
     same = load == (before.approach if steps.by_approach else before.force)
@@ -232,9 +160,9 @@ def _unchanged(
 
 
 def _require_circle(
-    rods: Rods, steps: Course, step: Step, after: Settled, load: float, end: float
+    rods: Rods, steps: LoadSteps, step: Step, after: RodState, load: float, end: float
 ) -> None:
-    """Refuse what the rods cannot tell: contact beyond the last rod, or in a ring."""
+    """Refuse contact beyond the last rod, or in a ring."""
     single = len(rods.places) == 1
     if not single and not steps.by_approach and after.force < load * (1 - 1e-9):
         raise OutgrownError
@@ -251,15 +179,15 @@ def _require_circle(
             )
 
 
-def _remember(
+def _recorded(
     rods: Rods,
     history: RodHistory,
     step: Step,
-    before: Settled,
-    after: Settled,
+    before: RodState,
+    after: RodState,
     span: tuple[float, float],
-) -> Moment:
-    """Add the step's changes of load to the history, and look at what they did."""
+) -> StepEnd:
+    """Add the step's load changes to the history; return the state at its end."""
     begin, end = span
     old, new = before.chi, after.chi
     change, whole = new - old, after.share == 1
@@ -270,10 +198,10 @@ def _remember(
     starts, ends = np.where(met, end - share, begin), np.where(met, end, begin + share)
     history.add_single(single, starts, ends, change[single])
     longest = float(after.share[(old > 0) | (new > 0)].max(initial=0.0)) * step.duration
-    displacement = history.recall(end)
+    displacement = history.displacement_at(end)
     inside = new > 0
     displacement[inside] = after.approach - rods.depths[inside]
-    return Moment(
+    return StepEnd(
         after,
         displacement,
         _work(rods, before, after, step.duration),
@@ -282,7 +210,7 @@ def _remember(
     )
 
 
-def _work(rods: Rods, before: Settled, after: Settled, duration: float) -> float:
+def _work(rods: Rods, before: RodState, after: RodState, duration: float) -> float:
     """Work of the load over a step [J]."""
     advance = after.approach - before.approach
     if duration > 0:

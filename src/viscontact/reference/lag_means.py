@@ -1,4 +1,4 @@
-"""Means of a compliance over intervals of the lag, in closed form where the caller has one."""
+"""Mean compliance over lag intervals, in closed form where the law has one."""
 
 from __future__ import annotations
 
@@ -20,20 +20,8 @@ LagMean: TypeAlias = Callable[[NDArray[np.float64], NDArray[np.float64]], NDArra
 
 
 def lag_mean(creep_compliance: TimeFunction) -> LagMean:
-    """Give the mean of a compliance over lags: its own ``mean(start, end)``, else quadrature.
+    """Mean of J(t) over lags [1/Pa]: its method ``mean(start, end)``, else quadrature in log t.
 
-    Parameters
-    ----------
-    creep_compliance : callable
-        J(t), taking an array of times [s], giving [1/Pa]; smooth on a logarithmic scale.
-
-    Returns
-    -------
-    callable
-        The mean of J over the lags ``start`` to ``end``, arrays of equal shape [1/Pa].
-
-    Examples
-    --------
     >>> mean = lag_mean(lambda t: t**2)
     >>> print(mean(np.array([0.0, 3.0, 1.0]), np.array([3.0, 3.0, 2.0])).round(12))
     [3.         9.         2.33333333]
@@ -59,25 +47,8 @@ def lag_mean(creep_compliance: TimeFunction) -> LagMean:
 
 
 def instant_compliance(creep_compliance: TimeFunction) -> float:
-    """Give J(0) [1/Pa].
+    """Instant compliance J(0), checked to be finite and >= 0 [1/Pa].
 
-    Parameters
-    ----------
-    creep_compliance : callable
-        J(t), taking an array of times [s], giving [1/Pa].
-
-    Returns
-    -------
-    float
-        J(0).
-
-    Raises
-    ------
-    ValueError
-        If it is negative, infinite or not a number.
-
-    Examples
-    --------
     >>> instant_compliance(lambda t: 1e-9 * (1 + t))
     1e-09
     """

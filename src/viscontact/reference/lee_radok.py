@@ -1,8 +1,8 @@
-"""Lee and Radok's viscoelastic contact of a sphere, while the contact grows.
+"""Lee-Radok solution of a growing viscoelastic contact of a sphere.
 
-The law enters as two callables, convolution inverses of each other: the creep compliance J(t)
-[1/Pa], which stands in the place of 1/E*, and the relaxation modulus M(t) [Pa], which stands
-in the place of E*.
+The law is given by two callables, convolution inverses of each other: the creep compliance J(t)
+[1/Pa], which replaces 1/E*, and the relaxation modulus M(t) [Pa], which replaces E*.
+
 """
 
 from __future__ import annotations
@@ -130,7 +130,7 @@ def lee_radok_ramp(
 
 
 def _require_inverse(creep_compliance: TimeFunction, relaxation_modulus: TimeFunction) -> float:
-    """Refuse J and M that do not fit each other at time 0; give J(0)."""
+    """Check that J(0) M(0) = 1; return J(0) [1/Pa]."""
     with np.errstate(divide="ignore", invalid="ignore"):
         instant = float(evaluate(creep_compliance, 0.0))
         modulus = float(evaluate(relaxation_modulus, 0.0))

@@ -1,4 +1,4 @@
-"""The contact circle and pressure of a sphere on a viscoelastic half-space, while it grows."""
+"""Contact radius and pressure of a sphere on a viscoelastic half-space under growing contact."""
 
 from __future__ import annotations
 
@@ -193,7 +193,7 @@ class LeeRadokContact:
     def _heights(
         self, r: NDArray[np.float64], instants: NDArray[np.float64]
     ) -> NDArray[np.float64]:
-        """Give s = Re sqrt(a² - r²) at instants whose first axis goes with r."""
+        """Chord s = Re sqrt(a² - r²) at times whose first axis is that of r [m]."""
         a, distance = self._radius_at(instants), r.reshape(-1, *[1] * (instants.ndim - 1))
         real_part: NDArray[np.float64] = np.sqrt(np.maximum((a - distance) * (a + distance), 0.0))
         return real_part
@@ -201,7 +201,7 @@ class LeeRadokContact:
     def _instant_reached(
         self, r: NDArray[np.float64], t: NDArray[np.float64]
     ) -> NDArray[np.float64]:
-        """Find the last instant before the growing contact reaches each distance r, else 0."""
+        """Last instant before the growing contact reaches each distance r, else 0 [s]."""
         # Bisection on the logarithm of time, since the instant may lie decades before t. The
         # lower bound is given: there s is 0 exactly, while a little later it is already the
         # square root of that little.
@@ -220,7 +220,7 @@ class LeeRadokContact:
         return radius
 
     def _require_growth(self, times: NDArray[np.float64]) -> None:
-        """Refuse a law under which the contact shrinks: the solution holds while it grows."""
+        """Refuse a law under which the contact shrinks."""
         end = float(times.max(initial=0.0))
         radii = self._radius_at(end * np.append(0.0, np.geomspace(1e-12, 1.0, 241)))
         if not np.all(np.diff(radii) >= -1e-9 * radii.max()):

@@ -1,4 +1,4 @@
-"""Round indenters as the integral transform of their gap, for contacts that are full circles.
+"""Axisymmetric indenter profiles as the Abel transform of their gap.
 
 A gap f(r) enters the axisymmetric contact problem through g(s) = s times the integral of
 f'(r)/sqrt(s² - r²) over 0 < r < s alone: a rigid indenter pressed in by w displaces the
@@ -18,11 +18,11 @@ from viscontact.reference.arguments import require_positive
 
 
 class Profile(Protocol):
-    """A round indenter, touching at its axis first."""
+    """Axisymmetric indenter that touches at its axis first."""
 
     @property
     def edge(self) -> float:
-        """Radius where the indenter ends; inf for one that goes on [m]."""
+        """Radius of the indenter, inf if unlimited [m]."""
 
     def depth(self, s: NDArray[np.float64]) -> NDArray[np.float64]:
         """Transform g(s) of the gap: the approach at which an elastic contact reaches s [m]."""
@@ -67,7 +67,7 @@ class SphereProfile:
 
     @property
     def edge(self) -> float:
-        """Radius where the indenter ends: it does not [m]."""
+        """Radius of the indenter: unlimited [m]."""
         return math.inf
 
     def depth(self, s: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -127,7 +127,7 @@ class ConeProfile:
 
     @property
     def edge(self) -> float:
-        """Radius where the indenter ends: it does not [m]."""
+        """Radius of the indenter: unlimited [m]."""
         return math.inf
 
     @property
@@ -211,20 +211,8 @@ class PunchProfile:
 
 
 def arcsine(x: NDArray[np.float64], r: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Angle whose sine is x/r, the integral of 1/sqrt(r² - x²) from 0; π/2 where r = 0.
+    """Angle arcsin(x/r), the integral of 1/sqrt(r² - x²) from 0; π/2 where r = 0 [rad].
 
-    Parameters
-    ----------
-    x, r : ndarray
-        Radii with 0 <= x <= r, broadcast together [m].
-
-    Returns
-    -------
-    ndarray
-        The angle [rad].
-
-    Examples
-    --------
     >>> print(f"{arcsine(np.array(1.0), np.array(2.0)) * 6:.6f}")
     3.141593
     """

@@ -1,4 +1,4 @@
-"""A flat punch on a viscoelastic half-space: its contact stays, so the law shows undisguised."""
+"""Flat punch on a viscoelastic half-space: constant contact area."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class PunchOscillation:
-    """The steady oscillation of a flat punch, when all that began it has faded.
+    """Steady oscillation of a flat punch, without the initial transient.
 
     Attributes
     ----------
@@ -209,12 +209,14 @@ def punch_harmonic_start(
     now = np.asarray(t, dtype=np.float64)
     sine, cosine = np.sin(angular_frequency * now), np.cos(angular_frequency * now)
     held = instant + fluidity * now
-    swung = instant * sine + fluidity * (1 - cosine) / angular_frequency
+    oscillating = instant * sine + fluidity * (1 - cosine) / angular_frequency
     for compliance, tau in np.broadcast(np.asarray(amplitudes), np.asarray(times)):
         x, decayed = angular_frequency * tau, np.exp(-now / tau)
         held = held + compliance * (1 - decayed)
-        swung = swung + compliance * (sine - x * (cosine + x * sine - decayed) / (1 + x**2))
-    approach: Values = (mean * held + amplitude * swung) / (2 * radius)
+        oscillating = oscillating + compliance * (
+            sine - x * (cosine + x * sine - decayed) / (1 + x**2)
+        )
+    approach: Values = (mean * held + amplitude * oscillating) / (2 * radius)
     return approach
 
 

@@ -1,4 +1,4 @@
-"""What the rods of an axisymmetric contact remember: all their changes of load so far."""
+"""Load history of the rods of an axisymmetric contact."""
 
 from __future__ import annotations
 
@@ -11,30 +11,16 @@ Array = NDArray[np.float64]
 
 
 class RodHistory:
-    """Changes of load of many rods, of which it recalls the displacement they cause later.
+    """Load changes of all rods, and the displacement that they cause at later times.
 
-    The only object here that remembers: `recall` what comes next, then `add` what came.
+    A change dχ that takes place evenly from t1 to t2 has at t displaced its rod by dχ times the
+    mean of J over the lags t - t2 to t - t1: exact for every law. Most rods change over whole
+    steps, together; those that meet or leave the indenter within a step are kept one by one.
 
-    Parameters
-    ----------
-    mean : callable
-        Mean of the compliance over lags.
-    rods, steps : int
-        How many rods, and at most so many steps.
-
-    Notes
-    -----
-    A change that takes from t1 to t2 evenly has at t moved its rod by itself times the mean
-    of J over the lags t - t2 to t - t1: no law is asked for more, and none is approximated.
-    Most rods change over whole steps, together; those that meet or leave the indenter within
-    a step are kept one by one.
-
-    Examples
-    --------
     >>> from viscontact.reference.lag_means import lag_mean
     >>> history = RodHistory(lag_mean(lambda t: 1.0 + t), rods=1, steps=1)
     >>> history.add_whole(0.0, 2.0, np.array([3.0]))
-    >>> history.recall(4.0).round(12).tolist()
+    >>> history.displacement_at(4.0).round(12).tolist()
     [12.0]
     """
 
@@ -47,19 +33,19 @@ class RodHistory:
         self._begin, self._end, self._change = np.zeros(0), np.zeros(0), np.zeros(0)
 
     def add_whole(self, begin: float, end: float, changes: Array) -> None:
-        """Add changes of all rods from one instant to another, the same for all [N/m]."""
+        """Add load changes of all rods over one interval [N/m]."""
         k = self._steps
         self._begins[k], self._ends[k], self._changes[k] = begin, end, changes
         self._steps += 1
 
     def add_single(self, rod: NDArray[np.intp], begin: Array, end: Array, change: Array) -> None:
-        """Add changes of single rods, each from and to its own instant [N/m]."""
+        """Add load changes of single rods, each over its own interval [N/m]."""
         self._rod = np.append(self._rod, rod)
         self._begin, self._end = np.append(self._begin, begin), np.append(self._end, end)
         self._change = np.append(self._change, change)
 
-    def recall(self, now: float) -> Array:
-        """Displacement of each rod at an instant, owed to all changes so far [m]."""
+    def displacement_at(self, now: float) -> Array:
+        """Displacement of each rod due to all changes so far [m]."""
         k = self._steps
         ends = np.append(self._ends[:k], self._end)
         begins = np.append(self._begins[:k], self._begin)

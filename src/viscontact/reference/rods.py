@@ -1,8 +1,9 @@
-"""An axisymmetric contact as independent rods: one elastic step of the viscoelastic march.
+"""Axisymmetric contact as independent rods: the elastic problem of one time step.
 
-In the transform of `AxisymmetricContact` the half-space falls apart into rods, one at each
-radius s, which do not know of each other: each is pressed by χ(s), gives way by J * dχ,
-and is either in touch with the indenter or free of load.
+In the transform of `AxisymmetricContact` the half-space separates into independent rods, one at
+each radius s: each carries χ(s), is displaced by J * dχ, and is either in contact with the
+indenter or free of load.
+
 """
 
 from __future__ import annotations
@@ -23,22 +24,13 @@ class Rods:
     """Rods at given radii, whose load is linear in the depth g(s) between them.
 
     A Hertzian load is linear in g, so on an elastic body the sum over rods is exact.
-
-    Attributes
-    ----------
-    profile : Profile
-        The indenter.
-    places : ndarray, shape (n,)
-        Radii s, ascending from 0; the last is never reached, but for a punch's single one [m].
-    depths : ndarray, shape (n,)
-        g(s) [m].
-    near, far : ndarray, shape (n - 1,)
-        Weights of a load at the inner and outer end of each element in its integral over s [m].
     """
 
     profile: Profile
+    # radii s, ascending from 0 [m], shape (n,); the last is in contact under a flat punch only
     places: Array
-    depths: Array
+    depths: Array  # g(s) [m], shape (n,)
+    # weights of a load at the ends of each element in its integral over s [m], shape (n - 1,)
     near: Array
     far: Array
 
@@ -59,7 +51,7 @@ class Rods:
         return 2 * float(self.near @ chi[:-1] + self.far @ chi[1:])
 
     def _front_weight(self, last: int, front: float) -> float:
-        """Integral over s of what is 1 at the last rod in contact and 0 at the front."""
+        """Integral over s of a load that falls from 1 at the last rod to 0 at the front [m]."""
         begin, depth = self.places[last], float(self.depths[last])
         end = float(self.profile.reach(np.array(front)))
         if front - depth <= 1e-9 * front:
@@ -69,29 +61,12 @@ class Rods:
 
 
 def placed_rods(profile: Profile, deepest: float, elements: int) -> Rods:
-    """Place rods on the radii an approach can reach, closer and closer towards the last.
+    """Rods for contacts up to the approach `deepest` > 0 [m], clustered towards the largest radius.
 
-    Parameters
-    ----------
-    profile : Profile
-        The indenter.
-    deepest : float
-        The approach, above 0 [m].
-    elements : int
-        Elements between the rods.
+    There is one rod more than elements, and a single one for a flat punch. Where the approach turns
+    smoothly the contact radius is nearly constant and the loads end like a root of the distance
+    from the largest radius, which even elements would follow with a lower order.
 
-    Returns
-    -------
-    Rods
-        One rod more than elements; a single one for a punch, under which all do the same.
-
-    Notes
-    -----
-    Where the approach turns smoothly the contact dwells: the loads end like a root of the
-    distance from its largest radius, which even elements would follow with a lower order.
-
-    Examples
-    --------
     >>> from viscontact.reference.profiles import SphereProfile
     >>> placed_rods(SphereProfile(1.0), 0.04, 2).places.round(12).tolist()
     [0.0, 0.15, 0.2]
@@ -109,65 +84,33 @@ def placed_rods(profile: Profile, deepest: float, elements: int) -> Rods:
 
 @dataclass(frozen=True)
 class Step:
-    """What is known of a step in time before the approach at its end.
+    """Known quantities of a time step before its final approach is found."""
 
-    Attributes
-    ----------
-    duration : float
-        Its length, 0 for a jump [s].
-    before : ndarray, shape (n,)
-        Load of each rod at its beginning, 0 where free [N/m].
-    open_before : ndarray, shape (n,)
-        Opening between rod and indenter at its beginning, 0 in contact [m].
-    crept : ndarray, shape (n,)
-        Displacement at its end if no load changes [m].
-    compliance : float
-        Mean of J over the step, which meets a load that changes evenly [1/Pa].
-    within : callable
-        Mean of J over lags from 0 to each of an array [1/Pa].
-    instant : float
-        J(0) [1/Pa].
-    """
-
-    duration: float
-    before: Array
+    duration: float  # length, 0 for a jump [s]
+    before: Array  # load of each rod at its beginning, 0 where free [N/m], shape (n,)
+    # opening between rod and indenter at its beginning, 0 in contact [m], shape (n,)
     open_before: Array
-    crept: Array
-    compliance: float
-    within: Callable[[Array], Array]
-    instant: float
+    crept: Array  # displacement at its end if no load changes [m], shape (n,)
+    compliance: float  # mean of J over the step, which meets a load that changes evenly [1/Pa]
+    within: Callable[[Array], Array]  # mean of J over lags from 0 to each of an array [1/Pa]
+    instant: float  # J(0) [1/Pa]
 
     def touching(self, depths: Array) -> float:
-        """Approach at which the last rod is just about to part, or the first to touch [m]."""
+        """Approach at which the last rod loses contact, or the first one touches [m]."""
         return float(np.min(depths + self.crept - self.compliance * self.before))
 
 
 @dataclass(frozen=True)
-class Settled:
-    """Rods at the end of a step, at an approach.
+class RodState:
+    """Rods at the end of a step, at a given approach."""
 
-    Attributes
-    ----------
-    approach : float
-        The approach [m].
-    wanted : ndarray, shape (n,)
-        Load that keeps each rod in contact, negative where it would have to be pulled [N/m].
-    share : ndarray, shape (n,)
-        Share of the step that a rod spent in contact.
-    reached : int
-        How many rods from the axis on are in contact.
-    front : float
-        Depth g at which the load falls to 0, the edge of the contact [m].
-    force : float
-        Force [N].
-    """
-
-    approach: float
+    approach: float  # [m]
+    # load that keeps each rod in contact, negative for tension [N/m], shape (n,)
     wanted: Array
-    share: Array
-    reached: int
-    front: float
-    force: float
+    share: Array  # of the step that a rod spent in contact, shape (n,)
+    reached: int  # number of rods in contact, from the axis on
+    front: float  # depth g at which the load falls to 0, the edge of the contact [m]
+    force: float  # [N]
 
     @property
     def chi(self) -> Array:
@@ -175,27 +118,11 @@ class Settled:
         return np.maximum(self.wanted, 0.0)
 
 
-def settle(rods: Rods, step: Step, approach: float) -> Settled:
-    """Find which rods are in contact at the end of a step, and their loads.
+def solve_at_approach(rods: Rods, step: Step, approach: float) -> RodState:
+    """Contact state of all rods at the end of a step, at a given approach [m].
 
-    Parameters
-    ----------
-    rods : Rods
-        The rods.
-    step : Step
-        The step.
-    approach : float
-        Approach at its end [m].
-
-    Returns
-    -------
-    Settled
-        The rods at the end of the step.
-
-    Notes
-    -----
-    Loads change evenly over the step, or over its share in contact: a rod that meets the
-    indenter on the way is loaded from there on, one whose load reaches 0 is free from there on.
+    Loads change evenly over the step, or over its share in contact: a rod that meets the indenter
+    within the step is loaded from there on, one whose load reaches 0 is free from there on.
     """
     excess = approach - rods.depths - step.crept
     wanted = step.before + excess / step.compliance
@@ -212,11 +139,11 @@ def settle(rods: Rods, step: Step, approach: float) -> Settled:
     reached = len(wanted) if inside.all() else int(np.argmin(inside))
     front = _front(rods, step, excess, wanted, reached)
     force = rods.load(wanted, reached, front)
-    return Settled(approach, wanted, share, reached, front, force)
+    return RodState(approach, wanted, share, reached, front, force)
 
 
 def _front(rods: Rods, step: Step, excess: Array, wanted: Array, reached: int) -> float:
-    """Find the depth g where the load falls to 0, between the last rod in contact and the next."""
+    """Depth g where the load falls to 0, between the last rod in contact and the next [m]."""
     if reached in (0, len(wanted)):
         return float(rods.depths[-1]) if reached else 0.0
     last, begin, end = reached - 1, rods.depths[reached - 1], rods.depths[reached]
@@ -232,39 +159,21 @@ def _front(rods: Rods, step: Step, excess: Array, wanted: Array, reached: int) -
     return float(np.clip(front, begin, end))
 
 
-def settle_under(rods: Rods, step: Step, force: float, guess: float) -> Settled:
-    """Find the approach at which the rods carry a force.
+def solve_at_force(rods: Rods, step: Step, force: float, guess: float) -> RodState:
+    """Contact state in which the rods carry a force >= 0 [N]; at 0 N they are about to touch.
 
-    Parameters
-    ----------
-    rods : Rods
-        The rods.
-    step : Step
-        The step.
-    force : float
-        The force, 0 or more [N].
-    guess : float
-        Approach to begin with [m].
-
-    Returns
-    -------
-    Settled
-        The rods at the end of the step; under no force they are about to touch.
-
-    Notes
-    -----
-    The force grows with the approach, by 2 a over the compliance: Newton's step with that slope
-    first, then the secant, kept between the bounds found.
+    The force grows with the approach, by 2 a over the compliance: first a Newton step with that
+    slope, then the secant method, bracketed.
     """
     low = step.touching(rods.depths)
     high = np.inf if np.isfinite(rods.profile.edge) else max(low, float(rods.depths[-1]))
     if force == 0:
-        parted = settle(rods, step, low)
+        parted = solve_at_approach(rods, step, low)
         # Rounding would leave a trace of load on the rod that is about to part.
         return replace(
             parted, wanted=np.minimum(parted.wanted, 0.0), reached=0, front=0.0, force=0.0
         )
-    state, last = settle(rods, step, min(max(guess, low), high)), None
+    state, last = solve_at_approach(rods, step, min(max(guess, low), high)), None
     for _ in range(100):
         short = force - state.force
         if abs(short) <= 1e-13 * force or 0 <= high - low <= 4e-16 * abs(low):
@@ -274,12 +183,12 @@ def settle_under(rods: Rods, step: Step, force: float, guess: float) -> Settled:
         onward = state.approach + short / slope if slope > 0 else high
         if not low < onward < high:
             onward = (low + high) / 2
-        last, state = state, settle(rods, step, onward)
+        last, state = state, solve_at_approach(rods, step, onward)
     return state
 
 
-def _slope(rods: Rods, step: Step, state: Settled, last: Settled | None) -> float:
-    """Estimate dF/dw, by the secant where there are two states in contact."""
+def _slope(rods: Rods, step: Step, state: RodState, last: RodState | None) -> float:
+    """Estimate of dF/dw, by the secant where two states are in contact [N/m]."""
     if last is not None and last.force > 0 and state.force != last.force:
         return (state.force - last.force) / (state.approach - last.approach)
     front = float(rods.profile.reach(np.array(state.front)))

@@ -1,4 +1,4 @@
-"""Ting's indentation by one rise and fall of the approach, to check against."""
+"""Ting's solution for one rise and fall of the approach."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _HALVINGS = 50
 
 @dataclass(frozen=True)
 class TingHump:
-    """A round indenter, pressed into a viscoelastic half-space once and drawn out again.
+    """Axisymmetric indenter pressed into a viscoelastic half-space and withdrawn.
 
     Made by `ting_hump`.
 
@@ -54,7 +54,7 @@ class TingHump:
     relaxation_modulus: TimeFunction
 
     def earlier(self, t: ArrayLike) -> Values:
-        """Instant on the way in when the contact was as large as now, Ting's t_1 [s].
+        """Instant during loading with the same contact radius, Ting's t_1 [s].
 
         Parameters
         ----------
@@ -64,7 +64,7 @@ class TingHump:
         Returns
         -------
         float or ndarray
-            t_1, t itself on the way in, 0 after contact is lost [s].
+            t_1, t itself during loading, 0 after contact is lost [s].
 
         Notes
         -----
@@ -133,7 +133,7 @@ class TingHump:
         return (low + high) / 2
 
     def _path_load(self, start: Array, now: Array) -> Array:
-        """Integrate M(now - t') dw(t') from instants on the way in to instants on the way out."""
+        """Integral of M(now - t') dw(t') from the loading instant `start` to `now` [Pa m]."""
         peak = np.full_like(now, self.peak_time)
         way_in = superposed(self.relaxation_modulus, self._at, start, peak, now)
         return way_in + superposed(self.relaxation_modulus, self._at, peak, now, now)
@@ -142,7 +142,7 @@ class TingHump:
         return evaluate(self.approach, instants)
 
     def _swept(self, instants: Array) -> Array:
-        """Integral of a dw up to instants on the way in, s g(s) less the integral of g [m²]."""
+        """Integral of a dw up to instants during loading, s g(s) less the integral of g [m²]."""
         depth = np.maximum(self._at(instants), 0.0)
         s = self.profile.reach(depth)
         return s * depth - self.profile.depth_integral(s)

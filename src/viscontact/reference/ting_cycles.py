@@ -1,4 +1,4 @@
-"""In and out at constant speed again and again on a Maxwell body, dent and all, in closed form."""
+"""Cyclic indentation of a Maxwell body at constant speed, in closed form."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _GAUSS, _WEIGHTS = legendre.leggauss(60)
 
 @dataclass(frozen=True)
 class TingCycles:
-    """A sphere or cone moved into a Maxwell body and out, cycle after cycle, at one speed.
+    """Sphere or cone moved cyclically into a Maxwell body at constant speed.
 
     Made by `ting_cycles`.
 
@@ -30,7 +30,7 @@ class TingCycles:
     peak : float
         Largest approach [m].
     rise : float
-        Time of each way in, and of each way out [s].
+        Duration of each loading, and of each unloading [s].
     modulus : float
         M(0) [Pa].
     relaxation_time : float
@@ -38,7 +38,7 @@ class TingCycles:
 
     Examples
     --------
-    From cycle to cycle the dent is met again later:
+    From cycle to cycle contact begins later, on the residual indentation:
 
     >>> from viscontact.reference.profiles import SphereProfile
     >>> contact = ting_cycles(SphereProfile(0.01), 1e-5, 1.0, 2e9, 1.0)
@@ -138,17 +138,17 @@ class TingCycles:
         return float(2 * half * (self._chi(half * (1 + _GAUSS), now) @ _WEIGHTS))
 
     def _span(self, s: Array, cycle: int) -> tuple[Array, Array]:
-        """Instants when the radius s is touched and lost in a cycle [s]."""
+        """Instants of contact and loss of contact at the radius s in a cycle [s]."""
         b = self.rise
         touched = b * self.profile.depth(s) / self.peak
         lost = self._parted(touched, 0)
         for k in range(1, cycle + 1):
-            touched = 4 * k * b - lost  # as deep on the way in as it was when lost
+            touched = 4 * k * b - lost  # as deep during loading as it was when lost
             lost = self._parted(touched, k)
         return touched, lost
 
     def _parted(self, touched: Array, cycle: int) -> Array:
-        """Instants when radii touched in a cycle are lost again [s]."""
+        """Instants of loss of contact at radii in contact in a cycle [s]."""
         tau, top = self.relaxation_time, (2 * cycle + 1) * self.rise
         lost: Array = top + tau * np.log(2 - np.exp((touched - top) / tau))
         return lost
@@ -183,7 +183,7 @@ class TingCycles:
 def ting_cycles(
     profile: GrowingProfile, peak: float, rise: float, modulus: float, relaxation_time: float
 ) -> TingCycles:
-    """Contact of a sphere or cone moved into a Maxwell body and out again, any number of times.
+    """Contact of a sphere or cone moved cyclically into a Maxwell body at constant speed.
 
     Parameters
     ----------
@@ -192,7 +192,7 @@ def ting_cycles(
     peak : float
         Largest approach [m].
     rise : float
-        Time of each way in, and of each way out [s].
+        Duration of each loading, and of each unloading [s].
     modulus : float
         M(0), the contact modulus at once, 1/J(0) [Pa].
     relaxation_time : float
@@ -210,7 +210,7 @@ def ting_cycles(
 
     Notes
     -----
-    A Maxwell body left alone stays as it is: a radius s of `press_axisymmetric` is touched again
+    An unloaded Maxwell body keeps its shape: a radius s of `press_axisymmetric` is touched again
     at the approach it was lost at. Between, χ = integral of M(t - t') dw(t') from when it was
     touched, so in cycle k, with the peak at b_k, it is lost at
     τ ln(2 exp(b_k/τ) - exp(touched/τ)).
@@ -218,7 +218,7 @@ def ting_cycles(
     References
     ----------
     T. C. T. Ting, J. Appl. Mech. 33 (1966) 845-854, for the first cycle; T. C. T. Ting, J. Appl.
-    Mech. 35 (1968) 248-254, for contacts that come and go. The recursion is in the Notes.
+    Mech. 35 (1968) 248-254, for contacts made and lost repeatedly. The recursion is in the Notes.
 
     Examples
     --------

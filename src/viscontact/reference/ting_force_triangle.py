@@ -1,4 +1,4 @@
-"""A force that rises and falls at a constant rate on a Maxwell body: the contact in closed form."""
+"""Sphere on a Maxwell body under a triangular force history, in closed form."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from viscontact.reference.arguments import Values, require_positive
 
 @dataclass(frozen=True)
 class TingForceTriangle:
-    """A sphere on a Maxwell body under a force that rises and falls at one rate.
+    """Sphere on a Maxwell body under a force that rises and falls at one rate.
 
     Made by `ting_force_triangle`.
 
@@ -70,7 +70,7 @@ class TingForceTriangle:
         return (self.peak / self.rise * np.minimum(times, 2 * self.rise - times))[()]
 
     def earlier(self, t: ArrayLike) -> Values:
-        """Instant when the growing contact was as large as now, Ting's t_1 [s].
+        """Instant of growing contact with the same contact radius, Ting's t_1 [s].
 
         Parameters
         ----------
@@ -141,7 +141,7 @@ class TingForceTriangle:
         return float(np.cbrt(self._cube(np.float64(then)))) ** 2 / self.radius
 
     def _shrunk(self, then: float) -> float:
-        """Approach when the contact is as large again as it was then [m]."""
+        """Approach when the shrinking contact again has the radius of time t [m]."""
         b, tau, rate = self.rise, self.relaxation_time, self.peak / self.rise
 
         def slope(instant: float) -> float:
@@ -206,8 +206,8 @@ def ting_force_triangle(
     Examples
     --------
     >>> contact = ting_force_triangle(10.0, 1.0, 0.01, 2e9, 1.0)
-    >>> print(f"{contact.earlier(1.5):.6f} s, dent left {contact.approach(2.0) * 1e6:.5f} um")
-    0.905795 s, dent left 10.46346 um
+    >>> print(f"{contact.earlier(1.5):.6f} s, residual {contact.approach(2.0) * 1e6:.5f} um")
+    0.905795 s, residual 10.46346 um
     """
     require_positive("N", peak=peak)
     require_positive("s", rise=rise, relaxation_time=relaxation_time)

@@ -1,4 +1,4 @@
-"""In and out at constant speed: Ting's indentation in closed form."""
+"""Ting's solution for a triangular approach history, in closed form."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class TingTriangle:
-    """A sphere or cone moved into a viscoelastic solid and out again, at one constant speed.
+    """Sphere or cone moved into a viscoelastic solid and withdrawn at constant speed.
 
     Made by `ting_triangle`.
 
@@ -29,7 +29,7 @@ class TingTriangle:
     peak : float
         Largest approach [m].
     rise : float
-        Time of the way in, and of the way out [s].
+        Duration of loading, and of unloading [s].
     equilibrium : float
         Equilibrium modulus of M(t) [Pa].
     moduli, times : tuple of float
@@ -37,7 +37,7 @@ class TingTriangle:
 
     Examples
     --------
-    Force at the turn of the stage, and when nothing touches any more:
+    Force at the largest approach, and after contact is lost:
 
     >>> from viscontact.reference.profiles import SphereProfile
     >>> contact = ting_triangle(SphereProfile(0.01), 1e-5, 1.0, 0.0, [2e9], [1.0])
@@ -69,7 +69,7 @@ class TingTriangle:
         return (self.peak / self.rise * np.minimum(times, 2 * self.rise - times))[()]
 
     def earlier(self, t: ArrayLike) -> Values:
-        """Instant on the way in when the contact was as large as now, Ting's t_1 [s].
+        """Instant during loading with the same contact radius, Ting's t_1 [s].
 
         Parameters
         ----------
@@ -79,7 +79,7 @@ class TingTriangle:
         Returns
         -------
         float or ndarray
-            t_1, t itself on the way in, 0 after contact is lost [s].
+            t_1, t itself during loading, 0 after contact is lost [s].
 
         Notes
         -----
@@ -148,7 +148,7 @@ class TingTriangle:
         return float(brentq(lambda start: self._load(now, start), 0.0, self.rise, xtol=1e-300))
 
     def _load(self, now: float, start: float) -> float:
-        """Integrate M(now - t') over time from the start, backwards after the peak [Pa s]."""
+        """Integral of M(now - t') from the start, negative after the peak [Pa s]."""
         peak = self.rise
         load = self.equilibrium * (2 * peak - start - now)
         for modulus, tau in zip(self.moduli, self.times, strict=True):
@@ -165,7 +165,7 @@ def ting_triangle(
     moduli: ArrayLike = (),
     times: ArrayLike = (),
 ) -> TingTriangle:
-    """Contact of a sphere or cone moved into a solid and out again at one constant speed.
+    """Contact of a sphere or cone moved into a solid and withdrawn at constant speed.
 
     Parameters
     ----------
@@ -174,7 +174,7 @@ def ting_triangle(
     peak : float
         Largest approach [m].
     rise : float
-        Time of the way in, and of the way out [s].
+        Duration of loading, and of unloading [s].
     equilibrium : float
         Equilibrium modulus, 0 for a body that flows [Pa].
     moduli, times : array_like, optional

@@ -1,9 +1,9 @@
-"""Wavy surfaces pressed flat: Westergaard's waves, and full contact of crossed ones.
+"""Periodic contact of wavy surfaces: Westergaard's straight waves, full contact of crossed waves.
 
-On a creeping body under a pressure put on at once the contact grows: its width and the approach
+On a creeping body under a suddenly applied pressure the contact grows: its width and the approach
 are those of the elastic solution with 1/J(t) in place of the contact modulus E*, and it is full as
 soon as that solution's is (Lee & Radok 1960, J. Appl. Mech. 27, 438). Its pressure is not the
-elastic one of that instant, but tends to it where J comes to rest.
+elastic one of that instant, but tends to it where J becomes constant.
 """
 
 from __future__ import annotations
@@ -145,7 +145,7 @@ def full_contact_pressure(
     wavelength_x: float = math.inf,
     wavelength_y: float = math.inf,
 ) -> float:
-    """Mean pressure that presses waves flat, Δ cos(2π x/λ_x) cos(2π y/λ_y), straight or crossed.
+    """Mean pressure of full contact with waves Δ cos(2π x/λ_x) cos(2π y/λ_y), straight or crossed.
 
     Parameters
     ----------

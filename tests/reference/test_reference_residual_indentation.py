@@ -1,4 +1,4 @@
-"""Surfaces and pressures of indentations: the integral they solve, and the dents they leave."""
+"""Pressure, displacement and residual indentation of `press_axisymmetric`."""
 
 import itertools
 import math
@@ -20,11 +20,11 @@ BROAD = series(1 / 2e9, [1 / 2e9, 1 / 1e9], [0.2, 3.0])[0]
 # What no formula knows: the integral itself.
 
 
-def test_pressures_of_two_cycles_displace_the_surface_as_boltzmann_and_the_kernel_say():
+def test_pressures_of_two_cycles_give_the_displacement_by_superposition():
     """u = integral of J d(Kp): rings of the pressure, weighted by 4 r K(k)/(pi (r + rho)).
 
-    Under the indenter it is w - f(r), outside it leaves the gap open; inside the first dent it
-    is what has not recovered yet.
+    Under the indenter it is w - f(r), outside it leaves the gap open; inside the first indentation
+    it is the part that has not recovered yet.
     """
     t = np.linspace(0, 2.8, 141)
     load = 5 * np.maximum(np.sin(math.pi * t / 1.2), 0) * np.where(t > 1.2, 1.4, 1.0)
@@ -72,11 +72,11 @@ def test_pressure_integrates_to_the_force_after_a_hold_and_a_partial_release():
         assert total == pytest.approx(contact.force[-1], rel=1e-4)
 
 
-# The dent.
+# The residual indentation.
 
 
 @pytest.mark.parametrize("profile", [SPHERE, CONE, PUNCH], ids=["sphere", "cone", "punch"])
-def test_dent_of_a_zener_body_fades_with_its_retardation_time(profile):
+def test_residual_indentation_of_a_zener_body_fades_with_its_retardation_time(profile):
     t = np.append(np.linspace(0, 2, 81), [3.0, 5.0])
     load = np.interp(t, [0, 1, 2], [0, 1e-5, -1e-5])
     contact = reference.press_axisymmetric(profile, t, approach=load, creep_compliance=ZENER)
@@ -87,7 +87,7 @@ def test_dent_of_a_zener_body_fades_with_its_retardation_time(profile):
     assert np.all(early > 0)
 
 
-def test_dent_of_a_maxwell_body_stays():
+def test_residual_indentation_of_a_maxwell_body_is_permanent():
     t = np.append(np.linspace(0, 2, 201), [3.0, 50.0])
     contact = reference.press_axisymmetric(
         SPHERE, t, approach=np.interp(t, [0, 1, 2], [0, 1e-5, 0]), creep_compliance=MAXWELL
@@ -95,12 +95,12 @@ def test_dent_of_a_maxwell_body_stays():
     r = np.linspace(0, 6e-4, 13)
     early, late = contact.displacement(r, 2.0), contact.displacement(r, 50.0)
     np.testing.assert_allclose(late, early, rtol=1e-9)
-    # Where the indenter lifted off last it left its own depth.
+    # Where the indenter lost contact last it left its own depth.
     lost = float(np.interp(contact.lost[0], t, contact.approach))
     assert late[0] == pytest.approx(lost, rel=1e-4)
 
 
-def test_dent_is_that_of_a_point_load_from_far():
+def test_far_displacement_is_that_of_a_point_load():
     """pi r u = integral of J dF (Boussinesq)."""
     t = np.linspace(0, 3, 121)
     load = 5 * np.maximum(np.sin(math.pi * t / 2), 0)
@@ -110,7 +110,7 @@ def test_dent_is_that_of_a_point_load_from_far():
     assert math.pi * 2.0 * contact.displacement(2.0, 3.0) == pytest.approx(crept, rel=1e-3)
 
 
-def test_body_without_force_rests_on_the_dent():
+def test_body_without_force_touches_the_deformed_surface():
     t = np.linspace(0, 4, 161)
     load = np.interp(t, [0, 1, 2, 3, 4], [0, 5, 0, 0, 8])
     contact = reference.press_axisymmetric(SPHERE, t, force=load, creep_compliance=ZENER)
