@@ -20,7 +20,7 @@ import viscontact
 from viscontact.case.sections import case_schema
 from viscontact.materials.library.entry import Entry, entry, names
 from viscontact.results.variables import COORDINATES, FIELDS, SCALARS, Variable
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 ROOT = Path(__file__).parents[2]
 
@@ -58,7 +58,7 @@ def _library() -> str:
 
 def _material(shipped: Entry) -> Iterator[str]:
     yield from (f"(material-{shipped.name})=", f"## {shipped.name}", "", f"{shipped.title}.", "")
-    first, last = (in_words(time, "s") for time in shipped.measured)
+    first, last = (format_quantity(time, "s") for time in shipped.measured)
     told = {
         "family": shipped.family,
         "measured": f"{shipped.test}, temperature: {shipped.temperature}",

@@ -25,12 +25,12 @@ from viscontact.cli.results import figures
 from viscontact.cli.run import execution
 from viscontact.cli.terminal import progress
 from viscontact.errors import ConvergenceError
+from viscontact.results.formatting import format_percent
 from viscontact.runs import resources
 from viscontact.runs.directory.step_log import StepLog
 from viscontact.simulation import stepper
 from viscontact.simulation.setup import prepare_run
-from viscontact.units.error_digits import in_percent
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 SPHERE = """\
 title: Zener sphere
@@ -319,7 +319,7 @@ def test_adaptive_run_keeps_every_step_and_goes_to_the_end(
         assert 5 < count < 60
         largest = float(ds.time_error.max())
     assert 0 < largest <= 0.01
-    told = f"error owed to the time steps: at most {in_percent(largest)} of the pressure"
+    told = f"error owed to the time steps: at most {format_percent(largest)} of the pressure"
     assert told in printed.out
     assert main(["show", "case"]) == 0
     shown = capsys.readouterr().out
@@ -342,7 +342,7 @@ def test_interrupted_adaptive_run_says_how_far_it_came_in_time(
     message = capsys.readouterr().err
     with vc.open_results("case") as ds:
         assert ds.sizes["time"] == 3
-        reached = f"3 instants, up to t = {in_words(float(ds.time[-1]), 's')} of 5 s"
+        reached = f"3 instants, up to t = {format_quantity(float(ds.time[-1]), 's')} of 5 s"
     assert f"case keeps {reached}" in message
     assert main(["show", "case"]) == 0
     assert f"the run stopped at {reached}" in capsys.readouterr().out
@@ -575,7 +575,7 @@ def test_show_tells_the_loss_per_cycle_and_a_memory_that_is_not_exact(
     printed = capsys.readouterr().out
     with vc.open_results("case") as ds:
         # 6 steps of 5 s do not end with a cycle; the last whole one stands until the next is over
-        first, last = (in_words(float(ds.loss_per_cycle[k]), "J") for k in (2, -1))
+        first, last = (format_quantity(float(ds.loss_per_cycle[k]), "J") for k in (2, -1))
         assert ds.attrs["memory"].startswith("recursion, exact")
     assert f"loss per cycle: {first} in the first cycle, {last} in the last" in printed
     assert "memory" not in printed

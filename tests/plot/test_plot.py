@@ -21,7 +21,7 @@ from viscontact.laws import CreepSeries, Maxwell
 from viscontact.plot import COMPARISONS, FIGURES, creep_curve, save_figure
 from viscontact.plot.pressure.rim_polygons import rim_curves
 from viscontact.results.snapshots import take_snapshots
-from viscontact.units.axis_units import display_unit
+from viscontact.units.formatting import readable_unit
 
 
 @pytest.fixture(scope="module")
@@ -292,7 +292,7 @@ def test_radial_lines_are_the_hereditary_integral(sphere: xr.Dataset) -> None:
     """Table 1's Maxwell row, here by the trapezoidal rule, good to some 1e-4 of the peak."""
     above, below = FIGURES["pressure-radial"](sphere, times=[100.0]).axes
     exact, computed = above.get_lines()
-    r = np.asarray(exact.get_xdata()) * display_unit("m", sphere["x"].max()).factor
+    r = np.asarray(exact.get_xdata()) * readable_unit("m", sphere["x"].max()).factor
     expected = maxwell_pressure(r, 100.0) / 1e6
     assert np.abs(exact.get_ydata() - expected).max() < 3e-4 * expected.max()
     difference = below.get_lines()[-1].get_ydata()

@@ -14,7 +14,7 @@ from viscontact.plot import FIGURES, save_figure
 from viscontact.plot.layout.window import window_around
 from viscontact.plot.pressure.rim_polygons import rim_curves, rim_polygons
 from viscontact.results.snapshots import Snapshot, take_snapshots
-from viscontact.units.axis_units import display_unit, time_labels
+from viscontact.units.formatting import readable_unit, time_labels
 
 
 @pytest.fixture(scope="module")
@@ -163,7 +163,7 @@ def test_outline_of_a_flat_punch_is_its_own() -> None:
     ],
 )
 def test_axes_get_the_unit_that_reads_best(unit: str, largest: float, symbol: str) -> None:
-    chosen = display_unit(unit, [0.0, -largest, np.nan])
+    chosen = readable_unit(unit, [0.0, -largest, np.nan])
     assert chosen.symbol == symbol
     assert float(chosen(largest)) * chosen.factor == pytest.approx(largest)
 

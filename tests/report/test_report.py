@@ -31,8 +31,8 @@ from viscontact.report.map_data import map_data, section_csv, strides_of
 from viscontact.report.recorded_surface import recorded_surface
 from viscontact.report.run_data import run_data
 from viscontact.report.shown_fields import shown_fields
-from viscontact.results.formatting import headline
 from viscontact.results.snapshots import take_snapshots
+from viscontact.results.summary import headline
 
 TIMES = (0.0, 1.0, 10.0, 100.0, 300.0)
 _MARKUP = "</title></script><script>alert(1)</script><img src=x onerror=alert(2)>"

@@ -29,10 +29,9 @@ from viscontact.cli.run.summary import print_summary
 from viscontact.plot import COMPARISONS, FIGURES
 from viscontact.report import report_page
 from viscontact.report.accuracy import error_rows
-from viscontact.results.formatting import headline
-from viscontact.results.summary import summary_rows
+from viscontact.results.formatting import format_error, format_percent, format_supported
+from viscontact.results.summary import headline, summary_rows
 from viscontact.results.variables import SCALARS
-from viscontact.units.error_digits import in_error_digits, in_percent, in_supported_digits
 
 CASE = """\
 indenter: {shape: sphere, radius: 10 mm}
@@ -112,7 +111,7 @@ def test_no_digit_is_printed_beyond_the_second_of_the_error(
     size: float, part: float, sign: int, digits: int
 ) -> None:
     value, error = sign * size, part * size
-    printed = in_supported_digits(value, error, digits)
+    printed = format_supported(value, error, digits)
     if printed == "0":
         assert abs(value) < error
         return
@@ -127,11 +126,11 @@ def test_no_digit_is_printed_beyond_the_second_of_the_error(
 
 
 def test_marks_of_errors_are_told_apart() -> None:
-    assert in_supported_digits(152.234, math.inf) == ">152.2"
-    assert in_supported_digits(152.234, math.nan) == "152.2"
-    assert in_supported_digits(math.nan, math.inf) == "-"
-    assert [in_error_digits(each) for each in (math.nan, 0.0, 0.0312)] == ["±?", "±0", "±0.031"]
-    assert [in_percent(each) for each in (0.0, 9e-5, 0.0996)] == ["0 %", "<0.01 %", "10 %"]
+    assert format_supported(152.234, math.inf) == ">152.2"
+    assert format_supported(152.234, math.nan) == "152.2"
+    assert format_supported(math.nan, math.inf) == "-"
+    assert [format_error(each) for each in (math.nan, 0.0, 0.0312)] == ["±?", "±0", "±0.031"]
+    assert [format_percent(each) for each in (0.0, 9e-5, 0.0996)] == ["0 %", "<0.01 %", "10 %"]
 
 
 # --- tables -----------------------------------------------------------------------------------

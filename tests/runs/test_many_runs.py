@@ -23,12 +23,12 @@ from interrupted_runs import BODIES
 from viscontact.cli import main
 from viscontact.cli.many import jobs
 from viscontact.cli.many.variations import variations
+from viscontact.results.formatting import format_percent
 from viscontact.results.stated_errors import largest_error
 from viscontact.runs import many
 from viscontact.runs.directory.lock import DirectoryInUse, locked
 from viscontact.runs.processes.job import Job, Standing
 from viscontact.runs.processes.request import RunRequest
-from viscontact.units.error_digits import in_percent
 
 PAGE = (Path(__file__).parents[2] / "docs" / "many-runs.md").read_text(encoding="utf-8")
 CASE = (
@@ -80,7 +80,7 @@ def test_runs_at_once_end_in_the_bits_of_runs_alone(
             assert f"{float(ds.peak_pressure.max()) / 1e6:.3f}" in printed.out
             told = ("force", "approach", "contact_area", "peak_pressure")
             parts = [found.part for each in told if (found := largest_error(ds, each))]
-            assert in_percent(max(parts)) in printed.out
+            assert format_percent(max(parts)) in printed.out
     # what is finished is not run again
     assert command("## What can go wrong") == [*command("## Values"), "--resume"]
     times = {name: Path(name, "result.nc").stat().st_mtime_ns for name in ("zener", "maxwell")}

@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 import viscontact
 from viscontact.results.rounding import is_rounding_tilt
 from viscontact.units.dimensions import DIMENSIONS
-from viscontact.units.formatting import in_digits, in_words, readable_unit
+from viscontact.units.formatting import format_number, format_quantity, readable_unit
 from viscontact.units.parsing import parse_quantity
 
 
@@ -132,13 +132,13 @@ def test_any_text_is_a_finite_number_or_a_value_error(text: str, dimension: str)
     ],
 )
 def test_si_number_in_words(value: float, unit: str, words: str) -> None:
-    assert in_words(value, unit) == words
+    assert format_quantity(value, unit) == words
 
 
 def test_values_that_differ_by_rounding_print_alike() -> None:
     apart = (4.7825 * (1 - 1e-12), 4.7825 * (1 + 1e-12))
     assert len({f"{value:.4g}" for value in apart}) == 2
-    assert len({in_digits(value) for value in apart}) == 1
+    assert len({format_number(value) for value in apart}) == 1
 
 
 @given(
@@ -146,8 +146,8 @@ def test_values_that_differ_by_rounding_print_alike() -> None:
     unit=st.sampled_from(["m", "m2", "N", "Pa", "J", "rad"]),
 )
 def test_readable_unit_and_number_give_the_value_back(value: float, unit: str) -> None:
-    readable = readable_unit(value, unit)
-    printed = float(in_digits(value / readable.factor, 6))
+    readable = readable_unit(unit, value)
+    printed = float(format_number(value / readable.factor, 6))
     # six digits printed: half of the sixth is lost
     assert printed * readable.factor == pytest.approx(value, rel=5.1e-6)
 

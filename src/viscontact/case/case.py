@@ -19,7 +19,7 @@ from viscontact.indenters import Indenter
 from viscontact.loads import LoadHistory
 from viscontact.materials.material import Material
 from viscontact.time_integration.requested_times import AdaptiveTimes
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 # What a run writes beside its case; names that begin with a dot are its own, too.
 _RUN_NAMES = ("case.yaml", "result.nc", "progress.jsonl", "state.npz", "steps.log")
@@ -140,7 +140,8 @@ class Case(ShownWhole):
 def _steps_told(times: NDArray[np.float64] | AdaptiveTimes) -> str:
     if isinstance(times, AdaptiveTimes):
         return (
-            f"chosen by their error, {times.tolerance:g} at most, up to {in_words(times.end, 's')}"
+            f"chosen by their error, {times.tolerance:g} at most, up to "
+            f"{format_quantity(times.end, 's')}"
         )
-    first, last = (in_words(float(instant), "s") for instant in times[[0, -1]])
+    first, last = (format_quantity(float(instant), "s") for instant in times[[0, -1]])
     return f"{times.size}, from {first} to {last}"

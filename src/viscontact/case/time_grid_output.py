@@ -25,7 +25,7 @@ from viscontact.time_integration.requested_times import (
     log_times,
     uniform_times,
 )
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 #: Without `first`, steps in log time begin at this part of the end.
 FIRST_OF_END = 1e-3
@@ -208,8 +208,8 @@ def kept_fields(
     late = [instant for instant in output.fields if instant > end * (1 + 1e-9)]
     if late:
         raise ValueError(
-            f"the instant {in_words(late[0], 's', 6)} lies after the end of the run, "
-            f"{in_words(end, 's', 6)}"
+            f"the instant {format_quantity(late[0], 's', 6)} lies after the end of the run, "
+            f"{format_quantity(end, 's', 6)}"
         )
     return tuple(sorted({min(instant, end) for instant in output.fields}))
 

@@ -15,7 +15,7 @@ from viscontact.loads.arguments import TAIL
 from viscontact.loads.largest_load import largest_load
 from viscontact.materials.compliance import ContactCompliance
 from viscontact.materials.material import Material
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import as_real
 
 #: Instants at which a law is looked at before it is used, and a fall that is not rounding or the
@@ -75,8 +75,8 @@ def check_creep(compliance: ContactCompliance, times: NDArray[np.float64]) -> No
     if wrong.any():
         raise ValueError(
             f"material: its law gives a contact compliance of {values[wrong][0]:.4g} /Pa at t = "
-            f"{in_words(instants[wrong][0], 's')}; creep is a number, not negative, and never "
-            "falls. Mend the law"
+            f"{format_quantity(instants[wrong][0], 's')}; creep is a number, not negative, and "
+            "never falls. Mend the law"
         )
 
 
@@ -85,9 +85,9 @@ def check_jumps(compliance: ContactCompliance, load: LoadHistory, end: float) ->
     jumps = [jump for jump in load.jumps if jump <= end]
     if jumps and compliance.instant == 0:
         raise ValueError(
-            f"load: the load jumps at t = {in_words(jumps[0], 's', 6)} but the law has no instant "
-            "compliance, so the surface could not follow; use a ramp, or give the law an instant "
-            "compliance"
+            f"load: the load jumps at t = {format_quantity(jumps[0], 's', 6)} but the law has no "
+            "instant compliance, so the surface could not follow; use a ramp, or give the law an "
+            "instant compliance"
         )
 
 
@@ -101,10 +101,10 @@ def check_touch(
     slopes = (point.tilt_x or 0.0) * grid.x[:, None], (point.tilt_y or 0.0) * grid.y[None, :]
     if (open_gap < point.approach + slopes[0] + slopes[1]).any():
         raise ValueError(
-            f"load: tilted by {in_words(point.tilt_x or 0.0, 'rad', 6)} along x and "
-            f"{in_words(point.tilt_y or 0.0, 'rad', 6)} along y the stage presses from time 0 on, "
-            "but the law has no instant compliance, so the surface could not follow; begin with a "
-            "smaller approach, or give the law an instant compliance"
+            f"load: tilted by {format_quantity(point.tilt_x or 0.0, 'rad', 6)} along x and "
+            f"{format_quantity(point.tilt_y or 0.0, 'rad', 6)} along y the stage presses from time "
+            "0 on, but the law has no instant compliance, so the surface could not follow; begin "
+            "with a smaller approach, or give the law an instant compliance"
         )
 
 

@@ -14,7 +14,7 @@ from viscontact.checks.singularities import is_sharp, touches_end
 from viscontact.contact.rim import Rim
 from viscontact.grid import Grid
 from viscontact.indenters import Indenter
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 #: Small-strain theory is doubtful beyond these: slope, contact half width / R, approach / R, and
 #: for a body without a radius approach / half width, which a cone of that slope has at 0.47.
@@ -212,8 +212,8 @@ def body_doubts(geometry: Geometry, rim: Rim) -> dict[str, str]:
     if half_width > THIN_BODY * geometry.thickness:
         doubts["thickness"] = (
             f"the contact's half width {be} {half_width / geometry.thickness:.2g} of the body's "
-            f"thickness of {in_words(geometry.thickness, 'm', 3)}; half-space theory is meant for "
-            f"less than {THIN_BODY:g}, beyond it what the body rests on counts"
+            f"thickness of {format_quantity(geometry.thickness, 'm', 3)}; half-space theory is "
+            f"meant for less than {THIN_BODY:g}, beyond it what the body rests on counts"
         )
     return doubts
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.grid import Grid
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 
 class Reach:
@@ -63,17 +63,19 @@ class Reach:
         for name, eccentricity, (first, last) in zip("xy", where, self._spans, strict=True):
             if eccentricity is not None and not first <= eccentricity <= last:
                 raise ValueError(
-                    f"load.eccentricity_{name}: the force acts at {in_words(eccentricity, 'm', 6)} "
-                    f"at t = {in_words(time, 's', 6)}, outside what can touch "
-                    f"({in_words(first, 'm', 6)} to {in_words(last, 'm', 6)} along {name}): no "
-                    "pressure can balance it; move the force in, or enlarge the body or the grid"
+                    f"load.eccentricity_{name}: the force acts at "
+                    f"{format_quantity(eccentricity, 'm', 6)} at t = "
+                    f"{format_quantity(time, 's', 6)}, outside what can touch "
+                    f"({format_quantity(first, 'm', 6)} to {format_quantity(last, 'm', 6)} along "
+                    f"{name}): no pressure can balance it; move the force in, or enlarge the body "
+                    "or the grid"
                 )
         x, y = where
         if x is not None and y is not None and not self._holds(x, y):
             raise ValueError(
-                f"load.eccentricity_x: the force acts at ({in_words(x, 'm', 6)}, "
-                f"{in_words(y, 'm', 6)}) at t = {in_words(time, 's', 6)}, outside the hull of what "
-                "can touch: no pressure can balance it; move the force in"
+                f"load.eccentricity_x: the force acts at ({format_quantity(x, 'm', 6)}, "
+                f"{format_quantity(y, 'm', 6)}) at t = {format_quantity(time, 's', 6)}, outside "
+                "the hull of what can touch: no pressure can balance it; move the force in"
             )
 
     @cached_property

@@ -6,7 +6,7 @@ import numpy as np
 
 from viscontact.laws import Law, TabulatedCreep, TabulatedRelaxation
 from viscontact.loads import LoadHistory
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 #: A table's loss modulus may fall below zero by this part of the modulus, at so many frequencies.
 NEGATIVE_LOSS, FREQUENCIES = 0.02, 25
@@ -42,8 +42,8 @@ def data_doubts(time: float, measured_until: float) -> dict[str, str]:
         return {}
     return {
         "data": (
-            f"the run goes beyond {in_words(measured_until, 's')}, where the material's data end; "
-            "from there on its law is an extrapolation"
+            f"the run goes beyond {format_quantity(measured_until, 's')}, where the material's "
+            "data end; from there on its law is an extrapolation"
         )
     }
 
@@ -84,10 +84,10 @@ def early_doubts(
         return {}
     return {
         "early": (
-            f"at t = {in_words(time, 's')} {came / load.largest_level:.0%} of the load has come "
-            f"within less than {in_words(measured_from, 's')}, where the material's data begin; "
-            "before that its law is an extrapolation. Give the data an earlier row, or load more "
-            "slowly"
+            f"at t = {format_quantity(time, 's')} {came / load.largest_level:.0%} of the load has "
+            f"come within less than {format_quantity(measured_from, 's')}, where the material's "
+            "data begin; before that its law is an extrapolation. Give the data an earlier row, or "
+            "load more slowly"
         )
     }
 

@@ -13,7 +13,7 @@ from viscontact.grid import Grid
 from viscontact.indenters import CombinedIndenter, HeightMap, Indenter, PlacedIndenter
 from viscontact.loads import LoadHistory
 from viscontact.loads.arguments import TAIL
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 #: Lengths that agree to this part of the period are one, however they were written down.
 SAME = 1e-6
@@ -68,9 +68,9 @@ def check_period(
     mean = float(open_gap.mean())
     if load.control == "approach" and load.largest_level >= mean:
         raise ValueError(
-            f"load.approach: at {in_words(mean, 'm', 6)} the surfaces of a periodic grid touch "
-            "everywhere, and an approach says no more about the pressure, got "
-            f"{in_words(load.largest_level, 'm', 6)}; prescribe the force"
+            f"load.approach: at {format_quantity(mean, 'm', 6)} the surfaces of a periodic grid "
+            "touch everywhere, and an approach says no more about the pressure, got "
+            f"{format_quantity(load.largest_level, 'm', 6)}; prescribe the force"
         )
 
 
@@ -111,8 +111,8 @@ def _refuse_map(
     if not any(math.isclose(period, each, rel_tol=SAME) for each in (span, whole)):
         raise ValueError(
             f"grid.size: one period along {axis} must be as long as the height map, which repeats "
-            f"itself over {in_words(whole, 'm', 9)} there ({lines.size} points), got "
-            f"{in_words(period, 'm', 9)}"
+            f"itself over {format_quantity(whole, 'm', 9)} there ({lines.size} points), got "
+            f"{format_quantity(period, 'm', 9)}"
         )
     slack = SAME * period
     if centres[0] < lines[0] - slack or centres[-1] > lines[-1] + slack:
@@ -130,6 +130,7 @@ def _refuse_texture(part: Indenter, grid: Grid) -> None:
         there = part.gap(grid.x[:, None] + shift[0], grid.y[None, :] + shift[1])
         if float(np.abs(there - here).max()) > REPEATED * float(here.max()):
             raise ValueError(
-                f"grid.size: the body does not repeat itself over {in_words(period, 'm', 9)} along "
-                f"{name}; one period must hold a whole number of its waves or dimples"
+                "grid.size: the body does not repeat itself over "
+                f"{format_quantity(period, 'm', 9)} along {name}; one period must hold a whole "
+                "number of its waves or dimples"
             )

@@ -15,7 +15,7 @@ from viscontact.contact.rim import Rim
 from viscontact.grid import Grid
 from viscontact.indenters import Indenter
 from viscontact.indenters.textures import CELLS_OF_A_WAVE
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 #: What may stand out from one point of the grid to the next, as a slope, over the mean strain
 #: of the contact (approach / half width). Flattening a wave of amplitude h and length l takes a
@@ -154,8 +154,8 @@ def map_doubts(missed: float, cell: float, strain: float) -> dict[str, str]:
     return {
         "map": (
             "from one of the grid's points to the next the height map stands out by "
-            f"{in_words(missed, 'm', 3)}: peaks of pressure there depend on the mesh; use smaller "
-            "cells, and a map that is smooth over several of them"
+            f"{format_quantity(missed, 'm', 3)}: peaks of pressure there depend on the mesh; use "
+            "smaller cells, and a map that is smooth over several of them"
         )
     }
 
@@ -228,7 +228,7 @@ def texture_doubts(period: float, cell: float) -> dict[str, str]:
         return {}
     return {
         "texture": (
-            f"the body repeats itself over {in_words(period, 'm', 3)}, which are "
+            f"the body repeats itself over {format_quantity(period, 'm', 3)}, which are "
             f"{period / cell:.2g} of the grid's cells; {CELLS_OF_A_WAVE} or more are wanted, or "
             "what lies between its points is missed: use smaller cells"
         )

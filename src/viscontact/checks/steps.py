@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 #: The largest pressure may exceed the largest that is told by this part.
 UNTOLD = 0.1
@@ -37,8 +37,9 @@ def step_doubts(duration: float, change: float) -> dict[str, str]:
         return {}
     return {
         "step": (
-            f"a time step of {in_words(duration, 's', 3)} is long against the law's relaxation "
-            f"times while force or peak pressure change by {change:.0%}; use more steps there"
+            f"a time step of {format_quantity(duration, 's', 3)} is long against the law's "
+            f"relaxation times while force or peak pressure change by {change:.0%}; use more steps "
+            "there"
         )
     }
 
@@ -71,8 +72,8 @@ def touch_doubts(duration: float, share: float) -> dict[str, str]:
     return {
         "touch": (
             f"the load grows from nothing to {share:.0%} of its largest in a single step of "
-            f"{in_words(duration, 's', 3)}; use several steps there, as the pressure starts with a "
-            "root of time"
+            f"{format_quantity(duration, 's', 3)}; use several steps there, as the pressure starts "
+            "with a root of time"
         )
     }
 
@@ -105,8 +106,8 @@ def release_doubts(duration: float, share: float) -> dict[str, str]:
     return {
         "release": (
             f"the contact is lost as the load falls by {share:.0%} of its largest in a single step "
-            f"of {in_words(duration, 's', 3)}; use several steps there, as the dent that stays "
-            "depends on them"
+            f"of {format_quantity(duration, 's', 3)}; use several steps there, as the dent that "
+            "stays depends on them"
         )
     }
 
@@ -137,9 +138,10 @@ def untold_doubts(peak: float, time: float, told: float) -> dict[str, str]:
         return {}
     return {
         "untold": (
-            f"between the instants asked for the peak pressure reaches {in_words(peak, 'Pa')}, at "
-            f"t = {in_words(time, 's', 6)}, and {in_words(told, 'Pa')} is the largest that the "
-            "result tells; ask for an instant there, or for more steps"
+            "between the instants asked for the peak pressure reaches "
+            f"{format_quantity(peak, 'Pa')}, at t = {format_quantity(time, 's', 6)}, and "
+            f"{format_quantity(told, 'Pa')} is the largest that the result tells; ask for an "
+            "instant there, or for more steps"
         )
     }
 

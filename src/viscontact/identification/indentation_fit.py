@@ -11,7 +11,7 @@ from viscontact.display import Shown
 from viscontact.identification.record import IndentationRecord
 from viscontact.laws import Law
 from viscontact.materials.material import Material
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 Array = NDArray[np.float64]
 
@@ -93,8 +93,8 @@ class IndentationFit(Shown):
     def __repr__(self) -> str:
         lines = [
             f"IndentationFit: {type(self.law).__name__} to {self.measured.size} rows over "
-            f"{in_words(np.ptp(self.record.times), 's')}, residual {self.residual:.2e} of the "
-            f"largest {'force' if self.given == 'approach' else 'approach'}"
+            f"{format_quantity(np.ptp(self.record.times), 's')}, residual {self.residual:.2e} of "
+            f"the largest {'force' if self.given == 'approach' else 'approach'}"
         ]
         for (name, value), unit in zip(self.parameters.items(), self.units, strict=True):
             low, high = self.intervals[name]

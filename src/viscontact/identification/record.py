@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from viscontact.display import Shown
 from viscontact.indenters import Cone, FlatPunch, Indenter, Sphere
 from viscontact.reference import ConeProfile, PunchProfile, SphereProfile
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 Array = NDArray[np.float64]
 
@@ -69,8 +69,8 @@ class IndentationRecord(Shown):
             row = int(back[0]) + 1
             raise ValueError(
                 f"IndentationRecord: times, row {row}: must not be before the row above, got "
-                f"{in_words(columns['times'][row], 's', 6)} after "
-                f"{in_words(columns['times'][row - 1], 's', 6)}"
+                f"{format_quantity(columns['times'][row], 's', 6)} after "
+                f"{format_quantity(columns['times'][row - 1], 's', 6)}"
             )
         if not (columns["approach"].max() > 0 and columns["force"].max() > 0):
             raise ValueError(

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact.indenters.arc import arc_drop
 from viscontact.indenters.arguments import acute_angle, length_or_zero, positive_length
 from viscontact.indenters.profile import Profile
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 
 @dataclass(frozen=True)
@@ -57,10 +57,12 @@ class Chamfer(Profile):
         object.__setattr__(self, "corner_radius", corner)
         object.__setattr__(self, "angle", acute_angle("Chamfer: angle", self.angle))
         if self._tangent * math.cos(self.angle) > self.length:
+            largest = self.length / math.cos(self.angle) / math.tan(self.angle / 2)
             raise ValueError(
-                f"Chamfer: corner_radius of {in_words(self.corner_radius, 'm', 9)} leaves nothing "
-                f"of a chamfer of length {in_words(self.length, 'm', 9)}; make it smaller than "
-                f"{in_words(self.length / math.cos(self.angle) / math.tan(self.angle / 2), 'm', 3)}"
+                f"Chamfer: corner_radius of {format_quantity(self.corner_radius, 'm', 9)} leaves "
+                f"nothing of a chamfer of length {format_quantity(self.length, 'm', 9)}; make it "
+                "smaller than "
+                f"{format_quantity(largest, 'm', 3)}"
             )
 
     @property
@@ -86,7 +88,7 @@ class Chamfer(Profile):
         """Raise ValueError if the chamfers leave no straight part."""
         if self.length + self._tangent >= half_length:
             raise ValueError(
-                f"Chamfer: length of {in_words(self.length, 'm', 9)}, with the rounding, leaves no "
-                f"straight part of a half length of {in_words(half_length, 'm', 9)}; make the "
-                "chamfer shorter"
+                f"Chamfer: length of {format_quantity(self.length, 'm', 9)}, with the rounding, "
+                "leaves no straight part of a half length of "
+                f"{format_quantity(half_length, 'm', 9)}; make the chamfer shorter"
             )

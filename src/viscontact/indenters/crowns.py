@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact.indenters.arc import arc_drop
 from viscontact.indenters.arguments import positive_length
 from viscontact.indenters.profile import Profile
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 
 @dataclass(frozen=True)
@@ -177,8 +177,8 @@ class TwoRadiiCrown(Profile):
         if self.crown_length >= self.crown_radius:
             raise ValueError(
                 "TwoRadiiCrown: crown_length must be smaller than crown_radius, where the arc "
-                f"ends, got {in_words(self.crown_length, 'm', 9)} and "
-                f"{in_words(self.crown_radius, 'm', 9)}"
+                f"ends, got {format_quantity(self.crown_length, 'm', 9)} and "
+                f"{format_quantity(self.crown_radius, 'm', 9)}"
             )
         if self.end_length is not None:
             _set_lengths(self, "end_length")
@@ -216,5 +216,5 @@ def _require_beyond(noun: str, name: str, end: float | None, half_length: float)
     if end is not None and end < half_length:
         raise ValueError(
             f"{noun}: {name} must be at least the half length of the straight part, "
-            f"{in_words(half_length, 'm', 9)}, got {in_words(end, 'm', 9)}"
+            f"{format_quantity(half_length, 'm', 9)}, got {format_quantity(end, 'm', 9)}"
         )

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.indenters.arguments import positions
 from viscontact.indenters.indenter import Indenter
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 #: Squares of gaps are still numbers that the solver can compare [m].
 _HIGHEST = 1e30
@@ -138,9 +138,9 @@ def _mesh_lines(name: str, values: ArrayLike) -> NDArray[np.float64]:
     if falls.size:
         i = int(falls[0])
         raise ValueError(
-            f"HeightMap: {name} must increase strictly, got {in_words(lines[i], 'm', 9)} followed "
-            f"by {in_words(lines[i + 1], 'm', 9)} at index {i + 1}; sort the coordinates, and "
-            "height with them"
+            f"HeightMap: {name} must increase strictly, got {format_quantity(lines[i], 'm', 9)} "
+            f"followed by {format_quantity(lines[i + 1], 'm', 9)} at index {i + 1}; sort the "
+            "coordinates, and height with them"
         )
     return lines
 
@@ -159,8 +159,9 @@ def _heights(values: ArrayLike, shape: tuple[int, int], holes: bool) -> NDArray[
     _require_finite("height", known)
     if np.abs(known).max() > _HIGHEST:
         raise ValueError(
-            f"HeightMap: height must be within {in_words(_HIGHEST, 'm', 6)} of its reference, got "
-            f"{in_words(known.flat[np.abs(known).argmax()], 'm', 6)}; is it in metres?"
+            f"HeightMap: height must be within {format_quantity(_HIGHEST, 'm', 6)} of its "
+            f"reference, got {format_quantity(known.flat[np.abs(known).argmax()], 'm', 6)}; is it "
+            "in metres?"
         )
     return height
 

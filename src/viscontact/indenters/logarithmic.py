@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.indenters.arguments import positive_length, real_number
 from viscontact.indenters.profile import Profile
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 #: ISO/TS 16281's profile: its amplitude over the roller's diameter on short rollers and on long
 #: ones, those beyond so many diameters, whose crowns take half of that at either end.
@@ -156,9 +156,9 @@ class LogarithmicProfile(Profile):
         half_width = 2 * math.sqrt(radius * amplitude)
         if half_width >= half_length:
             raise ValueError(
-                f"LogarithmicProfile: force of {in_words(force, 'N', 9)} makes a contact wider "
-                f"than the roller is long, 2b = {in_words(2 * half_width, 'm', 3)}; it is no "
-                "design load for a line contact"
+                f"LogarithmicProfile: force of {format_quantity(force, 'N', 9)} makes a contact "
+                f"wider than the roller is long, 2b = {format_quantity(2 * half_width, 'm', 3)}; "
+                "it is no design load for a line contact"
             )
         return cls(
             amplitude, end_drop=-amplitude * math.log(JOHNS_GOHAR * half_width / half_length)

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact.indenters.arguments import positions, positive_length
 from viscontact.indenters.indenter import Indenter
 from viscontact.indenters.point_line import TableLine, mirrored, numbers
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 
 @dataclass(frozen=True, init=False)
@@ -51,7 +51,7 @@ class Revolved(Indenter):
         object.__setattr__(self, "interpolation", interpolation)
         if self.r and self.r[0] < 0:
             raise ValueError(
-                f"Revolved: r must not be negative, got {in_words(self.r[0], 'm', 9)} first"
+                f"Revolved: r must not be negative, got {format_quantity(self.r[0], 'm', 9)} first"
             )
         TableLine("Revolved", self.r, self.drops, interpolation)
 
@@ -115,7 +115,7 @@ class Swept(Indenter):
         if self.y and self.y[0] > 0:
             raise ValueError(
                 "Swept: y must begin with 0 (half a symmetric section) or below it (the whole), "
-                f"got {in_words(self.y[0], 'm', 9)} first"
+                f"got {format_quantity(self.y[0], 'm', 9)} first"
             )
         TableLine("Swept", self.y, self.drops, interpolation)
 

@@ -11,7 +11,7 @@ import numpy as np
 import scipy
 from numpy.typing import ArrayLike, NDArray
 
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 #: How a line runs from point to point.
 INTERPOLATIONS = ("smooth", "linear")
@@ -77,14 +77,16 @@ class TableLine:
             here, next_one = self.position[i], self.position[i + 1]
             if here > next_one:
                 raise ValueError(
-                    f"{self.name}: positions must increase, got {in_words(here, 'm', 9)} followed "
-                    f"by {in_words(next_one, 'm', 9)} at point {i + 2}; sort the points"
+                    f"{self.name}: positions must increase, got {format_quantity(here, 'm', 9)} "
+                    f"followed by {format_quantity(next_one, 'm', 9)} at point {i + 2}; sort the "
+                    "points"
                 )
             if self.drop[i] != self.drop[i + 1]:
                 raise ValueError(
-                    f"{self.name}: the drop jumps at {in_words(here, 'm', 9)}, from "
-                    f"{in_words(self.drop[i], 'm', 9)} to {in_words(self.drop[i + 1], 'm', 9)}; "
-                    "give a steep piece in place of a wall"
+                    f"{self.name}: the drop jumps at {format_quantity(here, 'm', 9)}, from "
+                    f"{format_quantity(self.drop[i], 'm', 9)} to "
+                    f"{format_quantity(self.drop[i + 1], 'm', 9)}; give a steep piece in place of "
+                    "a wall"
                 )
         if np.count_nonzero(steps > 0) < 1:
             raise ValueError(f"{self.name}: a line needs at least two positions, got {len(self)}")

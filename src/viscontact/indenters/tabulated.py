@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.indenters.point_line import TableLine, mirrored, numbers
 from viscontact.indenters.profile import Profile
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 
 @dataclass(frozen=True, init=False)
@@ -54,7 +54,7 @@ class TabulatedProfile(Profile):
         if self.x and self.x[0] > 0:
             raise ValueError(
                 "TabulatedProfile: x must begin with 0 (half a symmetric profile) or below it "
-                f"(the whole), got {in_words(self.x[0], 'm', 9)} first"
+                f"(the whole), got {format_quantity(self.x[0], 'm', 9)} first"
             )
         # Refused now and as given, not mirrored and when it is first used.
         TableLine("TabulatedProfile", self.x, self.drops, interpolation)
@@ -88,9 +88,9 @@ class TabulatedProfile(Profile):
         for reach in (-self._line.position[0], self._line.position[-1]):
             if reach < half_length * (1 - 1e-9):
                 raise ValueError(
-                    f"TabulatedProfile: x ends at {in_words(reach, 'm', 9)} from the middle, "
-                    f"before the half length of {in_words(half_length, 'm', 9)}; give points up to "
-                    "there, or a shorter roller"
+                    f"TabulatedProfile: x ends at {format_quantity(reach, 'm', 9)} from the "
+                    f"middle, before the half length of {format_quantity(half_length, 'm', 9)}; "
+                    "give points up to there, or a shorter roller"
                 )
 
     def _ends(self, half_length: float) -> tuple[float, float]:

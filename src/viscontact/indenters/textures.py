@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.indenters.arguments import positions, positive_length, real_number
 from viscontact.indenters.indenter import Indenter
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 PATTERNS = ("square", "hexagonal")
 
@@ -137,14 +137,15 @@ class Dimples(Indenter):
             object.__setattr__(self, name, length)
         if self.depth > self.radius:
             raise ValueError(
-                f"Dimples: depth must be at most the radius {in_words(self.radius, 'm', 9)}, half "
-                f"a sphere, got {in_words(self.depth, 'm', 9)}"
+                "Dimples: depth must be at most the radius "
+                f"{format_quantity(self.radius, 'm', 9)}, half a sphere, got "
+                f"{format_quantity(self.depth, 'm', 9)}"
             )
         if self.spacing < 2 * self.radius:
             raise ValueError(
                 "Dimples: spacing must be at least two radii, "
-                f"{in_words(2 * self.radius, 'm', 9)}, or dimples overlap, got "
-                f"{in_words(self.spacing, 'm', 9)}"
+                f"{format_quantity(2 * self.radius, 'm', 9)}, or dimples overlap, got "
+                f"{format_quantity(self.spacing, 'm', 9)}"
             )
         if self.pattern not in PATTERNS:
             raise ValueError(

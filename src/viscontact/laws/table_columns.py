@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from viscontact.laws import arguments
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 
 def measured(
@@ -49,8 +49,8 @@ def check_left(owner: str, compliance: Sequence[float], volumetric: float) -> No
         if volumetric > 0 and value <= volumetric:
             raise ValueError(
                 f"{owner}.compliance, row {row}: bulk_modulus "
-                f"{in_words(1 / (9 * volumetric), 'Pa', 6)} is too small for a tensile compliance "
-                f"of {in_words(value, '1/Pa', 6)}: it must be above 1/(9 D)"
+                f"{format_quantity(1 / (9 * volumetric), 'Pa', 6)} is too small for a tensile "
+                f"compliance of {format_quantity(value, '1/Pa', 6)}: it must be above 1/(9 D)"
             )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from viscontact.laws.arguments import compressibility, positive
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 
 class Uniaxial(NamedTuple):
@@ -22,11 +22,12 @@ class Uniaxial(NamedTuple):
     def instant(self, owner: str, compliance: float) -> float:
         """Return Phi(0) [1/Pa] from D(0) [1/Pa]."""
         if compliance < self.volumetric:
-            most = f" = {in_words(1 / (9 * compliance), 'Pa', 6)}" if compliance else ""
+            most = f" = {format_quantity(1 / (9 * compliance), 'Pa', 6)}" if compliance else ""
             raise ValueError(
-                f"{owner}: bulk_modulus {in_words(1 / (9 * self.volumetric), 'Pa', 6)} is too "
-                f"small: an instant tensile compliance of {in_words(compliance, '1/Pa', 6)} needs "
-                f"a bulk modulus of at least 1/(9 D(0)){most}"
+                f"{owner}: bulk_modulus {format_quantity(1 / (9 * self.volumetric), 'Pa', 6)} is "
+                "too small: an instant tensile compliance of "
+                f"{format_quantity(compliance, '1/Pa', 6)} needs a bulk modulus of at least 1/(9 "
+                f"D(0)){most}"
             )
         return self.factor * (compliance - self.volumetric)
 
@@ -36,7 +37,7 @@ class Uniaxial(NamedTuple):
         if compliance == 0:
             raise ValueError(
                 f"{owner}: bulk_modulus leaves no instant shear compliance: it must be above "
-                f"{name}/9 = {in_words(modulus / 9, 'Pa', 6)}"
+                f"{name}/9 = {format_quantity(modulus / 9, 'Pa', 6)}"
             )
         return 0.5 / compliance
 

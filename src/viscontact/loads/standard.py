@@ -11,7 +11,7 @@ from viscontact.loads.arguments import finite_number
 from viscontact.loads.force import ForceHistory
 from viscontact.loads.harmonic import HarmonicHistory
 from viscontact.loads.history import Control
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import unit_of
 
 #: A harmonic load of more cycles than this is a mistake: each takes dozens of steps.
@@ -208,8 +208,8 @@ def harmonic(
     if control == "force" and abs(swing) > middle:
         raise ValueError(
             "harmonic: the force must never be negative, but swings between "
-            f"{in_words(middle - swing, 'N', 9)} and {in_words(middle + swing, 'N', 9)}; give a "
-            "mean of at least the amplitude"
+            f"{format_quantity(middle - swing, 'N', 9)} and "
+            f"{format_quantity(middle + swing, 'N', 9)}; give a mean of at least the amplitude"
         )
     turns = finite_number("harmonic: cycles", cycles, "whole cycles")
     if not (turns.is_integer() and 1 <= turns <= MOST_CYCLES):
@@ -273,8 +273,8 @@ def _refuse_eccentric_approach(eccentricity_x: float, eccentricity_y: float) -> 
     for name, value in (("eccentricity_x", eccentricity_x), ("eccentricity_y", eccentricity_y)):
         if value:
             raise ValueError(
-                f"{name} goes with a force, got {in_words(value, 'm', 9)} with an approach: no "
-                "force is prescribed that could act there; leave it out, or prescribe the tilt"
+                f"{name} goes with a force, got {format_quantity(value, 'm', 9)} with an approach: "
+                "no force is prescribed that could act there; leave it out, or prescribe the tilt"
             )
 
 

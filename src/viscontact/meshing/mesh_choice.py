@@ -23,7 +23,7 @@ from viscontact.meshing.contact_extent import (
 from viscontact.meshing.height_map_error import facet_error
 from viscontact.meshing.refinement import PEAK, USUAL_ORDER, Resolution, resolve
 from viscontact.meshing.trial_mesh import RIM_SCATTER, Pressing
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 #: No more cells are spent on a contact that is small at first and large for most of the run.
 MOST_CELLS_EARLY = 2**18
@@ -155,10 +155,10 @@ def _begun(
         if had > FEWEST_ACROSS:
             remedy = f"ask for a tolerance of {reachable:.2g} or more, or give a grid"
         raise ValueError(
-            f"grid: a contact of {in_words(length, 'm', 3)} x {in_words(width, 'm', 3)} within "
-            f"{in_words(size[0], 'm', 3)} x {in_words(size[1], 'm', 3)} needs "
-            f"{float(np.prod(cells)):.2g} cells for a relative error of {wish.tolerance:.2g}, more "
-            f"than an automatic grid has; {remedy}"
+            f"grid: a contact of {format_quantity(length, 'm', 3)} x "
+            f"{format_quantity(width, 'm', 3)} within {format_quantity(size[0], 'm', 3)} x "
+            f"{format_quantity(size[1], 'm', 3)} needs {float(np.prod(cells)):.2g} cells for a "
+            f"relative error of {wish.tolerance:.2g}, more than an automatic grid has; {remedy}"
         )
     return _Choice(cells, tuple(wish.quantities), {}, {})
 

@@ -30,7 +30,7 @@ from viscontact.results.accessor import ResultAccessor
 from viscontact.results.argument_table import in_plain_words, particulars
 from viscontact.results.provenance import describe
 from viscontact.surfaces import Surface
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 
 def noun_html(noun: Shown) -> str:
@@ -140,14 +140,14 @@ def _rows(noun: Shown) -> list[tuple[str, ...]]:
 def _following(noun: Shown) -> Iterator[tuple[str, str]]:
     """What follows from the arguments and is asked for as often."""
     if isinstance(noun, Grid):
-        yield "cell", " × ".join(in_words(extent, "m") for extent in noun.cell_size)
+        yield "cell", " × ".join(format_quantity(extent, "m") for extent in noun.cell_size)
     if isinstance(noun, Indenter):
         x, y = noun.curvatures
         if x > 0 and x == y:
-            yield "radius of curvature", in_words(1 / x, "m")
+            yield "radius of curvature", format_quantity(1 / x, "m")
         elif x > 0 or y > 0:
             yield from (
-                (f"radius of curvature along {axis}", in_words(1 / curvature, "m"))
+                (f"radius of curvature along {axis}", format_quantity(1 / curvature, "m"))
                 for axis, curvature in (("x", x), ("y", y))
                 if curvature > 0
             )

@@ -14,8 +14,8 @@ from viscontact.notebook.card import Card
 from viscontact.notebook.svg_axes import Scale, linear, logarithmic
 from viscontact.notebook.svg_panel import BLUE, ORANGE, Mark, panel
 from viscontact.results.argument_table import in_plain_words
-from viscontact.units.error_digits import in_percent
-from viscontact.units.formatting import in_digits, in_words
+from viscontact.results.formatting import format_percent
+from viscontact.units.formatting import format_number, format_quantity
 from viscontact.units.temperatures import in_celsius
 
 Floats = NDArray[np.float64]
@@ -38,9 +38,9 @@ def record_card(record: IndentationRecord) -> Card:
     rows = [
         ("indenter", in_plain_words(type(record.indenter).__name__)),
         ("rows", str(record.times.size)),
-        ("duration", in_words(float(np.ptp(record.times)), "s")),
-        ("largest approach", in_words(float(record.approach.max()), "m")),
-        ("largest force", in_words(float(record.force.max()), "N")),
+        ("duration", format_quantity(float(np.ptp(record.times)), "s")),
+        ("largest approach", format_quantity(float(record.approach.max()), "m")),
+        ("largest force", format_quantity(float(record.force.max()), "N")),
     ]
     drawn = [
         _lines("force over approach", record.approach, ("approach", "m"), record.force, "N"),
@@ -63,8 +63,11 @@ def fit_card(fit: Fit) -> Card:
         ("law", f"{in_plain_words(type(fit.law).__name__)}, terms: {fit.terms}"),
         *_told_points(fit.points, oscillates),
         ("data", fit.data),
-        *((f"misses the {name} by", f"{in_percent(part)} (rms)") for name, part in parts.items()),
-        ("at most by", in_percent(fit.largest_residual)),
+        *(
+            (f"misses the {name} by", f"{format_percent(part)} (rms)")
+            for name, part in parts.items()
+        ),
+        ("at most by", format_percent(fit.largest_residual)),
     ]
     least = float(fit.points[fit.points > 0].min())
     points = np.geomspace(least, float(fit.points.max()), _POINTS)
@@ -92,8 +95,8 @@ def indentation_fit_card(fit: IndentationFit) -> Card:
         rows.append((name.replace("_", " "), told))
     other, unit = ("force", "N") if fit.given == "approach" else ("approach", "m")
     rows += [
-        ("given", f"{fit.given} over {in_words(float(np.ptp(fit.record.times)), 's')}"),
-        (f"misses the {other} by", f"{in_percent(fit.residual)} of the largest (rms)"),
+        ("given", f"{fit.given} over {format_quantity(float(np.ptp(fit.record.times)), 's')}"),
+        (f"misses the {other} by", f"{format_percent(fit.residual)} of the largest (rms)"),
     ]
     times, some = fit.record.times, _some(fit.record.times.size)
     marks = [Mark(times[some], fit.measured[some], "dots", ORANGE), Mark(times, fit.fitted)]
@@ -137,7 +140,7 @@ def master_curve_card(curve: MasterCurve) -> Card:
         ("made of", f"{len(curve.isotherms)} sets"),
         *_told_points(curve.points, oscillates),
         *(
-            (f"shift factor at {_celsius(each.temperature)}", in_digits(float(factor)))
+            (f"shift factor at {_celsius(each.temperature)}", format_number(float(factor)))
             for each, factor in zip(curve.isotherms, curve.factors, strict=True)
         ),
     ]
@@ -159,9 +162,9 @@ def _told_points(points: Floats, oscillates: bool) -> Iterator[tuple[str, str]]:
     yield "rows", str(points.size)
     ends = float(points.min()), float(points.max())
     if oscillates:
-        yield "angular frequency", " to ".join(f"{in_digits(end)} rad/s" for end in ends)
+        yield "angular frequency", " to ".join(f"{format_number(end)} rad/s" for end in ends)
     else:
-        yield "time", " to ".join(in_words(end, "s") for end in ends)
+        yield "time", " to ".join(format_quantity(end, "s") for end in ends)
 
 
 def _scatter(
@@ -213,7 +216,7 @@ def _some(count: int, most: int = _DOTS) -> slice:
 
 
 def _worth(value: float, unit: str) -> str:
-    return in_words(value, unit) if unit else in_digits(value)
+    return format_quantity(value, unit) if unit else format_number(value)
 
 
 def _celsius(kelvin: float) -> str:

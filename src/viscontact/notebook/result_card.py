@@ -11,9 +11,11 @@ from numpy.typing import NDArray
 from viscontact.notebook.card import Card
 from viscontact.notebook.svg_axes import Scale, linear, logarithmic
 from viscontact.notebook.svg_panel import ORANGE, Mark, panel
-from viscontact.results.formatting import errors_of, headline, told_at
+from viscontact.results.formatting import format_scalar
 from viscontact.results.rounding import is_rounding_tilt
-from viscontact.units.formatting import in_words
+from viscontact.results.stated_errors import errors_of
+from viscontact.results.summary import headline
+from viscontact.units.formatting import format_quantity
 
 Floats = NDArray[np.float64]
 
@@ -50,9 +52,9 @@ def result_card(ds: xr.Dataset) -> Card:
     last = ds.sizes["time"] - 1
     # The largest contact as well where it is at neither end.
     shown = sorted({0, int(ds["contact_area"].values.argmax()), last})
-    heads = tuple(f"t = {in_words(float(ds['time'][k]), 's')}" for k in shown)
+    heads = tuple(f"t = {format_quantity(float(ds['time'][k]), 's')}" for k in shown)
     rows = [
-        (name, *(told_at(ds, key, k) for k in shown))
+        (name, *(format_scalar(ds, key, k) for k in shown))
         for key, name in _ROWS.items()
         if not (key.startswith("tilt") and _is_idle(ds, key))
     ]
@@ -120,5 +122,5 @@ def _section(ds: xr.Dataset) -> list[Element]:
     aside = ""
     if len(lines) > 1 and ds.sizes[over] > 1:
         marks.insert(0, Mark(position, lines[0], colour=ORANGE, dashed=True))
-        aside = f"dashed: t = {in_words(float(ds[over][0]), 's')}"
+        aside = f"dashed: t = {format_quantity(float(ds[over][0]), 's')}"
     return [panel(f"along {'xy'[axis]}", x, y, marks, aside=aside)]

@@ -12,9 +12,9 @@ from viscontact.notebook.card import Card
 from viscontact.notebook.html import element
 from viscontact.notebook.svg_axes import linear
 from viscontact.notebook.svg_panel import BLUE, WIDTH, Mark, panel
+from viscontact.results.formatting import format_percent
 from viscontact.surfaces import Surface
-from viscontact.units.error_digits import in_percent
-from viscontact.units.formatting import in_digits, in_words
+from viscontact.units.formatting import format_number, format_quantity
 
 Floats = NDArray[np.float64]
 
@@ -48,17 +48,17 @@ def surface_card(surface: Surface) -> Card:
     """
     rows = [
         ("points", " × ".join(map(str, surface.shape))),
-        ("size", " × ".join(in_words(extent, "m") for extent in surface.size)),
-        ("spacing", " × ".join(in_words(step, "m") for step in surface.spacing)),
-        ("rms height", in_words(surface.rms_height, "m")),
-        ("height range", in_words(surface.height_range, "m")),
-        ("rms slope", in_digits(surface.rms_slope)),
-        ("skewness", in_digits(surface.skewness, 2)),
+        ("size", " × ".join(format_quantity(extent, "m") for extent in surface.size)),
+        ("spacing", " × ".join(format_quantity(step, "m") for step in surface.spacing)),
+        ("rms height", format_quantity(surface.rms_height, "m")),
+        ("height range", format_quantity(surface.height_range, "m")),
+        ("rms slope", format_number(surface.rms_slope)),
+        ("skewness", format_number(surface.skewness, 2)),
     ]
     if surface.periodic:
         rows.append(("periodic", "yes"))
     if surface.missing_share > 0:
-        rows.append(("not measured", f"{in_percent(surface.missing_share)} of the points"))
+        rows.append(("not measured", f"{format_percent(surface.missing_share)} of the points"))
     return Card(f"Surface: {surface.name}", rows, [_map(surface), *_section(surface)])
 
 

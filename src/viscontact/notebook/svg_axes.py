@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from viscontact.units.formatting import in_words, readable_unit
+from viscontact.units.formatting import format_quantity, readable_unit
 
 #: Steps between ticks, of a decade.
 _STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
@@ -72,7 +72,7 @@ def linear(quantity: str, unit: str, low: float, high: float, most: int = 4) -> 
     >>> axis.label, [text for _, text in axis.ticks]
     ('x [mm]', ['−10', '−5', '0', '5', '10'])
     """
-    shown = readable_unit(max(abs(low), abs(high)), unit)
+    shown = readable_unit(unit, low, high)
     step = _step((high - low) / shown.factor / most)
     first, last = (math.ceil(low / shown.factor / step - 1e-9), high / shown.factor / step + 1e-9)
     numbers = [step * k for k in range(first, math.floor(last) + 1)]
@@ -102,14 +102,14 @@ def logarithmic(
     >>> [text for _, text in axis.ticks]
     ['10 ms', '100 ms', '1 s', '10 s']
     """
-    shown = readable_unit(math.sqrt(low * high), unit)
+    shown = readable_unit(unit, math.sqrt(low * high))
     ends = math.log10(low), math.log10(high)
     decades = range(math.ceil(ends[0] - 1e-9), math.floor(ends[1] + 1e-9) + 1)
     every = max(1, math.ceil((len(decades) - 1) / _MOST_DECADES))
     ticks = tuple(
         (
             (decade - ends[0]) / (ends[1] - ends[0]),
-            in_words(10.0**decade, unit)
+            format_quantity(10.0**decade, unit)
             if each_with_unit
             else _number(10.0**decade / shown.factor),
         )

@@ -8,11 +8,11 @@ from collections.abc import Iterator
 import numpy as np
 import xarray as xr
 
+from viscontact.results.formatting import format_bound
 from viscontact.results.recorded_case import case_of, prescribes_approach
 from viscontact.results.stated_errors import WHY_MESH_DEPENDENT, largest_error
-from viscontact.results.summary import SummaryRow, summary_rows, told_scalars
-from viscontact.units.error_digits import at_most
-from viscontact.units.formatting import in_words
+from viscontact.results.summary import SummaryRow, summary_rows, summary_scalars
+from viscontact.units.formatting import format_quantity
 
 
 def error_rows(ds: xr.Dataset) -> list[tuple[str, ...]]:
@@ -58,7 +58,7 @@ def accuracy_lines(ds: xr.Dataset) -> Iterator[tuple[str, str]]:
         yield "Memory of the past", memory
     inversion = float(ds.attrs.get("inversion_error", 0.0))
     if inversion > 0:
-        yield "Law", f"converted numerically; error {at_most(inversion)} (estimated)"
+        yield "Law", f"converted numerically; error {format_bound(inversion)} (estimated)"
     yield "Companions", _companions(ds)
     if _is_marked(ds):
         yield "Depends on the mesh", f"{WHY_MESH_DEPENDENT}."
@@ -76,7 +76,7 @@ def _balance(ds: xr.Dataset) -> str:
     if known is None or not math.isfinite(known.part):
         return "force and moments of the pressure are those of the load, to the tolerance asked for"
     return (
-        f"the pressure's integral differs from the load by {at_most(known.part)} of it; "
+        f"the pressure's integral differs from the load by {format_bound(known.part)} of it; "
         "its moments are the load's to the tolerance asked for"
     )
 
@@ -84,7 +84,7 @@ def _balance(ds: xr.Dataset) -> str:
 def _steps(ds: xr.Dataset) -> str:
     largest = float(np.nanmax(ds["time_error"].values, initial=0.0))
     if largest > 0:
-        return f"they cost {at_most(largest)} of the pressure (estimated)"
+        return f"they cost {format_bound(largest)} of the pressure (estimated)"
     if _is_elastic(ds):
         return "they cost nothing: the contact at each instant follows from the load alone"
     return "what they cost is not estimated step by step; it is part of the errors above"
@@ -97,7 +97,8 @@ def _cells(ds: xr.Dataset) -> str:
     size = ""
     if x.size > 1 and y.size > 1:
         size = (
-            f" of {in_words(float(x[1] - x[0]), 'm', 3)} × {in_words(float(y[1] - y[0]), 'm', 3)}"
+            f" of {format_quantity(float(x[1] - x[0]), 'm', 3)} × "
+            f"{format_quantity(float(y[1] - y[0]), 'm', 3)}"
         )
     counted = f"{x.size} × {y.size} cells{size}"
     if not touching.size:
@@ -120,5 +121,5 @@ def _is_elastic(ds: xr.Dataset) -> bool:
 
 
 def _is_marked(ds: xr.Dataset) -> bool:
-    found = (largest_error(ds, name) for name in told_scalars(ds))
+    found = (largest_error(ds, name) for name in summary_scalars(ds))
     return any(each is not None and math.isinf(each.half_width) for each in found)

@@ -12,13 +12,12 @@ from numpy.typing import NDArray
 
 from viscontact.plot.histories.time_axis import suits_log_time
 from viscontact.report.map_data import rounded
-from viscontact.results.formatting import errors_of, told
+from viscontact.results.formatting import format_with_error
 from viscontact.results.recorded_case import prescribes_approach
 from viscontact.results.rounding import is_rounding_tilt
-from viscontact.results.stated_errors import MESH_DEPENDENT
+from viscontact.results.stated_errors import MESH_DEPENDENT, errors_of
 from viscontact.results.variables import SCALARS
-from viscontact.units.axis_units import display_number, display_unit
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_compact, format_quantity, readable_unit
 
 Floats = NDArray[np.float64]
 
@@ -71,7 +70,7 @@ def time_axis(ds: xr.Dataset) -> dict[str, Any]:
         logarithmic axis the instant 0 stands half a decade before the first step.
     """
     instants = np.asarray(ds["time"].values, dtype=np.float64)
-    unit = display_unit("s", instants)
+    unit = readable_unit("s", instants)
     axis: dict[str, Any] = {"unit": unit.symbol, "linear": rounded(unit(instants)), "log": None}
     positive = unit(instants[instants > 0])
     if positive.size < 3 or positive[-1] < _LEAST_RATIO * positive[0]:
@@ -81,7 +80,7 @@ def time_axis(ds: xr.Dataset) -> dict[str, Any]:
     places[instants > 0] = np.log10(positive)
     decades = range(math.ceil(math.log10(positive[0])), math.floor(math.log10(positive[-1])) + 1)
     ticks: list[tuple[float, str]] = [(first, "0")] if instants[0] <= 0 else []
-    ticks += [(float(decade), display_number(10.0**decade)) for decade in decades]
+    ticks += [(float(decade), format_compact(10.0**decade)) for decade in decades]
     return axis | {
         "log": rounded(places),
         "ticks": {"at": [place for place, _ in ticks], "text": [text for _, text in ticks]},
@@ -149,7 +148,7 @@ def _varies(ds: xr.Dataset, name: str) -> bool:
 def _panel(ds: xr.Dataset, quantity: _Quantity) -> dict[str, Any]:
     values = np.asarray(ds[quantity.name].values, dtype=np.float64)
     units = SCALARS[quantity.name].units
-    unit, errors = display_unit(units, values), errors_of(ds, quantity.name)
+    unit, errors = readable_unit(units, values), errors_of(ds, quantity.name)
     return {
         "name": quantity.name,
         "label": quantity.label,
@@ -165,7 +164,8 @@ def _panel(ds: xr.Dataset, quantity: _Quantity) -> dict[str, Any]:
 
 def _hover(ds: xr.Dataset, values: Floats, errors: Floats, units: str) -> list[str]:
     return [
-        f"t = {in_words(float(instant), 's')}: {told(float(value), float(error), units)}"
+        f"t = {format_quantity(float(instant), 's')}: "
+        f"{format_with_error(float(value), float(error), units)}"
         for instant, value, error in zip(ds["time"].values, values, errors, strict=True)
     ]
 

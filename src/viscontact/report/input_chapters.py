@@ -18,7 +18,7 @@ from viscontact.notebook.html import element
 from viscontact.report import accuracy, citation, drawings, limits
 from viscontact.report.inputs import Input, case_file, inputs
 from viscontact.results.summary import LEGEND
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 
 def inputs_chapter(ds: xr.Dataset) -> Iterator[Element]:
@@ -88,7 +88,7 @@ def accuracy_chapter(ds: xr.Dataset) -> Iterator[Element]:
     ds : xarray.Dataset
         A result.
     """
-    ends = (f"t = {in_words(float(ds['time'][k]), 's')}" for k in (0, -1))
+    ends = (f"t = {format_quantity(float(ds['time'][k]), 's')}" for k in (0, -1))
     heads = ("", *ends, "largest", "largest error", "when")
     yield _table(heads, accuracy.error_rows(ds))
     yield element("p", LEGEND, class_="faint")
@@ -147,7 +147,7 @@ def about_chapter(ds: xr.Dataset) -> Iterator[Element]:
 
 
 def _effort(ds: xr.Dataset) -> str:
-    seconds = in_words(float(ds.attrs["wall_time"]), "s", 3)
+    seconds = format_quantity(float(ds.attrs["wall_time"]), "s", 3)
     return f"{ds.sizes['time']} instants in {seconds}, {int(ds['iterations'].sum())} iterations"
 
 

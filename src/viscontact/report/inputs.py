@@ -12,7 +12,7 @@ import xarray as xr
 from viscontact.results.argument_table import particulars
 from viscontact.results.netcdf import RESULT_NAME
 from viscontact.results.recorded_case import case_of
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 _PARTS = {
     "indenter": "Indenter",
@@ -80,7 +80,7 @@ def _steps(case: Mapping[str, Any]) -> Iterator[Input]:
     times, adaptive = case.get("times") or [], case.get("adaptive")
     if not times:
         return
-    start, end = in_words(times[0], "s"), in_words(times[-1], "s")
+    start, end = format_quantity(times[0], "s"), format_quantity(times[-1], "s")
     if adaptive is None:
         yield Input("Time", "steps", f"{len(times)}, from {start} to {end}")
     else:

@@ -11,7 +11,7 @@ import xarray as xr
 
 from viscontact.results.recorded_case import case_of, recorded_noun
 from viscontact.state import Outcome
-from viscontact.units.formatting import in_digits, in_words
+from viscontact.units.formatting import format_number, format_quantity
 
 
 def notices(ds: xr.Dataset) -> list[str]:
@@ -27,8 +27,8 @@ def notices(ds: xr.Dataset) -> list[str]:
     reached = float(ds["time"][-1])
     if times and reached < float(times[-1]):
         said.append(
-            f"The run ended at t = {in_words(reached, 's')}, before its last instant, t = "
-            f"{in_words(float(times[-1]), 's')}: this page shows what it had completed."
+            f"The run ended at t = {format_quantity(reached, 's')}, before its last instant, t = "
+            f"{format_quantity(float(times[-1]), 's')}: this page shows what it had completed."
         )
     failed = int((ds["outcome"].values == Outcome.NOT_CONVERGED).sum())
     if failed:
@@ -90,8 +90,9 @@ def _size(ds: xr.Dataset) -> str:
         return ": one period of it is pressed here; the approach is to its mean plane."
     length, width = (float(ds[name].max()) for name in ("contact_length", "contact_width"))
     return (
-        f". Largest contact here: {in_words(length, 'm', 3)} along x, {in_words(width, 'm', 3)} "
-        "along y. A part that is not large against it in every direction gives way differently."
+        f". Largest contact here: {format_quantity(length, 'm', 3)} along x, "
+        f"{format_quantity(width, 'm', 3)} along y. A part that is not large against it in every "
+        "direction gives way differently."
     )
 
 
@@ -101,8 +102,10 @@ def _approach(ds: xr.Dataset) -> str:
     if shorter <= 0:
         return ""
     part = float(approach.max()) / shorter
-    largest = in_words(float(approach.max()), "m", 3)
-    return f"Largest approach here: {largest}, {in_digits(part, 2)} of the contact's shorter way."
+    largest = format_quantity(float(approach.max()), "m", 3)
+    return (
+        f"Largest approach here: {largest}, {format_number(part, 2)} of the contact's shorter way."
+    )
 
 
 def _strain(ds: xr.Dataset) -> str:
@@ -117,6 +120,6 @@ def _strain(ds: xr.Dataset) -> str:
         return ""
     return (
         f"Largest mean pressure times creep compliance at the end, which is of the order of the "
-        f"strain: {in_digits(strain, 2)}. Whether the material is still linear at that, its tests "
-        "must say."
+        f"strain: {format_number(strain, 2)}. Whether the material is still linear at that, its "
+        "tests must say."
     )

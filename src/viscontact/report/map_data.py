@@ -14,7 +14,7 @@ from viscontact.plot.layout.style import time_colours
 from viscontact.plot.pressure.rim_polygons import rim_curves
 from viscontact.report.shown_fields import ShownFields
 from viscontact.results.snapshots import Snapshot
-from viscontact.units.axis_units import DisplayUnit, display_number, display_unit, time_labels
+from viscontact.units.formatting import ReadableUnit, format_compact, readable_unit, time_labels
 
 Floats = NDArray[np.float64]
 
@@ -40,7 +40,7 @@ def map_data(fields: ShownFields) -> dict[str, Any]:
         Positions and the largest pressure in readable units; of each instant the pressures as
         little-endian 16-bit parts of the largest, in base64, y by y.
     """
-    length, pressure = fields.window.unit, display_unit("Pa", fields.peak)
+    length, pressure = fields.window.unit, readable_unit("Pa", fields.peak)
     first, (in_x, in_y) = fields.snapshots[0], fields.inside
     strides = strides_of(fields)
     x, y = (
@@ -62,7 +62,7 @@ def map_data(fields: ShownFields) -> dict[str, Any]:
         "rims": [_rim(each, length) for each in fields.snapshots],
         "labels": list(time_labels(each.time for each in fields.snapshots)),
         "peaks": [
-            f"{display_number(float(pressure(each.pressure.max())), 4)} {pressure.symbol}"
+            f"{format_compact(float(pressure(each.pressure.max())), 4)} {pressure.symbol}"
             if each.touching
             else ""
             for each in fields.snapshots
@@ -83,7 +83,7 @@ def section_data(fields: ShownFields, along: Literal["x", "y"]) -> dict[str, Any
     along : {"x", "y"}
         Which way the line goes; where it runs says `ShownFields.through`.
     """
-    length, pressure = fields.window.unit, display_unit("Pa", fields.peak)
+    length, pressure = fields.window.unit, readable_unit("Pa", fields.peak)
     inside = fields.inside["xy".index(along)]
     positions, _ = fields.snapshots[0].section(along, _crossing(fields, along))
     values = [each.section(along, _crossing(fields, along))[1] for each in fields.snapshots]
@@ -101,7 +101,7 @@ def section_place(fields: ShownFields, along: Literal["x", "y"]) -> str:
     """Say where a section runs, such as ``"y = 0 mm"``."""
     unit = fields.window.unit
     other = "y" if along == "x" else "x"
-    return f"{other} = {display_number(float(unit(_crossing(fields, along))), 4)} {unit.symbol}"
+    return f"{other} = {format_compact(float(unit(_crossing(fields, along))), 4)} {unit.symbol}"
 
 
 def section_csv(fields: ShownFields, along: Literal["x", "y"]) -> str:
@@ -157,7 +157,7 @@ def _joined(values: Floats, stride: int, axis: int = 0) -> Floats:
     return np.asarray(sums / np.expand_dims(counts, 1 - axis) if values.ndim > 1 else sums / counts)
 
 
-def _rim(snapshot: Snapshot, length: DisplayUnit) -> dict[str, list[float | None]]:
+def _rim(snapshot: Snapshot, length: ReadableUnit) -> dict[str, list[float | None]]:
     """All curves as one line, interrupted between them."""
     x: list[float | None] = []
     y: list[float | None] = []

@@ -15,10 +15,11 @@ from viscontact.notebook.html import element
 from viscontact.report.limits import notices
 from viscontact.report.map_data import MOST_CELLS, section_csv, section_place, strides_of
 from viscontact.report.shown_fields import ShownFields
-from viscontact.results.formatting import headline, told_at
+from viscontact.results.formatting import format_scalar
 from viscontact.results.history_csv import write_history
 from viscontact.results.stated_errors import MESH_DEPENDENT
-from viscontact.units.formatting import in_words
+from viscontact.results.summary import headline
+from viscontact.units.formatting import format_quantity
 
 _FACTS = {
     "contact_area": "Contact area",
@@ -145,14 +146,14 @@ def history_chapter(
 def _facts(ds: xr.Dataset) -> Element:
     area = ds["contact_area"].values
     last = -1 if area[-1] > 0 else int(area.argmax())
-    when = "" if area[-1] > 0 else f" at t = {in_words(float(ds['time'][last]), 's')}"
+    when = "" if area[-1] > 0 else f" at t = {format_quantity(float(ds['time'][last]), 's')}"
     return element(
         "dl",
         *(
             element(
                 "div",
                 element("dt", _unbroken(name + when)),
-                element("dd", _unbroken(told_at(ds, scalar, last))),
+                element("dd", _unbroken(format_scalar(ds, scalar, last))),
             )
             for scalar, name in _FACTS.items()
         ),

@@ -16,10 +16,10 @@ from viscontact.report.limits import notices, warnings_of
 from viscontact.report.map_data import map_data, rounded, section_data
 from viscontact.report.result_chapters import title_of
 from viscontact.report.shown_fields import shown_fields
-from viscontact.results.formatting import errors_of
-from viscontact.results.summary import told_scalars
+from viscontact.results.stated_errors import errors_of
+from viscontact.results.summary import summary_scalars
 from viscontact.results.variables import SCALARS
-from viscontact.units.axis_units import display_unit
+from viscontact.units.formatting import readable_unit
 
 
 def run_data(ds: xr.Dataset) -> dict[str, Any]:
@@ -62,7 +62,7 @@ def run_data(ds: xr.Dataset) -> dict[str, Any]:
         "scalars": {name: _scalar(ds, name) for name in SCALARS if name in ds},
         "given": given,
         "answers": answers,
-        "told": told_scalars(ds),
+        "told": summary_scalars(ds),
         "map": _map(ds),
         "notices": notices(ds),
         "warnings": warnings_of(ds),
@@ -91,7 +91,7 @@ def _map(ds: xr.Dataset) -> dict[str, Any] | None:
     return data | {
         "times": [each.time for each in fields.snapshots],
         "lengthFactor": fields.window.unit.factor,
-        "pressureFactor": display_unit("Pa", fields.peak).factor,
+        "pressureFactor": readable_unit("Pa", fields.peak).factor,
         "sections": [section_data(fields, "x"), section_data(fields, "y")],
         "crossing": fields.through,
     }

@@ -10,7 +10,7 @@ import numpy as np
 
 from viscontact.laws import Law
 from viscontact.results.provenance import NOUNS
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 _LENGTHS = (
     "radius half_length half_width crown_radius crown_length corner_radius depth end_drop "
@@ -164,11 +164,13 @@ def _number(value: float, unit: str, digits: int = _DIGITS) -> str:
     if unit == "K":  # nobody counts temperatures in kilokelvins
         return f"{value:.6g} K"
     if unit == "rad" and value:
-        return f"{in_words(value, 'rad')} ({in_words(float(np.degrees(value)), '1')}°)"
+        return (
+            f"{format_quantity(value, 'rad')} ({format_quantity(float(np.degrees(value)), '1')}°)"
+        )
     if unit in ("1/(Pa s)", "SI"):
         return f"{value:.4g} {unit}".replace(" SI", " (SI)")
     # As case files write it: 0.55 / GPa.
-    return in_words(value, unit, digits).replace(" 1/", " / ")
+    return format_quantity(value, unit, digits).replace(" 1/", " / ")
 
 
 def in_plain_words(kind: str) -> str:

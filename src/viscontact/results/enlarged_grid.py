@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from viscontact.grid import Grid
 from viscontact.state import ContactState
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 
 def on_wider(name: str, field: NDArray[np.float64], grid: Grid, wider: Grid) -> NDArray[np.float64]:
@@ -58,11 +58,11 @@ def enlargement(time: float, before: Grid, after: Grid) -> str:
     't = 1.5 s: from 32 x 16 cells on 2 mm x 1 mm to 48 x 16 cells on 3 mm x 1 mm'
     """
     old, new = (
-        f"{grid.shape[0]} x {grid.shape[1]} cells on {in_words(grid.size[0], 'm')} x "
-        f"{in_words(grid.size[1], 'm')}"
+        f"{grid.shape[0]} x {grid.shape[1]} cells on {format_quantity(grid.size[0], 'm')} x "
+        f"{format_quantity(grid.size[1], 'm')}"
         for grid in (before, after)
     )
-    return f"t = {in_words(time, 's', 6)}: from {old} to {new}"
+    return f"t = {format_quantity(time, 's', 6)}: from {old} to {new}"
 
 
 def enlargements(grid: Grid, states: Sequence[ContactState]) -> list[str]:

@@ -1,144 +1,154 @@
-"""Numbers with their errors, as they stand in sentences and tables."""
+"""Format values with their error bars."""
 
 from __future__ import annotations
 
 import math
 
-import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
-from viscontact.results.stated_errors import MESH_DEPENDENT, stated_error
+from viscontact.results.stated_errors import MESH_DEPENDENT, errors_of
 from viscontact.results.variables import SCALARS
-from viscontact.units.error_digits import in_error_digits, in_supported_digits
-from viscontact.units.formatting import ReadableUnit, in_digits, in_words, readable_unit
+from viscontact.units.formatting import ReadableUnit, format_number, format_quantity, readable_unit
 
-#: Digits of a number at most, whatever its error.
-_DIGITS = 7
-#: Errors of so small a part are not worth a word.
+#: Significant digits of an error that are worth printing (GUM, 7.2.6); of a number in a table;
+#: and of any number, whatever its error.
+_ERROR_DIGITS, _DIGITS, _MOST_DIGITS = 2, 4, 7
+#: Errors of a smaller part of the value are left out.
 NEGLIGIBLE = 1e-4
+#: In a table in place of the error of a number that depends on the mesh.
+MESH_MARK = "mesh"
 
 
-def told(value: float, error: float, units: str) -> str:
-    """Write a number with its error and unit.
+def format_with_error(value: float, error: float, units: str) -> str:
+    """Format a value with its error and unit.
 
     Parameters
     ----------
     value, error : float
-        The number and the half width of its error bar [SI]: NaN where not known, inf where the
-        number depends on the mesh.
+        The value and the half width of its error bar [SI]: NaN where not known, inf where the
+        value depends on the mesh.
     units : str
         The SI unit.
 
     Returns
     -------
     str
-        The number, with as many digits as its error supports.
+        The value, with as many digits as its error supports.
 
     Examples
     --------
-    >>> told(57.634e-6, 0.149e-6, "m2"), told(152.2e6, math.inf, "Pa")
+    >>> format_with_error(57.634e-6, 0.149e-6, "m2"), format_with_error(152.2e6, math.inf, "Pa")
     ('57.63 ± 0.15 mm²', '152.2 MPa (depends on the mesh)')
     """
     if not error > NEGLIGIBLE * abs(value) or math.isinf(error):
-        number = in_words(value, units)
+        number = format_quantity(value, units)
         return f"{number} ({MESH_DEPENDENT})" if math.isinf(error) else number
-    unit = readable_unit(value, units)
-    return f"{told_in(unit, value, error)} {unit.symbol}".rstrip()
+    unit = readable_unit(units, value)
+    return f"{format_with_error_in(unit, value, error)} {unit.symbol}".rstrip()
 
 
-def told_in(unit: ReadableUnit, value: float, error: float) -> str:
-    """Write a number with its error in the unit of a table.
+def format_with_error_in(unit: ReadableUnit, value: float, error: float) -> str:
+    """Format a value with its error, both in SI, in the unit of a table.
 
-    Parameters
-    ----------
-    unit : ReadableUnit
-        The unit.
-    value, error : float
-        As in `told` [SI].
-
-    Returns
-    -------
-    str
-        The number, with as many digits as its error supports, and the error unless it is
-        negligible; behind ``>`` a number that depends on the mesh.
+    A negligible error is left out; a value that depends on the mesh has ``>`` in front.
 
     Examples
     --------
-    >>> table = readable_unit(0.08, "m")
-    >>> told_in(table, 0.0576344, 0.000149), told_in(table, 0.0576344, 0.0)
-    ('57.63 ± 0.15', '57.63')
+    >>> table = readable_unit("m", 0.08)
+    >>> [format_with_error_in(table, 0.0576344, error) for error in (0.000149, 0.0, math.inf)]
+    ['57.63 ± 0.15', '57.63', '>57.63']
     """
     number, half_width = value / unit.factor, error / unit.factor
     if math.isinf(error):
-        return in_supported_digits(number, half_width)
+        return format_supported(number, half_width)
     if not error > NEGLIGIBLE * abs(value):
-        return in_digits(number)
-    bar = in_error_digits(half_width).replace("±", "± ")
-    return f"{in_supported_digits(number, half_width, _DIGITS)} {bar}"
+        return format_number(number)
+    bar = format_error(half_width).replace("±", "± ")
+    return f"{format_supported(number, half_width, _MOST_DIGITS)} {bar}"
 
 
-def errors_of(ds: xr.Dataset, name: str) -> NDArray[np.float64]:
-    """Return the errors of a scalar, NaN at all instants if the result states none.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result.
-    name : str
-        The scalar.
-    """
-    error = stated_error(ds, name)
-    return np.full(ds.sizes["time"], np.nan) if error is None else error
+def format_scalar(ds: xr.Dataset, name: str, index: int) -> str:
+    """Format a scalar of a result at an instant, with its error and unit."""
+    error = float(errors_of(ds, name)[index])
+    return format_with_error(float(ds[name][index]), error, SCALARS[name].units)
 
 
-def told_at(ds: xr.Dataset, name: str, index: int) -> str:
-    """Write a scalar of a result at an instant, with its error.
+def format_supported(value: float, error: float, digits: int = _DIGITS) -> str:
+    """Format a number down to the second digit of its error.
 
     Parameters
     ----------
-    ds : xarray.Dataset
-        A result.
-    name : str
-        The scalar.
-    index : int
-        The instant.
+    value : float
+        The number.
+    error : float
+        Half width of its error bar, in the same unit; NaN where it is not known, inf where the
+        value depends on the mesh.
+    digits : int
+        Significant digits at most.
+
+    Examples
+    --------
+    >>> format_supported(152.234, 4.6), format_supported(152.234, 46.0)
+    ('152.2', '152')
+    >>> format_supported(152.234, math.inf), format_supported(0.3, 20.0)
+    ('>152.2', '0')
     """
-    return told(float(ds[name][index]), float(errors_of(ds, name)[index]), SCALARS[name].units)
+    if math.isnan(value) or math.isnan(error) or error <= 0:
+        return format_number(value, digits)
+    if math.isinf(error):
+        return f">{format_number(value, digits)}"
+    last = _leading(error) + 1 - _ERROR_DIGITS
+    rounded = round(value / 10.0**last) * 10.0**last
+    if rounded == 0:
+        return "0"
+    return format_number(rounded, min(max(_leading(rounded) - last + 1, 1), digits))
 
 
-def headline(ds: xr.Dataset) -> str:
-    """Say in a sentence what a run found.
+def format_error(error: float) -> str:
+    """Format the half width of an error bar with two significant digits.
 
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result.
-
-    Returns
-    -------
-    str
-        The contact at the last instant, or when it was largest if it is lost by then.
+    Examples
+    --------
+    >>> [format_error(error) for error in (0.4567, 107.0, 0.0, math.nan, math.inf)]
+    ['±0.46', '±110', '±0', '±?', 'mesh']
     """
-    instants, area = ds["time"].values, ds["contact_area"].values
-    end = in_words(float(instants[-1]), "s")
-    if not np.any(area > 0):
-        return f"Until t = {end} the bodies do not touch."
-    if area[-1] > 0:
-        return f"After {end} {_contact(ds, -1)}."
-    largest = int(area.argmax())
-    lost = in_words(float(instants[int(np.flatnonzero(area > 0)[-1]) + 1]), "s")
-    return (
-        f"At t = {in_words(float(instants[largest]), 's')}, when it is largest, "
-        f"{_contact(ds, largest)}. The bodies come apart: from t = {lost} to the end, t = {end}, "
-        "they do not touch."
-    )
+    if not math.isfinite(error):
+        return "±?" if math.isnan(error) else MESH_MARK
+    return "±0" if error == 0 else f"±{format_number(_rounded(error), _ERROR_DIGITS)}"
 
 
-def _contact(ds: xr.Dataset, index: int) -> str:
-    force, area, approach = (
-        told_at(ds, name, index) for name in ("force", "contact_area", "approach")
-    )
-    said = f"the contact covers {area} under {force}; "
-    peak = told_at(ds, "peak_pressure", index)
-    return said + f"the approach is {approach} and the peak pressure {peak}"
+def format_percent(part: float) -> str:
+    """Format a part of a whole [-] in per cent, with two significant digits.
+
+    Examples
+    --------
+    >>> [format_percent(part) for part in (0.00312, 0.127, 1e-7, 2.0, math.inf)]
+    ['0.31 %', '13 %', '<0.01 %', '200 %', 'mesh']
+    """
+    if math.isinf(part):
+        return MESH_MARK
+    percent = 100 * part
+    if 0 < percent < 0.01:
+        return "<0.01 %"
+    return f"{percent:.0f} %" if percent >= 9.95 else f"{format_number(percent, 2)} %"
+
+
+def format_bound(part: float) -> str:
+    """Format an upper bound on a part of a whole [-] in per cent.
+
+    Examples
+    --------
+    >>> format_bound(0.0031), format_bound(1e-9)
+    ('at most 0.31 %', 'below 0.01 %')
+    """
+    percent = format_percent(part)
+    return f"below {percent[1:]}" if percent.startswith("<") else f"at most {percent}"
+
+
+def _rounded(value: float) -> float:
+    return float(f"{abs(value):.{_ERROR_DIGITS - 1}e}")
+
+
+def _leading(value: float) -> int:
+    """Place of the first digit once the number is rounded to two: 0 for ones, -1 for tenths."""
+    return math.floor(math.log10(_rounded(value)))

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.contact.body_edge import Outline
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 
 @dataclass(frozen=True)
@@ -138,8 +138,8 @@ class Snapshot:
         rows = self.pressure.T if along == "x" else self.pressure
         if not across[0] <= at <= across[-1]:
             raise ValueError(
-                f"at must lie on the grid, between {in_words(across[0], 'm')} and "
-                f"{in_words(across[-1], 'm')}, got {in_words(at, 'm')}"
+                f"at must lie on the grid, between {format_quantity(across[0], 'm')} and "
+                f"{format_quantity(across[-1], 'm')}, got {format_quantity(at, 'm')}"
             )
         upper = int(np.clip(np.searchsorted(across, at), 1, across.size - 1))
         share = (at - across[upper - 1]) / (across[upper] - across[upper - 1])

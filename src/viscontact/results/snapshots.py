@@ -13,8 +13,7 @@ from viscontact.contact.body_edge import Outline, trace_outline
 from viscontact.grid import Grid
 from viscontact.results.recorded_case import recorded_grid, recorded_noun
 from viscontact.results.snapshot import Snapshot as Snapshot
-from viscontact.units.axis_units import time_labels
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity, time_labels
 
 
 def field_times(results: xr.Dataset, figure: str) -> NDArray[np.float64]:
@@ -86,9 +85,9 @@ def take_snapshots(
     snapshot_of = snapshot_reader(results)
     snapshots = [snapshot_of(index) for index in chosen]
     if not any(snapshot.touching for snapshot in snapshots):
+        instants = ", ".join(format_quantity(s.time, "s") for s in snapshots)
         raise ValueError(
-            f"{figure}: the bodies do not touch at t = "
-            f"{', '.join(in_words(s.time, 's') for s in snapshots) or 'any stored instant'}; "
+            f"{figure}: the bodies do not touch at t = {instants or 'any stored instant'}; "
             "choose other times"
         )
     return snapshots

@@ -43,6 +43,12 @@ def stated_error(results: xr.Dataset, name: str) -> NDArray[np.float64] | None:
     return np.asarray(results[companion].values, dtype=np.float64)
 
 
+def errors_of(ds: xr.Dataset, name: str) -> NDArray[np.float64]:
+    """Errors of a scalar over time, NaN at all instants if the result states none."""
+    error = stated_error(ds, name)
+    return np.full(ds.sizes["time"], np.nan) if error is None else error
+
+
 def mesh_dependent(results: xr.Dataset, name: str) -> NDArray[np.bool_]:
     """Tell at which instants a scalar depends on the mesh.
 

@@ -8,12 +8,17 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
-from viscontact.results.formatting import NEGLIGIBLE, errors_of, told_in
+from viscontact.results.formatting import (
+    NEGLIGIBLE,
+    format_error,
+    format_percent,
+    format_scalar,
+    format_with_error_in,
+)
 from viscontact.results.rounding import is_rounding_tilt
-from viscontact.results.stated_errors import MESH_DEPENDENT, LargestError, largest_error
+from viscontact.results.stated_errors import MESH_DEPENDENT, LargestError, errors_of, largest_error
 from viscontact.results.variables import SCALARS
-from viscontact.units.error_digits import in_error_digits, in_percent
-from viscontact.units.formatting import ReadableUnit, in_words, readable_unit
+from viscontact.units.formatting import ReadableUnit, format_quantity, readable_unit
 
 _ROWS = (
     *("force", "eccentricity_x", "eccentricity_y", "approach", "tilt_x", "tilt_y"),
@@ -98,10 +103,10 @@ def summary_rows(ds: xr.Dataset) -> list[SummaryRow]:
     >>> row.title, row.unit, row.last
     ('force', 'mN', '100.0')
     """
-    return [_row(ds, name) for name in told_scalars(ds)]
+    return [_row(ds, name) for name in summary_scalars(ds)]
 
 
-def told_scalars(ds: xr.Dataset) -> list[str]:
+def summary_scalars(ds: xr.Dataset) -> list[str]:
     """Return which scalars of a result a table tells of: not those that are rounding.
 
     Parameters
@@ -115,27 +120,27 @@ def told_scalars(ds: xr.Dataset) -> list[str]:
 def _row(ds: xr.Dataset, name: str) -> SummaryRow:
     values, errors = np.asarray(ds[name].values, dtype=np.float64), errors_of(ds, name)
     at_largest = int(np.nanargmax(np.abs(values)))
-    unit = readable_unit(float(values[at_largest]), SCALARS[name].units)
+    unit = readable_unit(SCALARS[name].units, float(values[at_largest]))
     # Beside a zero, what counts is what the value becomes.
     scale = NEGLIGIBLE * float(np.abs(values[at_largest]))
     errors = np.where((values == 0) & (errors <= scale), 0.0, errors)
     first, last, largest = (
-        told_in(unit, float(values[k]), float(errors[k])) for k in (0, -1, at_largest)
+        format_with_error_in(unit, float(values[k]), float(errors[k])) for k in (0, -1, at_largest)
     )
     found = largest_error(ds, name)
-    error, part, when = _error_told(found, unit)
+    error, part, when = _largest_error(found, unit)
     unknown = found.unknown if found else 0
     return SummaryRow(name, unit.symbol, first, last, largest, error, part, when, unknown)
 
 
-def _error_told(found: LargestError | None, unit: ReadableUnit) -> tuple[str, str, str]:
-    """The largest error in the row's unit, as a part of the largest value, and when it is."""
+def _largest_error(found: LargestError | None, unit: ReadableUnit) -> tuple[str, str, str]:
+    """The largest error in the row's unit, as a part of the largest value, and when it occurs."""
     if found is None or math.isnan(found.half_width):
         return "not known", "", ""
     if math.isinf(found.half_width):
         return MESH_DEPENDENT, "", ""
-    told, part = in_error_digits(found.half_width / unit.factor), in_percent(found.part)
-    return told, part, in_words(found.time, "s", 3) if found.part > NEGLIGIBLE else ""
+    error, part = format_error(found.half_width / unit.factor), format_percent(found.part)
+    return error, part, format_quantity(found.time, "s", 3) if found.part > NEGLIGIBLE else ""
 
 
 def _is_rounding(ds: xr.Dataset, name: str) -> bool:
@@ -144,3 +149,40 @@ def _is_rounding(ds: xr.Dataset, name: str) -> bool:
         return is_rounding_tilt(values, ds["contact_length"].values, ds["approach"].values)
     largest = float(np.abs(values[np.isfinite(values)]).max(initial=0.0))
     return largest <= (_ROUNDING if name.startswith("eccentricity") else 0.0)
+
+
+def headline(ds: xr.Dataset) -> str:
+    """Say in a sentence what a run found.
+
+    Parameters
+    ----------
+    ds : xarray.Dataset
+        A result.
+
+    Returns
+    -------
+    str
+        The contact at the last instant, or when it was largest if it is lost by then.
+    """
+    instants, area = ds["time"].values, ds["contact_area"].values
+    end = format_quantity(float(instants[-1]), "s")
+    if not np.any(area > 0):
+        return f"Until t = {end} the bodies do not touch."
+    if area[-1] > 0:
+        return f"After {end} {_contact(ds, -1)}."
+    largest = int(area.argmax())
+    lost = format_quantity(float(instants[int(np.flatnonzero(area > 0)[-1]) + 1]), "s")
+    return (
+        f"At t = {format_quantity(float(instants[largest]), 's')}, when it is largest, "
+        f"{_contact(ds, largest)}. The bodies come apart: from t = {lost} to the end, t = {end}, "
+        "they do not touch."
+    )
+
+
+def _contact(ds: xr.Dataset, index: int) -> str:
+    force, area, approach = (
+        format_scalar(ds, name, index) for name in ("force", "contact_area", "approach")
+    )
+    said = f"the contact covers {area} under {force}; "
+    peak = format_scalar(ds, "peak_pressure", index)
+    return said + f"the approach is {approach} and the peak pressure {peak}"

@@ -15,7 +15,7 @@ from viscontact.results.stated_errors import MESH_DEPENDENT
 from viscontact.runs.forecast import Forecast, forecast
 from viscontact.runs.preparation import Prepared
 from viscontact.simulation.setup import Run
-from viscontact.units.formatting import in_digits, in_words
+from viscontact.units.formatting import format_number, format_quantity
 
 #: A load is as large as the largest from this part of it on.
 AS_LARGE = 0.999
@@ -105,10 +105,14 @@ def needs(prepared: Prepared, expected: Forecast) -> list[tuple[str, str]]:
     period = ", periodic" if run.grid.periodic else ""
     free = f"of {_bytes(expected.available)} free"
     return [
-        ("grid", f"{nx} x {ny} cells on {in_words(lx, 'm')} x {in_words(ly, 'm')}{chosen}{period}"),
-        ("cell", f"{in_words(dx, 'm', 3)} x {in_words(dy, 'm', 3)}"),
+        (
+            "grid",
+            f"{nx} x {ny} cells on {format_quantity(lx, 'm')} x "
+            f"{format_quantity(ly, 'm')}{chosen}{period}",
+        ),
+        ("cell", f"{format_quantity(dx, 'm', 3)} x {format_quantity(dy, 'm', 3)}"),
         *_grid_error(run),
-        ("time steps", f"{_steps(run)}, up to t = {in_words(float(run.times[-1]), 's')}"),
+        ("time steps", f"{_steps(run)}, up to t = {format_quantity(float(run.times[-1]), 's')}"),
         ("fields kept", _kept(prepared.case.fields)),
         ("memory", f"about {_bytes(expected.memory)} {free}{growing}"),
         ("run time", f"{_duration(expected.seconds)} on this machine"),
@@ -120,7 +124,7 @@ def _grid_error(run: Run) -> list[tuple[str, str]]:
     if run.mesh is None or not run.mesh.errors:
         return []
     told = [
-        f"{name.replace('_', ' ')} {in_digits(100 * error, 1)} %"
+        f"{name.replace('_', ' ')} {format_number(100 * error, 1)} %"
         for name, error in run.mesh.errors.items()
     ]
     # Broken here: a terminal would break between a number and its unit.
@@ -136,7 +140,7 @@ def _when_largest(run: Run) -> Iterator[str]:
     # On the left of a jump, say, it is at one instant only.
     is_largest = run.load.level_at(instants) >= AS_LARGE * point.level
     is_largest |= instants == crest
-    first, last = (in_words(float(instants[is_largest][k]), "s", 3) for k in (0, -1))
+    first, last = (format_quantity(float(instants[is_largest][k]), "s", 3) for k in (0, -1))
     when = f" (t = {first} to {last})" if first != last else f" (t = {first})"
     comes = np.diff(is_largest.astype(int), prepend=0) > 0
     if math.isfinite(run.load.longest_step) or np.count_nonzero(comes) > 1:
@@ -175,13 +179,17 @@ def expectations(prepared: Prepared, expected: Forecast) -> tuple[str, list[tupl
         return title, []
     # What is prescribed is known.
     follows = (
-        ("approach", in_words(found.approach, "m", 3))
+        ("approach", format_quantity(found.approach, "m", 3))
         if control == "force"
-        else ("force", in_words(found.force, "N", 3))
+        else ("force", format_quantity(found.force, "N", 3))
     )
     return title, [
         ("estimate for", f"largest {control}, {expected.compliance}"),
-        ("contact", f"{in_words(found.length, 'm', 3)} long, {in_words(found.width, 'm', 3)} wide"),
+        (
+            "contact",
+            f"{format_quantity(found.length, 'm', 3)} long, {format_quantity(found.width, 'm', 3)} "
+            "wide",
+        ),
         ("cells in it", f"{expected.cells_along:.0f} along, {expected.cells_across:.0f} across"),
         ("peak pressure", _peak_told(expected, found)),
         follows,
@@ -189,7 +197,7 @@ def expectations(prepared: Prepared, expected: Forecast) -> tuple[str, list[tupl
 
 
 def _peak_told(expected: Forecast, found: ContactEstimate) -> str:
-    told = in_words(found.peak_pressure, "Pa", 3)
+    told = format_quantity(found.peak_pressure, "Pa", 3)
     is_sharp = not SINGULAR_KINDS.isdisjoint(expected.doubts)
     return f"{MESH_DEPENDENT} ({told} on a coarse one)" if is_sharp else told
 
@@ -209,8 +217,8 @@ def warnings_of(prepared: Prepared, expected: Forecast) -> list[str]:
         return list(expected.doubts.values())
     doubts = []
     if not expected.fits:
-        reach = " and ".join(in_words(far, "m", 3) for far in expected.estimate.reach)
-        ends = " and ".join(in_words(extent / 2, "m", 3) for extent in grid.size)
+        reach = " and ".join(format_quantity(far, "m", 3) for far in expected.estimate.reach)
+        ends = " and ".join(format_quantity(extent / 2, "m", 3) for extent in grid.size)
         doubts.append(
             f"the contact will probably overrun the grid: it reaches {reach} from the middle "
             f"along x and y, and the grid {ends}; enlarge grid.size"
@@ -227,9 +235,9 @@ def warnings_of(prepared: Prepared, expected: Forecast) -> list[str]:
 
 
 def _duration(seconds: float) -> str:
-    return f"about {in_words(seconds, 's', 1)}" if seconds > 1 else "about a second"
+    return f"about {format_quantity(seconds, 's', 1)}" if seconds > 1 else "about a second"
 
 
 def _bytes(count: float) -> str:
     megabytes = count / 1e6
-    return f"{in_digits(megabytes / 1e3, 3)} GB" if megabytes > 1e3 else f"{megabytes:.0f} MB"
+    return f"{format_number(megabytes / 1e3, 3)} GB" if megabytes > 1e3 else f"{megabytes:.0f} MB"

@@ -9,7 +9,7 @@ from viscontact.grid import Grid
 from viscontact.runs.free_memory import available_memory
 from viscontact.runs.resources import least_memory, needed_memory
 from viscontact.simulation.setup import Run, prepare_run
-from viscontact.units.formatting import in_digits
+from viscontact.units.formatting import format_number
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,6 +75,6 @@ def _refuse_beyond(case: Case, grid: Grid, needed: float) -> None:
     if needed > available:
         nx, ny = grid.shape
         raise case.error(
-            f"grid.shape: {nx} x {ny} cells need about {in_digits(needed / 1e9, 3)} GB of memory, "
-            f"{in_digits(available / 1e9, 3)} GB are free; use fewer cells"
+            f"grid.shape: {nx} x {ny} cells need about {format_number(needed / 1e9, 3)} GB of "
+            f"memory, {format_number(available / 1e9, 3)} GB are free; use fewer cells"
         )

@@ -18,7 +18,7 @@ from viscontact.simulation.stepper import Past, Trial
 from viscontact.state import ContactState, Outcome
 from viscontact.time_integration.fixed_steps import Step
 from viscontact.time_integration.restart_data import Carried
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,14 +112,16 @@ class March:
         step = self._steps.upcoming()
         if step is None or step.time != solved.time:
             raise ValueError(
-                f"a step to t = {in_words(solved.time, 's', 9)} is not the next one of this run"
+                f"a step to t = {format_quantity(solved.time, 's', 9)} is not the next one of this "
+                "run"
             )
         if solved.cells != self._run.grid.shape:
             self._enlarge(self._run.grid.widened(solved.cells))
         trial = self._past.repeat(step, solved.solution, solved.outcome)
         if not self._steps.accepts(trial.error.relative):
             raise ValueError(
-                f"the step to t = {in_words(solved.time, 's', 9)} is not one that this run takes"
+                f"the step to t = {format_quantity(solved.time, 's', 9)} is not one that this run "
+                "takes"
             )
         self._half_space.keep_patch(solved.patch)
         return self._taken(step, trial, solved)
@@ -203,23 +205,24 @@ def _refuse_rim(run: Run, step: Step, instant: Instant) -> None:
     if run.grid.periodic or not any(overrun(instant.pressure)):
         return
     raise DomainError(
-        f"grid: the contact reaches the grid's rim at t = {in_words(step.time, 's', 6)}; enlarge "
-        f"grid.size, now {in_words(run.grid.size[0], 'm')} x {in_words(run.grid.size[1], 'm')}"
+        f"grid: the contact reaches the grid's rim at t = {format_quantity(step.time, 's', 6)}; "
+        f"enlarge grid.size, now {format_quantity(run.grid.size[0], 'm')} x "
+        f"{format_quantity(run.grid.size[1], 'm')}"
     )
 
 
 def _too_large(run: Run, step: Step) -> str:
     return (
-        f"grid: the contact outgrows {in_words(run.grid.size[0], 'm')} x "
-        f"{in_words(run.grid.size[1], 'm')} at t = {in_words(step.time, 's', 6)}, and with cells "
-        "as fine as these an automatic grid cannot be larger; give a grid of your own, or look "
-        "whether the load carries the body off"
+        f"grid: the contact outgrows {format_quantity(run.grid.size[0], 'm')} x "
+        f"{format_quantity(run.grid.size[1], 'm')} at t = {format_quantity(step.time, 's', 6)}, "
+        "and with cells as fine as these an automatic grid cannot be larger; give a grid of your "
+        "own, or look whether the load carries the body off"
     )
 
 
 def _not_converged(run: Run, solved: SolvedStep) -> str:
     return (
-        f"the contact solver stopped at t = {in_words(solved.time, 's', 6)} with residual "
+        f"the contact solver stopped at t = {format_quantity(solved.time, 's', 6)} with residual "
         f"{solved.solution.residual:.2g} after {solved.solution.iterations} iterations, short of "
         f"the tolerance {run.tolerance:g}; likely causes: a resultant that hardly fits under the "
         f"body, a grid too coarse for the contact, or a tolerance near rounding"

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from viscontact.surfaces.surface import Surface
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import as_real
 
 #: A line scan swept across has at most so many points there.
@@ -58,16 +58,16 @@ def _within(surface: Surface, axis: int, part: tuple[float, float] | None) -> sl
     if start is None or stop is None or not 0 <= start < stop <= size * (1 + 1e-9):
         got = repr(part)
         if start is not None and stop is not None:
-            got = f"{in_words(start, 'm', 6)} to {in_words(stop, 'm', 6)}"
+            got = f"{format_quantity(start, 'm', 6)} to {format_quantity(stop, 'm', 6)}"
         raise ValueError(
             f"crop: {name} must go from a distance to a larger one within the map's "
-            f"{in_words(size, 'm', 6)}, counted from its first corner, got {got}"
+            f"{format_quantity(size, 'm', 6)}, counted from its first corner, got {got}"
         )
     first, last = round(start / spacing), round(stop / spacing)
     if last - first < 2:
         raise ValueError(
-            f"crop: {name} keeps {last - first} points, {in_words(spacing, 'm')} apart; at least "
-            "2 are wanted"
+            f"crop: {name} keeps {last - first} points, {format_quantity(spacing, 'm')} apart; at "
+            "least 2 are wanted"
         )
     return slice(first, last)
 

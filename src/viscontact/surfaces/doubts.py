@@ -8,7 +8,7 @@ import numpy as np
 
 from viscontact.surfaces.levelling import TERMS, Level, polynomial, tilt
 from viscontact.surfaces.surface import Surface
-from viscontact.units.formatting import in_digits, in_words
+from viscontact.units.formatting import format_number, format_quantity
 
 #: Heights of a surface that is skewed by more look like valleys in a plateau.
 SKEWED = -1.0
@@ -72,13 +72,14 @@ def described(surface: Surface) -> str:
     'surface: 2 x 2 points, 10 µm apart; rms height 500 nm, rms slope 0.14'
     """
     nx, ny = surface.shape
-    dx, dy = (in_words(step, "m", 3) for step in surface.spacing)
+    dx, dy = (format_quantity(step, "m", 3) for step in surface.spacing)
     apart = dx if dx == dy else f"{dx} and {dy}"
     fits = ", periodic" if surface.periodic else ""
     missing = f", {surface.missing_share:.2%} missing" if surface.missing.any() else ""
     return (
         f"{surface.name}: {nx} x {ny} points, {apart} apart{fits}{missing}; rms height "
-        f"{in_words(surface.rms_height, 'm', 3)}, rms slope {in_digits(surface.rms_slope, 2)}"
+        f"{format_quantity(surface.rms_height, 'm', 3)}, rms slope "
+        f"{format_number(surface.rms_slope, 2)}"
     )
 
 
@@ -106,7 +107,7 @@ def levelling_note(surface: Surface, level: Level) -> str | None:
     if level not in ("plane", "quadratic") or surface.periodic:
         return None
     form = " and the paraboloid that fits best were" if level == "quadratic" else " was"
-    slope = in_words(math.hypot(*tilt(surface)), "rad", 3)
+    slope = format_quantity(math.hypot(*tilt(surface)), "rad", 3)
     return f"{surface.name}: a tilt of {slope}{form} taken off (level: {level})"
 
 
@@ -133,7 +134,7 @@ def _skewed(surface: Surface) -> str | None:
         return None
     return (
         f"{surface.name} has deep valleys below a plateau (skewness "
-        f"{in_digits(surface.skewness, 2)}), as worn and honed surfaces have; if it was stored "
+        f"{format_number(surface.skewness, 2)}), as worn and honed surfaces have; if it was stored "
         "upside down, flip: true turns it over"
     )
 
@@ -147,9 +148,9 @@ def _tilted(surface: Surface) -> str | None:
     if lift / math.sqrt(12) <= max(2 * rest, 1e-9 * surface.height_range):
         return None
     return (
-        f"{surface.name} is tilted by {in_words(math.hypot(*slopes), 'rad', 2)}, which lifts an "
-        f"end by {in_words(lift, 'm', 3)}, much more than its rms height without it; level: plane "
-        "takes it off"
+        f"{surface.name} is tilted by {format_quantity(math.hypot(*slopes), 'rad', 2)}, which "
+        f"lifts an end by {format_quantity(lift, 'm', 3)}, much more than its rms height without "
+        "it; level: plane takes it off"
     )
 
 
@@ -158,9 +159,9 @@ def _spiked(surface: Surface) -> str | None:
     if height <= SPIKE * surface.rms_height:
         return None
     return (
-        f"{surface.name} has a peak {in_digits(height / surface.rms_height, 2)} rms heights above "
-        "the mean, which will touch alone; if it is an artefact, remove it, or resample with a "
-        "filter"
+        f"{surface.name} has a peak {format_number(height / surface.rms_height, 2)} rms heights "
+        "above the mean, which will touch alone; if it is an artefact, remove it, or resample with "
+        "a filter"
     )
 
 
@@ -168,7 +169,7 @@ def _steep(surface: Surface) -> str | None:
     if surface.rms_slope <= STEEP:
         return None
     return (
-        f"{surface.name} has an rms slope of {in_digits(surface.rms_slope, 2)}: small-strain "
+        f"{surface.name} has an rms slope of {format_number(surface.rms_slope, 2)}: small-strain "
         "theory is not meant for such slopes; is the unit of the heights right "
         "(height_factor:), or is a filter wanted?"
     )

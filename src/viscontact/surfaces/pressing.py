@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from viscontact.indenters import HeightMap
 from viscontact.surfaces.surface import Surface
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 
 def indenter_of(surface: Surface, *, holes: bool = False) -> HeightMap:
@@ -87,7 +87,7 @@ def _require_lengths(surface: Surface) -> None:
     span, extent = surface.height_range, max(surface.size)
     if span > extent:
         raise ValueError(
-            f"height_factor: the heights of {surface.name} span {in_words(span, 'm', 3)} on a map "
-            f"of no more than {in_words(extent, 'm', 3)}; is their unit another, or the map not "
-            "levelled? A factor such as 1e-3 mends a unit"
+            f"height_factor: the heights of {surface.name} span {format_quantity(span, 'm', 3)} on "
+            f"a map of no more than {format_quantity(extent, 'm', 3)}; is their unit another, or "
+            "the map not levelled? A factor such as 1e-3 mends a unit"
         )

@@ -11,7 +11,7 @@ import scipy
 from numpy.typing import NDArray
 
 from viscontact.surfaces.surface import Surface
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import as_real
 
 Array = NDArray[np.float64]
@@ -118,9 +118,9 @@ def _require_coarser(surface: Surface, cells: tuple[float, float], filter: str) 
     if any(finer):
         axis = finer.index(True)
         raise ValueError(
-            f"resample: cells of {in_words(cells[axis], 'm')} are finer than the points, "
-            f"{in_words(surface.spacing[axis], 'm')} apart, and the filter {filter!r} is for "
-            "coarser meshes; use filter: spline"
+            f"resample: cells of {format_quantity(cells[axis], 'm')} are finer than the points, "
+            f"{format_quantity(surface.spacing[axis], 'm')} apart, and the filter {filter!r} is "
+            "for coarser meshes; use filter: spline"
         )
 
 
@@ -129,10 +129,11 @@ def _require_wide(surface: Surface, waves: list[float]) -> None:
         number = as_real(wave)
         # Sampled more coarsely, the bell's own transmission is not the one that is told.
         if number is None or not 4 * spacing * (1 - 1e-9) <= number <= size:
-            got = f"{wave!r}" if number is None else in_words(number, "m", 6)
+            got = f"{wave!r}" if number is None else format_quantity(number, "m", 6)
             raise ValueError(
                 "cutoff must be from four times the distance of the points to the size of the "
-                f"map, {in_words(4 * spacing, 'm')} to {in_words(size, 'm')}, got {got}"
+                f"map, {format_quantity(4 * spacing, 'm')} to {format_quantity(size, 'm')}, got "
+                f"{got}"
             )
 
 
@@ -176,14 +177,15 @@ def _count(surface: Surface, axis: int, cell: float) -> int:
     count = math.floor(size / cell * (1 + 1e-9))
     if not 2 <= count <= _MOST_POINTS:
         raise ValueError(
-            f"resample: {count} cells of {in_words(cell, 'm')} fit on the {in_words(size, 'm')} of "
-            f"{surface.name} along {'xy'[axis]}; choose cells of which two or more do"
+            f"resample: {count} cells of {format_quantity(cell, 'm')} fit on the "
+            f"{format_quantity(size, 'm')} of {surface.name} along {'xy'[axis]}; choose cells of "
+            "which two or more do"
         )
     if surface.periodic and not math.isclose(count * cell, size, rel_tol=1e-9):
         raise ValueError(
-            f"resample: {surface.name} is periodic over {in_words(size, 'm', 6)} along "
-            f"{'xy'[axis]}, which are no whole number of cells of {in_words(cell, 'm', 6)}; use "
-            f"{in_words(size / count, 'm', 6)}"
+            f"resample: {surface.name} is periodic over {format_quantity(size, 'm', 6)} along "
+            f"{'xy'[axis]}, which are no whole number of cells of {format_quantity(cell, 'm', 6)}; "
+            f"use {format_quantity(size / count, 'm', 6)}"
         )
     return count
 
@@ -208,9 +210,9 @@ def _through(surface: Surface, cells: tuple[float, float]) -> Surface:
             new = math.floor((old - 1) * spacing / cell * (1 + 1e-9)) + 1
         if new < 2 or cell > spacing * (1 + 1e-9):
             raise ValueError(
-                f"resample: cells of {in_words(cell, 'm')} are no finer than the points, "
-                f"{in_words(spacing, 'm')} apart, and the filter 'spline' is for finer meshes; use "
-                "filter: mean or gaussian"
+                f"resample: cells of {format_quantity(cell, 'm')} are no finer than the points, "
+                f"{format_quantity(spacing, 'm')} apart, and the filter 'spline' is for finer "
+                "meshes; use filter: mean or gaussian"
             )
         if new > _MOST_POINTS:
             raise ValueError(f"resample: {new} points along {'xy'[axis]} are too many")

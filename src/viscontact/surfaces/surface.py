@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.display import Shown
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import as_real
 
 Array = NDArray[np.float64]
@@ -143,7 +143,8 @@ class Surface(Shown):
         nx, ny = self.shape
         lx, ly = self.size
         return (
-            f"Surface({self.name}: {nx} x {ny} points on {in_words(lx, 'm')} x {in_words(ly, 'm')})"
+            f"Surface({self.name}: {nx} x {ny} points on {format_quantity(lx, 'm')} x "
+            f"{format_quantity(ly, 'm')})"
         )
 
 
@@ -177,7 +178,7 @@ def _map_of(name: str, heights: ArrayLike) -> Array:
     if np.abs(known).max() > _LARGEST:
         raise ValueError(
             f"{name}: heights must be lengths in m, got "
-            f"{in_words(known[np.abs(known).argmax()], 'm', 6)}; give points that were not "
+            f"{format_quantity(known[np.abs(known).argmax()], 'm', 6)}; give points that were not "
             "measured as NaN"
         )
     copy = np.array(given)

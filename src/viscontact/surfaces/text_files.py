@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from viscontact.surfaces.surface import Surface
 from viscontact.surfaces.units import Units
 from viscontact.tables import Row, Table, decimal_number, looks_like_number, read_rows, read_table
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 Array = NDArray[np.float64]
 
@@ -138,7 +138,7 @@ def _on_mesh(name: str, axis: str, position: Array) -> tuple[NDArray[np.intp], f
     if np.abs(index - np.rint(index)).max() > 50 * _CLOSE:
         worst = int(np.abs(index - np.rint(index)).argmax())
         raise ValueError(
-            f"{name}: {axis} = {in_words(position[worst], 'm', 6)} lies on no even mesh of "
-            f"{in_words(step, 'm', 6)} steps; bring the points to an even mesh first"
+            f"{name}: {axis} = {format_quantity(position[worst], 'm', 6)} lies on no even mesh of "
+            f"{format_quantity(step, 'm', 6)} steps; bring the points to an even mesh first"
         )
     return np.rint(index).astype(np.intp), step

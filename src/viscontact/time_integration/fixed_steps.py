@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from viscontact.loads import LoadHistory
 from viscontact.time_integration.restart_data import Carried
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 #: An instant this close to a kink of the load, relative to it, is meant to be the kink.
 SAME = 1e-9
@@ -137,8 +137,8 @@ def _refuse_endless_span(instants: list[float]) -> None:
     shortest = float(steps.min(initial=np.inf, where=steps > 0))
     if shortest < SHORTEST_OF_END * instants[-1]:
         raise ValueError(
-            f"time: steps from {in_words(shortest, 's', 3)} to the end at "
-            f"{in_words(instants[-1], 's', 3)} range over too many decades, at most "
+            f"time: steps from {format_quantity(shortest, 's', 3)} to the end at "
+            f"{format_quantity(instants[-1], 's', 3)} range over too many decades, at most "
             f"{-math.log10(SHORTEST_OF_END):.0f}; begin later or end earlier"
         )
 
@@ -150,8 +150,8 @@ def _divisions(instants: list[float], load: LoadHistory) -> Iterator[float]:
     swings = min(instants[-1], float(load.kinks[-1])) / load.longest_step
     if swings > MOST_STEPS:
         raise ValueError(
-            f"load: takes {swings:.3g} steps of {in_words(load.longest_step, 's', 3)} for its "
-            f"swings, and {MOST_STEPS} at most can be taken; give fewer cycles, or end the run "
+            f"load: takes {swings:.3g} steps of {format_quantity(load.longest_step, 's', 3)} for "
+            f"its swings, and {MOST_STEPS} at most can be taken; give fewer cycles, or end the run "
             "earlier"
         )
     for begin, end in itertools.pairwise(instants):

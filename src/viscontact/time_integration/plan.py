@@ -13,7 +13,7 @@ from viscontact.time_integration.boltzmann_sum import SuperposedMemory
 from viscontact.time_integration.hereditary_integral import Memory
 from viscontact.time_integration.internal_variables import RecursiveMemory
 from viscontact.time_integration.prony_approximation import as_exponentials
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 #: Increments of the fields are kept and summed as long as they take no more than this [bytes].
 ROOM = 256 * 2**20
@@ -111,6 +111,6 @@ def plan_memory(
         return MemoryPlan(compliance, instants, steps, method, 0.0, series)
     method = (
         f"sum of {len(series.times)} exponentials, within {error:.1e} of the law's creep "
-        f"compliance from {in_words(first, 's', 3)} to {in_words(last, 's', 3)}"
+        f"compliance from {format_quantity(first, 's', 3)} to {format_quantity(last, 's', 3)}"
     )
     return MemoryPlan(series, instants, steps, method, error, series)

@@ -12,7 +12,7 @@ from viscontact.loads import LoadHistory
 from viscontact.materials.compliance import ContactCompliance
 from viscontact.time_integration.fixed_steps import kink_meant
 from viscontact.time_integration.requested_times import AdaptiveTimes, uniform_times
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 #: Steps of a run whose instants are not given.
 DEFAULT_STEPS = 60
@@ -103,8 +103,8 @@ def field_instants(
     strange = ~np.isclose(times[index], wanted, rtol=1e-9, atol=0.0)
     if strange.any():
         raise ValueError(
-            f"fields: {in_words(wanted[strange][0], 's', 6)} is not among the run's times; "
-            f"the nearest is {in_words(times[index][strange][0], 's', 6)}"
+            f"fields: {format_quantity(wanted[strange][0], 's', 6)} is not among the run's times; "
+            f"the nearest is {format_quantity(times[index][strange][0], 's', 6)}"
         )
     return times[index]
 
@@ -124,13 +124,13 @@ def _checked_times(times: ArrayLike) -> NDArray[np.float64]:
     if instants.ndim != 1 or instants.size == 0 or not np.isfinite(instants).all():
         raise ValueError(f"times must be one or more finite instants in s, got {times!r}")
     if instants[0] < 0:
-        raise ValueError(f"times must not be before 0, got {in_words(instants[0], 's', 6)}")
+        raise ValueError(f"times must not be before 0, got {format_quantity(instants[0], 's', 6)}")
     falling = np.flatnonzero(np.diff(instants) <= 0)
     if falling.size:
         before, after = instants[falling[0]], instants[falling[0] + 1]
         raise ValueError(
-            f"times must be strictly increasing, got {in_words(before, 's', 6)}, then "
-            f"{in_words(after, 's', 6)}"
+            f"times must be strictly increasing, got {format_quantity(before, 's', 6)}, then "
+            f"{format_quantity(after, 's', 6)}"
         )
     return instants
 

@@ -1,17 +1,35 @@
-"""SI numbers become readable words."""
+"""Format numbers and quantities in readable units: 167 µm, not 0.000167 m."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 
 @dataclass(frozen=True)
 class ReadableUnit:
-    """A unit to print in: its symbol, and how many SI units it is."""
+    """A unit to print or draw in: its symbol, and its size in SI units.
+
+    Examples
+    --------
+    >>> ReadableUnit("mm", 1e-3)(0.0025).item()
+    2.5
+    """
 
     symbol: str
     factor: float
+
+    def __call__(self, values: ArrayLike) -> NDArray[np.float64]:
+        """Values given in SI units, expressed in this unit."""
+        return np.asarray(values, dtype=np.float64) / self.factor
+
+    def label(self, quantity: str) -> str:
+        """Label of an axis or a column: the quantity with its unit in brackets."""
+        return f"{quantity} [{self.symbol}]" if self.symbol else quantity
 
 
 _PREFIXES = (
@@ -22,40 +40,42 @@ _LONG_TIMES = ((1e4, 3600.0, "h"), (2.6e5, 86400.0, "d"))
 _SYMBOLS = {"m2": "m²", "m^2": "m²", "m**2": "m²", "1": ""}
 
 
-def readable_unit(largest: float, unit: str) -> ReadableUnit:
-    """Choose the unit in which a number reads best.
+def readable_unit(unit: str, *values: ArrayLike) -> ReadableUnit:
+    """Choose the unit in which the largest of the values reads best.
 
     Parameters
     ----------
-    largest : float
-        The largest magnitude to be printed, in `unit`.
     unit : str
-        The SI unit: ``"m"``, ``"m2"``, ``"s"``, ``"N"``, ``"Pa"``, ``"1/Pa"``, ``"Pa s"``,
-        ``"rad"``, ``"J"``, ``"J/mol"`` or ``"1"``.
+        The SI unit of the values: ``"m"``, ``"m2"``, ``"s"``, ``"N"``, ``"Pa"``, ``"1/Pa"``,
+        ``"Pa s"``, ``"rad"``, ``"J"``, ``"J/mol"`` or ``"1"``.
+    *values : array_like
+        Everything that shares the unit [SI]; values that are not finite are disregarded.
 
     Returns
     -------
     ReadableUnit
-        Divide by its `factor`, print its `symbol`.
+        The SI unit itself when all values are zero.
 
     Examples
     --------
-    >>> readable_unit(1.05e-4, "m2")
+    >>> readable_unit("m2", 1.05e-4)
     ReadableUnit(symbol='mm²', factor=1e-06)
-    >>> readable_unit(1.5e8, "Pa").symbol
-    'MPa'
-    >>> readable_unit(2.6e-17, "J").symbol
-    'aJ'
-    >>> readable_unit(5.5e-10, "1/Pa").symbol
+    >>> readable_unit("Pa", [0.0, 152.2e6]).symbol, readable_unit("J", 2.6e-17).symbol
+    ('MPa', 'aJ')
+    >>> readable_unit("1/Pa", [5.5e-10, 7e-10]).symbol
     '1/GPa'
     """
+    finite = [np.abs(array[np.isfinite(array)]) for array in map(np.asarray, values)]
+    return _unit_of(max((float(array.max(initial=0.0)) for array in finite), default=0.0), unit)
+
+
+def _unit_of(size: float, unit: str) -> ReadableUnit:
     symbol = _SYMBOLS.get(unit, unit)
-    size = abs(largest)
     if not symbol or not math.isfinite(size) or size == 0.0:
         return ReadableUnit(symbol, 1.0)
     if symbol == "1/Pa":
         # The largest prefix that leaves the compliance below a thousand.
-        modulus = readable_unit(999 / size, "Pa")
+        modulus = _unit_of(999 / size, "Pa")
         return ReadableUnit(f"1/{modulus.symbol}", 1 / modulus.factor)
     if symbol == "s":
         for above, factor, name in reversed(_LONG_TIMES):
@@ -65,11 +85,11 @@ def readable_unit(largest: float, unit: str) -> ReadableUnit:
 
 
 def _prefixed(size: float, symbol: str) -> ReadableUnit:
-    # Kilometres, kiloseconds and kiloradians are nobody's daily unit, nor are picometres; the
+    # Kilometres, kiloseconds and kiloradians are not in daily use, nor are picometres; the
     # forces and works of a sharp tip are small enough for all prefixes.
     top = 1.0 if symbol in ("m", "m²", "s", "rad") else math.inf
     bottom = 0.0 if symbol in ("N", "J") else 1e-9
-    # An area passes for its unit down to a hundredth: 0.7 mm² reads better than 700000 µm².
+    # An area keeps its unit down to a hundredth: 0.7 mm² reads better than 700000 µm².
     power, least = (2, 0.01) if symbol == "m²" else (1, 1.0)
     usable = [(p**power, name) for p, name in _PREFIXES if bottom <= p <= top]
     # One in a thousand of slack: 0.9999 mm stays in millimetres.
@@ -78,55 +98,46 @@ def _prefixed(size: float, symbol: str) -> ReadableUnit:
     return ReadableUnit(prefix + symbol, factor)
 
 
-def in_words(value: float, unit: str, digits: int = 4) -> str:
-    """Write a number with the unit in which it reads best.
+def format_quantity(value: float, unit: str, digits: int = 4) -> str:
+    """Format a value with the unit in which it reads best.
 
     Parameters
     ----------
     value : float
-        The number, in `unit`.
+        The value, in `unit`.
     unit : str
         Its SI unit, as in `readable_unit`.
     digits : int
-        How many significant digits to print.
-
-    Returns
-    -------
-    str
-        The number and its unit.
+        Significant digits; trailing zeros are left out.
 
     Examples
     --------
-    >>> in_words(0.009565, "m")
-    '9.565 mm'
-    >>> in_words(152.23e6, "Pa")
-    '152.2 MPa'
+    >>> format_quantity(0.009565, "m"), format_quantity(152.23e6, "Pa")
+    ('9.565 mm', '152.2 MPa')
     """
-    readable = readable_unit(value, unit)
-    number = in_digits(value / readable.factor, digits)
-    if "." in number and "e" not in number:  # alone, no column asks for idle zeros
-        number = number.rstrip("0").rstrip(".")
+    readable = _unit_of(abs(value), unit)
+    number = without_trailing_zeros(format_number(value / readable.factor, digits))
     return f"{number} {readable.symbol}".rstrip()
 
 
-def in_digits(value: float, digits: int = 4) -> str:
-    """Write a number with so many significant digits, without an exponent where it can.
+def format_number(value: float, digits: int = 4) -> str:
+    """Format a number with significant digits, without an exponent where possible.
 
     Parameters
     ----------
     value : float
         The number.
     digits : int
-        How many significant digits to print.
+        Significant digits, trailing zeros included: columns align.
 
     Returns
     -------
     str
-        The number; a dash for NaN, which stands for "does not apply".
+        The number; a dash for NaN, which means "does not apply".
 
     Examples
     --------
-    >>> in_digits(152.2349), in_digits(9.99999), in_digits(float("nan"))
+    >>> format_number(152.2349), format_number(9.99999), format_number(float("nan"))
     ('152.2', '10.00', '-')
     """
     if math.isnan(value):
@@ -139,3 +150,43 @@ def in_digits(value: float, digits: int = 4) -> str:
     rounded = abs(float(f"{value:.{digits - 1}e}"))
     decimals = max(0, digits - 1 - math.floor(math.log10(rounded)))
     return f"{value:.{decimals}f}"
+
+
+def without_trailing_zeros(number: str) -> str:
+    """Drop the zeros at the end of a formatted decimal number.
+
+    Examples
+    --------
+    >>> [without_trailing_zeros(number) for number in ("1.500", "10.0", "100", "1e+06")]
+    ['1.5', '10', '100', '1e+06']
+    """
+    return number.rstrip("0").rstrip(".") if "." in number and "e" not in number else number
+
+
+def format_compact(value: float, digits: int = 3) -> str:
+    """Format a finite number for a label: rounded, without exponent and trailing zeros.
+
+    Examples
+    --------
+    >>> format_compact(8.33333), format_compact(1000.0)
+    ('8.33', '1000')
+    """
+    return np.format_float_positional(float(f"{value:.{digits - 1}e}"), trim="-")
+
+
+def time_labels(times: Iterable[float]) -> tuple[str, ...]:
+    """Format instants [s] for a legend, all in one unit, with as many digits as tell them apart.
+
+    Examples
+    --------
+    >>> time_labels([0.0, 30.0, 1000.0])
+    ('0 s', '30 s', '1000 s')
+    """
+    instants = [float(instant) for instant in times]
+    unit = readable_unit("s", instants)
+    labels: tuple[str, ...] = ()
+    for digits in range(3, 18):
+        labels = tuple(f"{format_compact(float(unit(t)), digits)} {unit.symbol}" for t in instants)
+        if len(set(labels)) == len(set(instants)):
+            break
+    return labels

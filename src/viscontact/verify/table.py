@@ -10,7 +10,7 @@ from dataclasses import fields
 from itertools import pairwise
 from pathlib import Path
 
-from viscontact.units.formatting import in_digits, readable_unit
+from viscontact.units.formatting import format_number, readable_unit
 from viscontact.verify.case import Result
 
 HEADINGS = (
@@ -41,8 +41,8 @@ def row_of_words(result: Result) -> tuple[str, ...]:
     >>> row_of_words(result)[3:]
     ('20.0000 µm', '20.0100', '5.0e-04', '1e-03', '2.0', 'ok')
     """
-    unit = readable_unit(result.exact, result.unit)
-    exact, ours = (in_digits(value / unit.factor, 6) for value in (result.exact, result.ours))
+    unit = readable_unit(result.unit, result.exact)
+    exact, ours = (format_number(value / unit.factor, 6) for value in (result.exact, result.ours))
     return (
         result.case,
         result.reference,

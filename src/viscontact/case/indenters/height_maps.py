@@ -18,7 +18,7 @@ from viscontact.case.indenters.base import Shape
 from viscontact.case.quantities import Length, NotNegativeLength, Section
 from viscontact.surfaces.doubts import described, levelling_note
 from viscontact.surfaces.pressing import require_complete, require_map
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 
 def _as_pair(given: Any) -> Any:
@@ -56,7 +56,7 @@ def _period_note(surface: surfaces.Surface) -> tuple[str, ...]:
     if not surface.periodic:
         return ()
     nx, ny = surface.shape
-    lx, ly = (in_words(length, "m", 9) for length in surface.size)
+    lx, ly = (format_quantity(length, "m", 9) for length in surface.size)
     return (
         f"{surface.name} is periodic: with 'shape: [{nx}, {ny}]', 'size: [{lx}, {ly}]' and "
         "'periodic: true' under grid it is pressed without borders",

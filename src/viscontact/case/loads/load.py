@@ -29,7 +29,7 @@ from viscontact.case.quantities import (
 from viscontact.loads import ApproachHistory, ForceHistory, LoadHistory
 from viscontact.loads.history import Control
 from viscontact.units.dimensions import DIMENSIONS
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 #: How a mean pressure is written; a modulus' example would be a high one.
 PRESSURE_EXAMPLE = "2 MPa"
@@ -217,8 +217,8 @@ class History(Load):
             if control == "force" and level.value < 0:
                 raise ValueError(
                     f"points[{place}]: a force must be zero or more, got "
-                    f"{in_words(level.value, 'N', 6)}: a negative force pulls, and adhesion is not "
-                    "modelled"
+                    f"{format_quantity(level.value, 'N', 6)}: a negative force pulls, and adhesion "
+                    "is not modelled"
                 )
         return _history(control, times, [level.value for level in levels], self._tail)
 

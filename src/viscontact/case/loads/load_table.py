@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from viscontact.tables import Table, read_table
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 _COLUMNS = ("time", "force", "approach", "eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y")
 
@@ -67,6 +67,6 @@ def _refuse_decrease(table: Table) -> None:
         if now < before:
             raise ValueError(
                 f"{table.source.name}:{line}: time must not decrease, got "
-                f"{in_words(before, 's', 6)} followed by {in_words(now, 's', 6)}"
+                f"{format_quantity(before, 's', 6)} followed by {format_quantity(now, 's', 6)}"
             )
         before = now

@@ -12,7 +12,7 @@ from viscontact.case.loads.levels import Level
 from viscontact.case.loads.sentences import EXAMPLE, Sentence
 from viscontact.loads.harmonic import STEPS_PER_CYCLE
 from viscontact.loads.history import Control
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 #: A history of more points than this is a slip of the pen: each is a step of the run.
 MOST_POINTS = 100_000
@@ -193,7 +193,7 @@ class _Way:
 
     def _wait_until(self, sentence: Sentence, instant: Fraction) -> None:
         if instant <= self.times[-1]:
-            now = in_words(float(self.times[-1]), "s", 6)
+            now = format_quantity(float(self.times[-1]), "s", 6)
             _refuse(sentence, f"by then it is {now} already; write e.g. 'hold for 10 s'")
         self._go(sentence, self.levels[-1], instant - self.times[-1])
 
@@ -209,7 +209,7 @@ class _Way:
 
     def _refuse_pull(self, sentence: Sentence, level: Fraction) -> None:
         if self.control == "force" and level < 0:
-            lowest = in_words(float(level), "N")
+            lowest = format_quantity(float(level), "N")
             _refuse(
                 sentence,
                 f"the force would fall to {lowest}: a negative force pulls, and adhesion is not "

@@ -21,7 +21,7 @@ from viscontact.runs.directory.lock import LOCK_NAME, DirectoryInUse, locked
 from viscontact.runs.free_memory import available_memory
 from viscontact.runs.processes.job import Job
 from viscontact.runs.processes.request import RunRequest
-from viscontact.units.formatting import in_digits
+from viscontact.units.formatting import format_number
 
 
 def checked_jobs(request: ManyRequest, interruption: Interruption) -> list[Job]:
@@ -54,8 +54,9 @@ def doubts(jobs: Sequence[Job], wanted: int, at_once: int, threads: int) -> list
     if at_once < min(wanted, len(jobs)):
         needed = sum(sorted(job.memory for job in jobs)[-wanted:])
         lines.append(
-            f"-j {wanted}: these runs at once would need about {in_digits(needed / 1e9, 3)} GB of "
-            f"memory, {in_digits(available_memory() / 1e9, 3)} GB are free; {at_once} at a time"
+            f"-j {wanted}: these runs at once would need about {format_number(needed / 1e9, 3)} GB "
+            f"of memory, {format_number(available_memory() / 1e9, 3)} GB are free; {at_once} at a "
+            "time"
         )
     cores = usable_cores()
     if at_once * threads > max(cores, threads):

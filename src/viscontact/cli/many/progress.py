@@ -20,7 +20,7 @@ from rich.progress import (
 from viscontact.cli.terminal.messages import say
 from viscontact.runs.processes.child import Child, Ended
 from viscontact.runs.processes.job import Job
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 #: Plain lines come at this part of all the work, or after so many seconds.
 _LINE_PART, _LINE_SECONDS = 0.1, 30.0
@@ -141,4 +141,4 @@ def _bars() -> Progress:
 def _details(child: Child) -> str:
     course, job = child.course, child.job
     of = "" if job.instants is None else f" of {job.instants}"
-    return f"{course.instants}{of} instants, t = {in_words(course.time, 's')}"
+    return f"{course.instants}{of} instants, t = {format_quantity(course.time, 's')}"

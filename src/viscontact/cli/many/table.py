@@ -13,12 +13,12 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
+from viscontact.results.formatting import format_percent
 from viscontact.results.netcdf import open_results
 from viscontact.results.stated_errors import largest_error
 from viscontact.results.variables import SCALARS
 from viscontact.runs.processes.child import Ended
-from viscontact.units.error_digits import in_percent
-from viscontact.units.formatting import in_digits, in_words, readable_unit
+from viscontact.units.formatting import format_number, format_quantity, readable_unit
 
 #: Of each the largest over time: what a design is judged by.
 _COLUMNS = ("force", "approach", "contact_area", "peak_pressure")
@@ -90,7 +90,7 @@ def _table(runs: Sequence[Ended], found: Sequence[_Found | None]) -> Table:
     units = {}
     for name in _COLUMNS:
         largest = max((each.largest[name] for each in found if each), default=0.0)
-        units[name] = readable_unit(largest, SCALARS[name].units)
+        units[name] = readable_unit(SCALARS[name].units, largest)
         heading = f"{name.replace('_', ' ')} [{units[name].symbol}]"
         table.add_column(heading.replace("[", r"\["), justify="right", vertical="bottom")
     has_errors = any(each is not None and not math.isnan(each.error) for each in found)
@@ -99,17 +99,12 @@ def _table(runs: Sequence[Ended], found: Sequence[_Found | None]) -> Table:
     for ended, each in zip(runs, found, strict=True):
         cells = ["", *("" for _ in _COLUMNS)]
         if each is not None:
-            values = (in_digits(each.largest[name] / units[name].factor) for name in _COLUMNS)
-            cells = [in_words(each.seconds, "s", 2), *values]
-            cells += [_error(each.error)] if has_errors else []
+            values = (format_number(each.largest[name] / units[name].factor) for name in _COLUMNS)
+            cells = [format_quantity(each.seconds, "s", 2), *values]
+            if has_errors:
+                cells.append("" if math.isnan(each.error) else format_percent(each.error))
         table.add_row(escape(ended.job.name), ended.outcome, *cells)
     return table
-
-
-def _error(part: float) -> str:
-    if math.isnan(part):
-        return ""
-    return "mesh" if math.isinf(part) else in_percent(part)
 
 
 def _warnings(runs: Sequence[Ended], found: Sequence[_Found | None]) -> list[str]:

@@ -19,7 +19,7 @@ from viscontact.laws import WLF, Arrhenius, Elastic, Shift
 from viscontact.materials import library
 from viscontact.materials.library import Entry
 from viscontact.materials.material import Material
-from viscontact.units.formatting import in_digits, in_words, readable_unit
+from viscontact.units.formatting import format_number, format_quantity, readable_unit
 from viscontact.units.temperatures import in_celsius
 
 _WIDTH = 78
@@ -39,7 +39,7 @@ def list_library(output: Path | None = None) -> None:
             each.family,
             each.temperature.partition(" (")[0].partition(",")[0],
             each.test.partition(" ")[0],
-            " to ".join(in_words(instant, "s", 2) for instant in each.measured),
+            " to ".join(format_quantity(instant, "s", 2) for instant in each.measured),
         )
         for each in entries
     ]
@@ -73,7 +73,7 @@ def _print_about(shown: Shown) -> None:
         print(f"  temperature   {_shift(shown.shift)}")
     measured = shown.measured
     if measured is not None:
-        print(f"  range         {' to '.join(in_words(t, 's') for t in measured)}")
+        print(f"  range         {' to '.join(format_quantity(t, 's') for t in measured)}")
     for note in shown.notes:
         print(f"  note          {note}")
 
@@ -97,7 +97,7 @@ def _print_entry(entry: Entry) -> None:
         "source": entry.source,
         "temperature": entry.temperature,
         "test": entry.test,
-        "range": " to ".join(in_words(t, "s") for t in entry.measured),
+        "range": " to ".join(format_quantity(t, "s") for t in entry.measured),
         "constants": entry.constants,
         "volume": entry.volume,
         "checked": entry.checked,
@@ -118,7 +118,10 @@ def _volume(material: Material) -> str:
     if material.poisson_ratio is not None:
         return f"{type(material.law).__name__}, Poisson's ratio {material.poisson_ratio:g}"
     assert material.bulk_modulus is not None  # exactly one is given
-    return f"{type(material.law).__name__}, bulk modulus {in_words(material.bulk_modulus, 'Pa')}"
+    return (
+        f"{type(material.law).__name__}, bulk modulus "
+        f"{format_quantity(material.bulk_modulus, 'Pa')}"
+    )
 
 
 def _values(shown: Shown) -> Table:
@@ -144,7 +147,7 @@ def _values(shown: Shown) -> Table:
         table.add_column("")
     for row, time in enumerate(times):
         note = ["not measured" if beyond[row] else ""] if any(beyond) else []
-        table.add_row(in_words(time, "s"), *(column[row] for column in cells), *note)
+        table.add_row(format_quantity(time, "s"), *(column[row] for column in cells), *note)
     return table
 
 
@@ -153,10 +156,10 @@ def _in_unit(values: NDArray[np.float64], unit: str) -> tuple[str, list[str]]:
     good = values[values > _DEPTH * values.max()]
     middle = float(np.exp(np.mean(np.log(good))))
     if unit == "1/Pa":
-        modulus = readable_unit(1.0 / middle, "Pa")
-        return f"1/{modulus.symbol}", [in_digits(float(v) * modulus.factor) for v in values]
-    chosen = readable_unit(middle, unit)
-    return chosen.symbol, [in_digits(float(v) / chosen.factor) for v in values]
+        modulus = readable_unit("Pa", 1.0 / middle)
+        return f"1/{modulus.symbol}", [format_number(float(v) * modulus.factor) for v in values]
+    chosen = readable_unit(unit, middle)
+    return chosen.symbol, [format_number(float(v) / chosen.factor) for v in values]
 
 
 def _within(time: float, measured: tuple[float, float] | None) -> bool:

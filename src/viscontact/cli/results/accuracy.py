@@ -8,13 +8,13 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
+from viscontact.results.formatting import format_bound
 from viscontact.results.stated_errors import (
     MESH_DEPENDENT,
     WHY_MESH_DEPENDENT,
     largest_error,
 )
 from viscontact.results.variables import error_name
-from viscontact.units.error_digits import at_most
 
 #: How the memory of a series law begins to describe itself; there is nothing to doubt about it.
 _EXACT = "recursion, exact"
@@ -39,11 +39,13 @@ def accuracy_lines(time_error: ArrayLike, memory: str, inversion_error: float) -
     """
     largest = float(np.nanmax(np.asarray(time_error, dtype=float), initial=0.0))
     if largest > 0:
-        yield f"error owed to the time steps: {at_most(largest)} of the pressure (estimated)"
+        yield f"error owed to the time steps: {format_bound(largest)} of the pressure (estimated)"
     if memory and not memory.startswith(_EXACT):
         yield f"memory: {memory}"
     if inversion_error > 0:
-        yield f"the law was converted numerically; error: {at_most(inversion_error)} (estimated)"
+        yield (
+            f"the law was converted numerically; error: {format_bound(inversion_error)} (estimated)"
+        )
 
 
 def mesh_lines(ds: xr.Dataset, names: Iterable[str]) -> Iterator[str]:

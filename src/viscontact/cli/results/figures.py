@@ -15,7 +15,7 @@ import xarray as xr
 from viscontact.cli.results.stored import early_end, opened
 from viscontact.cli.terminal.messages import refuse, say
 from viscontact.cli.terminal.progress import frames_shown
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 from viscontact.units.parsing import parse_quantity
 
 #: The figure that moves; it is written by its own means.
@@ -208,8 +208,8 @@ def _refuse_outside(instants: list[float] | None, ds: xr.Dataset, directory: Pat
     for instant in instants or ():
         if not start - slack <= instant <= end + slack:
             refuse(
-                f"--time: {in_words(instant, 's')} lies outside the run {directory}, "
-                f"which goes from {in_words(start, 's')} to {in_words(end, 's')}"
+                f"--time: {format_quantity(instant, 's')} lies outside the run {directory}, "
+                f"which goes from {format_quantity(start, 's')} to {format_quantity(end, 's')}"
             )
 
 
@@ -220,7 +220,7 @@ def _snapped(instants: list[float] | None, ds: xr.Dataset, figure: str) -> str:
     stored = ds[ds["pressure"].dims[0]].values
     nearest = {wanted: float(stored[np.abs(stored - wanted).argmin()]) for wanted in instants}
     return "; ".join(
-        f"{in_words(wanted, 's')} is not stored; drew {in_words(drawn, 's')}"
+        f"{format_quantity(wanted, 's')} is not stored; drew {format_quantity(drawn, 's')}"
         for wanted, drawn in nearest.items()
         if not np.isclose(wanted, drawn, rtol=1e-9, atol=0.0)
     )

@@ -25,11 +25,16 @@ from viscontact.cli.results.accuracy import (
 )
 from viscontact.cli.results.stored import early_end
 from viscontact.cli.terminal.messages import refuse
+from viscontact.results.formatting import format_error, format_percent, format_supported
 from viscontact.results.history_csv import write_history
 from viscontact.results.rounding import is_rounding_tilt
 from viscontact.results.stated_errors import LargestError, largest_error, stated_error
-from viscontact.units.error_digits import in_error_digits, in_percent, in_supported_digits
-from viscontact.units.formatting import in_digits, in_words, readable_unit
+from viscontact.units.formatting import (
+    format_number,
+    format_quantity,
+    readable_unit,
+    without_trailing_zeros,
+)
 
 _COLUMNS = (
     *("force", "approach", "tilt_x", "tilt_y", "contact_area", "contact_length"),
@@ -39,8 +44,6 @@ _ROWS = 20
 #: Blanks between columns, and the room below which heads are broken here: where it is left to
 #: the terminal's width, words are broken as well.
 _GAP, _TO_SPARE = 2, 8
-#: In place of the error of a number that depends on the mesh; a line below the table says more.
-_SINGULAR = "mesh"
 
 
 def print_history(ds: xr.Dataset, *, everything: bool = False, errors: bool = False) -> None:
@@ -102,7 +105,7 @@ def _footers(ds: xr.Dataset, shown: list[str], *, errors: bool) -> Iterator[str]
     # The last whole cycle's loss stands at every instant until the next is over.
     known = losses[np.isfinite(losses)]
     if known.size:
-        first, last = (in_words(float(loss), "J") for loss in known[[0, -1]])
+        first, last = (format_quantity(float(loss), "J") for loss in known[[0, -1]])
         several = f"{first} in the first cycle, {last} in the last"
         yield f"loss per cycle: {last if np.ptp(known) == 0 else several}{_loss_error(ds)}"
     if knows_errors(ds, shown):
@@ -120,7 +123,7 @@ def _spread(count: int) -> NDArray[np.int_]:
 
 def _loss_error(ds: xr.Dataset) -> str:
     found = largest_error(ds, "loss_per_cycle")
-    return f", within {in_percent(found.part)}" if found and np.isfinite(found.part) else ""
+    return f", within {format_percent(found.part)}" if found and np.isfinite(found.part) else ""
 
 
 def _is_shown(ds: xr.Dataset, name: str) -> bool:
@@ -154,15 +157,15 @@ def _columns(
         largest = _largest(ds, name)
         if largest == 0:  # of a single instant at time 0
             continue
-        unit = readable_unit(largest, ds[name].attrs["units"])
-        foot = "largest\nerror" if name == "time" else _error_told(largest_error(ds, name))
+        unit = readable_unit(ds[name].attrs["units"], largest)
+        foot = "largest\nerror" if name == "time" else _error_in_percent(largest_error(ds, name))
         cells = _cells(ds, name, rows, unit.factor, errors=errors)
         columns.append(_Column((*name.split("_"), f"[{unit.symbol}]"), cells, foot))
     return columns
 
 
 def _table(ds: xr.Dataset, columns: list[_Column], *, narrow: bool) -> Table:
-    stated = any(column.foot not in ("", in_error_digits(np.nan)) for column in columns[1:])
+    stated = any(column.foot not in ("", format_error(np.nan)) for column in columns[1:])
     # Narrow enough for nine columns on eighty characters.
     table = Table(
         box=SIMPLE if stated else SIMPLE_HEAD,
@@ -186,38 +189,27 @@ def _cells(
     values, error = ds[name].values[rows] / factor, stated_error(ds, name)
     if name == "time":
         # Steps that a run chose begin small: "0.005" leaves room that "0.005000" would not.
-        told = [_trimmed(in_digits(float(value))) for value in values]
-        return [f"{text}\n" for text in told] if errors else told
+        times = [without_trailing_zeros(format_number(float(value))) for value in values]
+        return [f"{time}\n" for time in times] if errors else times
     if error is None:
-        return [in_digits(float(value)) for value in values]
+        return [format_number(float(value)) for value in values]
     bars = error[rows] / factor
     pairs = [(float(v), float(e)) for v, e in zip(values, bars, strict=True)]
-    told = [in_supported_digits(*pair) for pair in pairs]
+    numbers = [format_supported(*pair) for pair in pairs]
     if not errors:
-        return told
-    return [f"{text}\n{_bar(*pair)}" for text, pair in zip(told, pairs, strict=True)]
+        return numbers
+    # Below its number; none where the number is a dash.
+    below = ("" if np.isnan(value) else format_error(bar) for value, bar in pairs)
+    return [f"{number}\n{bar}" for number, bar in zip(numbers, below, strict=True)]
 
 
-def _bar(value: float, error: float) -> str:
-    """The error below its number; none where the number is a dash, or has no limit."""
-    if np.isnan(value):
-        return ""
-    return _SINGULAR if np.isinf(error) else in_error_digits(error)
-
-
-def _error_told(found: LargestError | None) -> str:
+def _error_in_percent(found: LargestError | None) -> str:
     if found is None:
         return ""
-    if np.isnan(found.half_width):
-        return in_error_digits(np.nan)
-    if np.isinf(found.half_width):
-        return _SINGULAR
-    percent = in_percent(found.part).replace(" ", "")
+    if not np.isfinite(found.half_width):
+        return format_error(found.half_width)
+    percent = format_percent(found.part).replace(" ", "")
     return percent if percent.startswith("<") else f"±{percent}"
-
-
-def _trimmed(digits: str) -> str:
-    return digits.rstrip("0").rstrip(".") if "." in digits and "e" not in digits else digits
 
 
 def _is_rounding(ds: xr.Dataset, tilt: str) -> bool:

@@ -17,7 +17,7 @@ from viscontact.runs.directory.checkpoint import STATE_NAME
 from viscontact.runs.directory.lock import LOCK_NAME, DirectoryInUse, locked
 from viscontact.runs.processes.request import RunRequest
 from viscontact.state import Outcome
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 #: The case as it is run, in its directory.
 CASE_NAME = "case.yaml"
@@ -116,7 +116,10 @@ def progress_made(
         return f"{done} of {len(times)} instants"
     if reached is None:
         return "0 instants"
-    return f"{done} instants, up to t = {in_words(reached, 's')} of {in_words(times[-1], 's')}"
+    return (
+        f"{done} instants, up to t = {format_quantity(reached, 's')} of "
+        f"{format_quantity(times[-1], 's')}"
+    )
 
 
 def _run_directory(ds: xr.Dataset) -> Path | None:

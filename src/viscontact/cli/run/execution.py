@@ -24,7 +24,7 @@ from viscontact.runs.directory.recorder import RunRecord, Undisturbed
 from viscontact.runs.directory.step_log import LOG_NAME
 from viscontact.runs.processes.job import Standing
 from viscontact.runs.processes.request import RunRequest
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 
 def execute(
@@ -106,7 +106,7 @@ def _taken_up(attempt: Attempt) -> RunRecord:
             f"what it keeps is as it was; once that is mended: {attempt.request.resuming}",
         )
     made = attempt.made(record.resumed, record.reached)
-    at = "" if record.reached is None else f", t = {in_words(record.reached, 's')}"
+    at = "" if record.reached is None else f", t = {format_quantity(record.reached, 's')}"
     attempt.say(f"{recorded.directory}: going on after {made}{'' if ', up to t =' in made else at}")
     return record
 
@@ -207,8 +207,8 @@ def _say_finished(attempt: Attempt) -> None:
     directory, run = attempt.recorded.directory, attempt.recorded.run
     tidy(directory)
     attempt.say(
-        f"{directory}: is finished already, up to t = {in_words(float(run.times[-1]), 's')}; "
-        "--overwrite computes it anew"
+        f"{directory}: is finished already, up to t = "
+        f"{format_quantity(float(run.times[-1]), 's')}; --overwrite computes it anew"
     )
 
 

@@ -18,7 +18,7 @@ from viscontact.cli.results.accuracy import accuracy_lines, knows_errors, mesh_l
 from viscontact.results.netcdf import RESULT_NAME, open_results
 from viscontact.results.summary import LEGEND, SummaryRow, summary_rows
 from viscontact.runs.directory.recorded_run import PROGRESS_NAME
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 #: Blanks between columns.
 _GAP = 2
@@ -39,7 +39,7 @@ def _print(ds: xr.Dataset, directory: Path) -> None:
         console.print(LEGEND, highlight=False)
     count, seconds = ds.sizes["time"], float(ds.attrs["wall_time"])
     console.print(
-        f"{count} instants in {in_words(seconds, 's', 3)}, {int(ds['iterations'].sum())} "
+        f"{count} instants in {format_quantity(seconds, 's', 3)}, {int(ds['iterations'].sum())} "
         f"iterations, residual at most {float(ds['residual'].max()):.1e}"
     )
     attributes = (str(ds.attrs["memory"]), float(ds.attrs["inversion_error"]))
@@ -63,7 +63,7 @@ def _warnings(lines: Path, of_result: str) -> Iterator[str]:
             state = json.loads(line)
             told |= set(state["warnings"])
             for text in state["warnings"]:
-                yield f"t = {in_words(state['time'], 's')}: {text}"
+                yield f"t = {format_quantity(state['time'], 's')}: {text}"
     yield from (text for text in of_result.splitlines() if text not in told)
 
 
@@ -86,7 +86,7 @@ def _table(ds: xr.Dataset, rows: list[SummaryRow], width: int) -> Table:
 
 def _columns(ds: xr.Dataset, rows: list[SummaryRow]) -> dict[str, list[str]]:
     columns = {"": [f"{row.title} [{row.unit}]" for row in rows]}
-    first, last = (f"t = {in_words(float(ds['time'][index]), 's')}" for index in (0, -1))
+    first, last = (f"t = {format_quantity(float(ds['time'][index]), 's')}" for index in (0, -1))
     # A load that comes on has nothing to tell of its first instant.
     if not all(row.first.split()[0] in ("0", "-") for row in rows):
         columns[first] = _aligned([row.first for row in rows])

@@ -13,7 +13,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from viscontact.cli.terminal.messages import say
 from viscontact.simulation.state_generator import Progress as Report
 from viscontact.state import ContactState
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 #: Plain lines come at this part of the run, or after so many seconds.
 _LINE_PART, _LINE_SECONDS = 0.1, 30.0
@@ -93,5 +93,5 @@ class _PlainLines:
 
 def _details(state: ContactState) -> str:
     area = state.contact_area
-    contact = f"contact {in_words(area, 'm2')}" if area else "no contact"
-    return f"t = {in_words(state.time, 's')}, {state.iterations} iterations, {contact}"
+    contact = f"contact {format_quantity(area, 'm2')}" if area else "no contact"
+    return f"t = {format_quantity(state.time, 's')}, {state.iterations} iterations, {contact}"

@@ -33,8 +33,7 @@ from viscontact.plot.pressure.pressure_map import (
 )
 from viscontact.results.snapshots import Snapshot, field_times, snapshot_reader
 from viscontact.results.variables import error_name
-from viscontact.units.axis_units import DisplayUnit, time_labels
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import ReadableUnit, format_quantity, time_labels
 
 _NAME = "animation"
 Array = NDArray[np.float64]
@@ -91,7 +90,7 @@ class _Scene:
     read: Callable[[int], Snapshot]
     window: Window
     levels: Array
-    unit: DisplayUnit
+    unit: ReadableUnit
     along: Literal["x", "y"]
     note: str
 
@@ -156,8 +155,9 @@ def animation(
     shown = stored[(stored >= first) & (stored <= last)]
     if shown.size < 2:
         raise ValueError(
-            f"{_NAME}: needs fields stored at two instants or more between {in_words(first, 's')} "
-            f"and {in_words(last, 's')}, got {shown.size}; run again with 'output: fields: all'"
+            f"{_NAME}: needs fields stored at two instants or more between "
+            f"{format_quantity(first, 's')} and {format_quantity(last, 's')}, got {shown.size}; "
+            "run again with 'output: fields: all'"
         )
     scene = _scene(results, stored, shown)
     wide = page_width(width, style.TWO_COLUMNS)
@@ -200,7 +200,8 @@ def _scene(results: xr.Dataset, stored: Array, shown: Array) -> _Scene:
     if not boxes:
         raise ValueError(
             f"{_NAME}: the bodies do not touch at any stored instant from "
-            f"{in_words(shown[0], 's')} to {in_words(shown[-1], 's')}; choose other times"
+            f"{format_quantity(shown[0], 's')} to {format_quantity(shown[-1], 's')}; choose other "
+            "times"
         )
     window = window_over(boxes, snapshot.borders() if snapshot.periodic else None)
     levels, unit = pressure_levels(highest)

@@ -18,8 +18,7 @@ from viscontact.indenters.cross_section import SHOWN_PART, Section, cut, lines_t
 from viscontact.plot.geometry.indenter_facts import facts, in_lines, length
 from viscontact.plot.layout import style
 from viscontact.plot.layout.page import NARROW, Width, page_width
-from viscontact.units.axis_units import DisplayUnit, display_number, display_unit
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import ReadableUnit, format_compact, format_quantity, readable_unit
 
 _PLAN_POINTS = 601
 _BODY, _BODY_EDGE = "#dfe5ea", style.INK
@@ -80,14 +79,14 @@ def draw_indenter(
     gap = indenter.gap(x[:, None], y)
     if not np.isfinite(gap).any():
         raise ValueError(
-            f"nothing of the body lies within {in_words(size[0], 'm', 3)} x "
-            f"{in_words(size[1], 'm', 3)} around the origin; draw a larger part"
+            f"nothing of the body lies within {format_quantity(size[0], 'm', 3)} x "
+            f"{format_quantity(size[1], 'm', 3)} around the origin; draw a larger part"
         )
     through = lines_through(indenter, x, y, gap)
     along = cut(indenter, size[0], through[1], axis=0)
     across = cut(indenter, size[1], through[0], axis=1)
     figure, panels = _panels(page_width(width, style.TWO_COLUMNS))
-    unit = display_unit("m", *size)
+    unit = readable_unit("m", *size)
     _draw_section(panels[0, 0], along, unit, "x", "y", through[1], contact)
     _draw_section(panels[0, 1], across, unit, "y", "x", through[0], contact)
     levels = _draw_plan(panels[1, 0], x, y, gap, unit, contact)
@@ -109,14 +108,14 @@ def _panels(width: float) -> tuple[Figure, NDArray[np.object_]]:
 def _draw_section(
     axes: Axes,
     section: Section,
-    unit: DisplayUnit,
+    unit: ReadableUnit,
     along: str,
     fixed: str,
     place: float,
     contact: tuple[float, float, float, float] | None,
 ) -> None:
     style.dress(axes)
-    height = display_unit("m", section.top)
+    height = readable_unit("m", section.top)
     position, gap, top = unit(section.position), height(section.gap), float(height(section.top))
     if contact is not None:
         middle, extent = (contact[0], contact[2]) if along == "x" else (contact[1], contact[3])
@@ -149,7 +148,7 @@ def _draw_plan(
     x: NDArray[np.float64],
     y: NDArray[np.float64],
     gap: NDArray[np.float64],
-    unit: DisplayUnit,
+    unit: ReadableUnit,
     contact: tuple[float, float, float, float] | None,
 ) -> list[float]:
     """Draw the plan, and return the gaps that lines are drawn at [m]."""
@@ -187,7 +186,7 @@ def _draw_body(
 
 
 def _shade_contact(
-    axes: Axes, unit: DisplayUnit, contact: tuple[float, float, float, float]
+    axes: Axes, unit: ReadableUnit, contact: tuple[float, float, float, float]
 ) -> None:
     """Shade the box of the contact, given by its centre and its extents [m]."""
     middle_x, middle_y, length, width = contact
@@ -237,4 +236,4 @@ def _stretched(what: str, stretch: float) -> str:
     digits = 1 if stretch > 100 else 2
     if abs(math.log(stretch)) < math.log(1.05):
         return "true shape"
-    return f"{what} {display_number(stretch, digits)}×"
+    return f"{what} {format_compact(stretch, digits)}×"

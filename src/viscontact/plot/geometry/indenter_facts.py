@@ -19,7 +19,7 @@ from viscontact.indenters import (
 from viscontact.indenters.cross_section import Section
 from viscontact.results.argument_table import in_plain_words, particulars
 from viscontact.results.provenance import describe
-from viscontact.units.axis_units import display_number, display_unit
+from viscontact.units.formatting import format_compact, readable_unit
 
 # A line that falls without end is told of so close to its end.
 _BEFORE_END = 0.9
@@ -60,8 +60,8 @@ def facts(
             if curvature > 0:
                 yield f"radius of curvature along {axis} {length(1 / curvature)}"
     if levels:
-        unit = display_unit("m", levels)
-        numbers = ", ".join(display_number(float(unit(level)), 2) for level in levels)
+        unit = readable_unit("m", levels)
+        numbers = ", ".join(format_compact(float(unit(level)), 2) for level in levels)
         yield f"thin lines: gap of {numbers} {unit.symbol}"
     if contact is not None:
         extents = " × ".join(length(extent, digits=3) for extent in contact[2:])
@@ -80,8 +80,8 @@ def in_lines(told: Iterator[str], characters: int) -> str:
 
 def length(value: float, digits: int = 4) -> str:
     """Write a length in a readable unit, with a minus sign that is one."""
-    unit = display_unit("m", value)
-    return _signed(f"{display_number(float(unit(value)), digits)} {unit.symbol}")
+    unit = readable_unit("m", value)
+    return _signed(f"{format_compact(float(unit(value)), digits)} {unit.symbol}")
 
 
 def _names(indenter: Indenter, along: Section) -> Iterator[str]:
@@ -94,7 +94,7 @@ def _names(indenter: Indenter, along: Section) -> Iterator[str]:
     elif isinstance(indenter, PlacedIndenter):
         yield from _names(indenter.body, along)
         if indenter.angle:
-            yield f"turned by {display_number(math.degrees(indenter.angle))}°"
+            yield f"turned by {format_compact(math.degrees(indenter.angle))}°"
         for axis, far in (("x", indenter.x), ("y", indenter.y)):
             if far:
                 yield f"moved by {length(far)} along {axis}"
@@ -148,8 +148,8 @@ def _places(section: Section) -> str:
     ends = [end if abs(end) > least else 0.0 for end in section.ends]
     if len(ends) == 2 and abs(ends[0] + ends[1]) <= 1e-9 * ends[1]:
         return f"±{length(ends[1])}"
-    unit = display_unit("m", ends)
-    places = ", ".join(_signed(display_number(float(unit(end)), 4)) for end in ends)
+    unit = readable_unit("m", ends)
+    places = ", ".join(_signed(format_compact(float(unit(end)), 4)) for end in ends)
     return f"{places} {unit.symbol}"
 
 

@@ -11,7 +11,7 @@ from viscontact.plot.geometry.indenter_drawing import draw_indenter
 from viscontact.plot.layout.page import Width
 from viscontact.results.recorded_case import recorded_grid, recorded_noun
 from viscontact.results.snapshots import take_snapshots
-from viscontact.units.axis_units import time_labels
+from viscontact.units.formatting import time_labels
 
 _NAME = "indenter"
 

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from viscontact.loads import LoadHistory
 from viscontact.plot.layout import style
-from viscontact.units.axis_units import display_unit
+from viscontact.units.formatting import readable_unit
 
 _POINTS = 1200
 
@@ -43,7 +43,7 @@ def draw_load(load: LoadHistory, end: float) -> Figure:
     if not (np.isfinite(end) and end > 0):
         raise ValueError(f"end must be an instant after 0 s, got {end!r}")
     times, levels = _course(load, end)
-    unit, time_unit = display_unit(load.unit, levels), display_unit("s", times)
+    unit, time_unit = readable_unit(load.unit, levels), readable_unit("s", times)
     figure = style.new_figure(style.ONE_COLUMN, 2.7)
     axes = figure.subplots()
     axes.plot(time_unit(times), unit(levels), color=style.LINE, linewidth=style.LINE_WIDTH)

@@ -19,7 +19,7 @@ from viscontact.plot.layout.page import Width, page_width
 from viscontact.results.snapshots import Snapshot, field_times, snapshot_reader
 from viscontact.results.stated_errors import stated_error
 from viscontact.results.variables import error_name
-from viscontact.units.axis_units import display_unit
+from viscontact.units.formatting import readable_unit
 
 _NAME = "contact-area"
 _COUNTED = "#D55E00"
@@ -82,7 +82,7 @@ def contact_area(
         axes = style.new_figure(wide, min(3.4, 0.85 * wide)).add_subplot()
     style.dress(axes)
     area = run["contact_area"].values
-    unit, time_unit = display_unit("m2", area, counted), display_unit("s", run["time"].values)
+    unit, time_unit = readable_unit("m2", area, counted), readable_unit("s", run["time"].values)
     instants, error = time_unit(run["time"].values), stated_error(run, "contact_area")
     look: dict[str, Any] = {"color": style.LINE, "linewidth": style.LINE_WIDTH}
     # Above the dots, which are many where all instants are stored.

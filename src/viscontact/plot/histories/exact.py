@@ -17,7 +17,7 @@ from viscontact.plot.histories.time_axis import scale_time
 from viscontact.plot.layout import style
 from viscontact.plot.layout.page import NARROW, Width, page_width
 from viscontact.results.recorded_case import recorded_noun
-from viscontact.units.axis_units import display_unit
+from viscontact.units.formatting import readable_unit
 
 _NAME = "exact"
 _MARKERS_AT_MOST = 26
@@ -76,13 +76,13 @@ def exact(
     within = np.isin(results["time"].values, run["time"].values)
     curves = _curves(results, run, theory, within)
     figure, panels, below = _panels(page_width(width, style.TWO_COLUMNS))
-    time_unit = display_unit("s", run["time"].values)
+    time_unit = readable_unit("s", run["time"].values)
     instants = time_unit(run["time"].values)
     every = max(1, -(-instants.size // _MARKERS_AT_MOST))
     looks = style.run_styles(len(curves))
     markers = zip(curves, panels, looks, style.MARKERS, strict=False)
     for (label, si_unit, ours, theirs), axes, look, marker in markers:
-        unit = display_unit(si_unit, theirs)
+        unit = readable_unit(si_unit, theirs)
         axes.plot(instants, unit(theirs), color=style.FAINT, linewidth=style.LINE_WIDTH)
         points: dict[str, Any] = {
             **{"color": look["color"], "marker": marker, "markersize": 3.6, "linestyle": "none"},

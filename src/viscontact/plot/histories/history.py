@@ -26,7 +26,7 @@ from viscontact.plot.layout.page import NARROW, Width, page_width
 from viscontact.results.rounding import is_rounding_tilt
 from viscontact.results.stated_errors import stated_error
 from viscontact.results.variables import error_name
-from viscontact.units.axis_units import DisplayUnit, display_unit
+from viscontact.units.formatting import ReadableUnit, readable_unit
 
 _NAME = "history"
 
@@ -150,7 +150,7 @@ def worthwhile_quantities(runs: Mapping[str, xr.Dataset]) -> list[Quantity]:
 
 def draw_quantities(
     panels: list[Axes], quantities: list[Quantity], runs: Mapping[str, xr.Dataset]
-) -> tuple[DisplayUnit, list[Band]]:
+) -> tuple[ReadableUnit, list[Band]]:
     """Draw quantities over time, one in each panel.
 
     Parameters
@@ -164,12 +164,12 @@ def draw_quantities(
 
     Returns
     -------
-    unit : DisplayUnit
+    unit : ReadableUnit
         Of the time axis.
     bands : list of Band
         The errors that are shaded.
     """
-    time_unit = display_unit("s", *(run["time"].values for run in runs.values()))
+    time_unit = readable_unit("s", *(run["time"].values for run in runs.values()))
     bands: list[Band] = []
     for axes, quantity in zip(panels, quantities, strict=True):
         bands += _draw(axes, quantity, runs, time_unit)
@@ -215,10 +215,10 @@ def _panels(count: int, width: float) -> tuple[Figure, list[Axes]]:
 
 
 def _draw(
-    axes: Axes, quantity: Quantity, runs: Mapping[str, xr.Dataset], time_unit: DisplayUnit
+    axes: Axes, quantity: Quantity, runs: Mapping[str, xr.Dataset], time_unit: ReadableUnit
 ) -> list[Band]:
     bands = []
-    unit = display_unit(quantity.si_unit, *(run[quantity.name].values for run in runs.values()))
+    unit = readable_unit(quantity.si_unit, *(run[quantity.name].values for run in runs.values()))
     for (name, run), look in zip(runs.items(), style.run_styles(len(runs)), strict=True):
         values = run[quantity.name].values
         instants, error = time_unit(run["time"].values), stated_error(run, quantity.name)

@@ -18,8 +18,7 @@ from viscontact.plot.layout.error_band import Band, band_key, draw_band
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.results.stated_errors import stated_error
 from viscontact.results.variables import error_name
-from viscontact.units.axis_units import display_unit
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity, readable_unit
 
 _NAME = "hysteresis"
 
@@ -116,8 +115,8 @@ def compare_hysteresis(
     figure = style.new_figure(wide, min(3.3, 0.8 * wide))
     axes = figure.subplots()
     style.dress(axes)
-    x_unit = display_unit("m", *(run["approach"].values for run in shown.values()))
-    y_unit = display_unit("N", *(run["force"].values for run in shown.values()))
+    x_unit = readable_unit("m", *(run["approach"].values for run in shown.values()))
+    y_unit = readable_unit("N", *(run["force"].values for run in shown.values()))
     bands: list[Band] = []
     for (name, run), look in zip(shown.items(), style.run_styles(len(shown)), strict=True):
         x, y = x_unit(run["approach"].values), y_unit(run["force"].values)
@@ -207,4 +206,4 @@ def _last_loss(results: xr.Dataset, times: ArrayLike | None) -> str:
         return ""
     losses = within_span(results, ("loss_per_cycle",), times, _NAME, "")["loss_per_cycle"].values
     known = losses[np.isfinite(losses)]
-    return f"loss per cycle {in_words(float(known[-1]), 'J', 3)}" if known.size else ""
+    return f"loss per cycle {format_quantity(float(known[-1]), 'J', 3)}" if known.size else ""

@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 
 
 def within_span(
@@ -51,7 +51,7 @@ def within_span(
     if shown.sizes["time"] < 2:
         raise ValueError(
             f"{figure}: needs at least two steps to draw a line, got {shown.sizes['time']} between "
-            f"{in_words(span.min(), 's')} and "
-            f"{in_words(span.max(), 's')}{f' in {name}' if name else ''}"
+            f"{format_quantity(span.min(), 's')} and "
+            f"{format_quantity(span.max(), 's')}{f' in {name}' if name else ''}"
         )
     return shown

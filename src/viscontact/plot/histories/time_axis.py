@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import NullFormatter
 from numpy.typing import NDArray
 
-from viscontact.units.axis_units import DisplayUnit
+from viscontact.units.formatting import ReadableUnit
 
 #: A change by less than this part is rounding; a load that is held from this part of the time on
 #: leaves the rest to creep, which is even in log time.
@@ -25,7 +25,7 @@ BEFORE_FIRST = 0.2
 def scale_time(
     panels: list[Axes],
     runs: Mapping[str, xr.Dataset],
-    time_unit: DisplayUnit,
+    time_unit: ReadableUnit,
     drawn: Iterable[NDArray[np.float64]] | None = None,
 ) -> None:
     """Scale and name the time axes of panels, logarithmic where all runs suit that.
@@ -36,7 +36,7 @@ def scale_time(
         To be scaled.
     runs : mapping of str to xarray.Dataset
         The runs, which choose the scale.
-    time_unit : DisplayUnit
+    time_unit : ReadableUnit
         Of the axes.
     drawn : iterable of ndarray, optional
         Instants that are drawn of each run, if they are not all of its own [s].

@@ -18,7 +18,7 @@ from viscontact.plot.layout.page import Width, page_width
 from viscontact.plot.pressure.stress_section import stress_sections
 from viscontact.results.recorded_case import recorded_grid, recorded_poisson_ratio
 from viscontact.results.snapshots import field_times, take_snapshots
-from viscontact.units.axis_units import display_unit
+from viscontact.units.formatting import readable_unit
 
 _NAME = "von-mises"
 #: More instants than this make a line of their markers.
@@ -105,11 +105,11 @@ def compare_von_mises(
     courses = [_course(run, times) for run in runs.values()]
     figure = style.new_figure(page_width(width, style.ONE_COLUMN), 3.6)
     panels = list(figure.subplots(2, 1, sharex=True))
-    time = display_unit("s", *(course.instants for course in courses))
+    time = readable_unit("s", *(course.instants for course in courses))
     looks: list[dict[str, Any]] = style.run_styles(len(runs))
     for axes, (part, si_unit, name) in zip(panels, _DRAWN, strict=True):
         curves = [getattr(course, part) for course in courses]
-        unit = display_unit(si_unit, *curves)
+        unit = readable_unit(si_unit, *curves)
         for course, curve, look in zip(courses, curves, looks, strict=True):
             dots = {"marker": "o", "markersize": 3.5} if curve.size <= _MARKED else {}
             axes.plot(time(course.instants), unit(curve), clip_on=False, zorder=3, **look, **dots)

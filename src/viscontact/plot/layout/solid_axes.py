@@ -18,7 +18,7 @@ from mpl_toolkits.mplot3d.axis3d import Axis
 from viscontact.plot.layout import style
 from viscontact.plot.layout.page import NARROW
 from viscontact.plot.layout.window import Window
-from viscontact.units.axis_units import DisplayUnit
+from viscontact.units.formatting import ReadableUnit
 
 #: From where a surface is seen: above the nearer corner of its long side [degrees].
 _ELEVATION, _AZIMUTH = 28.0, -58.0
@@ -160,7 +160,7 @@ def _taken(axes: Axes3D) -> Bbox:
     return Bbox.union([box, *texts]).transformed(figure.transFigure.inverted())
 
 
-def stretch_of_heights(axes: Axes3D, window: Window, unit: DisplayUnit) -> float:
+def stretch_of_heights(axes: Axes3D, window: Window, unit: ReadableUnit) -> float:
     """Return how many times larger heights are drawn than lengths along x.
 
     Parameters
@@ -169,7 +169,7 @@ def stretch_of_heights(axes: Axes3D, window: Window, unit: DisplayUnit) -> float
         As `solid_panels` makes them.
     window : Window
         What they show of the plane.
-    unit : DisplayUnit
+    unit : ReadableUnit
         Of the heights, a length.
 
     Returns

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from matplotlib.axes import Axes
 
 from viscontact.results.snapshots import Snapshot
-from viscontact.units.axis_units import DisplayUnit, display_unit
+from viscontact.units.formatting import ReadableUnit, readable_unit
 
 _MARGIN = 0.07
 # A contact up to three times as long as wide is shown as it is. One that is stretched is left
@@ -39,9 +39,9 @@ class Window:
     stretch: float
 
     @property
-    def unit(self) -> DisplayUnit:
+    def unit(self) -> ReadableUnit:
         """The unit of both axes: the longer one decides."""
-        return display_unit("m", self.x, self.y)
+        return readable_unit("m", self.x, self.y)
 
     @property
     def height_to_width(self) -> float:

@@ -14,7 +14,7 @@ from viscontact.laws import Law
 from viscontact.plot.layout import style
 from viscontact.plot.layout.page import NARROW, Width, page_width
 from viscontact.results.recorded_case import recorded_noun
-from viscontact.units.axis_units import display_unit
+from viscontact.units.formatting import readable_unit
 
 _NAME = "creep"
 
@@ -178,7 +178,7 @@ def _draw(
 ) -> None:
     """Curves, each with its value at time 0."""
     everything = [each for values, at_once in curves for each in (values, at_once)]
-    unit, time_unit = display_unit(si_unit, *everything), display_unit("s", times)
+    unit, time_unit = readable_unit(si_unit, *everything), readable_unit("s", times)
     looks = style.run_styles(len(curves))
     for (values, _), look in zip(curves, looks, strict=True):
         axes.semilogx(time_unit(times), unit(values), **look)

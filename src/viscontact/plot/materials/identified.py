@@ -17,7 +17,7 @@ from viscontact.identification import Fit, IndentationFit, MasterCurve, ShiftFit
 from viscontact.laws import Shift
 from viscontact.plot.layout import style
 from viscontact.plot.layout.page import NARROW, Width, page_width
-from viscontact.units.axis_units import DisplayUnit, display_unit
+from viscontact.units.formatting import ReadableUnit, readable_unit
 from viscontact.units.temperatures import in_celsius
 
 Array = NDArray[np.float64]
@@ -82,7 +82,7 @@ def fitted_series(fit: Fit, *, width: Width | None = None) -> Figure:
     return figure
 
 
-def _dress_series(fit: Fit, above: Axes, below: Axes, unit: DisplayUnit) -> None:
+def _dress_series(fit: Fit, above: Axes, below: Axes, unit: ReadableUnit) -> None:
     above.set_xscale("log")
     if _is_wide(*fit.measured.values()):
         above.set_yscale("log")
@@ -153,9 +153,9 @@ def fitted_indentation(fit: IndentationFit, *, width: Width | None = None) -> Fi
     loop, over_time, below = panels["loop"], panels["time"], panels["rest"]
     record = fit.record
     d, F, t = (
-        display_unit("m", record.approach),
-        display_unit("N", record.force),
-        display_unit("s", record.times),
+        readable_unit("m", record.approach),
+        readable_unit("N", record.force),
+        readable_unit("s", record.times),
     )
     force, approach = (
         (fit.fitted, record.approach) if fit.given == "approach" else (record.force, fit.fitted)
@@ -240,7 +240,7 @@ def master_curve(
     # The palest end of the map fades on white.
     shades = LinearSegmentedColormap.from_list("sets", colormaps["plasma"](np.linspace(0, 0.85)))
     norm = Normalize(celsius.min(), max(celsius.max(), celsius.min() + 1.0))
-    unit = display_unit(
+    unit = readable_unit(
         "1/Pa" if "compliance" in curve.measured else "Pa", *curve.measured.values()
     )
     reduced = curve.reduced_points
@@ -272,7 +272,7 @@ def master_curve(
 
 
 def _dress_sets(
-    curve: MasterCurve, sets: Axes, master: Axes, unit: DisplayUnit, fit: Fit | None
+    curve: MasterCurve, sets: Axes, master: Axes, unit: ReadableUnit, fit: Fit | None
 ) -> None:
     names = list(curve.measured)
     quantity = _LABELS[names[0]] if len(names) == 1 else "Modulus"
@@ -335,9 +335,9 @@ def _rms(fit: Fit) -> str:
     return ", ".join(f"{value:.2g} % ({name})" for name, value in parts.items()) + " rms"
 
 
-def _unit_of(fit: Fit) -> DisplayUnit:
+def _unit_of(fit: Fit) -> ReadableUnit:
     si_unit = "1/Pa" if "compliance" in fit.measured else "Pa"
-    return display_unit(si_unit, *fit.measured.values())
+    return readable_unit(si_unit, *fit.measured.values())
 
 
 def _symbol(fit: Fit) -> str:

@@ -15,7 +15,7 @@ from viscontact.laws import Law
 from viscontact.materials.library import Points
 from viscontact.plot.layout import style
 from viscontact.plot.layout.page import NARROW, Width, page_width
-from viscontact.units.axis_units import DisplayUnit, display_unit
+from viscontact.units.formatting import ReadableUnit, readable_unit
 
 _NAME = "material_curves"
 _SAMPLES = 241
@@ -154,7 +154,7 @@ def _line(
 
 
 def _markers(
-    axes: Axes, points: tuple[Points, ...], quantity: str, unit: DisplayUnit, *, color: str
+    axes: Axes, points: tuple[Points, ...], quantity: str, unit: ReadableUnit, *, color: str
 ) -> None:
     for number, each in enumerate(p for p in points if p.quantity == quantity):
         axes.plot(
@@ -210,7 +210,7 @@ def _log_axes(axes: Axes, at: NDArray[np.float64]) -> None:
         axes.yaxis.set_minor_formatter(NullFormatter())
 
 
-def _middle_unit(si_unit: str, values: NDArray[np.float64]) -> DisplayUnit:
+def _middle_unit(si_unit: str, values: NDArray[np.float64]) -> ReadableUnit:
     """Choose a unit in which the middle of a logarithmic axis reads best."""
     good = values[_worth_showing(values)]
-    return display_unit(si_unit, float(np.exp(np.log(good).mean())) if good.size else 0.0)
+    return readable_unit(si_unit, float(np.exp(np.log(good).mean())) if good.size else 0.0)

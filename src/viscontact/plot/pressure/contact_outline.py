@@ -17,7 +17,7 @@ from viscontact.plot.layout.page import Width, page_width
 from viscontact.plot.layout.window import Window, window_around
 from viscontact.plot.pressure.rim_polygons import rim_curves, rim_path
 from viscontact.results.snapshots import snapshots_of_runs, take_snapshots
-from viscontact.units.axis_units import time_labels
+from viscontact.units.formatting import time_labels
 
 _NAME = "contact-outline"
 

@@ -27,7 +27,7 @@ from viscontact.plot.layout.window import Window, window_around
 from viscontact.plot.pressure.relief import Relief, draw_relief, relief
 from viscontact.plot.pressure.rim_polygons import rim_curves
 from viscontact.results.snapshots import Snapshot, field_at, take_snapshots
-from viscontact.units.axis_units import DisplayUnit, display_number, display_unit, time_labels
+from viscontact.units.formatting import ReadableUnit, format_compact, readable_unit, time_labels
 
 _NAME = "surface-3d"
 Array = NDArray[np.float64]
@@ -121,13 +121,13 @@ def deformed_surface(
         _draw_indenter(axes, dent, window, unit)
         add_title(axes, f"t = {label}")
     add_side_bar(figure, _COLOURS, norm, unit.label("Displacement"), downwards=True)
-    heights = f"heights {display_number(stretch_of_heights(panels[0], window, unit), 2)}×"
+    heights = f"heights {format_compact(stretch_of_heights(panels[0], window, unit), 2)}×"
     stretches = "; ".join(filter(None, (heights, window.note)))
     add_note(figure, "black: rim of the contact; orange: lower side of the indenter", stretches)
     return figure
 
 
-def dent_relief(dent: Dent, window: Window, unit: DisplayUnit) -> Relief:
+def dent_relief(dent: Dent, window: Window, unit: ReadableUnit) -> Relief:
     """Make a surface of the displacement.
 
     Parameters
@@ -136,7 +136,7 @@ def dent_relief(dent: Dent, window: Window, unit: DisplayUnit) -> Relief:
         Both bodies.
     window : Window
         The part that is drawn.
-    unit : DisplayUnit
+    unit : ReadableUnit
         Of the displacement.
 
     Returns
@@ -171,17 +171,17 @@ def _window(snapshots: list[Snapshot]) -> Window:
     return Window(limits[0], limits[1], near.stretch)
 
 
-def _depths(dents: list[Dent], window: Window) -> tuple[DisplayUnit, tuple[float, float]]:
+def _depths(dents: list[Dent], window: Window) -> tuple[ReadableUnit, tuple[float, float]]:
     """The unit of the displacement, and what is shallowest and deepest in it."""
-    shown = [dent_relief(dent, window, DisplayUnit("m", 1.0)).values for dent in dents]
+    shown = [dent_relief(dent, window, ReadableUnit("m", 1.0)).values for dent in dents]
     low, high = min(map(np.min, shown)), max(map(np.max, shown))
     if high == low:
         high = low + 1e-3 * (window.x[1] - window.x[0])
-    unit = display_unit("m", low, high)
+    unit = readable_unit("m", low, high)
     return unit, (float(unit(low)), float(unit(high)))
 
 
-def _draw_rim(axes: Axes3D, dent: Dent, window: Window, unit: DisplayUnit) -> None:
+def _draw_rim(axes: Axes3D, dent: Dent, window: Window, unit: ReadableUnit) -> None:
     cells = (dent.snapshot.x, dent.snapshot.y)
     # The bodies meet there: the indenter goes on smoothly, the surface falls beside a punch.
     depth = RegularGridInterpolator(cells, _continued(dent.indenter), bounds_error=False)
@@ -196,7 +196,7 @@ def _continued(depth: Array) -> Array:
     return np.asarray(depth[tuple(nearest)])
 
 
-def _draw_indenter(axes: Axes3D, dent: Dent, window: Window, unit: DisplayUnit) -> None:
+def _draw_indenter(axes: Axes3D, dent: Dent, window: Window, unit: ReadableUnit) -> None:
     """The lower side of the indenter on its middle lines, below the top of the axes."""
     _, top = axes.get_zlim()
     snapshot, depth = dent.snapshot, unit(dent.indenter)

@@ -25,7 +25,7 @@ from viscontact.plot.layout.window import Window, window_around
 from viscontact.plot.pressure.rim_polygons import beyond_period, rim_curves, rim_path
 from viscontact.plot.pressure.squared_pressure import squared_pressure
 from viscontact.results.snapshots import Snapshot, snapshots_of_runs, take_snapshots
-from viscontact.units.axis_units import DisplayUnit, display_number, display_unit, time_labels
+from viscontact.units.formatting import ReadableUnit, format_compact, readable_unit, time_labels
 
 _NAME = "pressure-map"
 # Percentiles of pressure over the contact between which contours have room for labels.
@@ -144,7 +144,7 @@ def _draw(snapshots: list[Snapshot], headings: list[str], note: str, width: Widt
     return figure
 
 
-def pressure_levels(highest: float) -> tuple[NDArray[np.float64], DisplayUnit]:
+def pressure_levels(highest: float) -> tuple[NDArray[np.float64], ReadableUnit]:
     """Choose round levels of pressure.
 
     Parameters
@@ -156,7 +156,7 @@ def pressure_levels(highest: float) -> tuple[NDArray[np.float64], DisplayUnit]:
     -------
     levels : ndarray
         From 0 [Pa].
-    unit : DisplayUnit
+    unit : ReadableUnit
         In which they are round.
 
     Examples
@@ -165,7 +165,7 @@ def pressure_levels(highest: float) -> tuple[NDArray[np.float64], DisplayUnit]:
     >>> unit(levels).tolist()
     [0.0, 20.0, 40.0, 60.0, 80.0, 100.0, 120.0, 140.0, 160.0]
     """
-    unit = display_unit("Pa", highest)
+    unit = readable_unit("Pa", highest)
     levels = MaxNLocator(nbins=10, steps=[1, 2, 2.5, 5, 10]).tick_values(0.0, highest / unit.factor)
     return np.asarray(levels) * unit.factor, unit
 
@@ -233,13 +233,13 @@ def draw_contours(
 
 
 def _label_contours(
-    axes: Axes, lines: QuadContourSet, snapshot: Snapshot, unit: DisplayUnit, window: Window
+    axes: Axes, lines: QuadContourSet, snapshot: Snapshot, unit: ReadableUnit, window: Window
 ) -> None:
     """Write the pressure on the contours where there is room for it."""
     pressure = snapshot.pressure
     lowest, highest = np.percentile(pressure[pressure > 0], _LABELLED) ** 2
     texts = {
-        square: display_number(float(unit(math.sqrt(square))))
+        square: format_compact(float(unit(math.sqrt(square))))
         for square in lines.levels
         if lowest < square < highest
     }
@@ -259,7 +259,7 @@ def _pressed(snapshot: Snapshot, points: NDArray[np.float64]) -> NDArray[np.bool
 
 
 def _add_colour_bar(
-    figure: Figure, panels: list[Axes], levels: NDArray[np.float64], unit: DisplayUnit, extend: str
+    figure: Figure, panels: list[Axes], levels: NDArray[np.float64], unit: ReadableUnit, extend: str
 ) -> None:
     shown = _level_colours(levels, unit)
     bar = figure.colorbar(shown, ax=panels, shrink=0.9, aspect=25, pad=0.02, extend=extend)
@@ -267,7 +267,7 @@ def _add_colour_bar(
 
 
 def fill_colour_bar(
-    axes: Axes, levels: NDArray[np.float64], unit: DisplayUnit, extend: str
+    axes: Axes, levels: NDArray[np.float64], unit: ReadableUnit, extend: str
 ) -> None:
     """Draw a colour bar for levels of pressure into axes of its own.
 
@@ -277,7 +277,7 @@ def fill_colour_bar(
         To be filled.
     levels : ndarray
         From 0, ascending [Pa].
-    unit : DisplayUnit
+    unit : ReadableUnit
         Of its ticks.
     extend : str
         At which end pressures go beyond, as matplotlib says it.
@@ -286,12 +286,12 @@ def fill_colour_bar(
     _dress_colour_bar(figure.colorbar(_level_colours(levels, unit), cax=axes, extend=extend), unit)
 
 
-def _level_colours(levels: NDArray[np.float64], unit: DisplayUnit) -> ScalarMappable:
+def _level_colours(levels: NDArray[np.float64], unit: ReadableUnit) -> ScalarMappable:
     colours = style.pressure_colours(len(levels) - 1)
     return ScalarMappable(BoundaryNorm(unit(levels), colours.N), colours)
 
 
-def _dress_colour_bar(bar: Colorbar, unit: DisplayUnit) -> None:
+def _dress_colour_bar(bar: Colorbar, unit: ReadableUnit) -> None:
     bar.set_label(unit.label("Pressure"), size=style.LABEL_SIZE, color=style.INK)
     bar.ax.tick_params(labelsize=style.TICK_SIZE, width=style.THIN_LINE, length=2.5)
     bar.outline.set(linewidth=style.THIN_LINE, edgecolor=style.INK)

@@ -15,7 +15,7 @@ from viscontact.plot.layout import style
 from viscontact.plot.layout.error_band import peak_note
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.results.snapshots import Snapshot, take_snapshots
-from viscontact.units.axis_units import DisplayUnit, display_unit, time_labels
+from viscontact.units.formatting import ReadableUnit, readable_unit, time_labels
 
 _NAME = "pressure-profile"
 
@@ -174,9 +174,11 @@ def _instants_drawn(snapshots: Mapping[str, Snapshot]) -> str:
     return "t = " + ", ".join(time_labels(instants))
 
 
-def _units(snapshots: list[Snapshot], along: Literal["x", "y"]) -> tuple[DisplayUnit, DisplayUnit]:
-    length = display_unit("m", _limits(snapshots, along))
-    return length, display_unit("Pa", *(snapshot.pressure for snapshot in snapshots))
+def _units(
+    snapshots: list[Snapshot], along: Literal["x", "y"]
+) -> tuple[ReadableUnit, ReadableUnit]:
+    length = readable_unit("m", _limits(snapshots, along))
+    return length, readable_unit("Pa", *(snapshot.pressure for snapshot in snapshots))
 
 
 def _limits(snapshots: list[Snapshot], along: Literal["x", "y"]) -> tuple[float, float]:
@@ -204,8 +206,8 @@ def _frame(
     axes: Axes,
     snapshots: list[Snapshot],
     along: Literal["x", "y"],
-    length: DisplayUnit,
-    pressure: DisplayUnit,
+    length: ReadableUnit,
+    pressure: ReadableUnit,
 ) -> None:
     axes.set(
         xlim=length(_limits(snapshots, along)),

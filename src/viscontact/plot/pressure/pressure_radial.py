@@ -21,8 +21,7 @@ from viscontact.plot.pressure.exact_sphere import exact_sphere
 from viscontact.reference import LeeRadokContact
 from viscontact.results.recorded_case import recorded_noun
 from viscontact.results.snapshots import Snapshot, take_snapshots
-from viscontact.units.axis_units import DisplayUnit, display_unit, time_labels
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import ReadableUnit, format_quantity, readable_unit, time_labels
 
 _NAME = "pressure-radial"
 _MARKERS_AT_MOST = 26
@@ -80,8 +79,8 @@ def pressure_radial(
     figure, axes, below = _panels(
         page_width(width, style.TWO_COLUMNS * 0.8), with_difference=exact is not None
     )
-    length = display_unit("m", max(s.extent()[1] for s in snapshots if s.touching))
-    pressure = display_unit("Pa", *(snapshot.pressure for snapshot in snapshots))
+    length = readable_unit("m", max(s.extent()[1] for s in snapshots if s.touching))
+    pressure = readable_unit("Pa", *(snapshot.pressure for snapshot in snapshots))
     colours = style.time_colours(len(snapshots))
     for snapshot, colour, marker in zip(snapshots, colours, _markers(), strict=False):
         if exact is not None and below is not None:
@@ -112,8 +111,8 @@ def _require_round(results: xr.Dataset, snapshots: list[Snapshot]) -> None:
     offset = np.hypot(results["eccentricity_x"].values, results["eccentricity_y"].values)
     if np.nanmax(offset / np.maximum(results["contact_length"].values, 1e-300)) > 1e-3:
         raise ValueError(
-            f"{_NAME}: needs a load on the axis, got one up to {in_words(np.nanmax(offset), 'm')} "
-            "off it; draw pressure-profile instead"
+            f"{_NAME}: needs a load on the axis, got one up to "
+            f"{format_quantity(np.nanmax(offset), 'm')} off it; draw pressure-profile instead"
         )
 
 
@@ -152,8 +151,8 @@ def _draw_exact(
     exact: LeeRadokContact,
     snapshot: Snapshot,
     colour: str,
-    length: DisplayUnit,
-    pressure: DisplayUnit,
+    length: ReadableUnit,
+    pressure: ReadableUnit,
 ) -> None:
     radius = float(exact.contact_radius(snapshot.time))
     # Closer together towards the rim, where the pressure falls like a square root.
@@ -168,7 +167,7 @@ def _draw_difference(
     snapshot: Snapshot,
     colour: str,
     marker: str,
-    length: DisplayUnit,
+    length: ReadableUnit,
 ) -> None:
     r, ours = _near_x_axis(snapshot)
     inner = r < float(exact.contact_radius(snapshot.time)) - snapshot.cell_size[0]

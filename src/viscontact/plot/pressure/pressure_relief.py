@@ -13,7 +13,7 @@ from viscontact.plot.pressure.relief import Relief, relief
 from viscontact.plot.pressure.rim_polygons import beyond_period
 from viscontact.plot.pressure.squared_pressure import squared_pressure
 from viscontact.results.snapshots import Snapshot
-from viscontact.units.axis_units import DisplayUnit
+from viscontact.units.formatting import ReadableUnit
 
 Array = NDArray[np.float64]
 
@@ -26,7 +26,7 @@ _POINTS, _FINEST = 200, 4
 _TRUSTED = 1.5
 
 
-def pressure_relief(snapshot: Snapshot, window: Window, unit: DisplayUnit) -> Relief:
+def pressure_relief(snapshot: Snapshot, window: Window, unit: ReadableUnit) -> Relief:
     """Make a surface of the pressure in contact.
 
     Parameters
@@ -35,7 +35,7 @@ def pressure_relief(snapshot: Snapshot, window: Window, unit: DisplayUnit) -> Re
         Pressure and gap.
     window : Window
         Whose unit lengths are drawn in.
-    unit : DisplayUnit
+    unit : ReadableUnit
         Of the pressure.
 
     Returns

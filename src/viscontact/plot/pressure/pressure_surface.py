@@ -21,7 +21,7 @@ from viscontact.plot.pressure.pressure_relief import pressure_relief
 from viscontact.plot.pressure.relief import draw_relief
 from viscontact.plot.pressure.rim_polygons import rim_polygons
 from viscontact.results.snapshots import Snapshot, snapshots_of_runs, take_snapshots
-from viscontact.units.axis_units import display_unit, time_labels
+from viscontact.units.formatting import readable_unit, time_labels
 
 _NAME = "pressure-3d"
 #: A contact longer than this against its width is stretched: a blade shows nothing in space.
@@ -119,7 +119,7 @@ def compare_pressure_surfaces(
 def _draw(snapshots: list[Snapshot], headings: list[str], note: str, width: Width | None) -> Figure:
     window = window_around(snapshots, slender=_SLENDER)
     peak = max(float(snapshot.pressure.max()) for snapshot in snapshots)
-    unit = display_unit("Pa", peak)
+    unit = readable_unit("Pa", peak)
     top = float(unit(peak))
     norm = Normalize(0.0, top)
     usual = style.TWO_COLUMNS if len(snapshots) > 1 else style.ONE_COLUMN

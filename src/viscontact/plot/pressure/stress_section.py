@@ -21,8 +21,7 @@ from viscontact.plot.layout.error_band import peak_note
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.results.recorded_case import recorded_grid, recorded_poisson_ratio
 from viscontact.results.snapshots import Snapshot, take_snapshots
-from viscontact.units.axis_units import DisplayUnit, display_unit, time_labels
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import ReadableUnit, format_quantity, readable_unit, time_labels
 
 _NAME = "stress-section"
 
@@ -113,8 +112,8 @@ def stress_section(
     ratio = recorded_poisson_ratio(results)
     snapshots = take_snapshots(results, times, _NAME, count=2)
     sections = stress_sections(snapshots, recorded_grid(results), ratio)
-    length = display_unit("m", *(section.half_width * _ASIDE for section in sections))
-    stress = display_unit("Pa", max(section.largest[0] for section in sections))
+    length = readable_unit("m", *(section.half_width * _ASIDE for section in sections))
+    stress = readable_unit("Pa", max(section.largest[0] for section in sections))
     levels = _levels(sections, stress)
     wide = page_width(width, style.ONE_COLUMN)
     # Beside a colour bar, below a heading of two lines: one would not have the room.
@@ -127,7 +126,7 @@ def stress_section(
         drawn, lines = _draw(axes, section, levels, length, stress)
         contours.append(lines)
         largest, depth, _ = section.largest
-        said = f"largest {in_words(largest, 'Pa', 3)}, {in_words(depth, 'm', 3)} deep"
+        said = f"largest {format_quantity(largest, 'Pa', 3)}, {format_quantity(depth, 'm', 3)} deep"
         # Below an infinite pressure the stress has no largest value either.
         style.add_heading(axes, f"t = {label}\n{peak_note([results], [section.time]) or said}")
     panels[-1].set_xlabel(length.label(sections[-1].axis))
@@ -185,7 +184,7 @@ def _place_of_peak(snapshot: Snapshot) -> tuple[int, int]:
     return int(i[nearest]), int(j[nearest])
 
 
-def _levels(sections: list[Section], unit: DisplayUnit) -> NDArray[np.float64]:
+def _levels(sections: list[Section], unit: ReadableUnit) -> NDArray[np.float64]:
     largest = max(section.largest[0] for section in sections)
     ticks = MaxNLocator(nbins=9, steps=[1, 2, 2.5, 5, 10]).tick_values(0.0, float(unit(largest)))
     return np.asarray(ticks)
@@ -195,8 +194,8 @@ def _draw(
     axes: Axes,
     section: Section,
     levels: NDArray[np.float64],
-    length: DisplayUnit,
-    stress: DisplayUnit,
+    length: ReadableUnit,
+    stress: ReadableUnit,
 ) -> tuple[QuadContourSet, QuadContourSet]:
     """The filled contours and their lines."""
     across, depths = length(section.across), length(section.depths)

@@ -17,7 +17,7 @@ from viscontact.plot import FIGURES
 from viscontact.results.netcdf import RESULT_NAME, open_results
 from viscontact.results.summary import summary_rows
 from viscontact.results.variables import SCALARS
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 from viscontact.web.runs.run import Work
 from viscontact.web.workspace.pictures import DAMAGED
 from viscontact.web.workspace.problems import Problem, lines_of, problem_of
@@ -48,7 +48,7 @@ def status_of(work: Work, found: Mapping[str, Any]) -> dict[str, Any]:
         "step": max(course.instants - 1, 0),
         "steps": steps,
         "end": asked.end,
-        "time": in_words(course.time, "s") if course.instants else None,
+        "time": format_quantity(course.time, "s") if course.instants else None,
         "seconds_left": None if left is None else round(left, 1),
         "message": DAMAGED if is_damaged else _message(work, [*lines_of(problems)]),
         "problems": [asdict(each) for each in problems],
@@ -78,7 +78,7 @@ def found_by(directory: Path) -> dict[str, Any]:
             "table": rows,
             "warnings": str(ds.attrs.get("warnings", "")).splitlines(),
             "field_times": times,
-            "field_times_text": [in_words(time, "s") for time in times],
+            "field_times_text": [format_quantity(time, "s") for time in times],
         }
 
 
@@ -114,7 +114,7 @@ def _message(work: Work, problems: Sequence[str]) -> str:
     asked, course = work.asked, work.course
     of = "" if asked.instants is None else f" of {asked.instants}"
     made = f"{course.instants}{of} instants"
-    reached = f"{made}, t = {in_words(course.time, 's')}" if course.instants else ""
+    reached = f"{made}, t = {format_quantity(course.time, 's')}" if course.instants else ""
     told = {
         "waiting": "waiting for its turn",
         "running": reached or "starting",
@@ -136,7 +136,9 @@ def _kept(work: Work) -> str:
     if course.part >= 1:
         return f"after its last step, before its error bars; {_ITS}"
     of = "" if asked.instants is None else f" of {asked.instants - 1}"
-    return f"after step {course.instants - 1}{of}, at t = {in_words(course.time, 's')}; {_ITS}"
+    return (
+        f"after step {course.instants - 1}{of}, at t = {format_quantity(course.time, 's')}; {_ITS}"
+    )
 
 
 def _scalars(line: Mapping[str, Any], names: Collection[str]) -> dict[str, Any]:
@@ -145,7 +147,7 @@ def _scalars(line: Mapping[str, Any], names: Collection[str]) -> dict[str, Any]:
     for name, variable in SCALARS.items():
         value = line.get(name)
         if name in names and isinstance(value, int | float):
-            told[name] = {"value": value, "text": in_words(value, variable.units, 4)}
+            told[name] = {"value": value, "text": format_quantity(value, variable.units, 4)}
     return told
 
 

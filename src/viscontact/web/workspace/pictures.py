@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 
 from viscontact.plot.layout.saving import written
 from viscontact.results.netcdf import RESULT_NAME, open_results
-from viscontact.units.formatting import in_words
+from viscontact.units.formatting import format_quantity
 from viscontact.units.parsing import parse_quantity
 from viscontact.web.workspace.problems import RequestError
 
@@ -147,6 +147,6 @@ def _refuse_outside(instants: Sequence[float] | None, ds: xr.Dataset) -> None:
         if not start - slack <= instant <= end + slack:
             raise RequestError(
                 422,
-                f"time: {in_words(instant, 's')} lies outside the run, which goes from "
-                f"{in_words(start, 's')} to {in_words(end, 's')}",
+                f"time: {format_quantity(instant, 's')} lies outside the run, which goes from "
+                f"{format_quantity(start, 's')} to {format_quantity(end, 's')}",
             )
