@@ -1,4 +1,4 @@
-"""Maps in files: those of another program, arrays, text; their units, and what is refused."""
+"""Height maps in files of instruments, arrays and text: units and refusals."""
 
 from __future__ import annotations
 
@@ -83,13 +83,13 @@ def test_points_that_were_not_measured_arrive_as_missing(tmp_path: Path, ending:
     np.testing.assert_allclose(surface.heights[~masked.mask], HEIGHTS[~masked.mask], atol=1e-12)
 
 
-def test_matrix_of_another_program_needs_the_units_it_does_not_tell(tmp_path: Path) -> None:
+def test_matrix_of_another_program_needs_the_missing_units(tmp_path: Path) -> None:
     program = pytest.importorskip("SurfaceTopography", reason="no wheels of it on this system")
     file = tmp_path / "map.txt"
     program.Topography(1e6 * HEIGHTS, (24.0, 12.0)).to_matrix(str(file))
-    with pytest.raises(ValueError, match=r"height_unit is missing: map\.txt does not tell"):
+    with pytest.raises(ValueError, match=r"height_unit is missing: map\.txt does not state"):
         vc.read_surface(file)
-    with pytest.raises(ValueError, match=r"spacing is missing: map\.txt does not tell"):
+    with pytest.raises(ValueError, match=r"spacing is missing: map\.txt does not state"):
         vc.read_surface(file, height_unit="um")
     surface = vc.read_surface(file, spacing=(2e-6, 1.5e-6), height_unit="um")
     np.testing.assert_allclose(surface.heights, HEIGHTS, atol=1e-12)
@@ -111,16 +111,16 @@ def test_line_scans_of_another_program_are_swept_or_refused(tmp_path: Path) -> N
         vc.read_surface(uneven)
 
 
-def test_netcdf_says_whether_a_map_is_periodic(tmp_path: Path) -> None:
+def test_netcdf_states_whether_a_map_is_periodic(tmp_path: Path) -> None:
     assert vc.read_surface(written(tmp_path, "nc", "m", periodic=True)).periodic
     assert not vc.read_surface(written(tmp_path, "nc", "m", periodic=False)).periodic
 
 
 def test_units_are_refused_where_the_file_has_them(tmp_path: Path) -> None:
     file = written(tmp_path, "gwy", "m")
-    with pytest.raises(ValueError, match=r"height_unit: stands in map\.gwy; leave it out"):
+    with pytest.raises(ValueError, match=r"height_unit: is given in map\.gwy; leave it out"):
         vc.read_surface(file, height_unit="um")
-    with pytest.raises(ValueError, match=r"spacing: stands in map\.gwy"):
+    with pytest.raises(ValueError, match=r"spacing: is given in map\.gwy"):
         vc.read_surface(file, spacing=1e-6)
     with pytest.raises(ValueError, match=r"channel: .* no channel 'phase'; there are"):
         vc.read_surface(file, channel="phase")
@@ -146,7 +146,7 @@ def test_broken_file_is_one_line(tmp_path: Path, ending: str, content: bytes) ->
         vc.read_surface(file)
 
 
-def test_missing_extra_is_told_with_what_to_type(
+def test_missing_extra_is_refused_with_the_command_to_install_it(
     case: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (case.parent / "map.x3p").write_bytes(b"some")
@@ -160,14 +160,14 @@ def test_missing_extra_is_told_with_what_to_type(
 # -- arrays and text ---------------------------------------------------------------------------
 
 
-def test_array_is_read_with_the_units_that_are_told(tmp_path: Path) -> None:
+def test_array_is_read_with_the_given_units(tmp_path: Path) -> None:
     np.save(tmp_path / "map.npy", 1e6 * HEIGHTS)
     surface = vc.read_surface(tmp_path / "map.npy", spacing=(1e-6, 2e-6), height_unit="um")
     np.testing.assert_allclose(surface.heights, HEIGHTS, rtol=1e-15)
     assert surface.spacing == (1e-6, 2e-6)
-    for told, key in (({"spacing": 1e-6}, "height_unit"), ({"height_unit": "um"}, "spacing")):
-        with pytest.raises(ValueError, match=f"{key} is missing: map.npy does not tell"):
-            vc.read_surface(tmp_path / "map.npy", **told)
+    for given, key in (({"spacing": 1e-6}, "height_unit"), ({"height_unit": "um"}, "spacing")):
+        with pytest.raises(ValueError, match=f"{key} is missing: map.npy does not state"):
+            vc.read_surface(tmp_path / "map.npy", **given)
     with pytest.raises(ValueError, match=r"height_unit: .*'MPa'"):
         vc.read_surface(tmp_path / "map.npy", spacing=1e-6, height_unit="MPa")
 
@@ -200,7 +200,7 @@ def test_npz_carries_its_units(tmp_path: Path) -> None:
         ({"height": np.zeros((0, 3))}, r"heights must be a map \[x, y\]"),
     ],
 )
-def test_npz_that_makes_no_sense_is_refused_by_its_name(
+def test_inconsistent_npz_is_refused_by_its_name(
     tmp_path: Path, arrays: dict[str, Any], said: str
 ) -> None:
     sound: dict[str, Any] = {"height": HEIGHTS, "spacing": 1.0, "unit": "um"}
@@ -244,7 +244,7 @@ def test_table_of_points_is_read_in_any_order_with_its_units(tmp_path: Path) -> 
     np.testing.assert_allclose(
         surface.heights[~surface.missing], expected[~surface.missing], rtol=1e-12
     )
-    with pytest.raises(ValueError, match=r"height_unit: stands in map\.csv"):
+    with pytest.raises(ValueError, match=r"height_unit: is given in map\.csv"):
         vc.read_surface(tmp_path / "map.csv", height_unit="um")
 
 
@@ -253,7 +253,7 @@ def test_table_of_points_is_read_in_any_order_with_its_units(tmp_path: Path) -> 
     [
         ("1,2,3\n4,5\n", "map.csv:2 has 2 heights, the first row 3"),
         ("1,2,3\n4,5,x\n", "map.csv:2: height 3: 'x' is not a number"),
-        ("x [um],y [um],height [nm]\n0,0,1\n0,0,2\n1,1,1\n", "map.csv:3: this point stands there"),
+        ("x [um],y [um],height [nm]\n0,0,1\n0,0,2\n1,1,1\n", "map.csv:3: this point is given"),
         ("x [um],y [um],height [nm]\n0,0,1\n1,0,2\n1.5,1,1\n3,1,1\n", "on no even mesh"),
         ("x [um],y [um]\n0,0\n1,0\n", "the column height is missing"),
         ("x,y,height\n0,0,0\n", "unit"),
@@ -262,9 +262,9 @@ def test_table_of_points_is_read_in_any_order_with_its_units(tmp_path: Path) -> 
 )
 def test_text_that_is_no_map_is_refused_at_its_line(tmp_path: Path, text: str, said: str) -> None:
     (tmp_path / "map.csv").write_text(text)
-    told = {} if text.startswith("x") else {"spacing": 1e-6, "height_unit": "nm"}
+    given = {} if text.startswith("x") else {"spacing": 1e-6, "height_unit": "nm"}
     with pytest.raises(ValueError, match=said):
-        vc.read_surface(tmp_path / "map.csv", **told)
+        vc.read_surface(tmp_path / "map.csv", **given)
 
 
 # -- case files ----------------------------------------------------------------------------------
@@ -293,7 +293,7 @@ def test_roughness_is_laid_over_a_shape(case: Path) -> None:
     ("settings", "said"),
     [
         (["indenter.file=no.npz"], "indenter.file: no such file"),
-        (["indenter.spacing=1 um"], "indenter.spacing: stands in map.npz; leave it out"),
+        (["indenter.spacing=1 um"], "indenter.spacing: is given in map.npz; leave it out"),
         (["indenter.spacing=1"], "indenter.spacing: 1 has no unit"),
         (["indenter.height_factor=0"], "indenter.height_factor: must be a number other than 0"),
         (
@@ -309,13 +309,13 @@ def test_roughness_is_laid_over_a_shape(case: Path) -> None:
         (["indenter.level=tilt"], "indenter.level: unknown value 'tilt'. Allowed: none, mean"),
     ],
 )
-def test_slip_in_a_height_map_is_told_at_its_key(
+def test_mistake_in_a_height_map_is_reported_at_its_key(
     case: Path, settings: list[str], said: str
 ) -> None:
     assert said in refusal(case, *settings)
 
 
-def test_maps_with_missing_points_or_one_row_are_refused_until_it_is_said(case: Path) -> None:
+def test_maps_with_missing_points_or_one_row_are_refused_until_filled_or_swept(case: Path) -> None:
     holed = bumps()
     holed[10:14, 5:9] = np.nan
     np.savez(case.parent / "map.npz", height=holed, spacing=1.0, unit="um")
@@ -329,7 +329,7 @@ def test_maps_with_missing_points_or_one_row_are_refused_until_it_is_said(case: 
     assert swept.gap(2.5e-6, -3e-6) == swept.gap(2.5e-6, 4e-6)
 
 
-def test_check_tells_what_was_taken_off_and_what_looks_wrong(
+def test_check_reports_levelling_and_warnings(
     case: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     x, y = np.meshgrid(np.linspace(-1, 1, 32), np.linspace(-1, 1, 28), indexing="ij")

@@ -1,4 +1,4 @@
-"""Measured surfaces against laws: what each verb keeps, takes off or passes, or refuses."""
+"""Measured surfaces: levelling, filling, resampling and pressing against formulas."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def polynomial(surface: Surface, *c: float) -> np.ndarray:
     return np.asarray(sum(factor * term for factor, term in zip(c, terms, strict=False)))
 
 
-# -- the noun ----------------------------------------------------------------------------------
+# -- surface -----------------------------------------------------------------------------------
 
 
 def test_points_are_the_cell_centres_of_a_grid_of_that_shape_and_size() -> None:
@@ -75,7 +75,7 @@ def test_slope_and_height_of_a_wave_are_those_of_its_formula() -> None:
         ([["a", "b"]], 1.0, "must be numbers"),
     ],
 )
-def test_what_is_no_surface_is_refused(heights: object, spacing: object, said: str) -> None:
+def test_invalid_surface_is_refused(heights: object, spacing: object, said: str) -> None:
     with pytest.raises(ValueError, match=said):
         Surface(heights, spacing)
 
@@ -91,7 +91,7 @@ FORMS = {
 
 @pytest.mark.parametrize("level", FORMS)
 @pytest.mark.parametrize("share", [0.0, 0.3])
-def test_levelling_takes_off_exactly_what_was_laid_over(level: str, share: float) -> None:
+def test_levelling_removes_exactly_the_added_polynomial(level: str, share: float) -> None:
     surface = with_missing(rough(), share)
     bent = surface.with_heights(surface.heights + polynomial(surface, *FORMS[level]))
     flat = levelled(surface, level)
@@ -127,7 +127,7 @@ def test_crop_keeps_the_points_between_two_distances_from_the_corner() -> None:
     assert part.x.sum() == pytest.approx(0, abs=1e-18)
 
 
-def test_flipping_turns_pits_into_peaks_and_twice_is_nothing() -> None:
+def test_flipping_turns_pits_into_peaks_and_twice_is_the_identity() -> None:
     surface = rough()
     deepest = np.unravel_index(surface.heights.argmin(), surface.shape)
     touching = indenter_of(flipped(surface))
@@ -156,7 +156,7 @@ def test_missing_points_are_refused_with_share_and_remedy() -> None:
         indenter_of(surface)
 
 
-def test_holes_never_touch_and_all_else_is_as_it_was() -> None:
+def test_holes_never_touch_and_other_points_are_unchanged() -> None:
     surface = with_missing(rough())
     x, y = np.meshgrid(surface.x, surface.y, indexing="ij")
     gap = indenter_of(surface, holes=True).gap(x, y)
@@ -177,7 +177,7 @@ def test_film_lies_between_its_neighbours_and_is_flat_on_a_plane(seed: int, shar
     assert film.max() <= np.nanmax(surface.heights) + 1e-18
 
 
-def test_film_over_a_plane_and_a_saddle_is_what_was_there() -> None:
+def test_film_over_a_plane_and_a_saddle_restores_the_heights() -> None:
     # Both are harmonic, for differences as for derivatives, whatever the spacings.
     surface = rough()
     plane = surface.with_heights(polynomial(surface, 1e-6, 0.03, -0.02, 500.0, 70.0, -500.0))
@@ -211,7 +211,7 @@ def test_cell_means_of_whole_cells_are_the_plain_means() -> None:
 
 
 @pytest.mark.parametrize("wavelength", [20e-6, 40e-6, 80e-6])
-def test_gaussian_passes_of_a_wave_what_the_standard_says(wavelength: float) -> None:
+def test_gaussian_transmission_is_that_of_the_standard(wavelength: float) -> None:
     # ISO 16610-21: exp(-pi (alpha cutoff/wavelength)^2), a half at the cutoff.
     cutoff, x = 40e-6, np.arange(480) * 1e-6
     wave = Surface(np.outer(np.cos(2 * np.pi * x / wavelength), np.ones(48)), 1e-6, periodic=True)
@@ -269,7 +269,7 @@ def test_spline_goes_through_the_points_and_follows_a_wave() -> None:
         (6e-6, "median", None, "filter must be 'mean', 'gaussian' or 'spline', got 'median'"),
     ],
 )
-def test_resampling_that_makes_no_sense_is_refused(
+def test_inconsistent_resampling_is_refused(
     cell: float, filter: str, cutoff: float | None, said: str
 ) -> None:
     with pytest.raises(ValueError, match=said):
@@ -298,7 +298,7 @@ def self_affine(cells: int = 64, seed: int = 3) -> Surface:
     return surface.with_heights(heights * (0.05 / surface.rms_slope))
 
 
-def test_nothing_is_said_of_a_sound_surface() -> None:
+def test_sound_surface_has_no_warnings() -> None:
     assert surface_doubts(self_affine()) == ()
 
 
@@ -318,7 +318,7 @@ def test_valleys_below_a_plateau_may_be_an_upside_down_map() -> None:
     assert not any("plateau" in each for each in surface_doubts(flipped(honed)))
 
 
-def test_tilt_spike_and_steep_heights_are_told() -> None:
+def test_tilt_spike_and_steep_heights_are_warned_about() -> None:
     surface = self_affine()
     tilted = surface.with_heights(surface.heights + polynomial(surface, 0, 0.2, 0.0))
     assert any("is tilted by 199 mrad" in each for each in surface_doubts(tilted))
@@ -343,7 +343,7 @@ def test_heights_higher_than_the_map_is_long_are_a_wrong_unit() -> None:
 # -- pressed ---------------------------------------------------------------------------------------
 
 
-def test_map_of_a_paraboloid_presses_as_hertz_says_with_or_without_far_holes() -> None:
+def test_map_of_a_paraboloid_presses_as_hertz_with_or_without_far_holes() -> None:
     grid = vc.Grid((96, 96), (0.6e-3, 0.6e-3))
     x, y = np.meshgrid(grid.x, grid.y, indexing="ij")
     cap = Surface(-(x**2 + y**2) / (2 * 0.01), grid.cell_size)

@@ -1,4 +1,4 @@
-"""Measured tables: what instruments export is read as it is meant, or refused at its place."""
+"""Measured tables: files of instruments, and refusals with line and column."""
 
 from __future__ import annotations
 
@@ -105,7 +105,7 @@ def test_units_are_found_wherever_instruments_write_them(header: str, tmp_path: 
         ("tilt_x", "rad", "tilt_x", None),
     ],
 )
-def test_name_says_the_quantity_and_its_test(
+def test_name_gives_the_quantity_and_its_test(
     name: str, unit: str | None, quantity: str, data: str | None, tmp_path: Path
 ) -> None:
     heading = name if unit is None else f"{name} [{unit}]"
@@ -152,10 +152,10 @@ def test_unknown_columns_are_left_out_whatever_they_hold(tmp_path: Path) -> None
         found["force"]
 
 
-def test_columns_say_what_names_do_not(tmp_path: Path) -> None:
+def test_columns_argument_names_unknown_quantities(tmp_path: Path) -> None:
     text = "f [Hz], E [Pa], displacement [um], t [s]\n1, 2, 3, 4\n"
-    told = {"E": "storage_modulus", "displacement [um]": "approach", "t": None}
-    found = table(tmp_path, text, columns=told)
+    stated = {"E": "storage_modulus", "displacement [um]": "approach", "t": None}
+    found = table(tmp_path, text, columns=stated)
     assert list(found.columns) == ["angular_frequency", "storage_modulus", "approach"]
     assert found.data == "uniaxial"
     assert found["approach"].tolist() == [3e-6]
@@ -179,8 +179,8 @@ def test_columns_say_what_names_do_not(tmp_path: Path) -> None:
         ("time [s], Set [m]\n1, 2\n", "set has no unit, got 'm'"),
         ("omega [Hz], G' [Pa]\n1, 2\n", "an angular frequency is in rad/s, got 'Hz'"),
         ("omega [s], G' [Pa]\n1, 2\n", "cannot read 's' as a frequency"),
-        ("f [Hz], E [Pa]\n1, 2\n", "'E [Pa]' is not clear beside a frequency"),
-        ("f [Hz], J [1/Pa]\n1, 2\n", "'J [1/Pa]' is not clear beside a frequency"),
+        ("f [Hz], E [Pa]\n1, 2\n", "'E [Pa]' is ambiguous with a frequency"),
+        ("f [Hz], J [1/Pa]\n1, 2\n", "'J [1/Pa]' is ambiguous with a frequency"),
         ("t [s], time [ms]\n1, 2\n", "'t [s]' and 'time [ms]' are both time"),
         ("f [Hz], E' [Pa], G'' [Pa]\n1, 2, 3\n", "different tests, \"E' [Pa]\" (uniaxial) and"),
         ("t [s], relaxaton_modulus [Pa]\n1, 2\n", "did you mean 'relaxation_modulus'?"),
@@ -200,9 +200,7 @@ def test_columns_say_what_names_do_not(tmp_path: Path) -> None:
         (bytes(range(256)), "is no text file"),
     ],
 )  # fmt: skip
-def test_what_is_wrong_is_refused_at_its_line_and_column(
-    text: str | bytes, said: str, tmp_path: Path
-) -> None:
+def test_errors_name_line_and_column(text: str | bytes, said: str, tmp_path: Path) -> None:
     with pytest.raises(ValueError, match=r".") as refusal:
         table(tmp_path, text)
     assert said in str(refusal.value)
@@ -241,7 +239,7 @@ def test_file_beyond_bounds_is_refused_unread(
         table(tmp_path, PLAIN)
 
 
-def test_sets_are_told_by_their_number_in_the_files_order(tmp_path: Path) -> None:
+def test_sets_are_separated_by_their_number_in_the_files_order(tmp_path: Path) -> None:
     rows = "".join(f"{t},{9 - t},{s},{T}\n" for t, s, T in [(2, 7, 20), (1, 7, 20.2), (1, 3, 50)])
     first, second = table(tmp_path, f"t [s],E [Pa],Set,T [degC]\n{rows}").sets()
     assert (first.set_number, second.set_number) == (7.0, 3.0)
@@ -250,7 +248,7 @@ def test_sets_are_told_by_their_number_in_the_files_order(tmp_path: Path) -> Non
     assert second.lines.tolist() == [4]
 
 
-def test_sets_without_numbers_are_told_by_gaps_in_temperature(tmp_path: Path) -> None:
+def test_sets_without_numbers_are_separated_by_gaps_in_temperature(tmp_path: Path) -> None:
     temperatures = [20.0, 20.3, -50.0, -49.8, 19.9]
     rows = "".join(f"{i + 1},{T}\n" for i, T in enumerate(temperatures))
     near = "".join(f"{i},{20 + 3 * i}\n" for i in range(4))

@@ -1,9 +1,9 @@
-"""Measured surfaces: read, repaired, levelled, resampled, and pressed."""
+"""Measured surfaces: reading, repair, levelling, resampling, and conversion to an indenter."""
 
 from viscontact.surfaces.cropping import cropped, flipped, swept
-from viscontact.surfaces.doubts import surface_doubts
 from viscontact.surfaces.levelling import levelled
 from viscontact.surfaces.missing import filled
+from viscontact.surfaces.plausibility import surface_doubts
 from viscontact.surfaces.pressing import indenter_of
 from viscontact.surfaces.reader import read_surface
 from viscontact.surfaces.resampling import resampled

@@ -1,4 +1,4 @@
-"""Maps in NumPy's files."""
+"""Height maps from NumPy files."""
 
 from __future__ import annotations
 
@@ -13,33 +13,13 @@ from viscontact.units.parsing import parse_unit
 
 
 def read_array(path: Path, units: Units, channel: str | None) -> Surface:
-    """Read a map from an NPY or NPZ file; its first index runs along x.
-
-    Parameters
-    ----------
-    path : Path
-        The file.
-    units : Units
-        What is told beside it.
-    channel : str or None
-        Which array of an NPZ holds the heights; ``"height"``, or the only one, if None.
-
-    Returns
-    -------
-    Surface
-        The map.
-
-    Raises
-    ------
-    ValueError
-        If it cannot be read, holds no such array, or a unit is missing or told twice.
-    """
+    """Read a map from an NPY or NPZ file, heights [x, y]; `channel` names an array of an NPZ."""
     try:
         # No pickles: a file of data must not run anything.
         with path.open("rb") as file:
             found: Any = np.load(file, allow_pickle=False)
             arrays = {} if isinstance(found, np.ndarray) else {k: found[k] for k in found.files}
-    except Exception as error:  # NumPy raises what it happens on in a broken file
+    except Exception as error:  # NumPy raises various errors for a broken file
         raise ValueError(f"{path.name}: cannot be read as an array of numbers: {error}") from error
     if isinstance(found, np.ndarray):
         if channel is not None:
@@ -86,7 +66,7 @@ def _chosen(path: Path, arrays: dict[str, Any], channel: str | None) -> Any:
 
 
 def _lines(name: str, array: Any) -> Any:
-    """An array of numbers as a map; one with a single index is a line scan."""
+    """Numeric array as a map; a one-dimensional one is a line scan."""
     if array.dtype.kind not in "iufb":
         raise ValueError(f"{name}: heights must be numbers, got an array of {array.dtype}")
     return array[:, np.newaxis] if array.ndim == 1 else array.astype(np.float64)

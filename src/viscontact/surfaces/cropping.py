@@ -1,4 +1,4 @@
-"""Which part of a measured surface is pressed, and which side of it."""
+"""Cropping, flipping and sweeping of measured surfaces."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from viscontact.surfaces.surface import Surface
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import as_real
 
-#: A line scan swept across has at most so many points there.
+#: Upper limit on the points of a swept line scan across its direction.
 _MOST_ACROSS = 4096
 
 
@@ -50,7 +50,7 @@ def cropped(
 
 
 def _within(surface: Surface, axis: int, part: tuple[float, float] | None) -> slice:
-    """Points whose cells lie within a range for more than half."""
+    """Slice of the points whose cells lie within a range [m] by more than half."""
     if part is None:
         return slice(None)
     name, size, spacing = "xy"[axis], surface.size[axis], surface.spacing[axis]
@@ -73,7 +73,7 @@ def _within(surface: Surface, axis: int, part: tuple[float, float] | None) -> sl
 
 
 def flipped(surface: Surface) -> Surface:
-    """Return a surface turned upside down: what was measured as depth is height, or a replica.
+    """Return a surface turned upside down: for heights stored as depths, or a replica.
 
     Parameters
     ----------
@@ -94,7 +94,7 @@ def flipped(surface: Surface) -> Surface:
 
 
 def swept(surface: Surface, width: float) -> Surface:
-    """Sweep a line scan across, as a ground surface with its lay along y.
+    """Extend a line scan across its direction, as ridges of a ground surface with its lay along y.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Files of profilers and microscopes, read by SurfaceTopography."""
+"""Height maps from files of profilers and microscopes, read by SurfaceTopography."""
 
 from __future__ import annotations
 
@@ -14,30 +14,9 @@ from viscontact.units.parsing import parse_unit
 
 
 def read_instrument(path: Path, units: Units, channel: str | None) -> Surface:
-    """Read a map from a file of an instrument.
-
-    Parameters
-    ----------
-    path : Path
-        The file, in any format that SurfaceTopography knows.
-    units : Units
-        What is told beside it.
-    channel : str or None
-        Name of the channel; the file's default one if None.
-
-    Returns
-    -------
-    Surface
-        The map, or a line scan with a single point along y.
-
-    Raises
-    ------
-    ValueError
-        If SurfaceTopography is not there or cannot read it, there is no such channel, or a unit
-        is missing or told twice.
-    """
+    """Read a map, or a line scan, in a format that SurfaceTopography knows."""
     try:
-        # It takes two seconds to import, and only who has such a file needs it.
+        # Imported here: it takes two seconds, and few files need it.
         from SurfaceTopography import open_topography
         from SurfaceTopography.Exceptions import CannotDetectFileFormat, UnknownFileFormat
     except ImportError as error:
@@ -47,11 +26,11 @@ def read_instrument(path: Path, units: Units, channel: str | None) -> Surface:
         ) from error
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of the formats' peculiarities
+            warnings.simplefilter("ignore")  # about details of the formats
             with open_topography(str(path)) as file:
                 found = _channel(path.name, file, channel)
-                scale, told = _lengths(found, units)
-                # Where it knows no size, it wants one; which, is told below.
+                scale, spacing = _lengths(found, units)
+                # SurfaceTopography needs a size; the caller's spacing replaces it below.
                 sizes = {} if found.physical_sizes else {"physical_sizes": found.nb_grid_pts}
                 topography = file.topography(channel_index=found.index, **sizes)
                 heights: Any = topography.heights()
@@ -62,14 +41,14 @@ def read_instrument(path: Path, units: Units, channel: str | None) -> Surface:
             f"{path.name}: cannot be read as a surface: its content is in no format that is known, "
             "or broken"
         ) from error
-    except Exception as error:  # a reader of 42 formats raises whatever a broken file makes it
+    except Exception as error:  # 42 formats: a broken file may raise anything
         why = str(error).splitlines()[0] if str(error).strip() else type(error).__name__
         raise ValueError(f"{path.name}: cannot be read as a surface: {why}") from error
-    return _surface(path.name, topography, heights, scale, told)
+    return _surface(path.name, topography, heights, scale, spacing)
 
 
 class _RefusedError(ValueError):
-    """What is wrong is not the file."""
+    """Refusal that concerns the arguments, not the file."""
 
 
 def _channel(name: str, file: Any, channel: str | None) -> Any:
@@ -83,10 +62,10 @@ def _channel(name: str, file: Any, channel: str | None) -> Any:
 
 
 def _lengths(found: Any, units: Units) -> tuple[float, Spacing | None]:
-    """Metres in the unit of the channel, and the spacing where the file does not tell it."""
+    """Scale of the heights in metres, and the spacing [m] where the file does not state it."""
     try:
         _require_heights(found, units.name)
-        if found.unit is None:  # then sizes that stand in the file are of no unit, either
+        if found.unit is None:  # then sizes in the file have no unit either
             return units.height_scale, units.steps
         units.require_none("height_unit")
         scale = parse_unit(str(found.unit), "length")
@@ -111,14 +90,14 @@ def _require_heights(found: Any, name: str) -> None:
 
 
 def _surface(
-    name: str, topography: Any, heights: Any, scale: float, told: Spacing | None
+    name: str, topography: Any, heights: Any, scale: float, spacing: Spacing | None
 ) -> Surface:
     values = np.ma.filled(np.ma.asarray(heights).astype(np.float64), np.nan) * scale
     values[np.isinf(values)] = np.nan
     if values.ndim == 1:
         values = values[:, np.newaxis]
-    if told is None:
+    if spacing is None:
         sizes = zip(topography.physical_sizes, topography.nb_grid_pts, strict=True)
         along = [float(size) * scale / n for size, n in sizes]
-        told = along[0], along[-1]
-    return Surface(values, told, name=name, periodic=bool(topography.is_periodic))
+        spacing = along[0], along[-1]
+    return Surface(values, spacing, name=name, periodic=bool(topography.is_periodic))

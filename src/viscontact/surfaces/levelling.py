@@ -1,4 +1,4 @@
-"""Taking the tilt, or the form, off a measured surface."""
+"""Removal of tilt and form from a measured surface."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from viscontact.surfaces.surface import Surface
 Array = NDArray[np.float64]
 Level = Literal["none", "mean", "plane", "quadratic"]
 
-#: Powers of x and y in what is taken off.
+#: Powers of x and y of the polynomial that is subtracted.
 TERMS: dict[str, tuple[tuple[int, int], ...]] = {
     "none": (),
     "mean": ((0, 0),),
@@ -22,7 +22,7 @@ TERMS: dict[str, tuple[tuple[int, int], ...]] = {
 
 
 def levelled(surface: Surface, level: Level = "plane") -> Surface:
-    """Take the polynomial that fits a surface best off its heights.
+    """Subtract the least-squares polynomial from the heights of a surface.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ def levelled(surface: Surface, level: Level = "plane") -> Surface:
     Returns
     -------
     Surface
-        What is left; missing points stay missing.
+        The remaining heights; missing points stay missing.
 
     Raises
     ------
@@ -68,21 +68,13 @@ def levelled(surface: Surface, level: Level = "plane") -> Surface:
 
 
 class Polynomial:
-    """A polynomial in x and y, each over half the size of the map it was fitted to.
-
-    Parameters
-    ----------
-    terms : tuple of pairs
-        Powers of x and y.
-    coefficients : ndarray, shape (terms,)
-        Their factors [m].
-    """
+    """Polynomial in x and y, each over half the size of the map; coefficients in m."""
 
     def __init__(self, terms: tuple[tuple[int, int], ...], coefficients: Array) -> None:
         self.terms, self.coefficients = terms, coefficients
 
     def of(self, surface: Surface) -> Array:
-        """Return its values at a surface's points, shape (nx, ny) [m]."""
+        """Values at a surface's points, shape (nx, ny) [m]."""
         along_x, along_y = _scaled(surface)
         values = np.zeros(surface.shape)
         for (i, j), factor in zip(self.terms, self.coefficients.tolist(), strict=True):
@@ -90,30 +82,12 @@ class Polynomial:
         return values
 
     def __getitem__(self, term: tuple[int, int]) -> float:
-        """Return the factor of a pair of powers [m]."""
+        """Coefficient of a pair of powers [m]."""
         return float(self.coefficients[self.terms.index(term)])
 
 
 def polynomial(surface: Surface, terms: tuple[tuple[int, int], ...]) -> Polynomial:
-    """Return the polynomial that fits the known heights best.
-
-    Parameters
-    ----------
-    surface : Surface
-        The surface.
-    terms : tuple of pairs
-        Powers of x and y that it has.
-
-    Returns
-    -------
-    Polynomial
-        By least squares.
-
-    Raises
-    ------
-    ValueError
-        If the known points do not determine it, as a single row does no plane.
-    """
+    """Least-squares polynomial of the known heights with the given powers of x and y."""
     along_x, along_y = _scaled(surface)
     known = ~surface.missing
     # Normal equations from moments: no matrix with a row for each point. The terms are of the
@@ -137,18 +111,7 @@ def polynomial(surface: Surface, terms: tuple[tuple[int, int], ...]) -> Polynomi
 
 
 def tilt(surface: Surface) -> tuple[float, float]:
-    """Return the slopes along x and y of the plane that fits a surface best [rad].
-
-    Parameters
-    ----------
-    surface : Surface
-        The surface.
-
-    Returns
-    -------
-    tuple of float
-        Rise of the heights over distance.
-    """
+    """Slopes along x and y of the least-squares plane of a surface [rad]."""
     plane = polynomial(surface, TERMS["plane"])
     lx, ly = surface.size
     return plane[1, 0] / (lx / 2), plane[0, 1] / (ly / 2)

@@ -1,4 +1,4 @@
-"""Points at which nothing was measured."""
+"""Filling of points without a measured height."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Filling = Literal["smooth", "lowest"]
 
 
 def filled(surface: Surface, by: Filling = "smooth") -> Surface:
-    """Put heights in the place of those that are missing.
+    """Fill missing points with heights.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ def filled(surface: Surface, by: Filling = "smooth") -> Surface:
 
 
 def _film(surface: Surface) -> NDArray[np.float64]:
-    """Heights of the film at the missing points, in their order."""
+    """Heights of the soap film at the missing points, in their order [m]."""
     missing = surface.missing
     number = np.full(surface.shape, -1, dtype=np.intp)
     count = int(missing.sum())

@@ -1,4 +1,4 @@
-"""From a measured surface to an indenter."""
+"""Conversion of a measured surface to an indenter."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from viscontact.units.formatting import format_quantity
 
 
 def indenter_of(surface: Surface, *, holes: bool = False) -> HeightMap:
-    """Return the indenter that a surface is when it is turned over and pressed, peaks first.
+    """Return the indenter of a surface that is turned over and pressed, peaks first.
 
     Parameters
     ----------
@@ -41,39 +41,17 @@ def indenter_of(surface: Surface, *, holes: bool = False) -> HeightMap:
 
 
 def require_complete(surface: Surface) -> None:
-    """Refuse a surface with missing points, with their share and what can be done.
-
-    Parameters
-    ----------
-    surface : Surface
-        The surface.
-
-    Raises
-    ------
-    ValueError
-        If a point is missing.
-    """
+    """Refuse a surface with missing points."""
     if surface.missing.any():
         raise ValueError(
             f"missing: {surface.name} has no height at {int(surface.missing.sum())} of "
-            f"{surface.missing.size} points ({surface.missing_share:.2%}); say what stands there: "
+            f"{surface.missing.size} points ({surface.missing_share:.2%}); choose their height: "
             "a hole that never touches, the lowest height, or a smooth film over the neighbours"
         )
 
 
 def require_map(surface: Surface) -> None:
-    """Refuse a line scan, which has no second direction.
-
-    Parameters
-    ----------
-    surface : Surface
-        The surface.
-
-    Raises
-    ------
-    ValueError
-        If it has a single point along x or y.
-    """
+    """Refuse a line scan."""
     if min(surface.shape) < 2:
         nx, ny = surface.shape
         raise ValueError(
@@ -83,11 +61,11 @@ def require_map(surface: Surface) -> None:
 
 
 def _require_lengths(surface: Surface) -> None:
-    """Refuse heights that stand higher than the map is long: the unit is a wrong one."""
+    """Refuse heights that exceed the size of the map: their unit is wrong."""
     span, extent = surface.height_range, max(surface.size)
     if span > extent:
         raise ValueError(
             f"height_factor: the heights of {surface.name} span {format_quantity(span, 'm', 3)} on "
             f"a map of no more than {format_quantity(extent, 'm', 3)}; is their unit another, or "
-            "the map not levelled? A factor such as 1e-3 mends a unit"
+            "the map not levelled? A factor such as 1e-3 corrects a unit"
         )

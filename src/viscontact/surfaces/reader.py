@@ -1,4 +1,4 @@
-"""From a file to a measured surface."""
+"""Reader of measured surfaces, by file type."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def read_surface(
     channel: str | None = None,
     width: float | None = None,
 ) -> Surface:
-    r"""Read a measured surface, as it stands in its file.
+    r"""Read a measured surface without changing its heights.
 
     Parameters
     ----------
@@ -34,11 +34,11 @@ def read_surface(
         The file: NPY, NPZ or CSV; or any that SurfaceTopography reads, with the extra
         ``surfaces``: X3P, SUR, GWY, OPD, AL3D, DI, netCDF and others.
     spacing : float or pair of float, optional
-        Distance of the points along x and y, where the file does not tell [m].
+        Distance of the points along x and y, where the file does not state it [m].
     height_unit : str, optional
-        Unit of the heights, where the file does not tell, e.g. ``"um"``.
+        Unit of the heights, where the file does not state it, e.g. ``"um"``.
     height_factor : float, optional
-        What the heights are multiplied by, to mend a wrong unit or sign.
+        Factor of the heights, to correct a wrong unit or sign.
     channel : str, optional
         Which of several channels or arrays; the file's own choice when left out.
     width : float, optional

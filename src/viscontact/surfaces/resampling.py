@@ -1,4 +1,4 @@
-"""A measured surface on another mesh, by a stated filter."""
+"""Resampling of a measured surface to another mesh, with a stated filter."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def resampled(
     *,
     cutoff: float | None = None,
 ) -> Surface:
-    """Bring a surface to a mesh of another spacing.
+    """Resample a surface to another spacing.
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ def resampled(
     -------
     Surface
         Around the same middle; as many whole cells as the map holds. A new point is missing if
-        more than half of what it is the mean of is missing.
+        more than half of the weight of its mean is missing.
 
     Raises
     ------
@@ -127,7 +127,7 @@ def _require_coarser(surface: Surface, cells: tuple[float, float], filter: str) 
 def _require_wide(surface: Surface, waves: list[float]) -> None:
     for wave, spacing, size in zip(waves, surface.spacing, surface.size, strict=True):
         number = as_real(wave)
-        # Sampled more coarsely, the bell's own transmission is not the one that is told.
+        # Sampled more coarsely, the Gaussian does not have the stated transmission.
         if number is None or not 4 * spacing * (1 - 1e-9) <= number <= size:
             got = f"{wave!r}" if number is None else format_quantity(number, "m", 6)
             raise ValueError(
@@ -138,7 +138,7 @@ def _require_wide(surface: Surface, waves: list[float]) -> None:
 
 
 def _overlap(old: float, new: float) -> Callable[[Array], Array]:
-    """Length that a new cell and an old one, some distance apart, have in common."""
+    """Weight of a mean filter: overlap of a new cell and an old one by distance [m]."""
 
     def weight(distance: Array) -> Array:
         return np.clip((old + new) / 2 - np.abs(distance), 0.0, min(old, new))
@@ -172,7 +172,7 @@ def _matrix(
 
 
 def _count(surface: Surface, axis: int, cell: float) -> int:
-    """How many whole cells the map holds."""
+    """Number of whole cells along an axis of the map."""
     size = surface.size[axis]
     count = math.floor(size / cell * (1 + 1e-9))
     if not 2 <= count <= _MOST_POINTS:
@@ -195,7 +195,7 @@ def _both_ways(along: list[scipy.sparse.csr_matrix], field: Array) -> Array:
 
 
 def _through(surface: Surface, cells: tuple[float, float]) -> Surface:
-    """Cubic splines through all points, at new ones between the outermost of them."""
+    """Interpolate by cubic splines, between the outermost points."""
     if surface.missing.any():
         raise ValueError(
             f"missing: a spline needs all points, and {surface.missing_share:.2%} of "

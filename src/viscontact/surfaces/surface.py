@@ -1,4 +1,4 @@
-"""A measured surface: heights on an even mesh, some of them perhaps missing."""
+"""Measured surface: heights on an even mesh, with missing points as NaN."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Surface(Shown):
     name : str, optional
         What it is called in messages.
     periodic : bool, optional
-        Whether its ends fit together, so that it goes on beyond them.
+        Whether its ends fit together, so that it continues periodically.
 
     Raises
     ------
@@ -42,7 +42,7 @@ class Surface(Shown):
 
     Notes
     -----
-    Each point stands for a cell around it, so that the map is `shape` times `spacing` large.
+    Each point is the centre of a cell, so that the map is `shape` times `spacing` large.
     The origin of `x` and `y` is its middle, as in `viscontact.Grid`: on a grid of the same
     shape and size the points are the cell centres.
 
@@ -94,12 +94,12 @@ class Surface(Shown):
 
     @cached_property
     def missing(self) -> NDArray[np.bool_]:
-        """Where no height is known, shape (nx, ny)."""
+        """Mask of the points without a height, shape (nx, ny)."""
         return np.isnan(self.heights)
 
     @property
     def missing_share(self) -> float:
-        """Part of the points without a height [-]."""
+        """Share of the points without a height [-]."""
         return float(self.missing.mean())
 
     @cached_property
@@ -116,7 +116,7 @@ class Surface(Shown):
     def skewness(self) -> float:
         """Third moment of the known heights over the cube of their rms (Ssk); 0 of a plane [-].
 
-        Negative where deep valleys lie below a plateau, positive where peaks stand on one.
+        Negative where deep valleys lie below a plateau, positive where peaks rise above one.
         """
         deviation = self.heights - np.nanmean(self.heights)
         rms = self.rms_height

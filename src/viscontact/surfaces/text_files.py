@@ -1,4 +1,4 @@
-"""Maps in CSV files: bare numbers, or a row for each point."""
+"""Height maps from CSV files: bare numbers, or a row for each point."""
 
 from __future__ import annotations
 
@@ -24,27 +24,10 @@ _CLOSE = 1e-3
 
 
 def read_text_map(path: Path, units: Units, channel: str | None) -> Surface:
-    """Read a map from a CSV file.
+    """Read a map from a CSV file; points without a row are missing.
 
-    Parameters
-    ----------
-    path : Path
-        The file: rows of bare heights, each a scan line along x; or a header such as ``x [um],
-        y [um], height [nm]`` and a row for each point, in any order.
-    units : Units
-        What is told beside it.
-    channel : str or None
-        For a table: not used.
-
-    Returns
-    -------
-    Surface
-        The map; points that no row tells of are missing.
-
-    Raises
-    ------
-    ValueError
-        If it cannot be read, a unit is missing or told twice, or the points are on no even mesh.
+    Rows of bare heights are scan lines along x; a header such as ``x [um], y [um], height [nm]`` is
+    followed by a row for each point, in any order.
     """
     if channel is not None:
         raise ValueError(f"channel: {path.name} is a table and has none; leave it out")
@@ -59,19 +42,19 @@ def read_text_map(path: Path, units: Units, channel: str | None) -> Surface:
 
 
 def _columns(name: str, header: Row) -> dict[str, str | None]:
-    """Which columns are the position and the height; others are left out."""
-    told: dict[str, str | None] = {}
+    """Columns of position and height; others are left out."""
+    stated: dict[str, str | None] = {}
     for cell in filter(None, header.cells):
         found = re.match(r"\w+", cell.lower())
         quantity = _NAMES.get(found[0]) if found else None
-        told[cell] = None if quantity in told.values() else quantity
-    absent = [each for each in ("x", "y", "height") if each not in told.values()]
+        stated[cell] = None if quantity in stated.values() else quantity
+    absent = [each for each in ("x", "y", "height") if each not in stated.values()]
     if absent:
         raise ValueError(
             f"{name}: the column {absent[0]} is missing; a map is rows of bare heights, or columns "
-            f"'x [um], y [um], height [nm]', got {', '.join(map(repr, told)) or 'none'}"
+            f"'x [um], y [um], height [nm]', got {', '.join(map(repr, stated)) or 'none'}"
         )
-    return told
+    return stated
 
 
 def _is_height(cell: str) -> bool:
@@ -119,13 +102,13 @@ def _from_points(table: Table) -> Surface:
     if (taken > 1).any():
         i, j = np.argwhere(taken > 1)[0]
         row = int(np.flatnonzero((places[0] == i) & (places[1] == j))[1])
-        raise ValueError(f"{name}:{table.lines[row]}: this point stands there twice")
+        raise ValueError(f"{name}:{table.lines[row]}: this point is given twice")
     heights[tuple(places)] = table["height"]
     return Surface(heights, (steps[0], steps[1]), name=name)
 
 
 def _on_mesh(name: str, axis: str, position: Array) -> tuple[NDArray[np.intp], float]:
-    """Index of each position on an even mesh, and its spacing; 0 if there is one line only."""
+    """Index of each position on an even mesh, and its spacing [m]; 0 for a single line."""
     lines = np.unique(position)
     extent = float(lines[-1] - lines[0])
     if extent == 0:

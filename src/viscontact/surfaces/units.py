@@ -1,4 +1,4 @@
-"""Units of a map: from its file, or from who knows them, but never guessed."""
+"""Units of a map, from its file or from the caller; never assumed."""
 
 from __future__ import annotations
 
@@ -11,22 +11,7 @@ Spacing = float | tuple[float, float]
 
 @dataclass(frozen=True)
 class Units:
-    """What is told of a file's units beside it.
-
-    Parameters
-    ----------
-    name : str
-        The file's name.
-    spacing : float or pair of float or None
-        Distance of the points [m]; None if not told.
-    height_unit : str or None
-        Unit of the heights; None if not told.
-
-    Raises
-    ------
-    ValueError
-        If the unit is none of length.
-    """
+    """Units of a file's map as the caller gives them; None where not given."""
 
     name: str
     spacing: Spacing | None
@@ -41,40 +26,29 @@ class Units:
 
     @property
     def height_scale(self) -> float:
-        """Metres in the unit of the heights; ValueError if it is not told."""
+        """Unit of the heights in metres; ValueError if it is not given."""
         if self.height_unit is None:
             raise ValueError(
-                f"height_unit is missing: {self.name} does not tell the unit of its heights; "
+                f"height_unit is missing: {self.name} does not state the unit of its heights; "
                 "give e.g. um"
             )
         return parse_unit(self.height_unit, "length")
 
     @property
     def steps(self) -> Spacing:
-        """Distance of the points [m]; ValueError if it is not told."""
+        """Spacing of the points [m]; ValueError if it is not given."""
         if self.spacing is None:
             raise ValueError(
-                f"spacing is missing: {self.name} does not tell how far its points are apart; "
+                f"spacing is missing: {self.name} does not state the distance of its points; "
                 "give one distance, or one along x and one along y"
             )
         return self.spacing
 
     def require_none(self, *names: str) -> None:
-        """Refuse what is told although the file tells it.
-
-        Parameters
-        ----------
-        *names : str
-            What stands in the file: ``"spacing"``, ``"height_unit"``; both when left out.
-
-        Raises
-        ------
-        ValueError
-            If it is told beside it, too.
-        """
+        """Refuse units, all or those named, that the file already states."""
         for name in names or ("spacing", "height_unit"):
             if getattr(self, name) is not None:
                 raise ValueError(
-                    f"{name}: stands in {self.name}; leave it out (height_factor: mends a unit "
-                    "that is wrong there)"
+                    f"{name}: is given in {self.name}; leave it out "
+                    "(height_factor: corrects a wrong unit)"
                 )

@@ -1,4 +1,4 @@
-"""Measured tables: CSV files whose header names columns and units, as instruments export them."""
+"""Measured tables: CSV files whose header names columns and units."""
 
 from viscontact.tables.lines import read_line
 from viscontact.tables.names import QUANTITIES

@@ -1,4 +1,4 @@
-"""From the one or two header rows of a table to its columns."""
+"""Header of a table: columns, quantities and units from its first one or two rows."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _NO_UNIT = ("", "-", "–", "—", "1", "none")
 
 @dataclass(frozen=True)
 class Column:
-    """One column that is read: its place from 0, heading, meaning, and scale to SI."""
+    """Column to read: its place from 0, heading, meaning, and scale to SI."""
 
     place: int
     heading: str
@@ -39,19 +39,7 @@ class Column:
 
 @dataclass(frozen=True)
 class Header:
-    """What the first rows of a table say.
-
-    Parameters
-    ----------
-    columns : tuple of Column
-        The columns that are read.
-    left_out : tuple of str
-        Headings of those that are not.
-    width : int
-        How many cells a row has.
-    rows : int
-        How many rows the header takes: 1, or 2 with a row of units.
-    """
+    """Columns to read, headings left out, cells in a row, and header rows (1, or 2 with units)."""
 
     columns: tuple[Column, ...]
     left_out: tuple[str, ...]
@@ -60,13 +48,13 @@ class Header:
 
     @property
     def data(self) -> Data | None:
-        """The test that the headings tell, if they do."""
+        """Kind of test that the headings state, or None."""
         return next((c.meaning.data for c in self.columns if c.meaning.data), None)
 
 
 @dataclass(frozen=True)
 class _Heading:
-    """A cell of the header: its text, the name in it, its unit if it has one, and its line."""
+    """Cell of the header: its text, the name and unit in it, and its line."""
 
     text: str
     name: str
@@ -75,30 +63,9 @@ class _Heading:
 
 
 def read_header(source: str, rows: list[Row], columns: Mapping[str, str | None]) -> Header:
-    """Read what the columns of a table are.
-
-    Parameters
-    ----------
-    source : str
-        Name of the file, for messages.
-    rows : list of Row
-        The first rows of the table.
-    columns : mapping
-        Meanings given by the user: heading or name to a quantity, or to None to leave it out.
-
-    Returns
-    -------
-    Header
-        What is read.
-
-    Raises
-    ------
-    ValueError
-        If there is no header, a unit is missing or measures something else, or a quantity is
-        not clear or there twice.
-    """
+    """Read the header; `columns` maps headings to quantities, or to None to leave them out."""
     _require_names(source, rows[0])
-    cells = _without_idle_end(rows[0].cells)
+    cells = _without_empty_end(rows[0].cells)
     headings = [_heading(cell, rows[0].line) for cell in cells]
     in_two_rows = len(rows) > 1 and _are_units(headings, rows[1].cells)
     if in_two_rows:
@@ -109,11 +76,11 @@ def read_header(source: str, rows: list[Row], columns: Mapping[str, str | None])
         ]
     meanings = _meanings(source, headings, columns)
     found = tuple(
-        Column(place, heading.text, told, _scale(source, heading, told))
-        for place, (heading, told) in enumerate(zip(headings, meanings, strict=True))
-        if told is not None
+        Column(place, heading.text, stated, _scale(source, heading, stated))
+        for place, (heading, stated) in enumerate(zip(headings, meanings, strict=True))
+        if stated is not None
     )
-    left = tuple(h.text for h, told in zip(headings, meanings, strict=True) if told is None)
+    left = tuple(h.text for h, stated in zip(headings, meanings, strict=True) if stated is None)
     _require_some(source, found, left)
     found = tuple(_settled(source, column, found) for column in found)
     _require_once(source, found)
@@ -128,8 +95,8 @@ def _require_names(source: str, row: Row) -> None:
         )
 
 
-def _without_idle_end(cells: tuple[str, ...]) -> tuple[str, ...]:
-    # Spreadsheets leave empty columns behind.
+def _without_empty_end(cells: tuple[str, ...]) -> tuple[str, ...]:
+    # Spreadsheets export empty columns at the end.
     end = max((place for place, cell in enumerate(cells, start=1) if cell), default=0)
     return cells[:end]
 
@@ -145,7 +112,7 @@ def _heading(text: str, line: int) -> _Heading:
 
 
 def _are_units(headings: list[_Heading], cells: tuple[str, ...]) -> bool:
-    """Whether the second row holds units: no unit above it, and nothing like a number in it."""
+    """True if the second row holds units: no unit in the first, and no numbers."""
     return all(h.unit is None for h in headings) and not any(map(looks_like_number, cells))
 
 
@@ -165,12 +132,12 @@ def _meanings(
 
 
 def _meaning(source: str, heading: _Heading, given: Mapping[str, str | None]) -> Meaning | None:
-    told = meaning(heading.name)
+    stated = meaning(heading.name)
     for name in (heading.text, heading.name):
         if name in given:
             quantity = given[name]
-            return None if quantity is None else Meaning(quantity, told.data if told else None)
-    if told is None:
+            return None if quantity is None else Meaning(quantity, stated.data if stated else None)
+    if stated is None:
         # What is nearly a known name is a slip, not another column.
         near = difflib.get_close_matches(heading.name.lower(), known_names(), n=1, cutoff=0.85)
         if near:
@@ -178,16 +145,16 @@ def _meaning(source: str, heading: _Heading, given: Mapping[str, str | None]) ->
                 f"{source}:{heading.line}: column {heading.text!r}: did you mean {near[0]!r}? "
                 f"If not, leave it out with columns={{{heading.text!r}: None}}"
             )
-    return told
+    return stated
 
 
-def _scale(source: str, heading: _Heading, told: Meaning) -> Scale:
+def _scale(source: str, heading: _Heading, stated: Meaning) -> Scale:
     where = f"{source}:{heading.line}: column {heading.text!r}"
-    frequency = told.quantity in ("frequency", "angular_frequency")
-    dimension = "pressure" if told.quantity == "modulus" else QUANTITIES.get(told.quantity)
+    frequency = stated.quantity in ("frequency", "angular_frequency")
+    dimension = "pressure" if stated.quantity == "modulus" else QUANTITIES.get(stated.quantity)
     if dimension is None and not frequency:
         if heading.unit is not None and heading.unit.lower() not in _NO_UNIT:
-            raise ValueError(f"{where}: {told.quantity} has no unit, got {heading.unit!r}")
+            raise ValueError(f"{where}: {stated.quantity} has no unit, got {heading.unit!r}")
         return Scale(1.0)
     if heading.unit is None or (heading.unit in _NO_UNIT and heading.unit != "1"):
         example = DIMENSIONS[dimension or "frequency"].unit
@@ -197,7 +164,7 @@ def _scale(source: str, heading: _Heading, told: Meaning) -> Scale:
         )
     try:
         if frequency:
-            return _angular(told.quantity, heading.unit)
+            return _angular(stated.quantity, heading.unit)
         assert dimension is not None  # only frequencies have none
         return parse_scale(heading.unit, dimension)
     except ValueError as error:
@@ -205,7 +172,7 @@ def _scale(source: str, heading: _Heading, told: Meaning) -> Scale:
 
 
 def _angular(quantity: str, unit: str) -> Scale:
-    """Return the scale to rad/s: the unit says what is meant, 1/s as the name does."""
+    """Scale to rad/s; 1/s is a frequency or an angular frequency by the name of the column."""
     try:
         return parse_scale(unit, "angular frequency")
     except ValueError:
@@ -229,17 +196,17 @@ def _require_some(source: str, found: tuple[Column, ...], left: tuple[str, ...])
 
 
 def _settled(source: str, column: Column, columns: tuple[Column, ...]) -> Column:
-    """Return the column as what it is among the others: E over time is a relaxation modulus."""
-    told = column.meaning
-    quantity = "angular_frequency" if told.quantity == "frequency" else told.quantity
+    """Column with its meaning among the others: E over time is a relaxation modulus."""
+    stated = column.meaning
+    quantity = "angular_frequency" if stated.quantity == "frequency" else stated.quantity
     frequency = any("frequency" in c.meaning.quantity for c in columns)
     if quantity in ("modulus", "creep_compliance") and frequency:
         raise ValueError(
-            f"{source}: column {column.heading!r} is not clear beside a frequency; say what it is "
+            f"{source}: column {column.heading!r} is ambiguous with a frequency; name its quantity "
             f"with columns={{{column.heading!r}: 'storage_modulus'}}, or None to leave it out"
         )
     quantity = "relaxation_modulus" if quantity == "modulus" else quantity
-    settled = Meaning(quantity, told.data, told.logarithm)
+    settled = Meaning(quantity, stated.data, stated.logarithm)
     return Column(column.place, column.heading, settled, column.scale)
 
 
@@ -253,7 +220,7 @@ def _require_once(source: str, columns: tuple[Column, ...]) -> None:
                 f"{column.meaning.quantity}; leave one out with columns={{{column.heading!r}: "
                 "None}"
             )
-    told = {column.meaning.data: column.heading for column in columns if column.meaning.data}
-    if len(told) > 1:
-        found = " and ".join(f"{heading!r} ({data})" for data, heading in told.items())
+    stated = {column.meaning.data: column.heading for column in columns if column.meaning.data}
+    if len(stated) > 1:
+        found = " and ".join(f"{heading!r} ({data})" for data, heading in stated.items())
         raise ValueError(f"{source}: columns of different tests, {found}; give one test a file")

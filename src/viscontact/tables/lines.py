@@ -1,4 +1,4 @@
-"""Lines drawn by points: profiles of rollers, sections of bodies, from CSV files."""
+"""Reader of lines drawn by points: roller profiles and cross-sections in CSV files."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _LEVELS = {"drop": 1.0, "height": -1.0}
 
 
 def read_line(path: str | PathLike[str], along: str) -> tuple[list[float], list[float]]:
-    r"""Read a line from a CSV file.
+    r"""Read a line, positions and drops, from a CSV file.
 
     Parameters
     ----------

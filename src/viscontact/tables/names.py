@@ -1,4 +1,4 @@
-"""What the columns of measured tables are called, and what is meant."""
+"""Names of the columns of measured tables, and the quantities they mean."""
 
 from __future__ import annotations
 
@@ -36,17 +36,10 @@ QUANTITIES: dict[str, str | None] = {
 
 @dataclass(frozen=True)
 class Meaning:
-    """What a heading means.
+    """Meaning of a heading: quantity, kind of test, and base of the logarithm if it has one.
 
-    Parameters
-    ----------
-    quantity : str
-        A key of `QUANTITIES`, or ``"frequency"`` for one in hertz. ``"modulus"`` is the
-        relaxation modulus of a table over time, and not clear in one over frequency.
-    data : str, optional
-        The test it tells: ``"shear"``, ``"uniaxial"`` or ``"deviatoric"``; None if it does not.
-    logarithm : float, optional
-        Base of the logarithm whose values stand there, if they are logarithms.
+    The quantity is a key of `QUANTITIES`, ``"frequency"`` for one in hertz, or ``"modulus"``: the
+    relaxation modulus in a table over time, ambiguous in one over frequency.
     """
 
     quantity: str
@@ -127,33 +120,20 @@ _WORDS = {
 }  # fmt: skip
 
 _PRIMES = str.maketrans({"’": "'", "′": "'", "‘": "'", "`": "'", "´": "'", "″": "''", '"': "''"})
-# "E(t)" is E; the argument says nothing that the other columns do not.
+# "E(t)" is E; the argument is redundant.
 _ARGUMENT = re.compile(r"\s*\((?:t|f|ω|w|omega|time|t,\s*T)\)\s*$")
 
 
 def meaning(name: str) -> Meaning | None:
-    """Return what a column's name means.
+    """Meaning of a column's name without its unit; None if it is unknown.
 
-    Parameters
-    ----------
-    name : str
-        The name, without its unit.
-
-    Returns
-    -------
-    Meaning or None
-        None if it is not known.
-
-    Examples
-    --------
-    >>> meaning("E''"), meaning("Zeit"), meaning("strain")
-    (Meaning(quantity='loss_modulus', data='uniaxial', logarithm=None), Meaning(quantity='time', \
-data=None, logarithm=None), None)
+    >>> meaning("E''").quantity, meaning("Zeit").quantity, meaning("strain")
+    ('loss_modulus', 'time', None)
     """
     plain = _ARGUMENT.sub("", name.translate(_PRIMES).strip())
     return _SYMBOLS.get(plain) or _WORDS.get(re.sub(r"[\s_-]+", "_", plain).lower())
 
 
 def known_names() -> list[str]:
-    """Return every name that is known, to find the nearest to a misspelt one."""
+    """All known names, to suggest the nearest to a misspelt one."""
     return [*_WORDS]

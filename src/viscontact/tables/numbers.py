@@ -9,7 +9,7 @@ _NOT_FINITE = re.compile(r"[+-]?(?:nan|inf|infinity)", re.IGNORECASE)
 
 
 def looks_like_number(cell: str) -> bool:
-    """Tell whether a cell is a number rather than a name or a unit.
+    """Return True for a cell that is a number rather than a name or a unit.
 
     Examples
     --------
@@ -25,7 +25,7 @@ def decimal_number(cell: str, mark: str) -> str:
     Parameters
     ----------
     cell : str
-        What stands in the cell.
+        Text of the cell.
     mark : str
         The decimal mark of the file: a point or a comma.
 

@@ -1,4 +1,4 @@
-"""From a CSV file to a measured table."""
+"""Reader of measured tables from CSV files."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def read_table(path: str | PathLike[str], columns: Mapping[str, str | None] | No
         The file. Its header names columns and units in one row (``time [s], E' (MPa)``) or two
         (names, then units).
     columns : mapping, optional
-        What columns mean whose names do not say: heading to a quantity (a key of
+        Meaning of columns with unknown names: heading to a quantity (a key of
         `viscontact.tables.names.QUANTITIES`, or ``"frequency"``), or to None to leave the
         column out.
 
@@ -46,8 +46,8 @@ def read_table(path: str | PathLike[str], columns: Mapping[str, str | None] | No
     Text may be UTF-8 (with or without a byte-order mark), UTF-16, Windows-1252 or Latin-1; cells
     are separated by tabs, semicolons or commas; numbers may have decimal commas where the
     separator is none. Frequencies arrive in rad/s, whether they are written in Hz or so;
-    temperatures in K; shift factors as a_T where their logarithm (``log_aT``, decimal, or
-    ``ln_aT``) stands. Files are bounded at 50 MB and a million rows.
+    temperatures in K; logarithms of shift factors (``log_aT``, decimal, or ``ln_aT``) as
+    a_T. Files are bounded at 50 MB and a million rows.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""A measured table: columns in SI units, and the sets of rows that belong together."""
+"""Measured table: columns in SI units, and the sets of rows that belong together."""
 
 from __future__ import annotations
 
@@ -33,12 +33,12 @@ class Table:
         By quantity, in the file's order, in SI units: a key of
         `viscontact.tables.names.QUANTITIES`.
     data : str or None
-        The test that the headings tell: ``"shear"`` (G, J), ``"uniaxial"`` (E, D) or
+        The kind of test that the headings state: ``"shear"`` (G, J), ``"uniaxial"`` (E, D) or
         ``"deviatoric"`` (Phi); None if they do not.
     headings : mapping of str to str
         What the columns are called in the file, by quantity.
     lines : ndarray of int, shape (rows,)
-        Line of the file where each row stands, from 1.
+        Line of the file of each row, from 1.
     left_out : tuple of str
         Headings of columns that are not known and not read.
 
@@ -66,7 +66,7 @@ class Table:
         if quantity not in self.columns:
             found = ", ".join(f"{q} ({self.headings[q]!r})" for q in self.columns)
             left = ", ".join(map(repr, self.left_out))
-            hint = f"; not known: {left}, say what they are with columns=" if left else ""
+            hint = f"; not known: {left}, name their quantities with columns=" if left else ""
             raise ValueError(
                 f"{self.source.name}: the column {quantity} is missing; there are {found}{hint}"
             )
@@ -137,7 +137,7 @@ class Table:
                 low, high = in_celsius(values[group].min()), in_celsius(values[group].max())
                 raise ValueError(
                     f"{self.source.name}: temperatures from {low:.4g} to {high:.4g} °C without a "
-                    "gap of 1 K cannot be told apart; number the sets in a column Set"
+                    "gap of 1 K cannot be distinguished; number the sets in a column Set"
                 )
         return tuple(self._rows(np.sort(group)) for group in groups)
 

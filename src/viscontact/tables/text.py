@@ -1,4 +1,4 @@
-"""From the bytes of a table to its rows of cells."""
+"""Text files of instruments: encoding, separators, and rows of cells."""
 
 from __future__ import annotations
 
@@ -10,8 +10,7 @@ from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
 
-# Beyond these no laboratory file is a table of measured points; a reader that needs more is to
-# thin out what it recorded.
+# Upper limits on a table of measured points; larger records are to be thinned out.
 _LARGEST_FILE, _MOST_ROWS = 50_000_000, 1_000_000
 
 _COMMENTS = ("#", "%", "//")
@@ -65,7 +64,7 @@ def read_rows(path: Path) -> list[Row]:
 
 
 def require_file(path: str | PathLike[str]) -> Path:
-    """Return the path of a file that is there, or refuse it with the nearest name.
+    """Return the path of an existing file, or refuse it with the nearest name.
 
     Parameters
     ----------
@@ -98,7 +97,7 @@ def require_file(path: str | PathLike[str]) -> Path:
 
 
 def read_text(path: Path) -> str:
-    """Read a text file of a program or instrument, whatever encoding it is written in.
+    """Read a text file of a program or instrument in any common encoding.
 
     Parameters
     ----------

@@ -16,7 +16,7 @@ from viscontact import indenters, surfaces
 from viscontact.case.data_file import DataFile
 from viscontact.case.indenters.base import Shape
 from viscontact.case.quantities import Length, NotNegativeLength, Section
-from viscontact.surfaces.doubts import described, levelling_note
+from viscontact.surfaces.plausibility import described, levelling_note
 from viscontact.surfaces.pressing import require_complete, require_map
 from viscontact.units.formatting import format_quantity
 

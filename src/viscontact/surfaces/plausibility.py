@@ -1,4 +1,4 @@
-"""What a measured surface is, in words, and what about it looks wrong."""
+"""Plausibility of a measured surface, and its description in words."""
 
 from __future__ import annotations
 
@@ -10,21 +10,21 @@ from viscontact.surfaces.levelling import TERMS, Level, polynomial, tilt
 from viscontact.surfaces.surface import Surface
 from viscontact.units.formatting import format_number, format_quantity
 
-#: Heights of a surface that is skewed by more look like valleys in a plateau.
+#: Skewness below which heights look like valleys in a plateau.
 SKEWED = -1.0
 
-#: A point so many rms heights above the mean is a spike rather than a peak.
+#: Rms heights above the mean beyond which a point is a spike rather than a peak.
 SPIKE = 8.0
 
-#: So much of the variance in a bowl is a form.
+#: Share of the variance in a paraboloid above which a surface has a form.
 FORM_SHARE = 0.5
 
-#: Steeper rms slopes are not what a linear theory is for.
+#: Rms slope above which small-strain theory does not hold.
 STEEP = 0.5
 
 
 def surface_doubts(surface: Surface) -> tuple[str, ...]:
-    """Say what about a surface looks wrong before it is pressed.
+    """Return warnings about a surface that looks wrong before it is pressed.
 
     Parameters
     ----------
@@ -44,30 +44,18 @@ def surface_doubts(surface: Surface) -> tuple[str, ...]:
     Examples
     --------
     >>> bowl = np.add.outer(np.linspace(-1, 1, 9) ** 2, np.linspace(-1, 1, 9) ** 2)
-    >>> [doubt.split(":")[0] for doubt in surface_doubts(Surface(1e-6 * bowl, 1e-5))]
+    >>> [warning.split(":")[0] for warning in surface_doubts(Surface(1e-6 * bowl, 1e-5))]
     ['surface is hollow']
     """
     if min(surface.shape) < 3 or surface.rms_height == 0:
         return ()
     found = (_hollow(surface) or _skewed(surface), _tilted(surface), _spiked(surface))
-    return tuple(doubt for doubt in (*found, _steep(surface)) if doubt)
+    return tuple(warning for warning in (*found, _steep(surface)) if warning)
 
 
 def described(surface: Surface) -> str:
     """Describe a surface in a line: points, missing ones, rms height and slope.
 
-    Parameters
-    ----------
-    surface : Surface
-        The surface.
-
-    Returns
-    -------
-    str
-        The line.
-
-    Examples
-    --------
     >>> described(Surface([[0.0, 1e-6], [1e-6, 0.0]], 1e-5))
     'surface: 2 x 2 points, 10 µm apart; rms height 500 nm, rms slope 0.14'
     """
@@ -84,22 +72,8 @@ def described(surface: Surface) -> str:
 
 
 def levelling_note(surface: Surface, level: Level) -> str | None:
-    """Say what levelling takes off a surface.
+    """Sentence on the tilt and form that levelling removes; None where it removes a mean only.
 
-    Parameters
-    ----------
-    surface : Surface
-        The surface before it.
-    level : str
-        As `levelled` takes it.
-
-    Returns
-    -------
-    str or None
-        A sentence; None where nothing is taken off but a mean.
-
-    Examples
-    --------
     >>> ramp = Surface([[0.0, 0.0], [1e-7, 1e-7], [2e-7, 2e-7]], 1e-5)
     >>> levelling_note(ramp, "plane")
     'surface: a tilt of 10 mrad was taken off (level: plane)'
@@ -112,7 +86,7 @@ def levelling_note(surface: Surface, level: Level) -> str | None:
 
 
 def _hollow(surface: Surface) -> str | None:
-    """A form that is highest at its border."""
+    """Warning of a form that is highest at its border."""
     try:
         form = polynomial(surface, TERMS["quadratic"])
     except ValueError:
@@ -140,7 +114,7 @@ def _skewed(surface: Surface) -> str | None:
 
 
 def _tilted(surface: Surface) -> str | None:
-    """A tilt that lifts the ends by more than what is left without it."""
+    """Warning of a tilt that lifts the ends by more than the remaining heights."""
     slopes = tilt(surface)
     lift = math.hypot(*(slope * size for slope, size in zip(slopes, surface.size, strict=True)))
     # The standard deviation of a ramp is its rise over the root of twelve.
