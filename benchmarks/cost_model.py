@@ -41,7 +41,7 @@ from viscontact.time_integration.internal_variables import RecursiveMemory
 
 #: Part of a step, and the functions that make it up: where they are looked up, and their names.
 PARTS: tuple[tuple[str, tuple[tuple[Any, str], ...]], ...] = (
-    ("operators: made", ((domain.HalfSpace, "__init__"), (domain.HalfSpace, "_patch"))),
+    ("operators: made", ((domain.ContactDomain, "__init__"), (domain.ContactDomain, "_patch"))),
     ("convolution", ((convolution.Convolution, "apply"),)),
     ("preconditioner", ((spectral.Preconditioner, "apply"),)),
     ("measure: gap and error", ((conjugate_gradients, "measure"), (equilibrium, "measure"))),

@@ -10,7 +10,7 @@ from ladder import Problem, climb
 from problems import PROBLEMS, RECORDED, STEPS, SharedProblem
 
 import viscontact as vc
-from viscontact.contact.domain import HalfSpace
+from viscontact.contact.domain import ContactDomain
 from viscontact.contact.equilibrium import solve_contact
 from viscontact.contact.problem import ContactProblem
 from viscontact.contact.rigid_balance import Support
@@ -19,7 +19,7 @@ from viscontact.contact.rigid_balance import Support
 def elastic(problem: Problem, tolerance: float) -> np.ndarray:
     """The solver alone: arrays in, arrays out."""
     shape = problem["gap"].shape
-    half_space = HalfSpace(_grid(shape, problem))
+    half_space = ContactDomain(_grid(shape, problem))
     posed = ContactProblem(
         problem["gap"],
         float(problem["instant"]),

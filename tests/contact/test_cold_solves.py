@@ -7,7 +7,7 @@ import pytest
 from numpy.typing import NDArray
 
 import viscontact as vc
-from viscontact.contact.domain import HalfSpace
+from viscontact.contact.domain import ContactDomain
 from viscontact.contact.equilibrium import solve_contact
 from viscontact.contact.problem import ContactProblem
 from viscontact.contact.rigid_balance import Support
@@ -28,7 +28,7 @@ def rough(cells: int) -> NDArray[np.float64]:
     return np.asarray(gap - gap.min())
 
 
-def posed(kind: str, cells: int) -> tuple[ContactProblem, HalfSpace]:
+def posed(kind: str, cells: int) -> tuple[ContactProblem, ContactDomain]:
     """A contact problem of each kind, on so many cells along x."""
     shape, size = (cells, cells), (1.0, 1.0)
     force, offset = 0.01, (0.05, 0.03)
@@ -48,7 +48,7 @@ def posed(kind: str, cells: int) -> tuple[ContactProblem, HalfSpace]:
         part_x, part_y = (8 * x) % 1 - 0.5, (8 * y) % 1 - 0.5
         gap, offset = 0.05 * (part_x**2 + part_y**2) + 0.002 * np.hypot(x, y), (0.02, 0.01)
     support = Support((force, force * offset[0], force * offset[1]))
-    half_space = HalfSpace(grid)
+    half_space = ContactDomain(grid)
     return ContactProblem(gap, COMPLIANCE, support, 1e-15), half_space
 
 
@@ -74,7 +74,7 @@ def test_where_a_solve_starts_does_not_change_its_answer(
 ) -> None:
     problem, half_space = posed(kind, 256)
     nested = solve_contact(problem, half_space, tolerance=1e-9)
-    monkeypatch.setattr(HalfSpace, "coarser", lambda self: None)
+    monkeypatch.setattr(ContactDomain, "coarser", lambda self: None)
     direct = solve_contact(problem, half_space, tolerance=1e-9)
     assert (direct.found.pressure != nested.found.pressure).any(), "both began alike"
     peak = direct.found.pressure.max()
@@ -91,6 +91,6 @@ def test_a_body_of_few_cells_is_solved_for_though_coarser_cells_cannot_hold_it(h
         grid.x[:, None] - 0.5, grid.y[None, :] - 0.5
     )
     problem = ContactProblem(gap, COMPLIANCE, Support((1.0, 0.6, 0.5)), 1e-15)
-    found = solve_contact(problem, HalfSpace(grid), tolerance=1e-9)
+    found = solve_contact(problem, ContactDomain(grid), tolerance=1e-9)
     assert found.converged
     assert found.found.pressure.sum() == pytest.approx(1.0)

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 import viscontact as vc
 from verification.independent import deflection, love
 from viscontact.contact import conjugate_gradients
-from viscontact.contact.domain import HalfSpace
+from viscontact.contact.domain import ContactDomain
 from viscontact.contact.equilibrium import ContactProblem, Guess, solve_contact
 from viscontact.contact.rigid_balance import RigidPlane, Support
 from viscontact.contact.winkler import nearest_balanced
@@ -25,7 +25,7 @@ def problem(support=LOAD, open_gap=SPHERE):
 
 @pytest.fixture(scope="module")
 def half_space():
-    return HalfSpace(GRID)
+    return ContactDomain(GRID)
 
 
 @pytest.fixture(scope="module")
@@ -117,7 +117,7 @@ def test_two_peaks_share_a_force_between_them_by_the_lever():
     where = near + (far - near) / 3
     support = Support((9.0, 9.0 * where, 0.0))
     case = ContactProblem(open_gap, 1e-6, support, 1e-15)
-    found = solve_contact(case, HalfSpace(grid), tolerance=1e-9)
+    found = solve_contact(case, ContactDomain(grid), tolerance=1e-9)
     assert found.converged
     shares = found.found.pressure[[4, 34], 4] * grid.cell_area
     assert shares == pytest.approx([6.0, 3.0], rel=1e-8)
@@ -136,7 +136,7 @@ def test_a_load_between_two_rows_of_cells_is_found_by_them():
     force, aside = 2.4e6, 1.06
     assert 0 < aside - grid.y[7] < 0.06 * grid.cell_size[1]
     case = ContactProblem(open_gap, 2e-7, Support((force, 0.0, force * aside)), 1e-15)
-    found = solve_contact(case, HalfSpace(grid), tolerance=1e-8)
+    found = solve_contact(case, ContactDomain(grid), tolerance=1e-8)
     assert found.converged
     # Measured: 8; a preconditioned search takes 10 to 20, whatever the grid.
     assert found.iterations < 20
@@ -156,7 +156,7 @@ def test_a_search_that_can_only_give_up_cell_after_cell_gets_there_too(monkeypat
     grid = vc.Grid((218, 12), (183.0, 8.2))
     open_gap = vc.Paraboloid(868.0, 2.77).gap(grid.x[:, None], grid.y[None, :])
     case = ContactProblem(open_gap, 2e-7, Support((2.4e6, 0.0, 2.4e6 * 1.06)), 1e-15)
-    found = solve_contact(case, HalfSpace(grid), tolerance=1e-8)
+    found = solve_contact(case, ContactDomain(grid), tolerance=1e-8)
     assert found.converged
     assert found.found.pressure.min() >= 0
     # One step for each of some 45 cells and a few more; 79 where some cells take several.
@@ -198,7 +198,7 @@ def test_a_body_on_a_stage_that_can_tilt_clear_has_no_contact(seed):
     grid, open_gap = vc.Grid((40, 30), (4.0, 3.0)), np.full((40, 30), np.inf)
     open_gap[rng.integers(25, 40, 5), rng.integers(18, 30, 5)] = rng.uniform(0.0, 0.5, 5)
     case = ContactProblem(open_gap, 1e-6, Support((None, 0.0, 0.0), (0.6, 0.0, 0.0)), 1e-6)
-    found = solve_contact(case, HalfSpace(grid), tolerance=1e-6)
+    found = solve_contact(case, ContactDomain(grid), tolerance=1e-6)
     assert found.converged
     assert not found.found.pressure.any()
     assert found.gap.min() > -1e-12

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import viscontact as vc
-from viscontact.contact.domain import HalfSpace
+from viscontact.contact.domain import ContactDomain
 from viscontact.contact.rigid_balance import Support
 from viscontact.contact.rim import trace_rim
 
@@ -93,11 +93,11 @@ def test_approach_that_presses_everything_flat_is_refused():
 
 def test_periodic_half_space_is_not_mirrored():
     with pytest.raises(ValueError, match="not mirrored"):
-        HalfSpace(PERIOD, mirrored=(False, True))
+        ContactDomain(PERIOD, mirrored=(False, True))
 
 
 def test_support_of_a_period_does_not_tilt():
-    assert HalfSpace(PERIOD).share(Support((3.0, 0.0, 0.0))) == Support((3.0, None, None))
+    assert ContactDomain(PERIOD).share(Support((3.0, 0.0, 0.0))) == Support((3.0, None, None))
 
 
 @pytest.mark.parametrize("roll", [(0, 0), (5, -3), (16, 16), (13, 0)])

@@ -66,7 +66,7 @@ class Patch:
         return _within(rows, self.rows) and _within(columns, self.columns)
 
 
-class HalfSpace:
+class ContactDomain:
     """A grid on the half-space: the patch of all its cells, and smaller ones around contacts.
 
     Searching for the pressure on the contact's own patch, by changes convolved in single
@@ -96,7 +96,7 @@ class HalfSpace:
 
     Examples
     --------
-    >>> half_space = HalfSpace(Grid((4, 8), (1.0, 1.0)), mirrored=(False, True))
+    >>> half_space = ContactDomain(Grid((4, 8), (1.0, 1.0)), mirrored=(False, True))
     >>> half_space.fold(np.ones((4, 8))).shape
     (4, 4)
     """
@@ -128,13 +128,13 @@ class HalfSpace:
         self.whole = self._patch(slice(0, self.shape[0]), slice(0, self.shape[1]))
         self._last = self.whole
 
-    def coarser(self) -> HalfSpace | None:
+    def coarser(self) -> ContactDomain | None:
         """The same region in cells twice as long and wide; None where they do not pair, or few."""
         if any(cells % 2 or cells < 2 * FEWEST_CELLS for cells in self.shape):
             return None
         nx, ny = self.grid.shape
         halved = replace(self.grid, shape=(nx // 2, ny // 2))
-        return HalfSpace(halved, mirrored=self.mirrored, transforms=self._transforms)
+        return ContactDomain(halved, mirrored=self.mirrored, transforms=self._transforms)
 
     def fold(self, field: NDArray[np.float64]) -> NDArray[np.float64]:
         """The part of a field on the grid that is worked with."""

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.contact.conjugate_gradients import Search, measure
-from viscontact.contact.domain import HalfSpace
+from viscontact.contact.domain import ContactDomain
 from viscontact.contact.problem import ContactProblem, Guess
 from viscontact.contact.winkler import settle_on_bedding
 
@@ -64,7 +64,7 @@ class ContactSolution:
 
 def solve_contact(
     problem: ContactProblem,
-    half_space: HalfSpace,
+    half_space: ContactDomain,
     guess: Guess | None = None,
     *,
     tolerance: float = 1e-6,
@@ -76,7 +76,7 @@ def solve_contact(
     ----------
     problem : ContactProblem
         Gap, compliance and support.
-    half_space : HalfSpace
+    half_space : ContactDomain
         Grid and operators.
     guess : Guess, optional
         Start; its deflection must belong to its pressure. Negative pressure is cut off, balances
@@ -124,7 +124,7 @@ def solve_contact(
 def _solve_from(
     start: Guess,
     problem: ContactProblem,
-    half_space: HalfSpace,
+    half_space: ContactDomain,
     tolerance: float,
     max_iterations: int,
 ) -> ContactSolution:
@@ -160,7 +160,7 @@ def _solve_from(
 
 def _is_balanced(
     problem: ContactProblem,
-    half_space: HalfSpace,
+    half_space: ContactDomain,
     pressure: NDArray[np.float64],
     tolerance: float,
 ) -> bool:
@@ -169,7 +169,7 @@ def _is_balanced(
     return off <= tolerance
 
 
-def _cold_start(problem: ContactProblem, half_space: HalfSpace) -> Guess:
+def _cold_start(problem: ContactProblem, half_space: ContactDomain) -> Guess:
     """What a coarser grid says, and at the bottom of these a bedding."""
     coarser = half_space.coarser()
     # A body may be too narrow to lie under any four cells.
@@ -185,7 +185,7 @@ def _cold_start(problem: ContactProblem, half_space: HalfSpace) -> Guess:
     return Guess(pressure, half_space.convolution.apply(pressure), coarse.found.motion)
 
 
-def _bedding(problem: ContactProblem, half_space: HalfSpace) -> Guess:
+def _bedding(problem: ContactProblem, half_space: ContactDomain) -> Guess:
     whole = half_space.whole
     pressure, motion = settle_on_bedding(
         problem.open_gap, problem.compliance, problem.support, whole.plane, whole.cell_area

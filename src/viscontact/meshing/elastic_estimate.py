@@ -9,7 +9,7 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.contact.domain import HalfSpace
+from viscontact.contact.domain import ContactDomain
 from viscontact.contact.equilibrium import solve_contact
 from viscontact.contact.problem import ContactProblem
 from viscontact.contact.rigid_balance import Support
@@ -166,7 +166,7 @@ def _coarse_contact(
     if not np.isfinite(open_gap).any():
         return _Misfit.BOTH
     problem = ContactProblem(open_gap, compliance, Support.of(point), 1e-12 * max(grid.size))
-    solution = solve_contact(problem, HalfSpace(grid), tolerance=COARSE_TOLERANCE)
+    solution = solve_contact(problem, ContactDomain(grid), tolerance=COARSE_TOLERANCE)
     contact = solution.found.pressure > 0
     if not contact.any():
         return _between_points(open_gap)
@@ -237,7 +237,7 @@ def estimate_period(
     nx, ny = (min(count, MOST_PERIOD_CELLS) for count in grid.shape)
     coarse = Grid((nx, ny), grid.size, periodic=True)
     open_gap = indenter.gap(coarse.x[:, None], coarse.y[None, :])
-    half_space = HalfSpace(coarse)
+    half_space = ContactDomain(coarse)
     support = half_space.share(Support.of(point))
     problem = ContactProblem(open_gap, contact_compliance, support, 1e-12 * max(grid.size))
     solution = solve_contact(problem, half_space, tolerance=COARSE_TOLERANCE)

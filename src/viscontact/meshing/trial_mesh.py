@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.contact.body_edge import trace_outline
-from viscontact.contact.domain import HalfSpace
+from viscontact.contact.domain import ContactDomain
 from viscontact.contact.equilibrium import solve_contact
 from viscontact.contact.problem import ContactProblem, Guess
 from viscontact.contact.rigid_balance import Support
@@ -134,7 +134,7 @@ def _found(
 ) -> _Found:
     grid, indenter, point = Grid(shape, pressing.size), pressing.indenter, pressing.point
     open_gap = indenter.gap(grid.x[:, None], grid.y[None, :])
-    half_space = HalfSpace(grid, mirrored=_mirrored(open_gap, point))
+    half_space = ContactDomain(grid, mirrored=_mirrored(open_gap, point))
     problem = ContactProblem(
         half_space.fold(open_gap),
         pressing.compliance,

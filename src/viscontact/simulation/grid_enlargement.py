@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft
 
-from viscontact.contact.domain import HalfSpace
+from viscontact.contact.domain import ContactDomain
 from viscontact.grid import Grid
 from viscontact.meshing.contact_extent import MOST_CELLS
 from viscontact.simulation.step_solution import Instant
@@ -90,13 +90,13 @@ class Enlargement:
 
     Parameters
     ----------
-    small, large : HalfSpace
+    small, large : ContactDomain
         Before and after.
 
     Examples
     --------
-    >>> small = HalfSpace(Grid((4, 4), (1.0, 1.0)))
-    >>> large = HalfSpace(small.grid.widened((8, 8)))
+    >>> small = ContactDomain(Grid((4, 4), (1.0, 1.0)))
+    >>> large = ContactDomain(small.grid.widened((8, 8)))
     >>> pressure = np.ones((4, 4))
     >>> pair = np.stack([pressure, small.convolution.apply(pressure)])
     >>> grown = Enlargement(small, large).pairs(pair)
@@ -104,8 +104,8 @@ class Enlargement:
     True
     """
 
-    small: HalfSpace
-    large: HalfSpace
+    small: ContactDomain
+    large: ContactDomain
 
     def pressure(self, pressure: NDArray[np.float64]) -> NDArray[np.float64]:
         """A pressure on the smaller grid as one on the larger, each as it is worked with."""

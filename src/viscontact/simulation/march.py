@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from viscontact.contact.domain import HalfSpace
+from viscontact.contact.domain import ContactDomain
 from viscontact.errors import ConvergenceError, DomainError
 from viscontact.fourier import transforms_by
 from viscontact.grid import Grid
@@ -196,9 +196,9 @@ class March:
         return Taken(solved, state, self._done, self._steps.left)
 
 
-def _half_space(run: Run) -> HalfSpace:
+def _half_space(run: Run) -> ContactDomain:
     transforms = transforms_by(run.transforms, run.threads)
-    return HalfSpace(run.grid, mirrored=run.mirrored, transforms=transforms)
+    return ContactDomain(run.grid, mirrored=run.mirrored, transforms=transforms)
 
 
 def _refuse_rim(run: Run, step: Step, instant: Instant) -> None:

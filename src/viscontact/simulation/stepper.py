@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.contact.domain import HalfSpace
+from viscontact.contact.domain import ContactDomain
 from viscontact.contact.equilibrium import ContactSolution, solve_contact
 from viscontact.contact.problem import ContactProblem, Guess
 from viscontact.contact.rigid_balance import Support
@@ -89,11 +89,11 @@ class Past:
     ----------
     run : Run
         The run.
-    half_space : HalfSpace
+    half_space : ContactDomain
         Where it takes place.
     """
 
-    def __init__(self, run: Run, half_space: HalfSpace) -> None:
+    def __init__(self, run: Run, half_space: ContactDomain) -> None:
         self._run, self._half_space = run, half_space
         self._shape = half_space.fold(run.open_gap)
         self._memory = run.memory.memory((2, *half_space.shape))  # of pressure and of deflection
@@ -133,7 +133,7 @@ class Past:
         self._twins = [Twin(**twin) for twin in carried["twins"]]
         self._motion = carried["motion"]
 
-    def enlarge(self, run: Run, half_space: HalfSpace) -> None:
+    def enlarge(self, run: Run, half_space: ContactDomain) -> None:
         """Go on in the same run on a larger grid."""
         grown = Enlargement(self._half_space, half_space).pairs
         self._run, self._half_space = run, half_space
@@ -232,7 +232,7 @@ def _guess(twin: Twin | None, response: Response) -> Guess | None:
 
 
 def _without_pressure(
-    problem: ContactProblem, half_space: HalfSpace, motion: NDArray[np.float64]
+    problem: ContactProblem, half_space: ContactDomain, motion: NDArray[np.float64]
 ) -> ContactSolution:
     nothing = np.zeros((2, *half_space.shape))
     gap = problem.open_gap - half_space.whole.plane.field(motion)
@@ -253,7 +253,7 @@ def _at_lowest_point(run: Run, apart: ContactSolution) -> ContactSolution:
     return replace(apart, motion=motion, gap=apart.gap + below)
 
 
-def _whole(half_space: HalfSpace, trial: Trial, time_error: float) -> Instant:
+def _whole(half_space: ContactDomain, trial: Trial, time_error: float) -> Instant:
     """The instant on the whole grid."""
     solution = trial.solution
     found = solution.found
