@@ -44,11 +44,14 @@ PARTS: tuple[tuple[str, tuple[tuple[Any, str], ...]], ...] = (
     ("operators: made", ((domain.ContactDomain, "__init__"), (domain.ContactDomain, "_patch"))),
     ("convolution", ((convolution.Convolution, "apply"),)),
     ("preconditioner", ((spectral.Preconditioner, "apply"),)),
-    ("measure: gap and error", ((conjugate_gradients, "measure"), (equilibrium, "measure"))),
-    ("directions: project, inner products", ((conjugate_gradients.Search, "_advance"),)),
+    (
+        "measure: gap and error",
+        ((conjugate_gradients, "contact_residual"), (equilibrium, "contact_residual")),
+    ),
+    ("directions: project, inner products", ((conjugate_gradients.BoundedCG, "_advance"),)),
     (
         "step: move, cut, balance",
-        ((conjugate_gradients.Search, "_step"), (conjugate_gradients.Search, "__init__")),
+        ((conjugate_gradients.BoundedCG, "_step"), (conjugate_gradients.BoundedCG, "__init__")),
     ),
     ("solve: embed, certify, balance", ((stepper, "solve_contact"),)),
     ("cold start", ((equilibrium, "settle_on_bedding"), (winkler, "settle_on_bedding"))),

@@ -46,7 +46,7 @@ LEAST_PART = 0.1
 
 
 @dataclass(frozen=True, eq=False)
-class Measure:
+class ContactResidual:
     """How far a pressure is from equilibrium.
 
     Attributes
@@ -76,7 +76,7 @@ class Measure:
     error: float
 
 
-def measure(problem: ContactProblem, patch: Patch, now: Guess) -> Measure:
+def contact_residual(problem: ContactProblem, patch: Patch, iterate: Guess) -> ContactResidual:
     """Step 1: rigid motion by least squares over the contact, the gap, and its errors.
 
     Parameters
@@ -85,19 +85,19 @@ def measure(problem: ContactProblem, patch: Patch, now: Guess) -> Measure:
         Gap, compliance and support.
     patch : Patch
         The cells.
-    now : Guess
+    iterate : Guess
         Pressure and deflection.
 
     Returns
     -------
-    Measure
+    ContactResidual
         Gap and error.
     """
-    contact = now.pressure > 0
-    gap = problem.compliance * now.deflection
+    contact = iterate.pressure > 0
+    gap = problem.compliance * iterate.deflection
     scale = max(problem.displacement_scale, float(gap.max()))
     gap += problem.open_gap
-    gap -= patch.plane.field(now.motion)
+    gap -= patch.plane.field(iterate.motion)
     gap_in_contact = np.where(contact, gap, 0.0)
     weight = contact.astype(float)
     inverse = patch.plane.inverse_gram(weight, problem.support.free)
@@ -106,10 +106,12 @@ def measure(problem: ContactProblem, patch: Patch, now: Guess) -> Measure:
     gap -= patch.plane.field(correction)
     np.copyto(gap_in_contact, gap, where=contact)
     error = max(float(gap_in_contact.max()), -float(gap.min()), 0.0) / scale
-    return Measure(contact, weight, inverse, now.motion + correction, gap, gap_in_contact, error)
+    return ContactResidual(
+        contact, weight, inverse, iterate.motion + correction, gap, gap_in_contact, error
+    )
 
 
-class Search:
+class BoundedCG:
     """The iteration on one patch, with its working state.
 
     Parameters
@@ -126,12 +128,12 @@ class Search:
         self.problem, self.patch = problem, patch
         self.iterations = self.convolutions = 0
         motion = problem.support.with_prescribed(start.motion)
-        self.now = Guess(start.pressure, start.deflection, motion)
+        self.iterate = Guess(start.pressure, start.deflection, motion)
         self._active = np.zeros(0, dtype=bool)
         self._residual = self._direction = np.zeros(0)
         self._slope = 0.0
         self._length = FIRST_LENGTH / problem.compliance
-        self.gave_up = not (self._is_admissible() or self._make_admissible(start.pressure))
+        self.stagnated = not (self._is_feasible() or self._project_to_feasible(start.pressure))
 
     def run(self, tolerance: float, max_iterations: int) -> None:
         """Iterate until the tolerance is met, or no progress is made.
@@ -144,18 +146,18 @@ class Search:
             Most search directions.
         """
         best, since_best = np.inf, 0
-        while not self.gave_up:
-            checked = measure(self.problem, self.patch, self.now)
-            self.now = Guess(self.now.pressure, self.now.deflection, checked.motion)
+        while not self.stagnated:
+            checked = contact_residual(self.problem, self.patch, self.iterate)
+            self.iterate = Guess(self.iterate.pressure, self.iterate.deflection, checked.motion)
             if checked.error <= tolerance:
                 return
             since_best = 0 if checked.error < best else since_best + 1
             best = min(best, checked.error)
-            self.gave_up = self.iterations >= max_iterations or since_best > PATIENCE
-            if not self.gave_up:
+            self.stagnated = self.iterations >= max_iterations or since_best > PATIENCE
+            if not self.stagnated:
                 self._advance(checked)
 
-    def _advance(self, checked: Measure) -> None:
+    def _advance(self, checked: ContactResidual) -> None:
         """Steps 2 to 5: precondition, project, conjugate, step exactly, cut and rebalance."""
         released = checked.gap < 0
         released &= ~checked.contact
@@ -190,69 +192,73 @@ class Search:
 
     def _step(self) -> None:
         """Steps 4 and 5: to the least energy along the direction, or towards where a cut leads."""
-        aimed = self._aimed()
-        if aimed is not None and self._goes_towards(aimed):
+        projected = self._projected_trial()
+        if projected is not None and self._step_to_projected(projected):
             return
-        direction, before = self._direction, self.now
+        direction, before = self._direction, self.iterate
         change = self._deflection_of(direction)
         curvature = self.problem.compliance * _inner(direction, change)
         if curvature <= 0:
             self._slope = 0.0
             return
         self._length = length = -_inner(self._residual, direction) / curvature
-        self.now = _moved(before, length, direction, change)
-        if float(self.now.pressure.min()) >= 0 or self._make_admissible(self.now.pressure):
+        self.iterate = _stepped(before, length, direction, change)
+        if float(self.iterate.pressure.min()) >= 0 or self._project_to_feasible(
+            self.iterate.pressure
+        ):
             return
         # No plane factor balances what is left after the cut; adding a plane and cutting does, as
         # all active cells together can carry the load.
         self._slope = 0.0
         support, plane, area = self.problem.support, self.patch.plane, self.patch.cell_area
-        nearest = nearest_balanced(self.now.pressure, self._active, support, plane, area)
-        if not self._make_admissible(nearest):
-            self._go_until_cut(before, length, change)
+        nearest = nearest_balanced(self.iterate.pressure, self._active, support, plane, area)
+        if not self._project_to_feasible(nearest):
+            self._step_to_first_bound(before, length, change)
 
-    def _aimed(self) -> NDArray[np.float64] | None:
+    def _projected_trial(self) -> NDArray[np.float64] | None:
         """Where a step of about the usual length leads, cut and balanced; None without a cut."""
         ahead = AIM * self._length * self._direction
-        ahead += self.now.pressure
+        ahead += self.iterate.pressure
         return self._balanced(ahead) if float(ahead.min()) < 0 else None
 
-    def _goes_towards(self, aimed: NDArray[np.float64]) -> bool:
+    def _step_to_projected(self, projected: NDArray[np.float64]) -> bool:
         """Step to the least energy on the way to a pressure, or all the way; whether that helps."""
-        before, step = self.now, aimed - self.now.pressure
+        before, step = self.iterate, projected - self.iterate.pressure
         change = self._deflection_of(step)
         curvature = self.problem.compliance * _inner(step, change)
         best = -_inner(self._residual, step) / curvature if curvature > 0 else 0.0
         if best < LEAST_PART:
             return False
         self._length *= AIM * min(max(best, 0.5), 2.0)
-        moved = _moved(before, min(best, 1.0), step, change)
-        self.now = moved if best < 1 else Guess(aimed, moved.deflection, moved.motion)
+        moved = _stepped(before, min(best, 1.0), step, change)
+        self.iterate = moved if best < 1 else Guess(projected, moved.deflection, moved.motion)
         return True
 
-    def _go_until_cut(self, before: Guess, length: float, change: NDArray[np.float64]) -> None:
+    def _step_to_first_bound(
+        self, before: Guess, length: float, change: NDArray[np.float64]
+    ) -> None:
         """Go only as far as the first cells lose their pressure, and nothing is out of balance."""
         step = length * self._direction
         room = np.divide(before.pressure, -step, out=np.full(step.shape, np.inf), where=step < 0)
         part = float(room.min())
-        moved = _moved(before, length * part, self._direction, change)
+        moved = _stepped(before, length * part, self._direction, change)
         # Exactly none: with a trifle that rounding left them no later step would get anywhere.
         pressure = np.where(room == part, 0.0, np.maximum(moved.pressure, 0.0))
-        self.now = Guess(pressure, moved.deflection, moved.motion)
+        self.iterate = Guess(pressure, moved.deflection, moved.motion)
 
-    def _is_admissible(self) -> bool:
-        sums = self.patch.plane.sums(self.now.pressure) * self.patch.cell_area
+    def _is_feasible(self) -> bool:
+        sums = self.patch.plane.sums(self.iterate.pressure) * self.patch.cell_area
         off = self.problem.support.imbalance(sums, self.patch.arm)
-        return float(self.now.pressure.min()) >= 0 and off < BALANCED
+        return float(self.iterate.pressure.min()) >= 0 and off < BALANCED
 
-    def _make_admissible(self, pressure: NDArray[np.float64]) -> bool:
+    def _project_to_feasible(self, pressure: NDArray[np.float64]) -> bool:
         """Cut off tension and restore the balances; whether that could be done."""
         pressure = np.where(np.isfinite(self.problem.open_gap), pressure, 0.0)
         restored = self._balanced(pressure)
         if restored is None:
             return False
-        change = self._deflection_of(restored - self.now.pressure)
-        self.now = Guess(restored, self.now.deflection + change, self.now.motion)
+        change = self._deflection_of(restored - self.iterate.pressure)
+        self.iterate = Guess(restored, self.iterate.deflection + change, self.iterate.motion)
         return True
 
     def _balanced(self, pressure: NDArray[np.float64]) -> NDArray[np.float64] | None:
@@ -271,10 +277,12 @@ class Search:
         return self.patch.convolution.apply(change)
 
 
-def _moved(
-    now: Guess, length: float, direction: NDArray[np.float64], change: NDArray[np.float64]
+def _stepped(
+    iterate: Guess, length: float, direction: NDArray[np.float64], change: NDArray[np.float64]
 ) -> Guess:
-    return Guess(now.pressure + length * direction, now.deflection + length * change, now.motion)
+    return Guess(
+        iterate.pressure + length * direction, iterate.deflection + length * change, iterate.motion
+    )
 
 
 def _inner(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.contact.conjugate_gradients import Search, measure
+from viscontact.contact.conjugate_gradients import BoundedCG, contact_residual
 from viscontact.contact.domain import ContactDomain
 from viscontact.contact.problem import ContactProblem, Guess
 from viscontact.contact.winkler import settle_on_bedding
@@ -134,21 +134,23 @@ def _solve_from(
     error = np.inf
     for _ in range(MAX_ROUNDS):
         patch = half_space.patch_around(cells)
-        search = Search(problem.within(patch), patch, start.within(patch))
+        search = BoundedCG(problem.within(patch), patch, start.within(patch))
         search.run(tolerance, max_iterations - iterations)
         iterations += search.iterations
         convolutions += search.convolutions + 1
         # Certify what is returned, by a fresh convolution: not what the recurrence believes.
         values = np.zeros((2, *half_space.shape))
         pressure, deflection = values
-        patch.cut(pressure)[...] = search.now.pressure
+        patch.cut(pressure)[...] = search.iterate.pressure
         half_space.convolution.apply(pressure, into=deflection)
-        checked = measure(problem, half_space.whole, Guess(pressure, deflection, search.now.motion))
+        checked = contact_residual(
+            problem, half_space.whole, Guess(pressure, deflection, search.iterate.motion)
+        )
         start = Guess(pressure, deflection, checked.motion)
         converged = checked.error <= tolerance and _is_balanced(
             problem, half_space, pressure, tolerance
         )
-        stagnant = search.gave_up and checked.error > error / 2
+        stagnant = search.stagnated and checked.error > error / 2
         if converged or stagnant or iterations >= max_iterations:
             break
         error = checked.error
