@@ -28,21 +28,21 @@ from viscontact.contact.rigid_balance import restore_balance
 from viscontact.contact.winkler import nearest_balanced
 
 #: Iterations without a new best error after which a search is called stagnant.
-PATIENCE = 40
+STAGNATION_ITERATIONS = 40
 
 #: Moments and force of a guess within this are as good as balanced.
-BALANCED = 1e-12
+BALANCE_TOLERANCE = 1e-12
 
 #: Length of a first step where the preconditioner, an inverse by waves, tells all: on cells that
 #: carry pressure alone it sees a half-space stiffer than it is.
-FIRST_LENGTH = 0.4
+INITIAL_STEP_LENGTH = 0.4
 
 #: Part of the length to be expected that is aimed at: from a point short of the best one nothing
 #: is lost but the rest of the way, beyond it too much has been cut.
-AIM = 0.85
+TRIAL_STEP_FACTOR = 0.85
 
 #: Towards what was aimed at less than this part of the way leads nowhere.
-LEAST_PART = 0.1
+MIN_STEP_FRACTION = 0.1
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,7 +132,7 @@ class BoundedCG:
         self._active = np.zeros(0, dtype=bool)
         self._residual = self._direction = np.zeros(0)
         self._slope = 0.0
-        self._length = FIRST_LENGTH / problem.compliance
+        self._length = INITIAL_STEP_LENGTH / problem.compliance
         self.stagnated = not (self._is_feasible() or self._project_to_feasible(start.pressure))
 
     def run(self, tolerance: float, max_iterations: int) -> None:
@@ -153,7 +153,7 @@ class BoundedCG:
                 return
             since_best = 0 if checked.error < best else since_best + 1
             best = min(best, checked.error)
-            self.stagnated = self.iterations >= max_iterations or since_best > PATIENCE
+            self.stagnated = self.iterations >= max_iterations or since_best > STAGNATION_ITERATIONS
             if not self.stagnated:
                 self._advance(checked)
 
@@ -217,7 +217,7 @@ class BoundedCG:
 
     def _projected_trial(self) -> NDArray[np.float64] | None:
         """Where a step of about the usual length leads, cut and balanced; None without a cut."""
-        ahead = AIM * self._length * self._direction
+        ahead = TRIAL_STEP_FACTOR * self._length * self._direction
         ahead += self.iterate.pressure
         return self._balanced(ahead) if float(ahead.min()) < 0 else None
 
@@ -227,9 +227,9 @@ class BoundedCG:
         change = self._deflection_of(step)
         curvature = self.problem.compliance * _inner(step, change)
         best = -_inner(self._residual, step) / curvature if curvature > 0 else 0.0
-        if best < LEAST_PART:
+        if best < MIN_STEP_FRACTION:
             return False
-        self._length *= AIM * min(max(best, 0.5), 2.0)
+        self._length *= TRIAL_STEP_FACTOR * min(max(best, 0.5), 2.0)
         moved = _stepped(before, min(best, 1.0), step, change)
         self.iterate = moved if best < 1 else Guess(projected, moved.deflection, moved.motion)
         return True
@@ -249,7 +249,7 @@ class BoundedCG:
     def _is_feasible(self) -> bool:
         sums = self.patch.plane.sums(self.iterate.pressure) * self.patch.cell_area
         off = self.problem.support.imbalance(sums, self.patch.arm)
-        return float(self.iterate.pressure.min()) >= 0 and off < BALANCED
+        return float(self.iterate.pressure.min()) >= 0 and off < BALANCE_TOLERANCE
 
     def _project_to_feasible(self, pressure: NDArray[np.float64]) -> bool:
         """Cut off tension and restore the balances; whether that could be done."""
