@@ -54,7 +54,7 @@ PARTS: tuple[tuple[str, tuple[tuple[Any, str], ...]], ...] = (
         ((conjugate_gradients.BoundedCG, "_step"), (conjugate_gradients.BoundedCG, "__init__")),
     ),
     ("solve: embed, certify, balance", ((stepper, "solve_contact"),)),
-    ("cold start", ((equilibrium, "settle_on_bedding"), (winkler, "settle_on_bedding"))),
+    ("cold start", ((equilibrium, "winkler_contact"), (winkler, "winkler_contact"))),
     ("memory: ask", ((RecursiveMemory, "ramp"), (RecursiveMemory, "jump"))),
     ("memory: accept", ((RecursiveMemory, "accept"),)),
     ("prediction", ((stepper, "predict"), (stepper, "_guess"))),

@@ -11,7 +11,7 @@ from viscontact.contact import conjugate_gradients
 from viscontact.contact.domain import ContactDomain
 from viscontact.contact.equilibrium import ContactProblem, Guess, solve_contact
 from viscontact.contact.rigid_balance import RigidPlane, Support
-from viscontact.contact.winkler import nearest_balanced
+from viscontact.contact.winkler import project_onto_balance
 
 GRID = vc.Grid((40, 36), (0.5, 0.5))
 SPHERE = vc.Paraboloid(1.0, 0.6).gap(GRID.x[:, None], GRID.y[None, :])
@@ -151,7 +151,7 @@ def test_a_search_that_can_only_give_up_cell_after_cell_gets_there_too(monkeypat
     # As if no balance could be found nearby. Rounding once left the cell that was to go a trifle,
     # or less than nothing, and the search went on without getting anywhere.
     monkeypatch.setattr(
-        conjugate_gradients, "nearest_balanced", lambda pressure, *_: np.zeros_like(pressure)
+        conjugate_gradients, "project_onto_balance", lambda pressure, *_: np.zeros_like(pressure)
     )
     grid = vc.Grid((218, 12), (183.0, 8.2))
     open_gap = vc.Paraboloid(868.0, 2.77).gap(grid.x[:, None], grid.y[None, :])
@@ -174,7 +174,7 @@ def test_the_nearest_balanced_pressure_is_the_one_of_least_change(seed):
     bearing = rng.random(shape) * cells  # some pressure with the wanted resultants
     wanted = plane.sums(bearing) * grid.cell_area
     pressure = rng.standard_normal(shape)
-    found = nearest_balanced(pressure, cells, Support(tuple(wanted)), plane, grid.cell_area)
+    found = project_onto_balance(pressure, cells, Support(tuple(wanted)), plane, grid.cell_area)
     assert (found >= 0).all()
     assert not found[~cells].any()
     # Newton's method ends at the energy's rounding, that is at half the digits of the balance.

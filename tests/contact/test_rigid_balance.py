@@ -1,4 +1,4 @@
-"""Planes, balances and the bedding, against plain linear algebra and statics."""
+"""Planes, balances and the foundation, against plain linear algebra and statics."""
 
 import numpy as np
 import pytest
@@ -6,7 +6,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from viscontact.contact.rigid_balance import RigidPlane, Support, restore_balance
-from viscontact.contact.winkler import settle_on_bedding
+from viscontact.contact.winkler import winkler_contact
 from viscontact.grid import Grid
 from viscontact.loads import step
 
@@ -89,11 +89,11 @@ def test_half_a_body_carries_half_and_does_not_tilt_across() -> None:
 
 
 @pytest.mark.parametrize("force", [1e-9, 1e-3, 1.0])
-def test_a_bedding_balances_a_bowl_under_any_force(force: float) -> None:
+def test_a_foundation_balances_a_bowl_under_any_force(force: float) -> None:
     """Down to a force that one cell would carry: statics, and overlap only where it bears."""
     gap = (X**2 + Y**2) / 2
     support = Support((force, 0.2 * force, 0.05 * force))
-    pressure, motion = settle_on_bedding(gap, 1.0, support, PLANE, GRID.cell_area)
+    pressure, motion = winkler_contact(gap, 1.0, support, PLANE, GRID.cell_area)
     resultants = COLUMNS.T @ pressure.ravel() * GRID.cell_area
     np.testing.assert_allclose(resultants, support.targets, atol=1e-5 * force)
     overlapping = PLANE.field(motion) > gap

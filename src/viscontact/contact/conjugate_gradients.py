@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from viscontact.contact.domain import Patch
 from viscontact.contact.problem import ContactProblem, Guess
 from viscontact.contact.rigid_balance import restore_balance
-from viscontact.contact.winkler import nearest_balanced
+from viscontact.contact.winkler import project_onto_balance
 
 #: Iterations without a new best error after which a search is called stagnant.
 STAGNATION_ITERATIONS = 40
@@ -211,7 +211,7 @@ class BoundedCG:
         # all active cells together can carry the load.
         self._slope = 0.0
         support, plane, area = self.problem.support, self.patch.plane, self.patch.cell_area
-        nearest = nearest_balanced(self.iterate.pressure, self._active, support, plane, area)
+        nearest = project_onto_balance(self.iterate.pressure, self._active, support, plane, area)
         if not self._project_to_feasible(nearest):
             self._step_to_first_bound(before, length, change)
 

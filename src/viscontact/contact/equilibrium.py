@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from viscontact.contact.conjugate_gradients import BoundedCG, contact_residual
 from viscontact.contact.domain import ContactDomain
 from viscontact.contact.problem import ContactProblem, Guess
-from viscontact.contact.winkler import settle_on_bedding
+from viscontact.contact.winkler import winkler_contact
 
 MAX_ITERATIONS = 400
 
@@ -80,7 +80,7 @@ def solve_contact(
         Grid and operators.
     guess : Guess, optional
         Start; its deflection must belong to its pressure. Negative pressure is cut off, balances
-        are restored. The answer of a coarser grid when left out, and on the coarsest a bedding of
+        are restored. The answer of a coarser grid when left out, and on the coarsest a foundation of
         about the right stiffness.
     tolerance : float
         Bound on the relative residual of the returned pressure, and on the balances.
@@ -172,24 +172,24 @@ def _is_balanced(
 
 
 def _cold_start(problem: ContactProblem, half_space: ContactDomain) -> Guess:
-    """What a coarser grid says, and at the bottom of these a bedding."""
+    """What a coarser grid says, and at the bottom of these a foundation."""
     coarser = half_space.coarser()
     # A body may be too narrow to lie under any four cells.
     if coarser is None or not np.isfinite((coarsened := problem.coarsened()).open_gap).any():
-        return _bedding(problem, half_space)
+        return _winkler_guess(problem, half_space)
     coarse = solve_contact(coarsened, coarser, tolerance=NESTED_TOLERANCE)
     # Each cell's pressure on all four of it: smoother ways to hand it down, and finer tolerances,
     # take more directions rather than fewer, as they blur the rim.
     pressure = np.repeat(np.repeat(coarse.found.pressure, 2, axis=0), 2, axis=1)
     # Fewer cells may not touch at all, or not carry where the fine ones do.
     if not (coarse.converged and pressure.any()):
-        return _bedding(problem, half_space)
+        return _winkler_guess(problem, half_space)
     return Guess(pressure, half_space.convolution.apply(pressure), coarse.found.motion)
 
 
-def _bedding(problem: ContactProblem, half_space: ContactDomain) -> Guess:
+def _winkler_guess(problem: ContactProblem, half_space: ContactDomain) -> Guess:
     whole = half_space.whole
-    pressure, motion = settle_on_bedding(
+    pressure, motion = winkler_contact(
         problem.open_gap, problem.compliance, problem.support, whole.plane, whole.cell_area
     )
     return Guess(pressure, half_space.convolution.apply(pressure), motion)

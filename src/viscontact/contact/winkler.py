@@ -1,4 +1,4 @@
-"""A body on an elastic bedding (Winkler): balanced, cheap, and a fair start for iterations."""
+"""A body on an elastic foundation (Winkler): balanced, cheap, and a fair start for iterations."""
 
 from __future__ import annotations
 
@@ -7,19 +7,19 @@ from numpy.typing import NDArray
 
 from viscontact.contact.rigid_balance import RigidPlane, Support
 
-#: From one bedding to the next it stiffens by this factor.
-STIFFENING = 4.0
+#: From one foundation to the next it stiffens by this factor.
+STIFFENING_FACTOR = 4.0
 
-#: Part of their stiffness that the last bedding's cells lend to the next.
-LENT = 0.01
+#: Part of their stiffness that the last foundation's cells lend to the next.
+REGULARISATION = 0.01
 
 #: Under this part of the deepest overlap before it has settled, a body is clear of the surface.
-CLEAR = 1e-12
+SEPARATION_TOLERANCE = 1e-12
 
 MAX_NEWTON = 40
 
 
-def settle_on_bedding(
+def winkler_contact(
     open_gap: NDArray[np.float64],
     compliance: float,
     support: Support,
@@ -53,11 +53,11 @@ def settle_on_bedding(
     given = support.with_prescribed(np.zeros(3))
     gap = open_gap - plane.field(given)
     if not support.free[0]:
-        # No force, no matter how stiff the bedding: it is only the tilts that settle.
+        # No force, no matter how stiff the foundation: it is only the tilts that settle.
         bearing = (gap < 0).astype(float)
-        motion, overlap = _settled(gap, np.zeros(3), np.zeros(3), plane, support.free, bearing)
+        motion, overlap = _newton_solve(gap, np.zeros(3), np.zeros(3), plane, support.free, bearing)
         # A body that tilts clear of the surface ends with rounding between them, and no contact.
-        overlap[overlap <= CLEAR * -float(gap.min())] = 0.0
+        overlap[overlap <= SEPARATION_TOLERANCE * -float(gap.min())] = 0.0
         cells = max(int((overlap > 0).sum()), 1)
         return overlap / (compliance * np.sqrt(cell_area * cells)), given + motion
     cells = 100
@@ -69,7 +69,7 @@ def settle_on_bedding(
     return stiffness * overlap, given + motion
 
 
-def nearest_balanced(
+def project_onto_balance(
     pressure: NDArray[np.float64],
     cells: NDArray[np.bool_],
     support: Support,
@@ -105,12 +105,14 @@ def nearest_balanced(
 
     >>> row = RigidPlane(np.array([-1.0, 0.0, 1.0]), np.zeros(1), (1.0, 1.0))
     >>> pressure, cells = np.array([[3.0], [-2.0], [-1.0]]), np.ones((3, 1), dtype=bool)
-    >>> nearest_balanced(pressure, cells, Support((2.0, 0.0, None)), row, 1.0).round(9).tolist()
+    >>> project_onto_balance(pressure, cells, Support((2.0, 0.0, None)), row, 1.0).round(9).tolist()
     [[1.0], [0.0], [1.0]]
     """
     tension = np.where(cells, -pressure, np.inf)
     target = support.targets / cell_area
-    _, balanced = _settled(tension, np.zeros(3), target, plane, support.free, cells.astype(float))
+    _, balanced = _newton_solve(
+        tension, np.zeros(3), target, plane, support.free, cells.astype(float)
+    )
     return balanced
 
 
@@ -120,26 +122,26 @@ def _balanced(
     plane: RigidPlane,
     free: NDArray[np.bool_],
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Motion and overlap on a bedding, from a soft one to the wanted one by steps.
+    """Motion and overlap on a foundation, from a soft one to the wanted one by steps.
 
-    A few cells under a stiff bedding cannot say which way the body has to tilt; the many cells of
+    A few cells under a stiff foundation cannot say which way the body has to tilt; the many cells of
     a softer one can.
     """
     solid = np.isfinite(gap)
     bearing = solid.astype(float)
-    # The first bedding is so soft that about half of the body would bear.
+    # The first foundation is so soft that about half of the body would bear.
     depth = float(np.median(gap[solid]))
     softening = max(float(np.maximum(depth - gap, 0.0).sum() / target[0]), 1.0)
     motion = np.array([depth, 0.0, 0.0])
     while True:
-        motion, overlap = _settled(gap, motion, target * softening, plane, free, bearing)
+        motion, overlap = _newton_solve(gap, motion, target * softening, plane, free, bearing)
         if softening == 1:
             return motion, overlap
         bearing = (overlap > 0).astype(float)
-        softening = max(softening / STIFFENING, 1.0)
+        softening = max(softening / STIFFENING_FACTOR, 1.0)
 
 
-def _settled(
+def _newton_solve(
     gap: NDArray[np.float64],
     motion: NDArray[np.float64],
     target: NDArray[np.float64],
@@ -149,12 +151,12 @@ def _settled(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Motion of least energy and its overlap: damped Newton on a convex function.
 
-    The cells that bore the body on a softer bedding lend a little stiffness, so that no motion is
+    The cells that bore the body on a softer foundation lend a little stiffness, so that no motion is
     ever without any.
     """
     energy, overlap = _energy(gap, motion, target, plane)
     for _ in range(MAX_NEWTON):
-        inverse = plane.inverse_gram((overlap > 0) + LENT * bearing, free)
+        inverse = plane.inverse_gram((overlap > 0) + REGULARISATION * bearing, free)
         newton, before = inverse @ (target - plane.sums(overlap)), energy
         for halving in range(20):
             moved = motion + newton / 2**halving
