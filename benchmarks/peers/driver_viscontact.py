@@ -13,7 +13,7 @@ import viscontact as vc
 from viscontact.contact.domain import ContactDomain
 from viscontact.contact.equilibrium import solve_contact
 from viscontact.contact.problem import ContactProblem
-from viscontact.contact.rigid_balance import Support
+from viscontact.contact.rigid_balance import Constraints
 
 
 def elastic(problem: Problem, tolerance: float) -> np.ndarray:
@@ -23,7 +23,7 @@ def elastic(problem: Problem, tolerance: float) -> np.ndarray:
     posed = ContactProblem(
         problem["gap"],
         float(problem["instant"]),
-        Support((float(problem["force"]), None, None)),
+        Constraints((float(problem["force"]), None, None)),
         1e-12 * float((problem["size"] / shape).max()),
     )
     solution = solve_contact(posed, half_space, tolerance=tolerance)

@@ -10,7 +10,7 @@ import viscontact as vc
 from viscontact.contact.domain import ContactDomain
 from viscontact.contact.equilibrium import solve_contact
 from viscontact.contact.problem import ContactProblem
-from viscontact.contact.rigid_balance import Support
+from viscontact.contact.rigid_balance import Constraints
 
 #: Contact compliance 1/E* of all of them [1/Pa].
 COMPLIANCE = 1.0
@@ -47,7 +47,7 @@ def posed(kind: str, cells: int) -> tuple[ContactProblem, ContactDomain]:
     else:
         part_x, part_y = (8 * x) % 1 - 0.5, (8 * y) % 1 - 0.5
         gap, offset = 0.05 * (part_x**2 + part_y**2) + 0.002 * np.hypot(x, y), (0.02, 0.01)
-    support = Support((force, force * offset[0], force * offset[1]))
+    support = Constraints((force, force * offset[0], force * offset[1]))
     half_space = ContactDomain(grid)
     return ContactProblem(gap, COMPLIANCE, support, 1e-15), half_space
 
@@ -90,7 +90,7 @@ def test_a_body_of_few_cells_is_solved_for_though_coarser_cells_cannot_hold_it(h
     gap = vc.FlatPunch(half_length=half, half_width=half).gap(
         grid.x[:, None] - 0.5, grid.y[None, :] - 0.5
     )
-    problem = ContactProblem(gap, COMPLIANCE, Support((1.0, 0.6, 0.5)), 1e-15)
+    problem = ContactProblem(gap, COMPLIANCE, Constraints((1.0, 0.6, 0.5)), 1e-15)
     found = solve_contact(problem, ContactDomain(grid), tolerance=1e-9)
     assert found.converged
     assert found.found.pressure.sum() == pytest.approx(1.0)

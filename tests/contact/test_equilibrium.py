@@ -10,13 +10,13 @@ from verification.independent import deflection, love
 from viscontact.contact import conjugate_gradients
 from viscontact.contact.domain import ContactDomain
 from viscontact.contact.equilibrium import ContactProblem, Guess, solve_contact
-from viscontact.contact.rigid_balance import RigidPlane, Support
+from viscontact.contact.rigid_balance import Constraints, RigidPlane
 from viscontact.contact.winkler import project_onto_balance
 
 GRID = vc.Grid((40, 36), (0.5, 0.5))
 SPHERE = vc.Paraboloid(1.0, 0.6).gap(GRID.x[:, None], GRID.y[None, :])
 COMPLIANCE = 2.5e-7
-LOAD = Support((1e3, 20.0, -10.0))
+LOAD = Constraints((1e3, 20.0, -10.0))
 
 
 def problem(support=LOAD, open_gap=SPHERE):
@@ -93,7 +93,7 @@ def test_a_tolerance_beyond_rounding_ends_and_says_so(half_space):
 
 
 def test_prescribed_tilts_are_kept_and_their_moments_not_balanced(half_space):
-    support = Support((1e3, None, None), (0.0, 0.02, -0.01))
+    support = Constraints((1e3, None, None), (0.0, 0.02, -0.01))
     found = solve_contact(problem(support), half_space, tolerance=1e-8)
     assert found.converged
     assert found.found.motion[1:].tolist() == [0.02, -0.01]
@@ -115,7 +115,7 @@ def test_two_peaks_share_a_force_between_them_by_the_lever():
     open_gap[4, 4], open_gap[34, 4] = 0.0, 0.1
     near, far = grid.x[4], grid.x[34]
     where = near + (far - near) / 3
-    support = Support((9.0, 9.0 * where, 0.0))
+    support = Constraints((9.0, 9.0 * where, 0.0))
     case = ContactProblem(open_gap, 1e-6, support, 1e-15)
     found = solve_contact(case, ContactDomain(grid), tolerance=1e-9)
     assert found.converged
@@ -135,7 +135,7 @@ def test_a_load_between_two_rows_of_cells_is_found_by_them():
     open_gap = vc.Paraboloid(868.0, 2.77).gap(grid.x[:, None], grid.y[None, :])
     force, aside = 2.4e6, 1.06
     assert 0 < aside - grid.y[7] < 0.06 * grid.cell_size[1]
-    case = ContactProblem(open_gap, 2e-7, Support((force, 0.0, force * aside)), 1e-15)
+    case = ContactProblem(open_gap, 2e-7, Constraints((force, 0.0, force * aside)), 1e-15)
     found = solve_contact(case, ContactDomain(grid), tolerance=1e-8)
     assert found.converged
     # Measured: 8; a preconditioned search takes 10 to 20, whatever the grid.
@@ -155,7 +155,7 @@ def test_a_search_that_can_only_give_up_cell_after_cell_gets_there_too(monkeypat
     )
     grid = vc.Grid((218, 12), (183.0, 8.2))
     open_gap = vc.Paraboloid(868.0, 2.77).gap(grid.x[:, None], grid.y[None, :])
-    case = ContactProblem(open_gap, 2e-7, Support((2.4e6, 0.0, 2.4e6 * 1.06)), 1e-15)
+    case = ContactProblem(open_gap, 2e-7, Constraints((2.4e6, 0.0, 2.4e6 * 1.06)), 1e-15)
     found = solve_contact(case, ContactDomain(grid), tolerance=1e-8)
     assert found.converged
     assert found.found.pressure.min() >= 0
@@ -174,7 +174,7 @@ def test_the_nearest_balanced_pressure_is_the_one_of_least_change(seed):
     bearing = rng.random(shape) * cells  # some pressure with the wanted resultants
     wanted = plane.sums(bearing) * grid.cell_area
     pressure = rng.standard_normal(shape)
-    found = project_onto_balance(pressure, cells, Support(tuple(wanted)), plane, grid.cell_area)
+    found = project_onto_balance(pressure, cells, Constraints(tuple(wanted)), plane, grid.cell_area)
     assert (found >= 0).all()
     assert not found[~cells].any()
     # Newton's method ends at the energy's rounding, that is at half the digits of the balance.
@@ -197,7 +197,7 @@ def test_a_body_on_a_stage_that_can_tilt_clear_has_no_contact(seed):
     rng = np.random.default_rng(seed)
     grid, open_gap = vc.Grid((40, 30), (4.0, 3.0)), np.full((40, 30), np.inf)
     open_gap[rng.integers(25, 40, 5), rng.integers(18, 30, 5)] = rng.uniform(0.0, 0.5, 5)
-    case = ContactProblem(open_gap, 1e-6, Support((None, 0.0, 0.0), (0.6, 0.0, 0.0)), 1e-6)
+    case = ContactProblem(open_gap, 1e-6, Constraints((None, 0.0, 0.0), (0.6, 0.0, 0.0)), 1e-6)
     found = solve_contact(case, ContactDomain(grid), tolerance=1e-6)
     assert found.converged
     assert not found.found.pressure.any()

@@ -7,7 +7,7 @@ import pytest
 
 import viscontact as vc
 from viscontact.contact.domain import ContactDomain
-from viscontact.contact.rigid_balance import Support
+from viscontact.contact.rigid_balance import Constraints
 from viscontact.contact.rim import trace_rim
 
 RUBBER = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
@@ -97,7 +97,9 @@ def test_periodic_half_space_is_not_mirrored():
 
 
 def test_support_of_a_period_does_not_tilt():
-    assert ContactDomain(PERIOD).share(Support((3.0, 0.0, 0.0))) == Support((3.0, None, None))
+    assert ContactDomain(PERIOD).share(Constraints((3.0, 0.0, 0.0))) == Constraints(
+        (3.0, None, None)
+    )
 
 
 @pytest.mark.parametrize("roll", [(0, 0), (5, -3), (16, 16), (13, 0)])

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from viscontact.contact.rigid_balance import RigidPlane, Support, restore_balance
+from viscontact.contact.rigid_balance import Constraints, RigidPlane, restore_balance
 from viscontact.contact.winkler import winkler_contact
 from viscontact.grid import Grid
 from viscontact.loads import step
@@ -65,7 +65,7 @@ def test_a_restored_pressure_has_the_resultants_and_no_tension(
     force: float, x: float, y: float, seed: int
 ) -> None:
     pressure = 0.5 + np.random.default_rng(seed).random(GRID.shape)
-    support = Support((force, force * x, force * y))
+    support = Constraints((force, force * x, force * y))
     restored = restore_balance(pressure, support, PLANE, GRID.cell_area, arm=1.0)
     assert restored is not None
     assert restored.min() >= 0
@@ -76,23 +76,23 @@ def test_a_restored_pressure_has_the_resultants_and_no_tension(
 def test_cells_that_cannot_carry_the_moment_are_refused() -> None:
     pressure = np.zeros(GRID.shape)
     pressure[:4] = 1.0  # all at x < 0
-    support = Support((1.0, 0.5, 0.0))
+    support = Constraints((1.0, 0.5, 0.0))
     assert restore_balance(pressure, support, PLANE, GRID.cell_area, arm=1.0) is None
 
 
 def test_half_a_body_carries_half_and_does_not_tilt_across() -> None:
-    whole = Support.of(step(6.0, eccentricity_x=0.5).at(0.0))
-    assert whole.halved(1) == Support((3.0, 1.5, None))
-    across = Support.of(step(6.0, eccentricity_y=0.5).at(0.0))
-    assert across.halved(0) == Support((3.0, None, 1.5))
-    assert whole.halved(1).halved(0) == Support((1.5, None, None))
+    whole = Constraints.of(step(6.0, eccentricity_x=0.5).at(0.0))
+    assert whole.halved(1) == Constraints((3.0, 1.5, None))
+    across = Constraints.of(step(6.0, eccentricity_y=0.5).at(0.0))
+    assert across.halved(0) == Constraints((3.0, None, 1.5))
+    assert whole.halved(1).halved(0) == Constraints((1.5, None, None))
 
 
 @pytest.mark.parametrize("force", [1e-9, 1e-3, 1.0])
 def test_a_foundation_balances_a_bowl_under_any_force(force: float) -> None:
     """Down to a force that one cell would carry: statics, and overlap only where it bears."""
     gap = (X**2 + Y**2) / 2
-    support = Support((force, 0.2 * force, 0.05 * force))
+    support = Constraints((force, 0.2 * force, 0.05 * force))
     pressure, motion = winkler_contact(gap, 1.0, support, PLANE, GRID.cell_area)
     resultants = COLUMNS.T @ pressure.ravel() * GRID.cell_area
     np.testing.assert_allclose(resultants, support.targets, atol=1e-5 * force)

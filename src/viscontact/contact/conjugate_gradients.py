@@ -82,7 +82,7 @@ def contact_residual(problem: ContactProblem, patch: Patch, iterate: Guess) -> C
     Parameters
     ----------
     problem : ContactProblem
-        Gap, compliance and support.
+        Gap, compliance and constraints.
     patch : Patch
         The cells.
     iterate : Guess
@@ -100,7 +100,7 @@ def contact_residual(problem: ContactProblem, patch: Patch, iterate: Guess) -> C
     gap -= patch.plane.field(iterate.motion)
     gap_in_contact = np.where(contact, gap, 0.0)
     weight = contact.astype(float)
-    inverse = patch.plane.inverse_gram(weight, problem.support.free)
+    inverse = patch.plane.inverse_gram(weight, problem.constraints.free)
     # A correction, so that a motion the contact does not determine stays as it was.
     correction = inverse @ patch.plane.sums(gap_in_contact)
     gap -= patch.plane.field(correction)
@@ -127,7 +127,7 @@ class BoundedCG:
     def __init__(self, problem: ContactProblem, patch: Patch, start: Guess) -> None:
         self.problem, self.patch = problem, patch
         self.iterations = self.convolutions = 0
-        motion = problem.support.with_prescribed(start.motion)
+        motion = problem.constraints.with_prescribed(start.motion)
         self.iterate = Guess(start.pressure, start.deflection, motion)
         self._active = np.zeros(0, dtype=bool)
         self._residual = self._direction = np.zeros(0)
@@ -166,7 +166,7 @@ class BoundedCG:
         if released.any():
             active = active | released
             weight, residual = active.astype(float), np.where(active, checked.gap, 0.0)
-            inverse = self.patch.plane.inverse_gram(weight, self.problem.support.free)
+            inverse = self.patch.plane.inverse_gram(weight, self.problem.constraints.free)
         direction = self._project(self.patch.preconditioner.apply(residual), weight, inverse)
         slope = _inner(direction, residual)
         if self._slope > 0:
@@ -210,8 +210,10 @@ class BoundedCG:
         # No plane factor balances what is left after the cut; adding a plane and cutting does, as
         # all active cells together can carry the load.
         self._slope = 0.0
-        support, plane, area = self.problem.support, self.patch.plane, self.patch.cell_area
-        nearest = project_onto_balance(self.iterate.pressure, self._active, support, plane, area)
+        constraints, plane, area = self.problem.constraints, self.patch.plane, self.patch.cell_area
+        nearest = project_onto_balance(
+            self.iterate.pressure, self._active, constraints, plane, area
+        )
         if not self._project_to_feasible(nearest):
             self._step_to_first_bound(before, length, change)
 
@@ -248,7 +250,7 @@ class BoundedCG:
 
     def _is_feasible(self) -> bool:
         sums = self.patch.plane.sums(self.iterate.pressure) * self.patch.cell_area
-        off = self.problem.support.imbalance(sums, self.patch.arm)
+        off = self.problem.constraints.imbalance(sums, self.patch.arm)
         return float(self.iterate.pressure.min()) >= 0 and off < BALANCE_TOLERANCE
 
     def _project_to_feasible(self, pressure: NDArray[np.float64]) -> bool:
@@ -266,7 +268,7 @@ class BoundedCG:
         patch = self.patch
         return restore_balance(
             np.maximum(pressure, 0.0),
-            self.problem.support,
+            self.problem.constraints,
             patch.plane,
             patch.cell_area,
             patch.arm,

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft
 
-from viscontact.contact.rigid_balance import RigidPlane, Support
+from viscontact.contact.rigid_balance import Constraints, RigidPlane
 from viscontact.fourier import Transforms, fastest_transforms, transforms_by
 from viscontact.grid import Grid
 from viscontact.halfspace.convolution import Convolution
@@ -154,14 +154,14 @@ class ContactDomain:
         """How many times what is worked with makes the whole."""
         return (1 + self.mirrored[0]) * (1 + self.mirrored[1])
 
-    def share(self, support: Support) -> Support:
+    def reduced_constraints(self, constraints: Constraints) -> Constraints:
         """What the part that is worked with has to carry of the whole body's load."""
         if self.grid.periodic:
-            return support.level()
+            return constraints.level()
         for axis in (0, 1):
             if self.mirrored[axis]:
-                support = support.halved(axis)
-        return support
+                constraints = constraints.halved(axis)
+        return constraints
 
     def patch_around(self, cells: NDArray[np.bool_]) -> Patch:
         """A patch that holds the given cells with some room to grow.

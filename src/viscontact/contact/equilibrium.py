@@ -75,7 +75,7 @@ def solve_contact(
     Parameters
     ----------
     problem : ContactProblem
-        Gap, compliance and support.
+        Gap, compliance and constraints.
     half_space : ContactDomain
         Grid and operators.
     guess : Guess, optional
@@ -167,7 +167,7 @@ def _is_balanced(
     tolerance: float,
 ) -> bool:
     whole = half_space.whole
-    off = problem.support.imbalance(whole.plane.sums(pressure) * whole.cell_area, whole.arm)
+    off = problem.constraints.imbalance(whole.plane.sums(pressure) * whole.cell_area, whole.arm)
     return off <= tolerance
 
 
@@ -190,6 +190,6 @@ def _cold_start(problem: ContactProblem, half_space: ContactDomain) -> Guess:
 def _winkler_guess(problem: ContactProblem, half_space: ContactDomain) -> Guess:
     whole = half_space.whole
     pressure, motion = winkler_contact(
-        problem.open_gap, problem.compliance, problem.support, whole.plane, whole.cell_area
+        problem.open_gap, problem.compliance, problem.constraints, whole.plane, whole.cell_area
     )
     return Guess(pressure, half_space.convolution.apply(pressure), motion)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.contact.domain import Patch
-from viscontact.contact.rigid_balance import Support
+from viscontact.contact.rigid_balance import Constraints
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,7 +22,7 @@ class ContactProblem:
         owed to the past [m]; +inf where the body has no surface.
     compliance : float
         Contact compliance that meets the pressure [1/Pa].
-    support : Support
+    constraints : Constraints
         What holds the body: resultants or motions.
     displacement_scale : float
         Smallest displacement that errors are measured against [m].
@@ -30,7 +30,7 @@ class ContactProblem:
 
     open_gap: NDArray[np.float64]
     compliance: float
-    support: Support
+    constraints: Constraints
     displacement_scale: float
 
     def within(self, patch: Patch) -> ContactProblem:

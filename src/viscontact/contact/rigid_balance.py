@@ -16,7 +16,7 @@ NO_EXTENT = 1e-9
 
 
 @dataclass(frozen=True)
-class Support:
+class Constraints:
     """What holds the body: for each rigid motion either its resultant or the motion itself.
 
     Attributes
@@ -32,8 +32,8 @@ class Support:
     motions: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     @classmethod
-    def of(cls, point: LoadPoint) -> Support:
-        """Support by a force at an eccentricity or a stage, with the tilts that are prescribed.
+    def of(cls, point: LoadPoint) -> Constraints:
+        """Constraints by a force at an eccentricity or a stage, with the tilts that are prescribed.
 
         Parameters
         ----------
@@ -42,7 +42,7 @@ class Support:
 
         Returns
         -------
-        Support
+        Constraints
             A prescribed motion takes the place of its balance.
         """
         force = point.force or 0.0  # none is prescribed under an approach, nor then a moment
@@ -55,8 +55,8 @@ class Support:
             (point.approach or 0.0, point.tilt_x or 0.0, point.tilt_y or 0.0),
         )
 
-    def halved(self, axis: int) -> Support:
-        """Support of one half of a body that is even along an axis, so does not tilt along it.
+    def halved(self, axis: int) -> Constraints:
+        """Constraints of one half of a body that is even along an axis, so does not tilt along it.
 
         Parameters
         ----------
@@ -66,11 +66,11 @@ class Support:
         halves = [None if each is None else each / 2 for each in self.resultants]
         motions = list(self.motions)
         halves[1 + axis], motions[1 + axis] = None, 0.0
-        return Support((halves[0], halves[1], halves[2]), (motions[0], motions[1], motions[2]))
+        return Constraints((halves[0], halves[1], halves[2]), (motions[0], motions[1], motions[2]))
 
-    def level(self) -> Support:
-        """Support of one period of a body: it does not tilt, or periods would not fit together."""
-        return Support((self.resultants[0], None, None), (self.motions[0], 0.0, 0.0))
+    def level(self) -> Constraints:
+        """Constraints of one period of a body: it does not tilt, or periods would not fit together."""
+        return Constraints((self.resultants[0], None, None), (self.motions[0], 0.0, 0.0))
 
     @cached_property
     def free(self) -> NDArray[np.bool_]:
@@ -230,7 +230,7 @@ def _pseudo_inverse(
 
 def restore_balance(
     pressure: NDArray[np.float64],
-    support: Support,
+    constraints: Constraints,
     plane: RigidPlane,
     cell_area: float,
     arm: float,
@@ -241,7 +241,7 @@ def restore_balance(
     ----------
     pressure : ndarray, shape (nx, ny)
         Non-negative pressure [Pa].
-    support : Support
+    constraints : Constraints
         The wanted resultants.
     plane : RigidPlane
         The planes of these cells.
@@ -255,16 +255,18 @@ def restore_balance(
     ndarray or None
         Non-negative balanced pressure; None if these cells cannot carry the resultants.
     """
-    if not support.free.any():
+    if not constraints.free.any():
         return pressure
-    target = support.targets / cell_area
+    target = constraints.targets / cell_area
     for _ in range(20):
         # A correction to 1, so that what no balance asks for stays as it is.
         lacking = target - plane.sums(pressure)
-        factor = plane.inverse_gram(pressure, support.free) @ lacking + np.array([1.0, 0.0, 0.0])
+        factor = plane.inverse_gram(pressure, constraints.free) @ lacking + np.array(
+            [1.0, 0.0, 0.0]
+        )
         scaled = pressure * plane.field(factor)
         if float(scaled.min()) >= 0:
-            off = support.imbalance(plane.sums(scaled) * cell_area, arm)
+            off = constraints.imbalance(plane.sums(scaled) * cell_area, arm)
             return scaled if off < 1e-9 else None
         pressure = np.maximum(scaled, 0.0)
     return None

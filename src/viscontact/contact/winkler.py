@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.contact.rigid_balance import RigidPlane, Support
+from viscontact.contact.rigid_balance import Constraints, RigidPlane
 
 #: From one foundation to the next it stiffens by this factor.
 STIFFENING_FACTOR = 4.0
@@ -22,7 +22,7 @@ MAX_NEWTON = 40
 def winkler_contact(
     open_gap: NDArray[np.float64],
     compliance: float,
-    support: Support,
+    constraints: Constraints,
     plane: RigidPlane,
     cell_area: float,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -36,7 +36,7 @@ def winkler_contact(
         Gap without pressure and motion [m], +inf where there is no body.
     compliance : float
         Contact compliance [1/Pa].
-    support : Support
+    constraints : Constraints
         Wanted resultants or prescribed motions.
     plane : RigidPlane
         The planes of these cells.
@@ -50,12 +50,14 @@ def winkler_contact(
     motion : ndarray, shape (3,)
         Approach [m] and tilts [rad] with which nothing overlaps but what is pressed.
     """
-    given = support.with_prescribed(np.zeros(3))
+    given = constraints.with_prescribed(np.zeros(3))
     gap = open_gap - plane.field(given)
-    if not support.free[0]:
+    if not constraints.free[0]:
         # No force, no matter how stiff the foundation: it is only the tilts that settle.
         bearing = (gap < 0).astype(float)
-        motion, overlap = _newton_solve(gap, np.zeros(3), np.zeros(3), plane, support.free, bearing)
+        motion, overlap = _newton_solve(
+            gap, np.zeros(3), np.zeros(3), plane, constraints.free, bearing
+        )
         # A body that tilts clear of the surface ends with rounding between them, and no contact.
         overlap[overlap <= SEPARATION_TOLERANCE * -float(gap.min())] = 0.0
         cells = max(int((overlap > 0).sum()), 1)
@@ -63,8 +65,8 @@ def winkler_contact(
     cells = 100
     for _ in range(2):
         stiffness = 1 / (compliance * np.sqrt(cell_area * cells))
-        target = support.targets / (stiffness * cell_area)
-        motion, overlap = _balanced(gap, target, plane, support.free)
+        target = constraints.targets / (stiffness * cell_area)
+        motion, overlap = _balanced(gap, target, plane, constraints.free)
         cells = max(int((overlap > 0).sum()), 1)
     return stiffness * overlap, given + motion
 
@@ -72,7 +74,7 @@ def winkler_contact(
 def project_onto_balance(
     pressure: NDArray[np.float64],
     cells: NDArray[np.bool_],
-    support: Support,
+    constraints: Constraints,
     plane: RigidPlane,
     cell_area: float,
 ) -> NDArray[np.float64]:
@@ -86,7 +88,7 @@ def project_onto_balance(
         Pressure, tension among it [Pa].
     cells : ndarray of bool, shape (nx, ny)
         Cells that may carry pressure; together they must be able to carry the load.
-    support : Support
+    constraints : Constraints
         Wanted resultants; a plane has no part in motions that are prescribed.
     plane : RigidPlane
         The planes of these cells.
@@ -105,13 +107,13 @@ def project_onto_balance(
 
     >>> row = RigidPlane(np.array([-1.0, 0.0, 1.0]), np.zeros(1), (1.0, 1.0))
     >>> pressure, cells = np.array([[3.0], [-2.0], [-1.0]]), np.ones((3, 1), dtype=bool)
-    >>> project_onto_balance(pressure, cells, Support((2.0, 0.0, None)), row, 1.0).round(9).tolist()
+    >>> project_onto_balance(pressure, cells, Constraints((2.0, 0.0, None)), row, 1.0).round(9).tolist()
     [[1.0], [0.0], [1.0]]
     """
     tension = np.where(cells, -pressure, np.inf)
-    target = support.targets / cell_area
+    target = constraints.targets / cell_area
     _, balanced = _newton_solve(
-        tension, np.zeros(3), target, plane, support.free, cells.astype(float)
+        tension, np.zeros(3), target, plane, constraints.free, cells.astype(float)
     )
     return balanced
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from viscontact.contact.domain import ContactDomain
 from viscontact.contact.equilibrium import solve_contact
 from viscontact.contact.problem import ContactProblem
-from viscontact.contact.rigid_balance import Support
+from viscontact.contact.rigid_balance import Constraints
 from viscontact.contact.rim import Rim, trace_rim
 from viscontact.grid import Grid
 from viscontact.indenters import Indenter
@@ -165,7 +165,7 @@ def _coarse_contact(
     open_gap = indenter.gap(grid.x[:, None], grid.y[None, :])
     if not np.isfinite(open_gap).any():
         return _Misfit.BOTH
-    problem = ContactProblem(open_gap, compliance, Support.of(point), 1e-12 * max(grid.size))
+    problem = ContactProblem(open_gap, compliance, Constraints.of(point), 1e-12 * max(grid.size))
     solution = solve_contact(problem, ContactDomain(grid), tolerance=COARSE_TOLERANCE)
     contact = solution.found.pressure > 0
     if not contact.any():
@@ -238,8 +238,8 @@ def estimate_period(
     coarse = Grid((nx, ny), grid.size, periodic=True)
     open_gap = indenter.gap(coarse.x[:, None], coarse.y[None, :])
     half_space = ContactDomain(coarse)
-    support = half_space.share(Support.of(point))
-    problem = ContactProblem(open_gap, contact_compliance, support, 1e-12 * max(grid.size))
+    constraints = half_space.reduced_constraints(Constraints.of(point))
+    problem = ContactProblem(open_gap, contact_compliance, constraints, 1e-12 * max(grid.size))
     solution = solve_contact(problem, half_space, tolerance=COARSE_TOLERANCE)
     if not solution.converged:
         raise ValueError("grid: the contact on this period could not be estimated; use more cells")

@@ -12,7 +12,7 @@ from viscontact.contact.body_edge import trace_outline
 from viscontact.contact.domain import ContactDomain
 from viscontact.contact.equilibrium import solve_contact
 from viscontact.contact.problem import ContactProblem, Guess
-from viscontact.contact.rigid_balance import Support
+from viscontact.contact.rigid_balance import Constraints
 from viscontact.contact.rim import trace_rim
 from viscontact.grid import GRID_QUANTITIES, Grid, is_even
 from viscontact.indenters import Indenter
@@ -138,7 +138,7 @@ def _found(
     problem = ContactProblem(
         half_space.fold(open_gap),
         pressing.compliance,
-        half_space.share(Support.of(point)),
+        half_space.reduced_constraints(Constraints.of(point)),
         1e-12 * max(grid.cell_size),
     )
     guess = None

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from viscontact.contact.domain import ContactDomain
 from viscontact.contact.equilibrium import ContactSolution, solve_contact
 from viscontact.contact.problem import ContactProblem, Guess
-from viscontact.contact.rigid_balance import Support
+from viscontact.contact.rigid_balance import Constraints
 from viscontact.loads import LoadPoint
 from viscontact.simulation.grid_enlargement import Enlargement
 from viscontact.simulation.setup import Run
@@ -153,7 +153,7 @@ class Past:
         problem = ContactProblem(
             self._shape + response.history[1],
             response.compliance,
-            self._half_space.share(Support.of(point)),
+            self._half_space.reduced_constraints(Constraints.of(point)),
             self._scale,
         )
         return Posed(point, response, drive, problem)
@@ -189,7 +189,7 @@ class Past:
         if point.force == 0:
             untouched = not response.history[1].any()
             return self._at_touch(problem, untouched=untouched), Outcome.NO_CONTACT
-        given = problem.support.with_prescribed(self._motion)
+        given = problem.constraints.with_prescribed(self._motion)
         if point.force is None and self._is_clear(problem, given):
             return _without_pressure(problem, self._half_space, given), Outcome.NO_CONTACT
         guess = _guess(predict(self._known(step), step.time, posed.drive), response)
@@ -206,7 +206,7 @@ class Past:
 
     def _at_touch(self, problem: ContactProblem, *, untouched: bool) -> ContactSolution:
         """No force: the body is where it just touches the (dented) surface, tilts as they were."""
-        tilts = problem.support.with_prescribed(self._motion) * np.array([0.0, 1.0, 1.0])
+        tilts = problem.constraints.with_prescribed(self._motion) * np.array([0.0, 1.0, 1.0])
         distance = problem.open_gap - self._half_space.whole.plane.field(tilts)
         motion = tilts + np.array([float(distance.min()), 0.0, 0.0])
         apart = _without_pressure(problem, self._half_space, motion)
