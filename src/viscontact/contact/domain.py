@@ -73,7 +73,7 @@ class ContactDomain:
     precision, costs a fraction of what the whole grid does; what is found is convolved on the
     whole grid in double precision and checked there. The last patch is kept, for a contact that
     creeps stays in it for many steps. A problem that is even across x = 0 or y = 0 needs only the
-    cells beyond: fields are then `fold`-ed, and supports halved, before they are used here. On a
+    cells beyond: fields are then `reduce_by_symmetry`-ed, and supports halved, before they are used here. On a
     periodic grid all cells are worked with: nothing is padded there, and the preconditioner is an
     exact inverse.
 
@@ -97,7 +97,7 @@ class ContactDomain:
     Examples
     --------
     >>> half_space = ContactDomain(Grid((4, 8), (1.0, 1.0)), mirrored=(False, True))
-    >>> half_space.fold(np.ones((4, 8))).shape
+    >>> half_space.reduce_by_symmetry(np.ones((4, 8))).shape
     (4, 4)
     """
 
@@ -136,11 +136,11 @@ class ContactDomain:
         halved = replace(self.grid, shape=(nx // 2, ny // 2))
         return ContactDomain(halved, mirrored=self.mirrored, transforms=self._transforms)
 
-    def fold(self, field: NDArray[np.float64]) -> NDArray[np.float64]:
+    def reduce_by_symmetry(self, field: NDArray[np.float64]) -> NDArray[np.float64]:
         """The part of a field on the grid that is worked with."""
         return np.ascontiguousarray(field[self._first_row :, self._first_column :])
 
-    def unfold(self, field: NDArray[np.float64]) -> NDArray[np.float64]:
+    def expand_by_symmetry(self, field: NDArray[np.float64]) -> NDArray[np.float64]:
         """The field on the grid whose part is worked with, in memory of its own."""
         if not any(self.mirrored):  # a view would keep the pair it is taken from
             return field if field.base is None else field.copy()
@@ -150,7 +150,7 @@ class ContactDomain:
         return field
 
     @property
-    def fold_count(self) -> int:
+    def symmetry_count(self) -> int:
         """How many times what is worked with makes the whole."""
         return (1 + self.mirrored[0]) * (1 + self.mirrored[1])
 

@@ -136,20 +136,20 @@ def _found(
     open_gap = indenter.gap(grid.x[:, None], grid.y[None, :])
     half_space = ContactDomain(grid, mirrored=_mirrored(open_gap, point))
     problem = ContactProblem(
-        half_space.fold(open_gap),
+        half_space.reduce_by_symmetry(open_gap),
         pressing.compliance,
         half_space.reduced_constraints(Constraints.of(point)),
         1e-12 * max(grid.cell_size),
     )
     guess = None
     if start is not None and start.any():
-        folded = half_space.fold(np.where(np.isfinite(open_gap), start, 0.0))
+        folded = half_space.reduce_by_symmetry(np.where(np.isfinite(open_gap), start, 0.0))
         guess = Guess(folded, half_space.convolution.apply(folded), np.zeros(3))
     solution = solve_contact(problem, half_space, guess, tolerance=tolerance)
-    pressure = half_space.unfold(solution.found.pressure)
+    pressure = half_space.expand_by_symmetry(solution.found.pressure)
     contact = pressure > 0
     outline = trace_outline(indenter, grid)
-    area = trace_rim(grid, contact, half_space.unfold(solution.gap), outline).area
+    area = trace_rim(grid, contact, half_space.expand_by_symmetry(solution.gap), outline).area
     values = np.array([pressure.max(), area, solution.found.motion[0]])
     # Where the body mostly turns, its approach is no measure of its motion.
     sinks = pressing.compliance * float(solution.found.deflection.max())

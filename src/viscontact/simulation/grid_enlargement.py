@@ -109,8 +109,8 @@ class Enlargement:
 
     def pressure(self, pressure: NDArray[np.float64]) -> NDArray[np.float64]:
         """A pressure on the smaller grid as one on the larger, each as it is worked with."""
-        whole = self.small.unfold(pressure)
-        return self.large.fold(self.small.grid.embed(whole, self.large.grid))
+        whole = self.small.expand_by_symmetry(pressure)
+        return self.large.reduce_by_symmetry(self.small.grid.embed(whole, self.large.grid))
 
     def pairs(self, fields: NDArray[np.float64]) -> NDArray[np.float64]:
         """Pressures and their deflections, shape (..., 2, nx, ny), as those on the larger grid."""
@@ -129,6 +129,6 @@ class Enlargement:
             before,
             pressure=small.grid.embed(before.pressure, large.grid),
             gap=small.grid.embed(before.gap, large.grid, beyond=np.nan),
-            displacement=large.unfold(twin[1]),
+            displacement=large.expand_by_symmetry(twin[1]),
             twin=twin,
         )

@@ -167,7 +167,7 @@ class March:
         """Whether a contact has come near the rim of a grid that may grow, and now has grown."""
         if not self._run.grows:
             return False
-        over = overrun(self._half_space.unfold(trial.solution.found.pressure), FREE)
+        over = overrun(self._half_space.expand_by_symmetry(trial.solution.found.pressure), FREE)
         if not any(over):
             return False
         larger = next_grid(self._run.grid, *over)

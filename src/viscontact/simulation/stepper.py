@@ -95,7 +95,7 @@ class Past:
 
     def __init__(self, run: Run, half_space: ContactDomain) -> None:
         self._run, self._half_space = run, half_space
-        self._shape = half_space.fold(run.open_gap)
+        self._shape = half_space.reduce_by_symmetry(run.open_gap)
         self._memory = run.memory.memory((2, *half_space.shape))  # of pressure and of deflection
         self._force_memory = RecursiveMemory(run.memory.sketch, (1,))
         self._errors = TimeErrors(run.memory, run.load)
@@ -137,7 +137,7 @@ class Past:
         """Go on in the same run on a larger grid."""
         grown = Enlargement(self._half_space, half_space).pairs
         self._run, self._half_space = run, half_space
-        self._shape = half_space.fold(run.open_gap)
+        self._shape = half_space.reduce_by_symmetry(run.open_gap)
         self._memory.enlarge(grown)
         self._errors.enlarge(grown)
         self._twins = [replace(twin, fields=grown(twin.fields)) for twin in self._twins]
@@ -258,14 +258,14 @@ def _whole(half_space: ContactDomain, trial: Trial, time_error: float) -> Instan
     solution = trial.solution
     found = solution.found
     fields = {
-        "pressure": half_space.unfold(found.pressure),
-        "gap": half_space.unfold(solution.gap),
-        "displacement": half_space.unfold(trial.twin.fields[1]),
+        "pressure": half_space.expand_by_symmetry(found.pressure),
+        "gap": half_space.expand_by_symmetry(solution.gap),
+        "displacement": half_space.expand_by_symmetry(trial.twin.fields[1]),
         "twin": trial.twin.fields,
     }
     for field in fields.values():
         field.flags.writeable = False  # the run goes on from them
-    cell_area = half_space.fold_count * half_space.grid.cell_area  # with its mirror images
+    cell_area = half_space.symmetry_count * half_space.grid.cell_area  # with its mirror images
     energy = float(np.einsum("ij,ij->", found.pressure, found.deflection)) / 2
     return Instant(
         **fields,
