@@ -86,7 +86,7 @@ def contact_residual(problem: ContactProblem, patch: Patch, iterate: Guess) -> C
     patch : Patch
         The cells.
     iterate : Guess
-        Pressure and deflection.
+        Pressure and unit_displacement.
 
     Returns
     -------
@@ -94,7 +94,7 @@ def contact_residual(problem: ContactProblem, patch: Patch, iterate: Guess) -> C
         Gap and error.
     """
     contact = iterate.pressure > 0
-    gap = problem.compliance * iterate.deflection
+    gap = problem.compliance * iterate.unit_displacement
     scale = max(problem.displacement_scale, float(gap.max()))
     gap += problem.open_gap
     gap -= patch.plane.field(iterate.motion)
@@ -128,7 +128,7 @@ class BoundedCG:
         self.problem, self.patch = problem, patch
         self.iterations = self.convolutions = 0
         motion = problem.constraints.with_prescribed(start.motion)
-        self.iterate = Guess(start.pressure, start.deflection, motion)
+        self.iterate = Guess(start.pressure, start.unit_displacement, motion)
         self._active = np.zeros(0, dtype=bool)
         self._residual = self._direction = np.zeros(0)
         self._slope = 0.0
@@ -148,7 +148,9 @@ class BoundedCG:
         best, since_best = np.inf, 0
         while not self.stagnated:
             checked = contact_residual(self.problem, self.patch, self.iterate)
-            self.iterate = Guess(self.iterate.pressure, self.iterate.deflection, checked.motion)
+            self.iterate = Guess(
+                self.iterate.pressure, self.iterate.unit_displacement, checked.motion
+            )
             if checked.error <= tolerance:
                 return
             since_best = 0 if checked.error < best else since_best + 1
@@ -196,7 +198,7 @@ class BoundedCG:
         if projected is not None and self._step_to_projected(projected):
             return
         direction, before = self._direction, self.iterate
-        change = self._deflection_of(direction)
+        change = self._unit_displacement_of(direction)
         curvature = self.problem.compliance * _inner(direction, change)
         if curvature <= 0:
             self._slope = 0.0
@@ -226,14 +228,16 @@ class BoundedCG:
     def _step_to_projected(self, projected: NDArray[np.float64]) -> bool:
         """Step to the least energy on the way to a pressure, or all the way; whether that helps."""
         before, step = self.iterate, projected - self.iterate.pressure
-        change = self._deflection_of(step)
+        change = self._unit_displacement_of(step)
         curvature = self.problem.compliance * _inner(step, change)
         best = -_inner(self._residual, step) / curvature if curvature > 0 else 0.0
         if best < MIN_STEP_FRACTION:
             return False
         self._length *= TRIAL_STEP_FACTOR * min(max(best, 0.5), 2.0)
         moved = _stepped(before, min(best, 1.0), step, change)
-        self.iterate = moved if best < 1 else Guess(projected, moved.deflection, moved.motion)
+        self.iterate = (
+            moved if best < 1 else Guess(projected, moved.unit_displacement, moved.motion)
+        )
         return True
 
     def _step_to_first_bound(
@@ -246,7 +250,7 @@ class BoundedCG:
         moved = _stepped(before, length * part, self._direction, change)
         # Exactly none: with a trifle that rounding left them no later step would get anywhere.
         pressure = np.where(room == part, 0.0, np.maximum(moved.pressure, 0.0))
-        self.iterate = Guess(pressure, moved.deflection, moved.motion)
+        self.iterate = Guess(pressure, moved.unit_displacement, moved.motion)
 
     def _is_feasible(self) -> bool:
         sums = self.patch.plane.sums(self.iterate.pressure) * self.patch.cell_area
@@ -259,8 +263,8 @@ class BoundedCG:
         restored = self._balanced(pressure)
         if restored is None:
             return False
-        change = self._deflection_of(restored - self.iterate.pressure)
-        self.iterate = Guess(restored, self.iterate.deflection + change, self.iterate.motion)
+        change = self._unit_displacement_of(restored - self.iterate.pressure)
+        self.iterate = Guess(restored, self.iterate.unit_displacement + change, self.iterate.motion)
         return True
 
     def _balanced(self, pressure: NDArray[np.float64]) -> NDArray[np.float64] | None:
@@ -274,7 +278,7 @@ class BoundedCG:
             patch.arm,
         )
 
-    def _deflection_of(self, change: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _unit_displacement_of(self, change: NDArray[np.float64]) -> NDArray[np.float64]:
         self.convolutions += 1
         return self.patch.convolution.apply(change)
 
@@ -283,7 +287,9 @@ def _stepped(
     iterate: Guess, length: float, direction: NDArray[np.float64], change: NDArray[np.float64]
 ) -> Guess:
     return Guess(
-        iterate.pressure + length * direction, iterate.deflection + length * change, iterate.motion
+        iterate.pressure + length * direction,
+        iterate.unit_displacement + length * change,
+        iterate.motion,
     )
 
 

@@ -34,7 +34,7 @@ class ContactSolution:
     Attributes
     ----------
     values : ndarray, shape (2, nx, ny)
-        Pressure [Pa], and deflection by a fresh convolution [Pa m].
+        Pressure [Pa], and unit_displacement by a fresh convolution [Pa m].
     motion : ndarray, shape (3,)
         Approach [m] and tilts [rad].
     gap : ndarray, shape (nx, ny)
@@ -79,7 +79,7 @@ def solve_contact(
     half_space : ContactDomain
         Grid and operators.
     guess : Guess, optional
-        Start; its deflection must belong to its pressure. Negative pressure is cut off, balances
+        Start; its unit_displacement must belong to its pressure. Negative pressure is cut off, balances
         are restored. The answer of a coarser grid when left out, and on the coarsest a foundation of
         about the right stiffness.
     tolerance : float
@@ -95,7 +95,7 @@ def solve_contact(
     Notes
     -----
     After Polonsky & Keer (1999), with these departures: a preconditioner, Polak-Ribiere+
-    directions that are not reset when the contact set changes, the deflection updated along the
+    directions that are not reset when the contact set changes, the unit_displacement updated along the
     direction instead of convolved again, and both moments balanced (in pressure itself: scaled
     variables lose convergence).
 
@@ -140,13 +140,13 @@ def _solve_from(
         convolutions += search.convolutions + 1
         # Certify what is returned, by a fresh convolution: not what the recurrence believes.
         values = np.zeros((2, *half_space.shape))
-        pressure, deflection = values
+        pressure, unit_displacement = values
         patch.cut(pressure)[...] = search.iterate.pressure
-        half_space.convolution.apply(pressure, into=deflection)
+        half_space.convolution.apply(pressure, into=unit_displacement)
         checked = contact_residual(
-            problem, half_space.whole, Guess(pressure, deflection, search.iterate.motion)
+            problem, half_space.whole, Guess(pressure, unit_displacement, search.iterate.motion)
         )
-        start = Guess(pressure, deflection, checked.motion)
+        start = Guess(pressure, unit_displacement, checked.motion)
         converged = checked.error <= tolerance and _is_balanced(
             problem, half_space, pressure, tolerance
         )

@@ -52,16 +52,16 @@ class Guess:
     ----------
     pressure : ndarray, shape (nx, ny)
         Pressure [Pa].
-    deflection : ndarray, shape (nx, ny)
+    unit_displacement : ndarray, shape (nx, ny)
         ``K pressure`` of that pressure [Pa m].
     motion : ndarray, shape (3,)
         Approach [m] and tilts [rad] along x and y.
     """
 
     pressure: NDArray[np.float64]
-    deflection: NDArray[np.float64]
+    unit_displacement: NDArray[np.float64]
     motion: NDArray[np.float64]
 
     def within(self, patch: Patch) -> Guess:
         """The part on a patch."""
-        return Guess(patch.cut(self.pressure), patch.cut(self.deflection), self.motion)
+        return Guess(patch.cut(self.pressure), patch.cut(self.unit_displacement), self.motion)

@@ -152,7 +152,7 @@ def _found(
     area = trace_rim(grid, contact, half_space.expand_by_symmetry(solution.gap), outline).area
     values = np.array([pressure.max(), area, solution.found.motion[0]])
     # Where the body mostly turns, its approach is no measure of its motion.
-    sinks = pressing.compliance * float(solution.found.deflection.max())
+    sinks = pressing.compliance * float(solution.found.unit_displacement.max())
     scales = np.maximum(values, [TINY, TINY, sinks])
     return _Found(pressure, values, scales, _cells_in_a_row(contact))
 

@@ -86,7 +86,7 @@ class Enlargement:
     """From one half-space to the same one under a larger grid.
 
     All that is remembered of the surface is pressures, and the deflections that they cause. Beyond
-    the smaller grid there has been no pressure; the deflection there follows from it.
+    the smaller grid there has been no pressure; the unit_displacement there follows from it.
 
     Parameters
     ----------
@@ -116,9 +116,9 @@ class Enlargement:
         """Pressures and their deflections, shape (..., 2, nx, ny), as those on the larger grid."""
         grown = np.empty((*fields.shape[:-2], *self.large.shape))
         for index in np.ndindex(fields.shape[:-3]):
-            pressure, deflection = grown[index]
+            pressure, unit_displacement = grown[index]
             pressure[:] = self.pressure(fields[index][0])
-            deflection[:] = self.large.convolution.apply(pressure)
+            unit_displacement[:] = self.large.convolution.apply(pressure)
         return grown
 
     def instant(self, before: Instant) -> Instant:

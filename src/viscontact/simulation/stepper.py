@@ -96,7 +96,9 @@ class Past:
     def __init__(self, run: Run, half_space: ContactDomain) -> None:
         self._run, self._half_space = run, half_space
         self._shape = half_space.reduce_by_symmetry(run.open_gap)
-        self._memory = run.memory.memory((2, *half_space.shape))  # of pressure and of deflection
+        self._memory = run.memory.memory(
+            (2, *half_space.shape)
+        )  # of pressure and of unit_displacement
         self._force_memory = RecursiveMemory(run.memory.sketch, (1,))
         self._errors = TimeErrors(run.memory, run.load)
         self._scale = 1e-12 * max(run.grid.cell_size)
@@ -223,7 +225,7 @@ def _response(memory: Memory, step: Step) -> Response:
 
 
 def _guess(twin: Twin | None, response: Response) -> Guess | None:
-    """From a predicted twin back to the pressure and the deflection that would bring it about."""
+    """From a predicted twin back to the pressure and the unit_displacement that would bring it about."""
     if twin is None:
         return None
     values = np.subtract(twin.fields, response.history, out=twin.fields)  # it was made for this
@@ -266,7 +268,7 @@ def _whole(half_space: ContactDomain, trial: Trial, time_error: float) -> Instan
     for field in fields.values():
         field.flags.writeable = False  # the run goes on from them
     cell_area = half_space.symmetry_count * half_space.grid.cell_area  # with its mirror images
-    energy = float(np.einsum("ij,ij->", found.pressure, found.deflection)) / 2
+    energy = float(np.einsum("ij,ij->", found.pressure, found.unit_displacement)) / 2
     return Instant(
         **fields,
         motion=found.motion,

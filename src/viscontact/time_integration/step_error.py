@@ -43,15 +43,15 @@ class StepError:
     Attributes
     ----------
     bulge : float
-        Mean distance of the deflection from the path the memory takes [Pa m].
+        Mean distance of the unit_displacement from the path the memory takes [Pa m].
     relative : float
         What it adds to the pressure's error, relative to the largest still to come [-].
     size : float
-        Largest deflection so far [Pa m].
+        Largest unit_displacement so far [Pa m].
     level : float
         Largest level of the load so far [N or m].
     rate : ndarray, shape (nx, ny), or None
-        Rate of the deflection over the step [Pa m/s]; None for a jump.
+        Rate of the unit_displacement over the step [Pa m/s]; None for a jump.
     """
 
     bulge: float
@@ -100,7 +100,7 @@ class TimeErrors:
         point : LoadPoint
             The load at its end.
         values : ndarray, shape (2, nx, ny)
-            Pressure ``p`` [Pa] and deflection ``K p`` [Pa m] at its end.
+            Pressure ``p`` [Pa] and unit_displacement ``K p`` [Pa m] at its end.
         response : Response
             Of the memory to it.
 
@@ -134,7 +134,7 @@ class TimeErrors:
         Returns
         -------
         float
-            Relative to the largest deflection of the run so far [-].
+            Relative to the largest unit_displacement of the run so far [-].
         """
         self._size, self._level = error.size, error.level
         if not step.smooth or step.is_jump:
@@ -183,7 +183,7 @@ class TimeErrors:
         self._rate = self._last_rate()
 
     def _growth_to_come(self, level: float) -> float:
-        """By how much pressure and deflection will still grow with the load, at least."""
+        """By how much pressure and unit_displacement will still grow with the load, at least."""
         return (self._load.largest_level / level) ** GROWTH if level > 0 else 1.0
 
     def _bulge(self, step: Step, rate: NDArray[np.float64], response: Response) -> float:
