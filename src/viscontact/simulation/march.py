@@ -14,7 +14,7 @@ from viscontact.simulation.observer import Observer
 from viscontact.simulation.setup import Run
 from viscontact.simulation.solved_step import SolvedStep
 from viscontact.simulation.step_solution import Instant
-from viscontact.simulation.stepper import Past, Trial
+from viscontact.simulation.stepper import Stepper, Trial
 from viscontact.state import ContactState, Outcome
 from viscontact.time_integration.fixed_steps import Step
 from viscontact.time_integration.restart_data import Carried
@@ -73,7 +73,7 @@ class March:
             run = run.on(run.grid.widened(tuple(carried["cells"])))
         self._run = run
         self._half_space = _half_space(run)
-        self._past = Past(run, self._half_space)
+        self._stepper = Stepper(run, self._half_space)
         self._steps = run.steps()
         self._observer = Observer(run)
         self._done = 0
@@ -117,7 +117,7 @@ class March:
             )
         if solved.cells != self._run.grid.shape:
             self._enlarge(self._run.grid.widened(solved.cells))
-        trial = self._past.repeat(step, solved.solution, solved.outcome)
+        trial = self._stepper.repeat(step, solved.solution, solved.outcome)
         if not self._steps.accepts(trial.error.relative):
             raise ValueError(
                 f"the step to t = {format_quantity(solved.time, 's', 9)} is not one that this run "
@@ -129,7 +129,7 @@ class March:
     def carried(self) -> Carried:
         """What has to be kept to go on from here, as plain data."""
         return {
-            "past": self._past.carried(),
+            "past": self._stepper.carried(),
             "steps": self._steps.carried(),
             "observer": self._observer.carried(),
             "patch": list(self._half_space.kept_patch),
@@ -138,7 +138,7 @@ class March:
         }
 
     def _restore(self, carried: Carried) -> None:
-        self._past.restore(carried["past"])
+        self._stepper.restore(carried["past"])
         self._steps.restore(carried["steps"])
         self._observer.restore(carried["observer"])
         first_row, last_row, first_column, last_column = carried["patch"]
@@ -151,7 +151,7 @@ class March:
         while True:
             step = self._steps.upcoming()
             assert step is not None  # its caller has seen one, and a refused one is replaced
-            trial = self._past.trial(step)
+            trial = self._stepper.trial(step)
             if self._outgrows(step, trial):
                 continue
             failed = trial.outcome is Outcome.NOT_CONVERGED
@@ -180,12 +180,12 @@ class March:
         """Go on from the same state on a larger grid."""
         run = self._run.on(grid)
         half_space = _half_space(run)
-        self._past.enlarge(run, half_space)
+        self._stepper.enlarge(run, half_space)
         self._observer.enlarge(run, Enlargement(self._half_space, half_space))
         self._run, self._half_space = run, half_space
 
     def _taken(self, step: Step, trial: Trial, solved: SolvedStep) -> Taken:
-        instant = self._past.accept(step, trial)
+        instant = self._stepper.accept(step, trial)
         _refuse_rim(self._run, step, instant)
         state = self._observer.observe(step, trial.point, instant)
         if step.asked is None:

@@ -82,7 +82,7 @@ class Trial:
     error: StepError
 
 
-class Past:
+class Stepper:
     """What has happened so far: memories, the last twins, the last motion.
 
     Parameters
