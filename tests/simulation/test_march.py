@@ -11,7 +11,7 @@ import pytest
 
 import viscontact as vc
 from viscontact.runs.directory.npz_archive import read_plain, write_plain
-from viscontact.simulation.march import March, Taken
+from viscontact.simulation.march import CompletedStep, March
 from viscontact.simulation.setup import Run, prepare_run
 from viscontact.time_integration.restart_data import Carried
 
@@ -97,7 +97,7 @@ def leaves(value: object, where: str = "") -> dict[str, object]:
     return {place: leaf for each in inner for place, leaf in each.items()}
 
 
-def differing(ours: list[Taken], theirs: list[Taken]) -> list[str]:
+def differing(ours: list[CompletedStep], theirs: list[CompletedStep]) -> list[str]:
     """What differs between two ends of one run."""
     found = []
     assert len(ours) == len(theirs)

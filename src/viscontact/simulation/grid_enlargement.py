@@ -12,7 +12,7 @@ from scipy import fft
 from viscontact.contact.domain import ContactDomain
 from viscontact.grid import Grid
 from viscontact.meshing.contact_extent import MOST_CELLS
-from viscontact.simulation.step_solution import Instant
+from viscontact.simulation.step_solution import StepSolution
 
 #: How much longer a grid becomes along an axis on which it is overrun.
 FACTOR = 1.5
@@ -121,7 +121,7 @@ class Enlargement:
             unit_displacement[:] = self.large.convolution.apply(pressure)
         return grown
 
-    def instant(self, before: Instant) -> Instant:
+    def instant(self, before: StepSolution) -> StepSolution:
         """An earlier instant as it looks on the larger grid, but for its gap out there."""
         small, large = self.small, self.large
         twin = self.pairs(before.twin)

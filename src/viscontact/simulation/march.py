@@ -12,9 +12,9 @@ from viscontact.grid import Grid
 from viscontact.simulation.grid_enlargement import FREE, Enlargement, next_grid, overrun
 from viscontact.simulation.observer import Observer
 from viscontact.simulation.setup import Run
-from viscontact.simulation.solved_step import SolvedStep
-from viscontact.simulation.step_solution import Instant
-from viscontact.simulation.stepper import Stepper, Trial
+from viscontact.simulation.solved_step import StepRecord
+from viscontact.simulation.step_solution import StepSolution
+from viscontact.simulation.stepper import Stepper, TrialStep
 from viscontact.state import ContactState, Outcome
 from viscontact.time_integration.fixed_steps import Step
 from viscontact.time_integration.restart_data import Carried
@@ -22,12 +22,12 @@ from viscontact.units.formatting import format_quantity
 
 
 @dataclass(frozen=True, eq=False)
-class Taken:
+class CompletedStep:
     """A step that a run has taken.
 
     Attributes
     ----------
-    solved : SolvedStep
+    solved : StepRecord
         All that it takes to take it again.
     state : ContactState or None
         The state at its end; None for an inner step that nobody asked for.
@@ -36,7 +36,7 @@ class Taken:
         chooses its steps).
     """
 
-    solved: SolvedStep
+    solved: StepRecord
     state: ContactState | None
     done: int
     left: int
@@ -80,7 +80,7 @@ class March:
         if carried is not None:
             self._restore(carried)
 
-    def __iter__(self) -> Iterator[Taken]:
+    def __iter__(self) -> Iterator[CompletedStep]:
         """Take the steps that are left.
 
         Raises
@@ -94,12 +94,12 @@ class March:
                 raise ConvergenceError(_not_converged(self._run, taken.solved))
         self._observer.refuse_coarse_mesh()
 
-    def repeat(self, solved: SolvedStep) -> Taken:
+    def repeat(self, solved: StepRecord) -> CompletedStep:
         """Take a step that has been solved before.
 
         Parameters
         ----------
-        solved : SolvedStep
+        solved : StepRecord
             The next step, as this run had taken it.
 
         Raises
@@ -124,7 +124,7 @@ class March:
                 "takes"
             )
         self._half_space.keep_patch(solved.patch)
-        return self._taken(step, trial, solved)
+        return self._complete(step, trial, solved)
 
     def carried(self) -> Carried:
         """What has to be kept to go on from here, as plain data."""
@@ -145,7 +145,7 @@ class March:
         self._half_space.keep_patch((first_row, last_row, first_column, last_column))
         self._done = carried["done"]
 
-    def _advance(self) -> Taken:
+    def _advance(self) -> CompletedStep:
         """Solve and take the next step; one may be tried again, on a larger grid or shorter."""
         refused: list[float] = []
         while True:
@@ -160,10 +160,10 @@ class March:
             refused.append(trial.error.relative)
         patch = self._half_space.kept_patch
         cells = self._run.grid.shape
-        solved = SolvedStep(step.time, tuple(refused), trial.solution, trial.outcome, patch, cells)
-        return self._taken(step, trial, solved)
+        solved = StepRecord(step.time, tuple(refused), trial.solution, trial.outcome, patch, cells)
+        return self._complete(step, trial, solved)
 
-    def _outgrows(self, step: Step, trial: Trial) -> bool:
+    def _outgrows(self, step: Step, trial: TrialStep) -> bool:
         """Whether a contact has come near the rim of a grid that may grow, and now has grown."""
         if not self._run.grows:
             return False
@@ -184,16 +184,16 @@ class March:
         self._observer.enlarge(run, Enlargement(self._half_space, half_space))
         self._run, self._half_space = run, half_space
 
-    def _taken(self, step: Step, trial: Trial, solved: SolvedStep) -> Taken:
+    def _complete(self, step: Step, trial: TrialStep, solved: StepRecord) -> CompletedStep:
         instant = self._stepper.accept(step, trial)
         _refuse_rim(self._run, step, instant)
         state = self._observer.observe(step, trial.point, instant)
         if step.asked is None:
-            return Taken(solved, None, self._done, self._steps.left)
+            return CompletedStep(solved, None, self._done, self._steps.left)
         self._done += 1
         last = step.asked >= float(self._run.times[-1])
         state = self._observer.judge(state, last=last)
-        return Taken(solved, state, self._done, self._steps.left)
+        return CompletedStep(solved, state, self._done, self._steps.left)
 
 
 def _half_space(run: Run) -> ContactDomain:
@@ -201,7 +201,7 @@ def _half_space(run: Run) -> ContactDomain:
     return ContactDomain(run.grid, mirrored=run.mirrored, transforms=transforms)
 
 
-def _refuse_rim(run: Run, step: Step, instant: Instant) -> None:
+def _refuse_rim(run: Run, step: Step, instant: StepSolution) -> None:
     if run.grid.periodic or not any(overrun(instant.pressure)):
         return
     raise DomainError(
@@ -220,7 +220,7 @@ def _too_large(run: Run, step: Step) -> str:
     )
 
 
-def _not_converged(run: Run, solved: SolvedStep) -> str:
+def _not_converged(run: Run, solved: StepRecord) -> str:
     return (
         f"the contact solver stopped at t = {format_quantity(solved.time, 's', 6)} with residual "
         f"{solved.solution.residual:.2g} after {solved.solution.iterations} iterations, short of "

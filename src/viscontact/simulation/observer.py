@@ -21,7 +21,7 @@ from viscontact.loads.history import LoadPoint
 from viscontact.simulation.grid_enlargement import Enlargement
 from viscontact.simulation.load_cycles import Cycles
 from viscontact.simulation.setup import Run
-from viscontact.simulation.step_solution import Instant
+from viscontact.simulation.step_solution import StepSolution
 from viscontact.simulation.step_warnings import loading_doubts
 from viscontact.state import ContactState, Outcome
 from viscontact.time_integration.fixed_steps import Step
@@ -50,7 +50,7 @@ class Observer:
         for body in run.bodies:
             self._open |= passivity_doubts(body.law, float(run.times[-1]))
         self._work = 0.0
-        self._before: Instant | None = None
+        self._before: StepSolution | None = None
         self._point: LoadPoint | None = None
         self._cycles = Cycles(run.load.load_cycles)
         self._largest_area, self._cells_at_largest = 0.0, 0
@@ -84,7 +84,7 @@ class Observer:
         if self._before is not None:
             self._before = onto.instant(self._before)
 
-    def observe(self, step: Step, point: LoadPoint, instant: Instant) -> ContactState:
+    def observe(self, step: Step, point: LoadPoint, instant: StepSolution) -> ContactState:
         """Describe the end of a step.
 
         Parameters
@@ -93,7 +93,7 @@ class Observer:
             The step.
         point : LoadPoint
             The load at its end.
-        instant : Instant
+        instant : StepSolution
             What was found there.
 
         Returns
@@ -177,7 +177,9 @@ class Observer:
         self._open, self._work = dict(carried["open"]), carried["work"]
         before, point = carried["before"], carried["point"]
         self._before = (
-            None if before is None else Instant(**before | {"outcome": Outcome(before["outcome"])})
+            None
+            if before is None
+            else StepSolution(**before | {"outcome": Outcome(before["outcome"])})
         )
         self._point = None if point is None else LoadPoint(**point)
         self._cycles.restore(carried["cycles"])
@@ -195,7 +197,7 @@ class Observer:
             self._largest = None
         return self._spots_at_largest
 
-    def _collect_doubts(self, step: Step, instant: Instant, rim: Rim) -> None:
+    def _collect_doubts(self, step: Step, instant: StepSolution, rim: Rim) -> None:
         found = data_doubts(step.time, self._run.measured_until)
         if instant.outcome is not Outcome.NO_CONTACT:
             found = self._corner_doubts(step.time, instant) | found
@@ -206,7 +208,7 @@ class Observer:
         found = loading_doubts(self._run, step, self._before, instant) | found
         self._open = found | self._open
 
-    def _corner_doubts(self, time: float, instant: Instant) -> dict[str, str]:
+    def _corner_doubts(self, time: float, instant: StepSolution) -> dict[str, str]:
         """Whether the largest pressure so far lies at a corner; where it hardly grew, it stayed."""
         peak = float(instant.pressure.max())
         if peak <= HIGHER * self._looked_at:
@@ -216,7 +218,7 @@ class Observer:
         strain = strain_of(peak, float(self._run.compliance(time)))
         return corner_doubts(self._geometry, place, strain)
 
-    def _work_of(self, point: LoadPoint, instant: Instant) -> float:
+    def _work_of(self, point: LoadPoint, instant: StepSolution) -> float:
         """Work over a step: exact while the load is held, and for all that is elastic.
 
         Under a held load the force is constant, or nothing travels: force times approach is exact.
@@ -239,7 +241,7 @@ class Observer:
 
 def _state(
     step: Step,
-    instant: Instant,
+    instant: StepSolution,
     rim: Rim,
     work: float,
     loss: float,

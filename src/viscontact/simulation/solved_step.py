@@ -12,7 +12,7 @@ from viscontact.time_integration.restart_data import Carried
 
 
 @dataclass(frozen=True, eq=False)
-class SolvedStep:
+class StepRecord:
     """The solution of one step, and what solving it has left behind.
 
     Attributes
@@ -57,7 +57,7 @@ class SolvedStep:
         }
 
     @classmethod
-    def from_plain(cls, plain: Carried) -> SolvedStep:
+    def from_plain_data(cls, plain: Carried) -> StepRecord:
         """The step that was made `plain`."""
         outcome = Outcome(plain["outcome"])
         solution = ContactSolution(

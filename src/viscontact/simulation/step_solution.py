@@ -11,7 +11,7 @@ from viscontact.state import Outcome
 
 
 @dataclass(frozen=True, eq=False)
-class Instant:
+class StepSolution:
     """Equilibrium at the end of a step, as the solver left it.
 
     Attributes

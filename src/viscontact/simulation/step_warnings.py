@@ -6,12 +6,14 @@ import numpy as np
 
 from viscontact.checks.steps import relative_change, release_doubts, step_doubts, touch_doubts
 from viscontact.simulation.setup import Run
-from viscontact.simulation.step_solution import Instant
+from viscontact.simulation.step_solution import StepSolution
 from viscontact.state import Outcome
 from viscontact.time_integration.fixed_steps import SAME, Step
 
 
-def loading_doubts(run: Run, step: Step, before: Instant | None, after: Instant) -> dict[str, str]:
+def loading_doubts(
+    run: Run, step: Step, before: StepSolution | None, after: StepSolution
+) -> dict[str, str]:
     """Return doubts about a step over which a creeping body is loaded or let go.
 
     Parameters
@@ -20,9 +22,9 @@ def loading_doubts(run: Run, step: Step, before: Instant | None, after: Instant)
         The run.
     step : Step
         The step; none is raised by a jump.
-    before : Instant or None
+    before : StepSolution or None
         Its begin; None for the first.
-    after : Instant
+    after : StepSolution
         Its end.
 
     Returns

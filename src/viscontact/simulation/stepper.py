@@ -14,7 +14,7 @@ from viscontact.contact.rigid_balance import Constraints
 from viscontact.loads import LoadPoint
 from viscontact.simulation.grid_enlargement import Enlargement
 from viscontact.simulation.setup import Run
-from viscontact.simulation.step_solution import Instant
+from viscontact.simulation.step_solution import StepSolution
 from viscontact.state import Outcome
 from viscontact.time_integration.extrapolation import POINTS, Twin, predict
 from viscontact.time_integration.fixed_steps import Step
@@ -33,7 +33,7 @@ TOUCH_SAMPLES = 16
 
 
 @dataclass(frozen=True, eq=False)
-class Posed:
+class StepProblem:
     """What a step meets, before it is solved.
 
     Attributes
@@ -55,7 +55,7 @@ class Posed:
 
 
 @dataclass(frozen=True, eq=False)
-class Trial:
+class TrialStep:
     """A step that has been solved, and not been taken yet.
 
     Attributes
@@ -105,15 +105,15 @@ class Stepper:
         self._twins: list[Twin] = []
         self._motion = np.zeros(3)
 
-    def trial(self, step: Step) -> Trial:
+    def trial(self, step: Step) -> TrialStep:
         """Solve a step, without taking it."""
-        posed = self._posed(step)
-        solution, outcome = self._solved(step, posed)
-        return self._tried(step, posed, solution, outcome)
+        step_problem = self._step_problem(step)
+        solution, outcome = self._solved(step, step_problem)
+        return self._trial_step(step, step_problem, solution, outcome)
 
-    def repeat(self, step: Step, solution: ContactSolution, outcome: Outcome) -> Trial:
+    def repeat(self, step: Step, solution: ContactSolution, outcome: Outcome) -> TrialStep:
         """The trial of a step whose solution is known."""
-        return self._tried(step, self._posed(step), solution, outcome)
+        return self._trial_step(step, self._step_problem(step), solution, outcome)
 
     def carried(self) -> Carried:
         """What has to be kept to go on from here; asked for after an `accept`."""
@@ -144,7 +144,7 @@ class Stepper:
         self._errors.enlarge(grown)
         self._twins = [replace(twin, fields=grown(twin.fields)) for twin in self._twins]
 
-    def _posed(self, step: Step) -> Posed:
+    def _step_problem(self, step: Step) -> StepProblem:
         """Ask the memories what the step will meet."""
         point = self._run.load.at(step.time, side=step.side)
         response, force_response = (
@@ -158,19 +158,19 @@ class Stepper:
             self._half_space.reduced_constraints(Constraints.of(point)),
             self._scale,
         )
-        return Posed(point, response, drive, problem)
+        return StepProblem(point, response, drive, problem)
 
-    def _tried(
-        self, step: Step, posed: Posed, solution: ContactSolution, outcome: Outcome
-    ) -> Trial:
+    def _trial_step(
+        self, step: Step, step_problem: StepProblem, solution: ContactSolution, outcome: Outcome
+    ) -> TrialStep:
         values = solution.values
         values.flags.writeable = False  # it will be remembered, without a copy
-        response = posed.response
-        twin = Twin(step.time, posed.drive, response.of(values), solution.motion)
-        error = self._errors.of_step(step, posed.point, values, response)
-        return Trial(posed.point, solution, response, twin, outcome, error)
+        response = step_problem.response
+        twin = Twin(step.time, step_problem.drive, response.of(values), solution.motion)
+        error = self._errors.of_step(step, step_problem.point, values, response)
+        return TrialStep(step_problem.point, solution, response, twin, outcome, error)
 
-    def accept(self, step: Step, trial: Trial) -> Instant:
+    def accept(self, step: Step, trial: TrialStep) -> StepSolution:
         """Take a step that has been solved."""
         known = self._known(step)[1 - POINTS :] if not step.is_jump else []
         self._twins = [] if trial.outcome is Outcome.NO_CONTACT else [*known, trial.twin]
@@ -186,15 +186,15 @@ class Stepper:
         """The twins that tell where the next one will be."""
         return self._twins[-POINTS:] if step.smooth else self._twins[-1:]
 
-    def _solved(self, step: Step, posed: Posed) -> tuple[ContactSolution, Outcome]:
-        point, problem, response = posed.point, posed.problem, posed.response
+    def _solved(self, step: Step, step_problem: StepProblem) -> tuple[ContactSolution, Outcome]:
+        point, problem, response = step_problem.point, step_problem.problem, step_problem.response
         if point.force == 0:
             untouched = not response.history[1].any()
             return self._at_touch(problem, untouched=untouched), Outcome.NO_CONTACT
         given = problem.constraints.with_prescribed(self._motion)
         if point.force is None and self._is_clear(problem, given):
             return _without_pressure(problem, self._half_space, given), Outcome.NO_CONTACT
-        guess = _guess(predict(self._known(step), step.time, posed.drive), response)
+        guess = _guess(predict(self._known(step), step.time, step_problem.drive), response)
         tolerance = self._run.tolerance
         solution = solve_contact(problem, self._half_space, guess, tolerance=tolerance)
         if not solution.converged:
@@ -255,7 +255,7 @@ def _at_lowest_point(run: Run, apart: ContactSolution) -> ContactSolution:
     return replace(apart, motion=motion, gap=apart.gap + below)
 
 
-def _whole(half_space: ContactDomain, trial: Trial, time_error: float) -> Instant:
+def _whole(half_space: ContactDomain, trial: TrialStep, time_error: float) -> StepSolution:
     """The instant on the whole grid."""
     solution = trial.solution
     found = solution.found
@@ -269,7 +269,7 @@ def _whole(half_space: ContactDomain, trial: Trial, time_error: float) -> Instan
         field.flags.writeable = False  # the run goes on from them
     cell_area = half_space.symmetry_count * half_space.grid.cell_area  # with its mirror images
     energy = float(np.einsum("ij,ij->", found.pressure, found.unit_displacement)) / 2
-    return Instant(
+    return StepSolution(
         **fields,
         motion=found.motion,
         resultants=half_space.whole.plane.sums(found.pressure) * cell_area,

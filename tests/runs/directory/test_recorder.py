@@ -31,7 +31,7 @@ from viscontact.runs.directory.recorder import RunRecord
 from viscontact.runs.directory.step_log import LOG_NAME, StepLog, logged_steps
 from viscontact.simulation import stepper
 from viscontact.simulation.setup import Run, prepare_run
-from viscontact.simulation.solved_step import SolvedStep
+from viscontact.simulation.solved_step import StepRecord
 from viscontact.state import Outcome
 
 COUNT = 12
@@ -155,13 +155,13 @@ def test_pickled_objects_are_never_loaded() -> None:
 # --- log of steps -----------------------------------------------------------------------------
 
 
-def solved(number: int) -> SolvedStep:
+def solved(number: int) -> StepRecord:
     random = np.random.default_rng(number)
     values, motion = random.random((2, 4, 3)), random.random(3)
     solution = ContactSolution(
         values, motion, random.random((4, 3)), 1e-7, number, 2, converged=True
     )
-    return SolvedStep(
+    return StepRecord(
         number / 7, (0.5,) * number, solution, Outcome.CONVERGED, (0, 4, 0, 3), (4, 3)
     )
 

@@ -23,7 +23,7 @@ from viscontact.runs.directory.recorded_run import (
     saved_state,
 )
 from viscontact.runs.directory.restart_files import RestartFiles
-from viscontact.simulation.march import March, Taken
+from viscontact.simulation.march import CompletedStep, March
 from viscontact.simulation.state_generator import Progress
 from viscontact.state import ContactState, Outcome
 
@@ -266,7 +266,7 @@ class RunRecord:
             with suppress(OSError):
                 self._lines.close()
 
-    def _record(self, taken: Taken) -> None:
+    def _record(self, taken: CompletedStep) -> None:
         """Log the step before anything else, so that it is never solved again."""
         failed = taken.solved.outcome is Outcome.NOT_CONVERGED
         if failed and not self._restart.steps:
@@ -282,7 +282,7 @@ class RunRecord:
         if not failed and clock.monotonic() >= self._due:
             self.checkpoint()
 
-    def _write(self, taken: Taken) -> None:
+    def _write(self, taken: CompletedStep) -> None:
         self._restart.steps += 1
         if taken.state is None:
             return

@@ -9,7 +9,7 @@ from typing import Any
 
 from viscontact.runs.directory.checkpoint import STATE_NAME, Checkpoint, save_checkpoint
 from viscontact.runs.directory.step_log import LOG_NAME, StepLog, logged_steps
-from viscontact.simulation.solved_step import SolvedStep
+from viscontact.simulation.solved_step import StepRecord
 from viscontact.time_integration.restart_data import Carried
 
 
@@ -35,7 +35,7 @@ class RestartFiles:
         self._case, self._token, self._transforms = last.case, last.token, last.transforms
         self._log: StepLog | None = None
 
-    def solved(self) -> Iterator[SolvedStep]:
+    def solved(self) -> Iterator[StepRecord]:
         """Return the steps that had been solved since the checkpoint."""
         return logged_steps(self._path, self._token, self.steps)
 
@@ -45,7 +45,7 @@ class RestartFiles:
             self._log.close()
         self._log = StepLog(self._path, self._token, self.steps)
 
-    def append(self, solved: SolvedStep) -> None:
+    def append(self, solved: StepRecord) -> None:
         """Add a step to the log, which has been started."""
         assert self._log is not None
         self._log.append(solved)

@@ -16,7 +16,7 @@ from typing import BinaryIO
 
 from viscontact.runs.directory.closing import Closing
 from viscontact.runs.directory.npz_archive import read_plain, write_plain
-from viscontact.simulation.solved_step import SolvedStep
+from viscontact.simulation.solved_step import StepRecord
 
 #: The log's name in a run directory.
 LOG_NAME = "steps.log"
@@ -54,12 +54,12 @@ class StepLog(Closing):
             raise
         self._file = path.open("ab", buffering=0)
 
-    def append(self, solved: SolvedStep) -> None:
+    def append(self, solved: StepRecord) -> None:
         """Add a step.
 
         Parameters
         ----------
-        solved : SolvedStep
+        solved : StepRecord
             The step.
 
         Raises
@@ -92,7 +92,7 @@ def is_step_log(path: Path) -> bool:
         return False
 
 
-def logged_steps(path: Path, token: str, first: int) -> Iterator[SolvedStep]:
+def logged_steps(path: Path, token: str, first: int) -> Iterator[StepRecord]:
     """Read a log from some step on, up to where it was last whole.
 
     Parameters
@@ -106,7 +106,7 @@ def logged_steps(path: Path, token: str, first: int) -> Iterator[SolvedStep]:
 
     Yields
     ------
-    SolvedStep
+    StepRecord
         The steps after those, in order; none if the log begins later.
     """
     if not path.is_file():
@@ -120,7 +120,7 @@ def logged_steps(path: Path, token: str, first: int) -> Iterator[SolvedStep]:
             return
         for count, record in enumerate(_records(file), begins):
             if count >= first:
-                yield SolvedStep.from_plain(read_plain(io.BytesIO(record)))
+                yield StepRecord.from_plain_data(read_plain(io.BytesIO(record)))
 
 
 def _records(file: BinaryIO) -> Iterator[bytes]:
