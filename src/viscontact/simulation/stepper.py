@@ -16,7 +16,11 @@ from viscontact.simulation.grid_enlargement import Enlargement
 from viscontact.simulation.setup import Run
 from viscontact.simulation.step_solution import StepSolution
 from viscontact.state import Outcome
-from viscontact.time_integration.extrapolation import POINTS, Twin, predict
+from viscontact.time_integration.extrapolation import (
+    EXTRAPOLATION_POINTS,
+    ElasticReference,
+    predict,
+)
 from viscontact.time_integration.fixed_steps import Step
 from viscontact.time_integration.hereditary_integral import Memory, Response
 from viscontact.time_integration.internal_variables import RecursiveMemory
@@ -25,7 +29,7 @@ from viscontact.time_integration.step_error import StepError, TimeErrors
 
 #: Errors are measured against the displacement that the pressure causes, but never against less
 #: than this part of the largest displacement of the past: below it rounding would have a say.
-HISTORY_COUNTS = 1e-3
+PAST_DISPLACEMENT_WEIGHT = 1e-3
 
 #: Samples each way within a cell when the body's lowest point is looked for; even, so that a
 #: point on a cell's edge or corner is among them.
@@ -43,7 +47,7 @@ class StepProblem:
     response : Response
         Of the memory to the step.
     drive : float
-        What the elastic twin moves with, as in `Twin`.
+        What the elastic elastic_reference moves with, as in `ElasticReference`.
     problem : ContactProblem
         What is to be solved.
     """
@@ -66,8 +70,8 @@ class TrialStep:
         Equilibrium there.
     response : Response
         Of the memory to the step.
-    twin : Twin
-        Elastic twin of the end.
+    elastic_reference : ElasticReference
+        Elastic elastic_reference of the end.
     outcome : Outcome
         How it ended.
     error : StepError
@@ -77,7 +81,7 @@ class TrialStep:
     point: LoadPoint
     solution: ContactSolution
     response: Response
-    twin: Twin
+    elastic_reference: ElasticReference
     outcome: Outcome
     error: StepError
 
@@ -102,7 +106,7 @@ class Stepper:
         self._force_memory = RecursiveMemory(run.memory.sketch, (1,))
         self._errors = TimeErrors(run.memory, run.load)
         self._scale = 1e-12 * max(run.grid.cell_size)
-        self._twins: list[Twin] = []
+        self._references: list[ElasticReference] = []
         self._motion = np.zeros(3)
 
     def trial(self, step: Step) -> TrialStep:
@@ -122,7 +126,7 @@ class Stepper:
             "force_memory": self._force_memory.carried(),
             "errors": self._errors.carried(),
             "scale": self._scale,
-            "twins": [vars(twin) for twin in self._twins],
+            "twins": [vars(elastic_reference) for elastic_reference in self._references],
             "motion": self._motion,
         }
 
@@ -132,7 +136,9 @@ class Stepper:
         self._force_memory.restore(carried["force_memory"])
         self._errors.restore(carried["errors"])
         self._scale = carried["scale"]
-        self._twins = [Twin(**twin) for twin in carried["twins"]]
+        self._references = [
+            ElasticReference(**elastic_reference) for elastic_reference in carried["twins"]
+        ]
         self._motion = carried["motion"]
 
     def enlarge(self, run: Run, half_space: ContactDomain) -> None:
@@ -142,7 +148,10 @@ class Stepper:
         self._shape = half_space.reduce_by_symmetry(run.open_gap)
         self._memory.enlarge(grown)
         self._errors.enlarge(grown)
-        self._twins = [replace(twin, fields=grown(twin.fields)) for twin in self._twins]
+        self._references = [
+            replace(elastic_reference, fields=grown(elastic_reference.fields))
+            for elastic_reference in self._references
+        ]
 
     def _step_problem(self, step: Step) -> StepProblem:
         """Ask the memories what the step will meet."""
@@ -150,8 +159,8 @@ class Stepper:
         response, force_response = (
             _response(each, step) for each in (self._memory, self._force_memory)
         )
-        twin_force = float(force_response.of(_force(point))[0])
-        drive = twin_force if point.approach is None else point.approach
+        reference_force = float(force_response.of(_force(point))[0])
+        drive = reference_force if point.approach is None else point.approach
         problem = ContactProblem(
             self._shape + response.history[1],
             response.compliance,
@@ -166,35 +175,45 @@ class Stepper:
         values = solution.values
         values.flags.writeable = False  # it will be remembered, without a copy
         response = step_problem.response
-        twin = Twin(step.time, step_problem.drive, response.of(values), solution.motion)
+        elastic_reference = ElasticReference(
+            step.time, step_problem.drive, response.of(values), solution.motion
+        )
         error = self._errors.of_step(step, step_problem.point, values, response)
-        return TrialStep(step_problem.point, solution, response, twin, outcome, error)
+        return TrialStep(step_problem.point, solution, response, elastic_reference, outcome, error)
 
     def accept(self, step: Step, trial: TrialStep) -> StepSolution:
         """Take a step that has been solved."""
-        known = self._known(step)[1 - POINTS :] if not step.is_jump else []
-        self._twins = [] if trial.outcome is Outcome.NO_CONTACT else [*known, trial.twin]
+        known = (
+            self._reference_history(step)[1 - EXTRAPOLATION_POINTS :] if not step.is_jump else []
+        )
+        self._references = (
+            [] if trial.outcome is Outcome.NO_CONTACT else [*known, trial.elastic_reference]
+        )
         self._motion = trial.solution.motion
         self._memory.accept(trial.solution.values)
         self._force_memory.accept(_force(trial.point))
         time_error = self._errors.after(step, trial.solution.values, trial.error)
-        instant = _whole(self._half_space, trial, time_error)
-        self._scale = max(self._scale, HISTORY_COUNTS * float(trial.twin.fields[1].max()))
+        instant = _on_full_grid(self._half_space, trial, time_error)
+        self._scale = max(
+            self._scale, PAST_DISPLACEMENT_WEIGHT * float(trial.elastic_reference.fields[1].max())
+        )
         return instant
 
-    def _known(self, step: Step) -> list[Twin]:
+    def _reference_history(self, step: Step) -> list[ElasticReference]:
         """The twins that tell where the next one will be."""
-        return self._twins[-POINTS:] if step.smooth else self._twins[-1:]
+        return self._references[-EXTRAPOLATION_POINTS:] if step.smooth else self._references[-1:]
 
     def _solved(self, step: Step, step_problem: StepProblem) -> tuple[ContactSolution, Outcome]:
         point, problem, response = step_problem.point, step_problem.problem, step_problem.response
         if point.force == 0:
             untouched = not response.history[1].any()
-            return self._at_touch(problem, untouched=untouched), Outcome.NO_CONTACT
+            return self._first_touch(problem, untouched=untouched), Outcome.NO_CONTACT
         given = problem.constraints.with_prescribed(self._motion)
-        if point.force is None and self._is_clear(problem, given):
+        if point.force is None and self._is_separated(problem, given):
             return _without_pressure(problem, self._half_space, given), Outcome.NO_CONTACT
-        guess = _guess(predict(self._known(step), step.time, step_problem.drive), response)
+        guess = _guess(
+            predict(self._reference_history(step), step.time, step_problem.drive), response
+        )
         tolerance = self._run.tolerance
         solution = solve_contact(problem, self._half_space, guess, tolerance=tolerance)
         if not solution.converged:
@@ -202,11 +221,11 @@ class Stepper:
         touches = bool(solution.values[0].any())
         return solution, Outcome.CONVERGED if touches else Outcome.NO_CONTACT
 
-    def _is_clear(self, problem: ContactProblem, motion: NDArray[np.float64]) -> bool:
+    def _is_separated(self, problem: ContactProblem, motion: NDArray[np.float64]) -> bool:
         plane = self._half_space.whole.plane.field(motion)
         return bool((problem.open_gap >= plane).all())
 
-    def _at_touch(self, problem: ContactProblem, *, untouched: bool) -> ContactSolution:
+    def _first_touch(self, problem: ContactProblem, *, untouched: bool) -> ContactSolution:
         """No force: the body is where it just touches the (dented) surface, tilts as they were."""
         tilts = problem.constraints.with_prescribed(self._motion) * np.array([0.0, 1.0, 1.0])
         distance = problem.open_gap - self._half_space.whole.plane.field(tilts)
@@ -224,13 +243,15 @@ def _response(memory: Memory, step: Step) -> Response:
     return memory.jump() if step.is_jump else memory.ramp(step.duration)
 
 
-def _guess(twin: Twin | None, response: Response) -> Guess | None:
-    """From a predicted twin back to the pressure and the unit_displacement that would bring it about."""
-    if twin is None:
+def _guess(elastic_reference: ElasticReference | None, response: Response) -> Guess | None:
+    """From a predicted elastic_reference back to the pressure and the unit_displacement that would bring it about."""
+    if elastic_reference is None:
         return None
-    values = np.subtract(twin.fields, response.history, out=twin.fields)  # it was made for this
+    values = np.subtract(
+        elastic_reference.fields, response.history, out=elastic_reference.fields
+    )  # it was made for this
     values /= response.compliance
-    return Guess(values[0], values[1], twin.motion)
+    return Guess(values[0], values[1], elastic_reference.motion)
 
 
 def _without_pressure(
@@ -255,15 +276,15 @@ def _at_lowest_point(run: Run, apart: ContactSolution) -> ContactSolution:
     return replace(apart, motion=motion, gap=apart.gap + below)
 
 
-def _whole(half_space: ContactDomain, trial: TrialStep, time_error: float) -> StepSolution:
+def _on_full_grid(half_space: ContactDomain, trial: TrialStep, time_error: float) -> StepSolution:
     """The instant on the whole grid."""
     solution = trial.solution
     found = solution.found
     fields = {
         "pressure": half_space.expand_by_symmetry(found.pressure),
         "gap": half_space.expand_by_symmetry(solution.gap),
-        "displacement": half_space.expand_by_symmetry(trial.twin.fields[1]),
-        "twin": trial.twin.fields,
+        "displacement": half_space.expand_by_symmetry(trial.elastic_reference.fields[1]),
+        "twin": trial.elastic_reference.fields,
     }
     for field in fields.values():
         field.flags.writeable = False  # the run goes on from them
