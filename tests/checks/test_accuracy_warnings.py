@@ -20,10 +20,10 @@ def warnings_of(indenter, load, grid, times=(0.0,), material=rubber):
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         states = list(vc.march(indenter, material, load, grid, times))
-    carried = [text for state in states for text in state.warnings]
+    restart_data = [text for state in states for text in state.warnings]
     said = [str(each.message) for each in caught if each.category is vc.AccuracyWarning]
-    assert said == carried
-    return carried
+    assert said == restart_data
+    return restart_data
 
 
 def hertz_force(part, radius=1.0):

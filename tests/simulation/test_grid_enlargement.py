@@ -147,8 +147,8 @@ def test_run_goes_on_to_the_same_bits_before_and_after_its_grid_grows(kind: str)
             continue
         begun = March(run)
         for _ in zip(range(count), begun, strict=False):
-            carried = through_a_file(begun.carried())
-        assert differing(whole[count:], list(March(run, carried))) == []
+            restart_data = through_a_file(begun.restart_data())
+        assert differing(whole[count:], list(March(run, restart_data))) == []
         repeated = March(run)
         again = [repeated.repeat(taken.solved) for taken in whole[:count]]
         assert differing(whole[:count], again) == []

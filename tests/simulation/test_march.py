@@ -13,7 +13,7 @@ import viscontact as vc
 from viscontact.runs.directory.npz_archive import read_plain, write_plain
 from viscontact.simulation.march import CompletedStep, March
 from viscontact.simulation.setup import Run, prepare_run
-from viscontact.time_integration.restart_data import Carried
+from viscontact.time_integration.restart_data import RestartData
 
 pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
 
@@ -80,9 +80,9 @@ def same(one: object, other: object) -> bool:
     return one == other
 
 
-def through_a_file(carried: Carried) -> Carried:
+def through_a_file(restart_data: RestartData) -> RestartData:
     file = io.BytesIO()
-    write_plain(file, carried)
+    write_plain(file, restart_data)
     return read_plain(file)
 
 
@@ -127,7 +127,7 @@ def test_run_goes_on_from_what_it_carried_after_any_step(run: Run) -> None:
     every = max(1, len(whole) // 5)  # a swing has hundreds
     for count, _ in enumerate(march, 1):
         if count < 3 or count % every == 0:
-            resumed = list(March(run, through_a_file(march.carried())))
+            resumed = list(March(run, through_a_file(march.restart_data())))
             assert differing(whole[count:], resumed) == []
 
 
@@ -135,8 +135,8 @@ def test_what_was_carried_is_what_is_carried_on(run: Run) -> None:
     # Some of it counts only in runs that are rare, such as those with long steps after a jump.
     march = March(run)
     for _, _ in zip(march, range(8), strict=False):
-        carried = through_a_file(march.carried())
-        assert leaves(March(run, carried).carried()) == leaves(carried)
+        restart_data = through_a_file(march.restart_data())
+        assert leaves(March(run, restart_data).restart_data()) == leaves(restart_data)
 
 
 def test_steps_solved_before_are_taken_again_to_the_same_bits(run: Run) -> None:

@@ -102,7 +102,7 @@ def test_memory_of_ten_thousand_steps_is_bounded_and_says_so():
         plan = prepare_run(BALL, body.material, vc.step(FORCE), grid, times).memory
         assert plan.fields_kept <= 40
         assert plan.error < 1e-6
-        assert str(len(plan.memory((1,)).carried()["fields"])) in plan.method
+        assert str(len(plan.memory((1,)).restart_data()["fields"])) in plan.method
 
 
 @pytest.mark.slow

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from viscontact.loads.history import Cycle, Moment
 from viscontact.time_integration.fixed_steps import Step
-from viscontact.time_integration.restart_data import Carried
+from viscontact.time_integration.restart_data import RestartData
 
 
 class Cycles:
@@ -42,14 +42,14 @@ class Cycles:
         if self._cycles and _meets(step, self._cycles[0][0]):
             self._begun = work
 
-    def carried(self) -> Carried:
+    def restart_data(self) -> RestartData:
         """What has to be kept to go on from here."""
         return {"left": len(self._cycles), "begun": self._begun, "last_loss": self.last_loss}
 
-    def restore(self, carried: Carried) -> None:
-        """Go on from what was `carried` under the same load."""
-        self._cycles = self._cycles[len(self._cycles) - carried["left"] :]
-        self._begun, self.last_loss = carried["begun"], carried["last_loss"]
+    def restore(self, restart_data: RestartData) -> None:
+        """Go on from what was `restart_data` under the same load."""
+        self._cycles = self._cycles[len(self._cycles) - restart_data["left"] :]
+        self._begun, self.last_loss = restart_data["begun"], restart_data["last_loss"]
 
 
 def _meets(step: Step, moment: Moment) -> bool:

@@ -17,7 +17,7 @@ from viscontact.simulation.step_solution import StepSolution
 from viscontact.simulation.stepper import Stepper, TrialStep
 from viscontact.state import ContactState, Outcome
 from viscontact.time_integration.fixed_steps import Step
-from viscontact.time_integration.restart_data import Carried
+from viscontact.time_integration.restart_data import RestartData
 from viscontact.units.formatting import format_quantity
 
 
@@ -49,8 +49,8 @@ class March:
     ----------
     run : Run
         From `prepare_run`.
-    carried : dict, optional
-        What the same run had `carried` after some step: it goes on from there, to the same bits;
+    restart_data : dict, optional
+        What the same run had `restart_data` after some step: it goes on from there, to the same bits;
         from the start when left out.
 
     Examples
@@ -63,22 +63,22 @@ class March:
     >>> begun = March(run)
     >>> steps = iter(begun)
     >>> first = next(steps)
-    >>> resumed = March(run, begun.carried())
+    >>> resumed = March(run, begun.restart_data())
     >>> [step.state.approach for step in resumed] == [step.state.approach for step in steps]
     True
     """
 
-    def __init__(self, run: Run, carried: Carried | None = None) -> None:
-        if carried is not None:
-            run = run.on(run.grid.widened(tuple(carried["cells"])))
+    def __init__(self, run: Run, restart_data: RestartData | None = None) -> None:
+        if restart_data is not None:
+            run = run.on(run.grid.widened(tuple(restart_data["cells"])))
         self._run = run
         self._half_space = _half_space(run)
         self._stepper = Stepper(run, self._half_space)
         self._steps = run.steps()
         self._observer = Observer(run)
         self._done = 0
-        if carried is not None:
-            self._restore(carried)
+        if restart_data is not None:
+            self._restore(restart_data)
 
     def __iter__(self) -> Iterator[CompletedStep]:
         """Take the steps that are left.
@@ -126,24 +126,24 @@ class March:
         self._half_space.keep_patch(solved.patch)
         return self._complete(step, trial, solved)
 
-    def carried(self) -> Carried:
+    def restart_data(self) -> RestartData:
         """What has to be kept to go on from here, as plain data."""
         return {
-            "past": self._stepper.carried(),
-            "steps": self._steps.carried(),
-            "observer": self._observer.carried(),
+            "past": self._stepper.restart_data(),
+            "steps": self._steps.restart_data(),
+            "observer": self._observer.restart_data(),
             "patch": list(self._half_space.kept_patch),
             "cells": list(self._run.grid.shape),
             "done": self._done,
         }
 
-    def _restore(self, carried: Carried) -> None:
-        self._stepper.restore(carried["past"])
-        self._steps.restore(carried["steps"])
-        self._observer.restore(carried["observer"])
-        first_row, last_row, first_column, last_column = carried["patch"]
+    def _restore(self, restart_data: RestartData) -> None:
+        self._stepper.restore(restart_data["past"])
+        self._steps.restore(restart_data["steps"])
+        self._observer.restore(restart_data["observer"])
+        first_row, last_row, first_column, last_column = restart_data["patch"]
         self._half_space.keep_patch((first_row, last_row, first_column, last_column))
-        self._done = carried["done"]
+        self._done = restart_data["done"]
 
     def _advance(self) -> CompletedStep:
         """Solve and take the next step; one may be tried again, on a larger grid or shorter."""

@@ -25,7 +25,7 @@ from viscontact.simulation.step_solution import StepSolution
 from viscontact.simulation.step_warnings import loading_doubts
 from viscontact.state import ContactState, Outcome
 from viscontact.time_integration.fixed_steps import Step
-from viscontact.time_integration.restart_data import Carried
+from viscontact.time_integration.restart_data import RestartData
 
 #: By how much a pressure exceeds the one before that is looked at for corners.
 HIGHER = 1.1
@@ -154,7 +154,7 @@ class Observer:
             f"{nx} x {ny} or a smaller grid.size"
         )
 
-    def carried(self) -> Carried:
+    def restart_data(self) -> RestartData:
         """What has to be kept to go on from here; asked for after an `observe`."""
         before = self._before
         return {
@@ -163,7 +163,7 @@ class Observer:
             "work": self._work,
             "before": before and vars(before) | {"outcome": int(before.outcome)},
             "point": self._point and vars(self._point),
-            "cycles": self._cycles.carried(),
+            "cycles": self._cycles.restart_data(),
             "largest_area": self._largest_area,
             "cells_at_largest": self._cells_at_largest,
             "spots_at_largest": self._cells_across_spots(),
@@ -171,23 +171,23 @@ class Observer:
             "looked_at": self._looked_at,
         }
 
-    def restore(self, carried: Carried) -> None:
-        """Go on from what was `carried`, in the same run."""
-        self._doubts.said = dict(carried["said"])
-        self._open, self._work = dict(carried["open"]), carried["work"]
-        before, point = carried["before"], carried["point"]
+    def restore(self, restart_data: RestartData) -> None:
+        """Go on from what was `restart_data`, in the same run."""
+        self._doubts.said = dict(restart_data["said"])
+        self._open, self._work = dict(restart_data["open"]), restart_data["work"]
+        before, point = restart_data["before"], restart_data["point"]
         self._before = (
             None
             if before is None
             else StepSolution(**before | {"outcome": Outcome(before["outcome"])})
         )
         self._point = None if point is None else LoadPoint(**point)
-        self._cycles.restore(carried["cycles"])
-        self._largest_area = carried["largest_area"]
-        self._cells_at_largest = carried["cells_at_largest"]
-        self._spots_at_largest = carried["spots_at_largest"]
-        self._peak, self._peak_time, self._peak_told = carried["peak"]
-        self._looked_at = carried["looked_at"]
+        self._cycles.restore(restart_data["cycles"])
+        self._largest_area = restart_data["largest_area"]
+        self._cells_at_largest = restart_data["cells_at_largest"]
+        self._spots_at_largest = restart_data["spots_at_largest"]
+        self._peak, self._peak_time, self._peak_told = restart_data["peak"]
+        self._looked_at = restart_data["looked_at"]
 
     def _cells_across_spots(self) -> float:
         """Cells across the spots of the largest contact, counted when they are asked for."""

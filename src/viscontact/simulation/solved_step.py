@@ -8,7 +8,7 @@ import numpy as np
 
 from viscontact.contact.equilibrium import ContactSolution
 from viscontact.state import Outcome
-from viscontact.time_integration.restart_data import Carried
+from viscontact.time_integration.restart_data import RestartData
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,7 +38,7 @@ class StepRecord:
     patch: tuple[int, int, int, int]
     cells: tuple[int, int]
 
-    def plain(self) -> Carried:
+    def plain(self) -> RestartData:
         """The same as plain data."""
         solution = self.solution
         return {
@@ -57,7 +57,7 @@ class StepRecord:
         }
 
     @classmethod
-    def from_plain_data(cls, plain: Carried) -> StepRecord:
+    def from_plain_data(cls, plain: RestartData) -> StepRecord:
         """The step that was made `plain`."""
         outcome = Outcome(plain["outcome"])
         solution = ContactSolution(

@@ -24,7 +24,7 @@ from viscontact.time_integration.extrapolation import (
 from viscontact.time_integration.fixed_steps import Step
 from viscontact.time_integration.hereditary_integral import Memory, Response
 from viscontact.time_integration.internal_variables import RecursiveMemory
-from viscontact.time_integration.restart_data import Carried
+from viscontact.time_integration.restart_data import RestartData
 from viscontact.time_integration.step_error import StepError, TimeErrors
 
 #: Errors are measured against the displacement that the pressure causes, but never against less
@@ -119,27 +119,27 @@ class Stepper:
         """The trial of a step whose solution is known."""
         return self._trial_step(step, self._step_problem(step), solution, outcome)
 
-    def carried(self) -> Carried:
+    def restart_data(self) -> RestartData:
         """What has to be kept to go on from here; asked for after an `accept`."""
         return {
-            "memory": self._memory.carried(),
-            "force_memory": self._force_memory.carried(),
-            "errors": self._errors.carried(),
+            "memory": self._memory.restart_data(),
+            "force_memory": self._force_memory.restart_data(),
+            "errors": self._errors.restart_data(),
             "scale": self._scale,
             "twins": [vars(elastic_reference) for elastic_reference in self._references],
             "motion": self._motion,
         }
 
-    def restore(self, carried: Carried) -> None:
-        """Go on from what was `carried`, in the same run."""
-        self._memory.restore(carried["memory"])
-        self._force_memory.restore(carried["force_memory"])
-        self._errors.restore(carried["errors"])
-        self._scale = carried["scale"]
+    def restore(self, restart_data: RestartData) -> None:
+        """Go on from what was `restart_data`, in the same run."""
+        self._memory.restore(restart_data["memory"])
+        self._force_memory.restore(restart_data["force_memory"])
+        self._errors.restore(restart_data["errors"])
+        self._scale = restart_data["scale"]
         self._references = [
-            ElasticReference(**elastic_reference) for elastic_reference in carried["twins"]
+            ElasticReference(**elastic_reference) for elastic_reference in restart_data["twins"]
         ]
-        self._motion = carried["motion"]
+        self._motion = restart_data["motion"]
 
     def enlarge(self, run: Run, half_space: ContactDomain) -> None:
         """Go on in the same run on a larger grid."""

@@ -13,7 +13,7 @@ from viscontact.loads import LoadHistory
 from viscontact.materials.compliance import ContactCompliance
 from viscontact.time_integration.fixed_steps import Step, kink_meant
 from viscontact.time_integration.requested_times import AdaptiveTimes
-from viscontact.time_integration.restart_data import Carried
+from viscontact.time_integration.restart_data import RestartData
 from viscontact.time_integration.step_error import ALONE
 
 #: A single step may add this part of the tolerance, since what the body remembers adds up.
@@ -150,7 +150,7 @@ class AdaptiveSteps:
         self._advance(step)
         return True
 
-    def carried(self) -> Carried:
+    def restart_data(self) -> RestartData:
         """What has to be kept to go on from here."""
         return {
             "time": self._time,
@@ -159,12 +159,12 @@ class AdaptiveSteps:
             "step": None if self._step is None else asdict(self._step),
         }
 
-    def restore(self, carried: Carried) -> None:
-        """Go on from what was `carried` on the same way."""
+    def restore(self, restart_data: RestartData) -> None:
+        """Go on from what was `restart_data` on the same way."""
         self._time, self._duration, self._growth = (
-            carried[name] for name in ("time", "duration", "growth")
+            restart_data[name] for name in ("time", "duration", "growth")
         )
-        self._step = None if carried["step"] is None else Step(**carried["step"])
+        self._step = None if restart_data["step"] is None else Step(**restart_data["step"])
 
     def _advance(self, step: Step) -> None:
         self._time = step.time

@@ -19,7 +19,7 @@ from viscontact.time_integration.hereditary_integral import (
     is_resolved,
     longest_smooth_rise,
 )
-from viscontact.time_integration.restart_data import Carried
+from viscontact.time_integration.restart_data import RestartData
 
 #: Steps ahead for which the sum over the past is made at once, as one product of matrices.
 STEPS_AHEAD = 16
@@ -107,8 +107,8 @@ class SuperposedMemory(Memory):
         self._time = end
         self._count += 1
 
-    def carried(self) -> Carried:
-        """All increments so far, and the sums that have been made ahead; see `Memory.carried`."""
+    def restart_data(self) -> RestartData:
+        """All increments so far, and the sums that have been made ahead; see `Memory.restart_data`."""
         return {
             "increments": self._increments[: self._count],
             "began": self._began[: self._count],
@@ -130,18 +130,18 @@ class SuperposedMemory(Memory):
             self._increments[row] = grown(increments[row].reshape(old)).ravel()
         self._ahead = grown(ahead.reshape(len(ahead), *old)).reshape(len(ahead), size)
 
-    def restore(self, carried: Carried) -> None:
-        """Go on from what was carried; see `Memory.restore`."""
-        self._count = len(carried["began"])
+    def restore(self, restart_data: RestartData) -> None:
+        """Go on from what was restart_data; see `Memory.restore`."""
+        self._count = len(restart_data["began"])
         while len(self._began) < self._count:
             self._make_room()
-        self._increments[: self._count] = carried["increments"]
-        self._began[: self._count] = carried["began"]
-        self._ended[: self._count] = carried["ended"]
+        self._increments[: self._count] = restart_data["increments"]
+        self._began[: self._count] = restart_data["began"]
+        self._ended[: self._count] = restart_data["ended"]
         self._value, self._time, self._jumped = (
-            carried[name] for name in ("value", "time", "jumped")
+            restart_data[name] for name in ("value", "time", "jumped")
         )
-        self._ahead, self._ahead_from = carried["ahead"], carried["ahead_from"]
+        self._ahead, self._ahead_from = restart_data["ahead"], restart_data["ahead_from"]
 
     def _past_until(self, end: float, *, rise: float) -> NDArray[np.float64]:
         step = self._count

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.loads import LoadHistory
-from viscontact.time_integration.restart_data import Carried
+from viscontact.time_integration.restart_data import RestartData
 from viscontact.units.formatting import format_quantity
 
 #: An instant this close to a kink of the load, relative to it, is meant to be the kink.
@@ -108,13 +108,13 @@ class FixedSteps:
         self._taken += 1
         return True
 
-    def carried(self) -> Carried:
+    def restart_data(self) -> RestartData:
         """What has to be kept to go on from here."""
         return {"taken": self._taken}
 
-    def restore(self, carried: Carried) -> None:
-        """Go on from what was `carried` on the same way."""
-        self._taken = carried["taken"]
+    def restore(self, restart_data: RestartData) -> None:
+        """Go on from what was `restart_data` on the same way."""
+        self._taken = restart_data["taken"]
 
 
 def _instants_wanted(times: NDArray[np.float64], load: LoadHistory) -> dict[float, float | None]:

@@ -11,7 +11,7 @@ import scipy
 from numpy.typing import NDArray
 
 from viscontact.materials.compliance import ContactCompliance
-from viscontact.time_integration.restart_data import Carried
+from viscontact.time_integration.restart_data import RestartData
 
 #: A step that creeps more than this part of J(0) is long against the law. At this part a single
 #: step after a jump errs by less than 2 % of the pressure that the jump has left, for a Maxwell
@@ -100,7 +100,7 @@ class Memory(ABC):
         """
 
     @abstractmethod
-    def carried(self) -> Carried:
+    def restart_data(self) -> RestartData:
         """What has to be kept to go on from here; asked for after an `accept`."""
 
     @abstractmethod
@@ -115,8 +115,8 @@ class Memory(ABC):
         """
 
     @abstractmethod
-    def restore(self, carried: Carried) -> None:
-        """Go on from what was `carried`, by a memory of the same law and shape."""
+    def restore(self, restart_data: RestartData) -> None:
+        """Go on from what was `restart_data`, by a memory of the same law and shape."""
 
 
 def is_resolved(crept: float, instant: float, *, whole: bool) -> bool:

@@ -20,7 +20,7 @@ from viscontact.time_integration.hereditary_integral import (
     is_resolved,
     longest_smooth_rise,
 )
-from viscontact.time_integration.restart_data import Carried
+from viscontact.time_integration.restart_data import RestartData
 
 
 class RecursiveMemory(Memory):
@@ -86,8 +86,8 @@ class RecursiveMemory(Memory):
             field += np.multiply(new, value, out=self._term)
         self._value = value.copy() if value.flags.writeable else value
 
-    def carried(self) -> Carried:
-        """The internal fields and the last value; see `Memory.carried`."""
+    def restart_data(self) -> RestartData:
+        """The internal fields and the last value; see `Memory.restart_data`."""
         return {"fields": self._fields.copy(), "value": self._value, "jumped": self._jumped}
 
     def enlarge(self, grown: Enlarging) -> None:
@@ -95,10 +95,10 @@ class RecursiveMemory(Memory):
         self._fields, self._value = grown(self._fields), grown(self._value)
         self._term = np.empty(self._value.shape)
 
-    def restore(self, carried: Carried) -> None:
-        """Go on from what was carried; see `Memory.restore`."""
-        self._fields = carried["fields"].copy()
-        self._value, self._jumped = carried["value"], carried["jumped"]
+    def restore(self, restart_data: RestartData) -> None:
+        """Go on from what was restart_data; see `Memory.restore`."""
+        self._fields = restart_data["fields"].copy()
+        self._value, self._jumped = restart_data["value"], restart_data["jumped"]
 
     def _response(self) -> Response:
         step = self._next

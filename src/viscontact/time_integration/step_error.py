@@ -19,7 +19,7 @@ from viscontact.time_integration.fixed_steps import Step
 from viscontact.time_integration.hereditary_integral import Enlarging, Response
 from viscontact.time_integration.internal_variables import ramp_weights
 from viscontact.time_integration.plan import MemoryPlan
-from viscontact.time_integration.restart_data import Carried
+from viscontact.time_integration.restart_data import RestartData
 
 #: The bulge of a first step after a kink is guessed from the curvature in its successor, which is
 #: smaller: after a first touch, where q grows as t^(2/3), by 2.9.
@@ -155,7 +155,7 @@ class TimeErrors:
         self._rate = error.rate
         return abs(self._wrong) / self._size if self._size > 0 else 0.0
 
-    def carried(self) -> Carried:
+    def restart_data(self) -> RestartData:
         """What has to be kept to go on from here."""
         return {
             "owed": self._owed,
@@ -167,15 +167,15 @@ class TimeErrors:
             "level": self._level,
         }
 
-    def restore(self, carried: Carried) -> None:
-        """Go on from what was `carried`, in the same run."""
-        self._owed, self._wrong = carried["owed"], carried["wrong"]
-        self._jumped = carried["jumped"]
-        self._past = [(point["duration"], point["values"]) for point in carried["past"]]
+    def restore(self, restart_data: RestartData) -> None:
+        """Go on from what was `restart_data`, in the same run."""
+        self._owed, self._wrong = restart_data["owed"], restart_data["wrong"]
+        self._jumped = restart_data["jumped"]
+        self._past = [(point["duration"], point["values"]) for point in restart_data["past"]]
         self._rate = self._last_rate()
-        pending = carried["pending"]
+        pending = restart_data["pending"]
         self._pending = None if pending is None else (pending[0], pending[1])
-        self._size, self._level = carried["size"], carried["level"]
+        self._size, self._level = restart_data["size"], restart_data["level"]
 
     def enlarge(self, grown: Enlarging) -> None:
         """Go on with larger fields, which `grown` makes of those that are remembered."""

@@ -10,7 +10,7 @@ from viscontact import __version__
 from viscontact.runs.directory.atomic_files import replace
 from viscontact.runs.directory.npz_archive import outline_of, read_plain, write_plain
 from viscontact.runs.directory.result_validation import REMEDY
-from viscontact.time_integration.restart_data import Carried
+from viscontact.time_integration.restart_data import RestartData
 
 #: The state's name in a run directory.
 STATE_NAME = "state.npz"
@@ -35,7 +35,7 @@ class Checkpoint:
     result : dict
         Where the writer of the result stood.
     march : dict
-        What the march carried; empty before the first step.
+        What the march restart_data; empty before the first step.
     transforms : str
         Whose Fourier transforms the run is made with.
     version : str
@@ -47,8 +47,8 @@ class Checkpoint:
     steps: int
     lines: int
     reached: float | None
-    result: Carried
-    march: Carried
+    result: RestartData
+    march: RestartData
     transforms: str
     version: str = __version__
 

@@ -11,7 +11,7 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.time_integration.restart_data import Carried
+from viscontact.time_integration.restart_data import RestartData
 
 #: Where the outline lies among the arrays, and what stands in it for an array.
 _OUTLINE, _ARRAY = "outline", "__array__"
@@ -24,14 +24,14 @@ _DAMAGE = (
 )
 
 
-def write_plain(file: BinaryIO, carried: Carried) -> None:
+def write_plain(file: BinaryIO, restart_data: RestartData) -> None:
     """Write plain data as an ``.npz`` archive.
 
     Parameters
     ----------
     file : binary file
         Where to.
-    carried : dict
+    restart_data : dict
         Arrays, numbers, texts and None, in lists and dicts.
 
     Examples
@@ -43,7 +43,7 @@ def write_plain(file: BinaryIO, carried: Carried) -> None:
     {'work': 1.5, 'past': [None, 'left']}
     """
     arrays: list[NDArray[Any]] = []
-    outline = json.dumps(_outlined(carried, arrays))
+    outline = json.dumps(_outlined(restart_data, arrays))
     with zipfile.ZipFile(file, "w") as archive:
         _add(archive, _OUTLINE, np.frombuffer(outline.encode(), dtype=np.uint8))
         for index, array in enumerate(arrays):
@@ -61,7 +61,7 @@ def _add(archive: zipfile.ZipFile, name: str, array: NDArray[Any]) -> None:
             member.write(in_order.data.cast("B"))
 
 
-def read_plain(file: BinaryIO) -> Carried:
+def read_plain(file: BinaryIO) -> RestartData:
     """Read what `write_plain` has written.
 
     Parameters

@@ -30,7 +30,7 @@ from viscontact.runs.directory.stored_result import stored_run
 from viscontact.simulation.march import March
 from viscontact.simulation.provenance import describe_run, run_attributes
 from viscontact.simulation.setup import Run
-from viscontact.time_integration.restart_data import Carried
+from viscontact.time_integration.restart_data import RestartData
 
 #: The progress log's name in a run directory.
 PROGRESS_NAME = "progress.jsonl"
@@ -183,7 +183,7 @@ def new_writer(recorded: Recorded) -> ResultWriter:
     return ResultWriter(recorded.directory / RESULT_NAME, recorded.contents)
 
 
-def same_writer(recorded: Recorded, position: Carried) -> ResultWriter:
+def same_writer(recorded: Recorded, position: RestartData) -> ResultWriter:
     """Return the writer of a result that is there, at a position of its.
 
     Parameters

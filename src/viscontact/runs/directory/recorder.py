@@ -37,7 +37,7 @@ Undisturbed = Callable[[], AbstractContextManager[object]]
 class RunRecord:
     """A run on its way into its directory.
 
-    After each step the directory holds all that it takes to go on from there: what the run carried
+    After each step the directory holds all that it takes to go on from there: what the run restart_data
     at the last checkpoint, and the steps solved since. A checkpoint puts the result in its place
     too. It comes after the first step, and then once a second or less often, so that checkpoints
     take a twentieth of the time at most.
@@ -192,7 +192,10 @@ class RunRecord:
                 # The log must not be behind the state, not even after a power cut.
                 self._lines.flush_to_disk()
                 self._restart.save(
-                    self._march.carried(), self.reached, self._lines.count, self._writer.position
+                    self._march.restart_data(),
+                    self.reached,
+                    self._lines.count,
+                    self._writer.position,
                 )
                 self.kept = self._instants
         now = clock.monotonic()

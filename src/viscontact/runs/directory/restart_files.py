@@ -10,7 +10,7 @@ from typing import Any
 from viscontact.runs.directory.checkpoint import STATE_NAME, Checkpoint, save_checkpoint
 from viscontact.runs.directory.step_log import LOG_NAME, StepLog, logged_steps
 from viscontact.simulation.solved_step import StepRecord
-from viscontact.time_integration.restart_data import Carried
+from viscontact.time_integration.restart_data import RestartData
 
 
 class RestartFiles:
@@ -51,14 +51,14 @@ class RestartFiles:
         self._log.append(solved)
 
     def save(
-        self, march: Carried, reached: float | None, lines: int, result: Mapping[str, Any]
+        self, march: RestartData, reached: float | None, lines: int, result: Mapping[str, Any]
     ) -> None:
         """Save a checkpoint, and begin a new log behind it.
 
         Parameters
         ----------
         march : dict
-            What the march has `carried`; empty before the first step.
+            What the march has `restart_data`; empty before the first step.
         reached : float or None
             The last instant that is kept [s].
         lines : int
