@@ -82,7 +82,7 @@ def _longer(cells: int, size: float) -> int:
 
 
 @dataclass(frozen=True, eq=False)
-class Enlargement:
+class GridEnlargement:
     """From one half-space to the same one under a larger grid.
 
     All that is remembered of the surface is pressures, and the deflections that they cause. Beyond
@@ -99,7 +99,7 @@ class Enlargement:
     >>> large = ContactDomain(small.grid.widened((8, 8)))
     >>> pressure = np.ones((4, 4))
     >>> pair = np.stack([pressure, small.convolution.apply(pressure)])
-    >>> grown = Enlargement(small, large).pairs(pair)
+    >>> grown = GridEnlargement(small, large).pairs(pair)
     >>> bool(np.allclose(grown[1, 2:6, 2:6], pair[1], rtol=1e-14))
     True
     """

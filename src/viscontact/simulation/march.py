@@ -9,7 +9,7 @@ from viscontact.contact.domain import ContactDomain
 from viscontact.errors import ConvergenceError, DomainError
 from viscontact.fourier import transforms_by
 from viscontact.grid import Grid
-from viscontact.simulation.grid_enlargement import FREE, Enlargement, next_grid, overrun
+from viscontact.simulation.grid_enlargement import FREE, GridEnlargement, next_grid, overrun
 from viscontact.simulation.observer import Observer
 from viscontact.simulation.setup import Run
 from viscontact.simulation.solved_step import StepRecord
@@ -180,8 +180,8 @@ class March:
         """Go on from the same state on a larger grid."""
         run = self._run.on(grid)
         half_space = _half_space(run)
-        self._stepper.enlarge(run, half_space)
-        self._observer.enlarge(run, Enlargement(self._half_space, half_space))
+        self._stepper.map_fields(run, half_space)
+        self._observer.map_fields(run, GridEnlargement(self._half_space, half_space))
         self._run, self._half_space = run, half_space
 
     def _complete(self, step: Step, trial: TrialStep, solved: StepRecord) -> CompletedStep:

@@ -18,7 +18,7 @@ from viscontact.contact.body_edge import trace_outline
 from viscontact.contact.rim import Rim, trace_rim
 from viscontact.errors import DomainError
 from viscontact.loads.history import LoadPoint
-from viscontact.simulation.grid_enlargement import Enlargement
+from viscontact.simulation.grid_enlargement import GridEnlargement
 from viscontact.simulation.load_cycles import Cycles
 from viscontact.simulation.setup import Run
 from viscontact.simulation.step_solution import StepSolution
@@ -70,14 +70,14 @@ class Observer:
             indenter_gives=run.indenter_material is not None,
         )
 
-    def enlarge(self, run: Run, onto: Enlargement) -> None:
+    def map_fields(self, run: Run, onto: GridEnlargement) -> None:
         """Go on with the same run on a larger grid.
 
         Parameters
         ----------
         run : Run
             The run on its new grid.
-        onto : Enlargement
+        onto : GridEnlargement
             From the old half-space to the new one.
         """
         self._look_at(run)

@@ -12,7 +12,7 @@ from viscontact.contact.equilibrium import ContactSolution, solve_contact
 from viscontact.contact.problem import ContactProblem, Guess
 from viscontact.contact.rigid_balance import Constraints
 from viscontact.loads import LoadPoint
-from viscontact.simulation.grid_enlargement import Enlargement
+from viscontact.simulation.grid_enlargement import GridEnlargement
 from viscontact.simulation.setup import Run
 from viscontact.simulation.step_solution import StepSolution
 from viscontact.state import Outcome
@@ -141,13 +141,13 @@ class Stepper:
         ]
         self._motion = restart_data["motion"]
 
-    def enlarge(self, run: Run, half_space: ContactDomain) -> None:
+    def map_fields(self, run: Run, half_space: ContactDomain) -> None:
         """Go on in the same run on a larger grid."""
-        grown = Enlargement(self._half_space, half_space).pairs
+        grown = GridEnlargement(self._half_space, half_space).pairs
         self._run, self._half_space = run, half_space
         self._shape = half_space.reduce_by_symmetry(run.open_gap)
-        self._memory.enlarge(grown)
-        self._errors.enlarge(grown)
+        self._memory.map_fields(grown)
+        self._errors.map_fields(grown)
         self._references = [
             replace(elastic_reference, fields=grown(elastic_reference.fields))
             for elastic_reference in self._references

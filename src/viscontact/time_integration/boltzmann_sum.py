@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from viscontact.materials.compliance import ContactCompliance
 from viscontact.time_integration.hereditary_integral import (
-    Enlarging,
+    FieldMap,
     Memory,
     Response,
     is_resolved,
@@ -120,8 +120,8 @@ class SuperposedMemory(Memory):
             "ahead_from": self._ahead_from,
         }
 
-    def enlarge(self, grown: Enlarging) -> None:
-        """Go on with a larger field; see `Memory.enlarge`."""
+    def map_fields(self, grown: FieldMap) -> None:
+        """Go on with a larger field; see `Memory.map_fields`."""
         old, increments, ahead = self._shape, self._increments, self._ahead
         self._value = grown(self._value)
         self._shape, size = self._value.shape, self._value.size

@@ -24,7 +24,7 @@ RESOLVED = 0.5
 AFTER_JUMP = 2 / 3
 
 #: What makes larger fields of smaller ones.
-Enlarging = Callable[[NDArray[np.float64]], NDArray[np.float64]]
+FieldMap = Callable[[NDArray[np.float64]], NDArray[np.float64]]
 
 
 @dataclass(frozen=True)
@@ -104,7 +104,7 @@ class Memory(ABC):
         """What has to be kept to go on from here; asked for after an `accept`."""
 
     @abstractmethod
-    def enlarge(self, grown: Enlarging) -> None:
+    def map_fields(self, grown: FieldMap) -> None:
         """Go on with a larger field.
 
         Parameters

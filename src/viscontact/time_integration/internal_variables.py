@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from viscontact.materials.compliance import SeriesCompliance
 from viscontact.time_integration.hereditary_integral import (
-    Enlarging,
+    FieldMap,
     Memory,
     Response,
     is_resolved,
@@ -90,8 +90,8 @@ class RecursiveMemory(Memory):
         """The internal fields and the last value; see `Memory.restart_data`."""
         return {"fields": self._fields.copy(), "value": self._value, "jumped": self._jumped}
 
-    def enlarge(self, grown: Enlarging) -> None:
-        """Go on with a larger field; see `Memory.enlarge`."""
+    def map_fields(self, grown: FieldMap) -> None:
+        """Go on with a larger field; see `Memory.map_fields`."""
         self._fields, self._value = grown(self._fields), grown(self._value)
         self._term = np.empty(self._value.shape)
 

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from viscontact.loads import LoadHistory, LoadPoint
 from viscontact.time_integration.fixed_steps import Step
-from viscontact.time_integration.hereditary_integral import Enlarging, Response
+from viscontact.time_integration.hereditary_integral import FieldMap, Response
 from viscontact.time_integration.internal_variables import ramp_weights
 from viscontact.time_integration.plan import MemoryPlan
 from viscontact.time_integration.restart_data import RestartData
@@ -177,7 +177,7 @@ class TimeErrors:
         self._pending = None if pending is None else (pending[0], pending[1])
         self._size, self._level = restart_data["size"], restart_data["level"]
 
-    def enlarge(self, grown: Enlarging) -> None:
+    def map_fields(self, grown: FieldMap) -> None:
         """Go on with larger fields, which `grown` makes of those that are remembered."""
         self._past = [(duration, grown(values)) for duration, values in self._past]
         self._rate = self._last_rate()
