@@ -17,23 +17,23 @@ from viscontact.time_integration.restart_data import RestartData
 from viscontact.time_integration.step_error import ALONE
 
 #: A single step may add this part of the tolerance, since what the body remembers adds up.
-SHARE = 0.2
+STEP_TOLERANCE_SHARE = 0.2
 
 #: A step's error falls with its cube; it is aimed below what is allowed, so that few are refused.
-AIM, ORDER = 0.7, 3.0
+SAFETY_FACTOR, ERROR_ORDER = 0.7, 3.0
 
 #: From one step to the next the duration changes by factors between these.
-SHRINK, GROW = 0.2, 2.0
+MIN_FACTOR, MAX_FACTOR = 0.2, 2.0
 
 #: No step is shorter than this part of the run.
-SHORTEST = 1e-12
+MIN_STEP_FRACTION = 1e-12
 
 #: After a kink, the first step is this part of the way to the next one at most.
-FIRST_OF_WAY = 0.02
+FIRST_STEP_FRACTION = 0.02
 
 #: Steps from one kink of the load to the next, at a tolerance of 1e-3, and for a body that does not
 #: creep; measured on spheres, good to a factor of two.
-STEPS_OF_STRETCH, ELASTIC_STEPS = 25.0, 7.0
+STEPS_PER_INTERVAL, ELASTIC_STEPS_PER_INTERVAL = 25.0, 7.0
 
 
 def likely_steps(wanted: AdaptiveTimes, load: LoadHistory, compliance: ContactCompliance) -> float:
@@ -65,7 +65,11 @@ def likely_steps(wanted: AdaptiveTimes, load: LoadHistory, compliance: ContactCo
     creeps = compliance(wanted.end) > compliance.instant
     # Errors of a step fall with its cube, those of the run with its square.
     finer = (1e-3 / wanted.tolerance) ** (1 / 3)
-    each = max(ELASTIC_STEPS, STEPS_OF_STRETCH * finer) if creeps else ELASTIC_STEPS
+    each = (
+        max(ELASTIC_STEPS_PER_INTERVAL, STEPS_PER_INTERVAL * finer)
+        if creeps
+        else ELASTIC_STEPS_PER_INTERVAL
+    )
     return stretches * each + min(wanted.end, float(load.kinks[-1])) / load.longest_step
 
 
@@ -91,7 +95,7 @@ class AdaptiveSteps:
         load: LoadHistory,
         compliance: ContactCompliance,
     ) -> None:
-        self._end, self._allowed = wanted.end, SHARE * wanted.tolerance
+        self._end, self._allowed = wanted.end, STEP_TOLERANCE_SHARE * wanted.tolerance
         self._load, self._compliance = load, compliance
         self._kinks = set(load.kinks.tolist())
         self._jumps = set(load.jumps.tolist())
@@ -101,7 +105,7 @@ class AdaptiveSteps:
         self._end = max(self._stops)
         self._time, self._duration = 0.0, 0.0
         self._step: Step | None = Step(0.0, 0.0, 0.0, smooth=False)
-        self._growth = GROW
+        self._growth = MAX_FACTOR
 
     @property
     def left(self) -> int:
@@ -138,14 +142,14 @@ class AdaptiveSteps:
         if step.is_jump:
             self._advance(step)
             return True
-        factor = AIM * (self._allowed / max(error, 1e-30)) ** (1 / ORDER)
-        if error > self._allowed and step.duration > SHORTEST * self._end:
-            self._duration = step.duration * min(max(factor, SHRINK), 0.8)
+        factor = SAFETY_FACTOR * (self._allowed / max(error, 1e-30)) ** (1 / ERROR_ORDER)
+        if error > self._allowed and step.duration > MIN_STEP_FRACTION * self._end:
+            self._duration = step.duration * min(max(factor, MIN_FACTOR), 0.8)
             self._step = self._next(step.smooth)
             return False
-        self._growth = min(max(factor, SHRINK), GROW) if error > 0 else GROW
+        self._growth = min(max(factor, MIN_FACTOR), MAX_FACTOR) if error > 0 else MAX_FACTOR
         # A step cut short by a stop says nothing against the duration it was cut from.
-        self._duration = min(self._duration, GROW * step.duration)
+        self._duration = min(self._duration, MAX_FACTOR * step.duration)
         self._duration = max(self._duration, self._growth * step.duration)
         self._advance(step)
         return True
@@ -196,10 +200,10 @@ class AdaptiveSteps:
     def _first_duration(self) -> float:
         """A first step over which the law creeps little, as nothing else is known."""
         way = next(stop for stop in (*sorted(self._kinks), self._end) if stop > self._time)
-        shortest = SHORTEST * self._end
-        way = max(FIRST_OF_WAY * (way - self._time), shortest)
+        shortest = MIN_STEP_FRACTION * self._end
+        way = max(FIRST_STEP_FRACTION * (way - self._time), shortest)
         instant = self._compliance.instant or self._compliance(way)
-        part = 0.5 * (12 * self._allowed) ** (1 / ORDER)
+        part = 0.5 * (12 * self._allowed) ** (1 / ERROR_ORDER)
         if self._load.level_at(self._time) <= 0:
             part = min(part, self._allowed / ALONE)  # a first touch, after which all goes by roots
         wanted = part * instant + self._compliance.instant
