@@ -22,7 +22,7 @@ def walk(steps, error_of=lambda each: 0.0):
     """Take all steps, each with an error by its duration; how many were refused, too."""
     taken, refused = [], 0
     while (each := steps.upcoming()) is not None:
-        if steps.accepts(error_of(each)):
+        if steps.accept_step(error_of(each)):
             taken.append(each)
         else:
             refused += 1
@@ -86,9 +86,9 @@ def test_smaller_tolerance_takes_steps_by_its_cube_root():
 
 def test_a_refused_step_is_shortened_and_offered_again():
     steps = AdaptiveSteps(adaptive_times(10.0, 1e-3), np.zeros(0), ramp(1.0, 10.0), KELVIN)
-    assert steps.accepts(0.0)  # time 0
+    assert steps.accept_step(0.0)  # time 0
     first = steps.upcoming()
-    assert not steps.accepts(1.0)
+    assert not steps.accept_step(1.0)
     again = steps.upcoming()
     assert again.time - again.duration == first.time - first.duration
     assert again.duration == pytest.approx(0.2 * first.duration)
@@ -97,7 +97,7 @@ def test_a_refused_step_is_shortened_and_offered_again():
 def test_a_first_step_creeps_little():
     for compliance in (KELVIN, SeriesCompliance(1.0, [1.0], [2e-6])):
         steps = AdaptiveSteps(adaptive_times(10.0, 1e-3), np.zeros(0), step(1.0), compliance)
-        assert steps.accepts(0.0)
+        assert steps.accept_step(0.0)
         duration = steps.upcoming().duration
         assert compliance(duration) < 1.1 * compliance(0.0)
 
@@ -113,7 +113,7 @@ def test_what_is_left_is_foretold_within_a_factor_of_two_under_steady_growth():
     steps = AdaptiveSteps(adaptive_times(1e4, 1e-3), np.zeros(0), step(1.0), KELVIN)
     foretold, taken = [], 0
     while (each := steps.upcoming()) is not None:
-        if steps.accepts(1e-2 * each.duration**3 / max(each.time, 1e-9) ** 3):
+        if steps.accept_step(1e-2 * each.duration**3 / max(each.time, 1e-9) ** 3):
             taken += 1
             foretold.append(taken + steps.left)
     half = foretold[len(foretold) // 2 :]

@@ -108,7 +108,7 @@ class March:
             If it is not the next step of this run, or not one that it would have taken.
         """
         for error in solved.refused:
-            self._steps.accepts(error)
+            self._steps.accept_step(error)
         step = self._steps.upcoming()
         if step is None or step.time != solved.time:
             raise ValueError(
@@ -118,7 +118,7 @@ class March:
         if solved.cells != self._run.grid.shape:
             self._enlarge(self._run.grid.widened(solved.cells))
         trial = self._stepper.repeat(step, solved.solution, solved.outcome)
-        if not self._steps.accepts(trial.error.relative):
+        if not self._steps.accept_step(trial.error.relative):
             raise ValueError(
                 f"the step to t = {format_quantity(solved.time, 's', 9)} is not one that this run "
                 "takes"
@@ -155,7 +155,7 @@ class March:
             if self._outgrows(step, trial):
                 continue
             failed = trial.outcome is Outcome.NOT_CONVERGED
-            if failed or self._steps.accepts(trial.error.relative):
+            if failed or self._steps.accept_step(trial.error.relative):
                 break
             refused.append(trial.error.relative)
         patch = self._half_space.kept_patch

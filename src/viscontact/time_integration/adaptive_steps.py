@@ -124,7 +124,7 @@ class AdaptiveSteps:
         """The next step; None at the end."""
         return self._step
 
-    def accepts(self, error: float) -> bool:
+    def accept_step(self, error: float) -> bool:
         """Whether a step may be closed; if not, a shorter one is upcoming.
 
         Parameters

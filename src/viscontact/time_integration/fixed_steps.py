@@ -102,7 +102,7 @@ class FixedSteps:
         """The next step; None at the end."""
         return self.steps[self._taken] if self._taken < len(self.steps) else None
 
-    def accepts(self, error: float) -> bool:
+    def accept_step(self, error: float) -> bool:
         """Close the step; steps that are given are taken, whatever error they make."""
         del error
         self._taken += 1
