@@ -21,7 +21,7 @@ KELVIN = SeriesCompliance(1.0, [1.0], [2.0])
 def walk(steps, error_of=lambda each: 0.0):
     """Take all steps, each with an error by its duration; how many were refused, too."""
     taken, refused = [], 0
-    while (each := steps.upcoming()) is not None:
+    while (each := steps.next_step()) is not None:
         if steps.accept_step(error_of(each)):
             taken.append(each)
         else:
@@ -87,9 +87,9 @@ def test_smaller_tolerance_takes_steps_by_its_cube_root():
 def test_a_refused_step_is_shortened_and_offered_again():
     steps = AdaptiveSteps(adaptive_times(10.0, 1e-3), np.zeros(0), ramp(1.0, 10.0), KELVIN)
     assert steps.accept_step(0.0)  # time 0
-    first = steps.upcoming()
+    first = steps.next_step()
     assert not steps.accept_step(1.0)
-    again = steps.upcoming()
+    again = steps.next_step()
     assert again.time - again.duration == first.time - first.duration
     assert again.duration == pytest.approx(0.2 * first.duration)
 
@@ -98,7 +98,7 @@ def test_a_first_step_creeps_little():
     for compliance in (KELVIN, SeriesCompliance(1.0, [1.0], [2e-6])):
         steps = AdaptiveSteps(adaptive_times(10.0, 1e-3), np.zeros(0), step(1.0), compliance)
         assert steps.accept_step(0.0)
-        duration = steps.upcoming().duration
+        duration = steps.next_step().duration
         assert compliance(duration) < 1.1 * compliance(0.0)
 
 
@@ -112,7 +112,7 @@ def test_a_swinging_load_is_never_stepped_over():
 def test_what_is_left_is_foretold_within_a_factor_of_two_under_steady_growth():
     steps = AdaptiveSteps(adaptive_times(1e4, 1e-3), np.zeros(0), step(1.0), KELVIN)
     foretold, taken = [], 0
-    while (each := steps.upcoming()) is not None:
+    while (each := steps.next_step()) is not None:
         if steps.accept_step(1e-2 * each.duration**3 / max(each.time, 1e-9) ** 3):
             taken += 1
             foretold.append(taken + steps.left)

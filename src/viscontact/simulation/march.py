@@ -88,7 +88,7 @@ class March:
         ConvergenceError, DomainError
             As in `march`.
         """
-        while self._steps.upcoming() is not None:
+        while self._steps.next_step() is not None:
             yield (taken := self._advance())
             if taken.solved.outcome is Outcome.NOT_CONVERGED:
                 raise ConvergenceError(_not_converged(self._run, taken.solved))
@@ -109,7 +109,7 @@ class March:
         """
         for error in solved.refused:
             self._steps.accept_step(error)
-        step = self._steps.upcoming()
+        step = self._steps.next_step()
         if step is None or step.time != solved.time:
             raise ValueError(
                 f"a step to t = {format_quantity(solved.time, 's', 9)} is not the next one of this "
@@ -149,7 +149,7 @@ class March:
         """Solve and take the next step; one may be tried again, on a larger grid or shorter."""
         refused: list[float] = []
         while True:
-            step = self._steps.upcoming()
+            step = self._steps.next_step()
             assert step is not None  # its caller has seen one, and a refused one is replaced
             trial = self._stepper.trial(step)
             if self._outgrows(step, trial):

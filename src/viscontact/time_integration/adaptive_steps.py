@@ -120,7 +120,7 @@ class AdaptiveSteps:
             return math.ceil(way / self._duration)
         return math.ceil(math.log1p((growth - 1) * way / self._duration) / math.log(growth))
 
-    def upcoming(self) -> Step | None:
+    def next_step(self) -> Step | None:
         """The next step; None at the end."""
         return self._step
 

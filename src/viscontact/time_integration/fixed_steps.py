@@ -98,7 +98,7 @@ class FixedSteps:
         """Instants asked for that are still to come."""
         return self._told[-1] - self._told[self._taken]
 
-    def upcoming(self) -> Step | None:
+    def next_step(self) -> Step | None:
         """The next step; None at the end."""
         return self.steps[self._taken] if self._taken < len(self.steps) else None
 
