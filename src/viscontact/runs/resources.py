@@ -9,7 +9,7 @@ from viscontact.grid import Grid
 from viscontact.materials.compliance import SeriesCompliance
 from viscontact.materials.material import Material
 from viscontact.simulation.setup import Run
-from viscontact.time_integration.adaptive_steps import likely_steps
+from viscontact.time_integration.adaptive_steps import estimated_steps
 from viscontact.time_integration.fixed_steps import FixedSteps
 
 #: Bytes of the program itself, and arrays of the grid's size that a run holds at a time and writes,
@@ -44,7 +44,7 @@ def step_count(run: Run) -> float:
     """
     if run.adaptive is None:
         return float(len(FixedSteps(run.times, run.load).steps))
-    return likely_steps(run.adaptive, run.load, run.compliance)
+    return estimated_steps(run.adaptive, run.load, run.compliance)
 
 
 def needed_memory(grid: Grid, fields_kept: int) -> float:

@@ -25,7 +25,7 @@ from viscontact.loads import LoadHistory
 from viscontact.materials.compliance import ContactCompliance
 from viscontact.materials.material import Material
 from viscontact.meshing.mesh_choice import Mesh, choose_mesh
-from viscontact.time_integration.adaptive_steps import AdaptiveSteps, likely_steps
+from viscontact.time_integration.adaptive_steps import AdaptiveSteps, estimated_steps
 from viscontact.time_integration.fixed_steps import FixedSteps
 from viscontact.time_integration.plan import MemoryPlan, plan_memory
 from viscontact.time_integration.requested_times import AdaptiveTimes
@@ -243,6 +243,6 @@ def _planned_memory(
     if adaptive is None:
         return plan_memory(compliance, FixedSteps(instants, load).instants, numbers)
     # The steps are not known yet: as if there were many, over all decades that may count.
-    count = max(ADAPTIVE_STEPS, round(UNLIKELY * likely_steps(adaptive, load, compliance)))
+    count = max(ADAPTIVE_STEPS, round(UNLIKELY * estimated_steps(adaptive, load, compliance)))
     expected = np.append(0.0, np.geomspace(1e-9 * adaptive.end, adaptive.end, count))
     return replace(plan_memory(compliance, expected, numbers), instants=np.zeros(0))

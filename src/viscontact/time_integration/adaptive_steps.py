@@ -36,7 +36,9 @@ FIRST_STEP_FRACTION = 0.02
 STEPS_PER_INTERVAL, ELASTIC_STEPS_PER_INTERVAL = 25.0, 7.0
 
 
-def likely_steps(wanted: AdaptiveTimes, load: LoadHistory, compliance: ContactCompliance) -> float:
+def estimated_steps(
+    wanted: AdaptiveTimes, load: LoadHistory, compliance: ContactCompliance
+) -> float:
     """About how many steps a run will choose.
 
     Parameters
@@ -58,7 +60,7 @@ def likely_steps(wanted: AdaptiveTimes, load: LoadHistory, compliance: ContactCo
     >>> from viscontact.materials.compliance import SeriesCompliance
     >>> from viscontact.loads import step
     >>> zener = SeriesCompliance(1.0, [1.0], [2.0])
-    >>> likely_steps(AdaptiveTimes(10.0, 1e-3), step(1.0), zener)
+    >>> estimated_steps(AdaptiveTimes(10.0, 1e-3), step(1.0), zener)
     25.0
     """
     stretches = float((load.kinks < wanted.end).sum())
