@@ -14,7 +14,7 @@ from viscontact.materials.compliance import ContactCompliance
 from viscontact.time_integration.fixed_steps import Step, kink_meant
 from viscontact.time_integration.requested_times import AdaptiveTimes
 from viscontact.time_integration.restart_data import RestartData
-from viscontact.time_integration.step_error import ALONE
+from viscontact.time_integration.step_error import ISOLATED_STEP_SHARE
 
 #: A single step may add this part of the tolerance, since what the body remembers adds up.
 STEP_TOLERANCE_SHARE = 0.2
@@ -207,7 +207,9 @@ class AdaptiveSteps:
         instant = self._compliance.instant or self._compliance(way)
         part = 0.5 * (12 * self._allowed) ** (1 / ERROR_ORDER)
         if self._load.level_at(self._time) <= 0:
-            part = min(part, self._allowed / ALONE)  # a first touch, after which all goes by roots
+            part = min(
+                part, self._allowed / ISOLATED_STEP_SHARE
+            )  # a first touch, after which all goes by roots
         wanted = part * instant + self._compliance.instant
 
         def excess(log_time: float) -> float:

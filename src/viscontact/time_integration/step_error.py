@@ -1,6 +1,6 @@
 """What the time steps cost: an estimate of the pressure's error, from step to step.
 
-Within a step the pressure is taken for linear in time. What it is not, a bulge of d² q''/12 in the
+Within a step the pressure is taken for linear in time. What it is not, a interpolation_error of d² q''/12 in the
 mean over a step of length d, enters the memory and acts on as long as the body remembers it: the
 displacement e(t) it amounts to has to be made good by a wrong pressure, J * dq = -e. A memory of
 single numbers follows both, with all bulges of one sign: an estimate of the most that they can have
@@ -21,19 +21,19 @@ from viscontact.time_integration.internal_variables import ramp_weights
 from viscontact.time_integration.plan import MemoryPlan
 from viscontact.time_integration.restart_data import RestartData
 
-#: The bulge of a first step after a kink is guessed from the curvature in its successor, which is
+#: The interpolation_error of a first step after a kink is guessed from the curvature in its successor, which is
 #: smaller: after a first touch, where q grows as t^(2/3), by 2.9.
-FIRST = 3.0
+FIRST_STEP_CURVATURE = 3.0
 
 #: Curvatures are taken from the steps behind, and lag where they grow.
-SAFETY = 2.0
+CURVATURE_SAFETY = 2.0
 
 #: Without any successor: this part of the change over the step, as the central pressure after a
 #: first touch, which goes as t^(1/3), has; under t² from rest it is a sixth.
-ALONE = 1 / 4
+ISOLATED_STEP_SHARE = 1 / 4
 
 #: By this power of the load's level what it does is taken to grow.
-GROWTH = 1 / 4
+LOAD_GROWTH_EXPONENT = 1 / 4
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,7 +42,7 @@ class StepError:
 
     Attributes
     ----------
-    bulge : float
+    interpolation_error : float
         Mean distance of the unit_displacement from the path the memory takes [Pa m].
     relative : float
         What it adds to the pressure's error, relative to the largest still to come [-].
@@ -54,7 +54,7 @@ class StepError:
         Rate of the unit_displacement over the step [Pa m/s]; None for a jump.
     """
 
-    bulge: float
+    interpolation_error: float
     relative: float
     size: float
     level: float
@@ -80,8 +80,8 @@ class TimeErrors:
         self._level = 0.0
         self._compliance = plan.sketch
         #: What each term of J still owes, to bulges and to the wrong pressure together [m].
-        self._owed = np.zeros(plan.sketch.term_count)
-        self._wrong, self._jumped = 0.0, True
+        self._term_errors = np.zeros(plan.sketch.term_count)
+        self._pressure_error, self._jumped = 0.0, True
         #: Lengths of the last two steps since a kink, values at their ends; rate over the last.
         self._past: list[tuple[float, NDArray[np.float64]]] = []
         self._rate: NDArray[np.float64] | None = None
@@ -115,11 +115,13 @@ class TimeErrors:
             return StepError(0.0, 0.0, size, level)
         rate = values[1] - self._past[-1][1][1]
         rate /= step.duration
-        bulge = self._bulge(step, rate, response)
+        interpolation_error = self._interpolation_error(step, rate, response)
         crept = self._compliance(step.duration) - self._compliance.instant
         to_come = size * self._growth_to_come(level)
-        relative = bulge * crept / (response.compliance * to_come) if size > 0 else 0.0
-        return StepError(bulge, relative, size, level, rate)
+        relative = (
+            interpolation_error * crept / (response.compliance * to_come) if size > 0 else 0.0
+        )
+        return StepError(interpolation_error, relative, size, level, rate)
 
     def after(self, step: Step, values: NDArray[np.float64], error: StepError) -> float:
         """Take a step, and return the estimated relative error of the pressure after it.
@@ -143,23 +145,25 @@ class TimeErrors:
         if step.is_jump:
             self._past = []
             if self._compliance.instant > 0:  # else nothing jumps
-                self._wrong = -float(self._owed.sum()) / self._compliance.instant
+                self._pressure_error = -float(self._term_errors.sum()) / self._compliance.instant
                 self._jumped = True
         elif len(self._past) < 2:
             change = 0.0 if error.rate is None else step.duration * _largest(error.rate)
             self._pending = (step.duration, change)
         else:
-            self._settle(alone=False, bulge=error.bulge / step.duration**2)
-            self._remember(step.duration, error.bulge)
+            self._settle(
+                alone=False, interpolation_error=error.interpolation_error / step.duration**2
+            )
+            self._remember(step.duration, error.interpolation_error)
         self._past = [*self._past[-1:], (step.duration, values)]
         self._rate = error.rate
-        return abs(self._wrong) / self._size if self._size > 0 else 0.0
+        return abs(self._pressure_error) / self._size if self._size > 0 else 0.0
 
     def restart_data(self) -> RestartData:
         """What has to be kept to go on from here."""
         return {
-            "owed": self._owed,
-            "wrong": self._wrong,
+            "owed": self._term_errors,
+            "wrong": self._pressure_error,
             "jumped": self._jumped,
             "past": [{"duration": duration, "values": values} for duration, values in self._past],
             "pending": None if self._pending is None else list(self._pending),
@@ -169,7 +173,7 @@ class TimeErrors:
 
     def restore(self, restart_data: RestartData) -> None:
         """Go on from what was `restart_data`, in the same run."""
-        self._owed, self._wrong = restart_data["owed"], restart_data["wrong"]
+        self._term_errors, self._pressure_error = restart_data["owed"], restart_data["wrong"]
         self._jumped = restart_data["jumped"]
         self._past = [(point["duration"], point["values"]) for point in restart_data["past"]]
         self._rate = self._last_rate()
@@ -184,17 +188,19 @@ class TimeErrors:
 
     def _growth_to_come(self, level: float) -> float:
         """By how much pressure and unit_displacement will still grow with the load, at least."""
-        return (self._load.largest_level / level) ** GROWTH if level > 0 else 1.0
+        return (self._load.largest_level / level) ** LOAD_GROWTH_EXPONENT if level > 0 else 1.0
 
-    def _bulge(self, step: Step, rate: NDArray[np.float64], response: Response) -> float:
+    def _interpolation_error(
+        self, step: Step, rate: NDArray[np.float64], response: Response
+    ) -> float:
         before = self._rate if step.smooth else None
         travel = step.duration * _largest(rate) if response.held or before is None else 0.0
         late = response.held * travel / 2
         if before is None:
-            return max(late, ALONE * travel)
+            return max(late, ISOLATED_STEP_SHARE * travel)
         change = _largest(rate - before)
         curvature = 2 * change / (step.duration + self._past[-1][0])
-        return SAFETY * step.duration**2 / 12 * curvature + late
+        return CURVATURE_SAFETY * step.duration**2 / 12 * curvature + late
 
     def _last_rate(self) -> NDArray[np.float64] | None:
         if len(self._past) < 2:
@@ -202,26 +208,28 @@ class TimeErrors:
         (_, before), (duration, last) = self._past
         return np.asarray((last[1] - before[1]) / duration)
 
-    def _settle(self, *, alone: bool, bulge: float = 0.0) -> None:
-        """Remember a first step, with or without a successor that tells the bulge per d²."""
+    def _settle(self, *, alone: bool, interpolation_error: float = 0.0) -> None:
+        """Remember a first step, with or without a successor that tells the interpolation_error per d²."""
         if self._pending is None:
             return
         duration, change = self._pending
-        guess = ALONE * change
+        guess = ISOLATED_STEP_SHARE * change
         if not alone:
-            guess = min(guess, FIRST * duration**2 * bulge)
+            guess = min(guess, FIRST_STEP_CURVATURE * duration**2 * interpolation_error)
         self._remember(duration, guess)
         self._pending = None
 
-    def _remember(self, duration: float, bulge: float) -> None:
-        """Let a bulge over a step enter the memory, and the pressure go wrong by what it does."""
+    def _remember(self, duration: float, interpolation_error: float) -> None:
+        """Let a interpolation_error over a step enter the memory, and the pressure go wrong by what it does."""
         held = ramp_weights(self._compliance, duration, after_jump=True)
         wrong = ramp_weights(self._compliance, duration, after_jump=self._jumped)
-        self._owed = wrong.decay * self._owed + (held.old + held.new) * bulge
-        self._owed += wrong.old * self._wrong
+        self._term_errors = (
+            wrong.decay * self._term_errors + (held.old + held.new) * interpolation_error
+        )
+        self._term_errors += wrong.old * self._pressure_error
         met = self._compliance.instant + float(wrong.new.sum())
-        self._wrong, self._jumped = -float(self._owed.sum()) / met, False
-        self._owed += wrong.new * self._wrong
+        self._pressure_error, self._jumped = -float(self._term_errors.sum()) / met, False
+        self._term_errors += wrong.new * self._pressure_error
 
 
 def _largest(field: NDArray[np.float64]) -> float:
