@@ -8,7 +8,7 @@ from viscontact.checks.steps import relative_change, release_doubts, step_doubts
 from viscontact.simulation.setup import Run
 from viscontact.simulation.step_solution import StepSolution
 from viscontact.state import Outcome
-from viscontact.time_integration.fixed_steps import SAME, Step
+from viscontact.time_integration.fixed_steps import KINK_TOLERANCE, Step
 
 
 def loading_doubts(
@@ -66,7 +66,7 @@ def _fall(run: Run, step: Step) -> float:
 
 def _levels(run: Run, step: Step) -> tuple[float, float, float]:
     """The load just after a step's begin, at its end, and the largest of the run [N or m]."""
-    load, begin = run.load, step.time - step.duration * (1 - SAME)
+    load, begin = run.load, step.time - step.duration * (1 - KINK_TOLERANCE)
     # A clamped tilt can press with no approach at all.
     largest = max(load.largest_level, np.finfo(float).tiny)
     end = load.level_at(step.time, side=step.side)

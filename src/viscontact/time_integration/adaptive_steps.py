@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from viscontact.loads import LoadHistory
 from viscontact.materials.compliance import ContactCompliance
-from viscontact.time_integration.fixed_steps import Step, kink_meant
+from viscontact.time_integration.fixed_steps import Step, snap_to_kink
 from viscontact.time_integration.requested_times import AdaptiveTimes
 from viscontact.time_integration.restart_data import RestartData
 from viscontact.time_integration.step_error import ISOLATED_STEP_SHARE
@@ -101,7 +101,7 @@ class AdaptiveSteps:
         self._load, self._compliance = load, compliance
         self._kinks = set(load.kinks.tolist())
         self._jumps = set(load.jumps.tolist())
-        asked = {kink_meant(stop, load.stops) for stop in [*stops.tolist(), wanted.end]}
+        asked = {snap_to_kink(stop, load.stops) for stop in [*stops.tolist(), wanted.end]}
         inner = {stop for stop in load.stops.tolist() if stop < self._end}
         self._stops = sorted((asked | inner) - {0.0})
         self._end = max(self._stops)

@@ -15,10 +15,10 @@ from viscontact.time_integration.restart_data import RestartData
 from viscontact.units.formatting import format_quantity
 
 #: An instant this close to a kink of the load, relative to it, is meant to be the kink.
-SAME = 1e-9
+KINK_TOLERANCE = 1e-9
 
 #: A law is followed from its shortest to its longest time by functions of every decade between.
-SHORTEST_OF_END = 1e-30
+MIN_STEP_OF_END = 1e-30
 
 #: More steps are more than anyone waits for, and a list of them takes more memory than the fields.
 MOST_STEPS = 1_000_000
@@ -80,12 +80,12 @@ class FixedSteps:
     """
 
     def __init__(self, times: NDArray[np.float64], load: LoadHistory) -> None:
-        wanted = _instants_wanted(times, load)
+        wanted = _step_ends(times, load)
         _refuse_endless_span(list(wanted))
         self.steps = list(_steps(wanted, load))
         asked = [step.asked is not None for step in self.steps]
         #: How many of the first steps end at instants asked for.
-        self._told = list(itertools.accumulate(asked, initial=0))
+        self._requested_counts = list(itertools.accumulate(asked, initial=0))
         self._taken = 0
 
     @property
@@ -96,7 +96,7 @@ class FixedSteps:
     @property
     def left(self) -> int:
         """Instants asked for that are still to come."""
-        return self._told[-1] - self._told[self._taken]
+        return self._requested_counts[-1] - self._requested_counts[self._taken]
 
     def next_step(self) -> Step | None:
         """The next step; None at the end."""
@@ -117,11 +117,11 @@ class FixedSteps:
         self._taken = restart_data["taken"]
 
 
-def _instants_wanted(times: NDArray[np.float64], load: LoadHistory) -> dict[float, float | None]:
+def _step_ends(times: NDArray[np.float64], load: LoadHistory) -> dict[float, float | None]:
     """Where steps end, in order: the instant asked for there, or None."""
     stops = load.stops
     wanted: dict[float, float | None] = {}
-    for time, stop in zip(times.tolist(), _kinks_meant(times, stops).tolist(), strict=True):
+    for time, stop in zip(times.tolist(), _snapped_to_kinks(times, stops).tolist(), strict=True):
         wanted[time if stop in wanted else stop] = time
     last = max(wanted)
     for stop in stops[stops <= last].tolist():
@@ -135,11 +135,11 @@ def _refuse_endless_span(instants: list[float]) -> None:
     """Refuse a shortest step that is nothing beside the end: no law is followed so far."""
     steps = np.diff(np.append(0.0, instants))
     shortest = float(steps.min(initial=np.inf, where=steps > 0))
-    if shortest < SHORTEST_OF_END * instants[-1]:
+    if shortest < MIN_STEP_OF_END * instants[-1]:
         raise ValueError(
             f"time: steps from {format_quantity(shortest, 's', 3)} to the end at "
             f"{format_quantity(instants[-1], 's', 3)} range over too many decades, at most "
-            f"{-math.log10(SHORTEST_OF_END):.0f}; begin later or end earlier"
+            f"{-math.log10(MIN_STEP_OF_END):.0f}; begin later or end earlier"
         )
 
 
@@ -157,7 +157,7 @@ def _divisions(instants: list[float], load: LoadHistory) -> Iterator[float]:
     for begin, end in itertools.pairwise(instants):
         if end > load.kinks[-1]:
             return
-        parts = math.ceil((end - begin) / load.longest_step * (1 - SAME))
+        parts = math.ceil((end - begin) / load.longest_step * (1 - KINK_TOLERANCE))
         yield from np.linspace(begin, end, parts + 1)[1:-1].tolist()
 
 
@@ -182,7 +182,7 @@ def _up_to(
         yield Step(instant, 0.0, asked, smooth=False)
 
 
-def kink_meant(time: float, kinks: NDArray[np.float64]) -> float:
+def snap_to_kink(time: float, kinks: NDArray[np.float64]) -> float:
     """Return the kink that an instant differs from by rounding only, else the instant [s].
 
     Parameters
@@ -195,17 +195,19 @@ def kink_meant(time: float, kinks: NDArray[np.float64]) -> float:
     Examples
     --------
     >>> import numpy as np
-    >>> kink_meant(0.1 + 0.2, np.array([0.3])), kink_meant(0.31, np.array([0.3]))
+    >>> snap_to_kink(0.1 + 0.2, np.array([0.3])), snap_to_kink(0.31, np.array([0.3]))
     (0.3, 0.31)
     """
-    return float(_kinks_meant(np.array([time]), kinks)[0])
+    return float(_snapped_to_kinks(np.array([time]), kinks)[0])
 
 
-def _kinks_meant(times: NDArray[np.float64], kinks: NDArray[np.float64]) -> NDArray[np.float64]:
+def _snapped_to_kinks(
+    times: NDArray[np.float64], kinks: NDArray[np.float64]
+) -> NDArray[np.float64]:
     """Return for each instant the kink that it differs from by rounding only, else itself [s]."""
     after = np.clip(np.searchsorted(kinks, times), 0, len(kinks) - 1)
     before = np.maximum(after - 1, 0)
     nearer = np.abs(kinks[before] - times) <= np.abs(kinks[after] - times)
     nearest = np.where(nearer, kinks[before], kinks[after])
-    same = np.abs(nearest - times) <= SAME * np.maximum(nearest, times)
+    same = np.abs(nearest - times) <= KINK_TOLERANCE * np.maximum(nearest, times)
     return np.where(same, nearest, times)

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.loads import LoadHistory
 from viscontact.materials.compliance import ContactCompliance
-from viscontact.time_integration.fixed_steps import kink_meant
+from viscontact.time_integration.fixed_steps import snap_to_kink
 from viscontact.time_integration.requested_times import AdaptiveTimes, uniform_times
 from viscontact.units.formatting import format_quantity
 
@@ -63,7 +63,7 @@ def run_instants(
     kept = _instants("fields", [0.0] if isinstance(fields, str) else fields)
     stops = [0.0, times.end, *kept[(kept >= 0) & (kept <= times.end)].tolist()]
     # What differs from a kink of the load by rounding is stepped, and kept, as the kink.
-    return np.array(sorted({kink_meant(stop, load.kinks) for stop in stops}))
+    return np.array(sorted({snap_to_kink(stop, load.kinks) for stop in stops}))
 
 
 def field_instants(
