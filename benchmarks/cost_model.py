@@ -37,7 +37,7 @@ from viscontact.simulation import stepper
 from viscontact.simulation.observer import Observer
 from viscontact.simulation.setup import prepare_run
 from viscontact.simulation.state_generator import march_run
-from viscontact.time_integration.internal_variables import RecursiveMemory
+from viscontact.time_integration.internal_variables import InternalVariables
 
 #: Part of a step, and the functions that make it up: where they are looked up, and their names.
 PARTS: tuple[tuple[str, tuple[tuple[Any, str], ...]], ...] = (
@@ -55,8 +55,8 @@ PARTS: tuple[tuple[str, tuple[tuple[Any, str], ...]], ...] = (
     ),
     ("solve: embed, certify, balance", ((stepper, "solve_contact"),)),
     ("cold start", ((equilibrium, "winkler_contact"), (winkler, "winkler_contact"))),
-    ("memory: ask", ((RecursiveMemory, "ramp"), (RecursiveMemory, "jump"))),
-    ("memory: accept", ((RecursiveMemory, "accept"),)),
+    ("memory: ask", ((InternalVariables, "ramp"), (InternalVariables, "jump"))),
+    ("memory: accept", ((InternalVariables, "accept"),)),
     ("prediction", ((stepper, "predict"), (stepper, "_guess"))),
     ("twin and time error", ((stepper.Stepper, "_trial_step"), (stepper.Stepper, "accept"))),
     ("state: unfold", ((stepper, "_on_full_grid"),)),

@@ -12,7 +12,7 @@ from scipy.special import gamma
 from viscontact.laws import Maxwell as MaxwellLaw
 from viscontact.laws import PowerLaw, TabulatedCreep, TabulatedRelaxation, Zener
 from viscontact.materials.material import Material
-from viscontact.time_integration.plan import plan_memory
+from viscontact.time_integration.plan import plan_hereditary_integral
 from viscontact.time_integration.prony_approximation import as_exponentials
 
 ZENER = Zener(1e9, 5e8, 1e9)
@@ -106,7 +106,9 @@ def test_a_power_law_becomes_exponentials_within_the_bound_that_is_said(exponent
 def test_a_series_is_remembered_exactly_and_a_short_run_of_any_law_too():
     instants = np.linspace(0.0, 100.0, 101)
     for law in (ZENER, TABLE):
-        plan = plan_memory(Material(law, 0.3).contact_compliance(), instants, numbers=10_000)
+        plan = plan_hereditary_integral(
+            Material(law, 0.3).contact_compliance(), instants, numbers=10_000
+        )
         assert plan.error == 0.0
         assert "exact" in plan.method or "law as it stands" in plan.method
 
@@ -115,7 +117,7 @@ def test_a_series_is_remembered_exactly_and_a_short_run_of_any_law_too():
 def test_a_long_or_large_run_is_remembered_by_few_exponentials_and_says_so(steps, numbers):
     instants = np.linspace(0.0, 100.0, steps + 1)
     compliance = Material(GUM, 0.3).contact_compliance()
-    plan = plan_memory(compliance, instants, numbers)
+    plan = plan_hereditary_integral(compliance, instants, numbers)
     assert 0 < plan.error < 1e-6
     assert f"{plan.error:.1e}" in plan.method
     assert plan.fields_kept < 60

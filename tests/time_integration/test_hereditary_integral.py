@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from verification.independent import superposed
 from viscontact.laws import PowerLaw
 from viscontact.materials.compliance import LawCompliance, SeriesCompliance
-from viscontact.time_integration.boltzmann_sum import SuperposedMemory
-from viscontact.time_integration.internal_variables import RecursiveMemory
+from viscontact.time_integration.boltzmann_sum import BoltzmannSum
+from viscontact.time_integration.internal_variables import InternalVariables
 from viscontact.time_integration.prony_approximation import as_exponentials
 
 ELASTIC = SeriesCompliance(2.0, (), ())
@@ -22,7 +22,7 @@ WIDE = SeriesCompliance(2.0, [0.3, 0.5, 1.1], [1e-5, 1.0, 1e6], 0.01)
 
 def follow(compliance, times, values, *, jump=True):
     """Displacements at the instants, for a field that takes the values there."""
-    memory, displacements = RecursiveMemory(compliance, (1,)), []
+    memory, displacements = InternalVariables(compliance, (1,)), []
     before = 0.0
     for i, (time, value) in enumerate(zip(times, values, strict=True)):
         response = memory.jump() if (i == 0 and jump) else memory.ramp(time - before)
@@ -71,7 +71,7 @@ def test_every_history_is_the_superposition_of_its_steps():
 
 
 def test_a_jump_meets_the_instant_compliance_only():
-    memory = RecursiveMemory(KELVIN, (1,))
+    memory = InternalVariables(KELVIN, (1,))
     memory.jump()
     memory.accept(np.array([1.0]))
     memory.ramp(5.0)
@@ -112,7 +112,7 @@ def test_smooth_histories_converge_with_the_square_of_the_step():
 def test_a_step_tiny_against_the_law_is_taken_to_rounding(ratio):
     # The mean of J over a ramp of length h: J0 + J1 h/(2 tau) (1 - h/(3 tau) + ...).
     h = 3.0 * ratio
-    response = RecursiveMemory(KELVIN, (1,)).ramp(h)
+    response = InternalVariables(KELVIN, (1,)).ramp(h)
     series = 1.5 * ratio / 2 * (1 - ratio / 3 * (1 - ratio / 4 * (1 - ratio / 5 * (1 - ratio / 6))))
     assert response.compliance - 2.0 == pytest.approx(series, rel=1e-4 * ratio**4, abs=5e-16)
 
@@ -121,7 +121,7 @@ def test_a_step_tiny_against_the_law_is_taken_to_rounding(ratio):
 @pytest.mark.parametrize("length", [1e3, 1e9])
 def test_a_step_huge_against_the_law_neither_overflows_nor_rings(law, length):
     # A constant displacement asked for over long steps, as a contact does.
-    memory, values = RecursiveMemory(law, (1,)), []
+    memory, values = InternalVariables(law, (1,)), []
     for i in range(8):
         response = memory.jump() if i == 0 else memory.ramp(length)
         value = (1.0 - response.history) / response.compliance
@@ -154,7 +154,7 @@ def test_without_instant_compliance_a_wrong_value_is_forgotten(exponent, growth)
     # A first value that the displacement, zero, does not ask for: what follows it dies out.
     times = np.append(0.0, np.cumsum(growth ** np.arange(30.0)))
     compliance = LawCompliance(PowerLaw(1.0, exponent, 1.0), 1.0)
-    memory, values = SuperposedMemory(compliance, (1,), times), []
+    memory, values = BoltzmannSum(compliance, (1,), times), []
     memory.jump()
     memory.accept(np.zeros(1))
     for duration in np.diff(times):
@@ -172,7 +172,7 @@ def test_without_instant_compliance_a_wrong_value_is_forgotten(exponent, growth)
 def test_a_resolved_step_after_a_jump_errs_by_less_than_two_percent(delayed):
     # Maxwell, M = exp(-t); Zener with J1 = delayed, M = (1 + J1 exp(-(1 + J1) t))/(1 + J1).
     law = SeriesCompliance(1.0, [delayed], [1.0], fluidity=0.0 if delayed else 1.0)
-    for memory in (RecursiveMemory(law, (1,)), SuperposedMemory(law, (1,))):
+    for memory in (InternalVariables(law, (1,)), BoltzmannSum(law, (1,))):
         resolved = {}
         for length in np.geomspace(1e-3, 10.0, 400):
             memory = type(memory)(law, (1,))
@@ -197,7 +197,7 @@ def test_a_held_displacement_relaxes_in_one_step_of_any_length(length):
         (SeriesCompliance(1.0, [10.0], [100.0]), (1 + 10 * math.exp(-11 * length / 100)) / 11),
     ]
     for law, exact in laws:
-        memory = RecursiveMemory(law, (1,))
+        memory = InternalVariables(law, (1,))
         memory.jump()
         memory.accept(np.ones(1))  # and so the displacement is J(0) = 1
         response = memory.ramp(length)
@@ -208,7 +208,7 @@ def test_a_held_displacement_relaxes_in_one_step_of_any_length(length):
 
 def solved(compliance, times, wanted):
     """Values whose displacements are those wanted, step by step from rest."""
-    memory, values = SuperposedMemory(compliance, (1,), times), [0.0]
+    memory, values = BoltzmannSum(compliance, (1,), times), [0.0]
     memory.jump()
     memory.accept(np.zeros(1))
     for duration, displacement in zip(np.diff(times), wanted[1:], strict=True):
@@ -220,7 +220,7 @@ def solved(compliance, times, wanted):
 
 
 def test_what_is_taken_into_the_memory_is_a_copy():
-    memory, field = RecursiveMemory(KELVIN, (1,)), np.array([1.0])
+    memory, field = InternalVariables(KELVIN, (1,)), np.array([1.0])
     memory.jump()
     memory.accept(field)
     field[0] = 99.0

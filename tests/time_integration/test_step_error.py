@@ -10,8 +10,8 @@ import pytest
 from viscontact.loads import ramp, step
 from viscontact.materials.compliance import SeriesCompliance
 from viscontact.time_integration.fixed_steps import Step
-from viscontact.time_integration.internal_variables import RecursiveMemory
-from viscontact.time_integration.plan import plan_memory
+from viscontact.time_integration.internal_variables import InternalVariables
+from viscontact.time_integration.plan import plan_hereditary_integral
 from viscontact.time_integration.step_error import (
     CURVATURE_SAFETY,
     FIRST_STEP_CURVATURE,
@@ -26,8 +26,10 @@ FIELD = np.array([[0.0, 0.0], [0.5, 1.0]])  # pressure, which does not count, an
 
 def follow(values, duration=1.0, compliance=FLUID):
     """Estimates and exact errors along a field that takes the values step by step."""
-    errors = TimeErrors(plan_memory(compliance, np.arange(len(values)) * duration, 2), LOAD)
-    memory = RecursiveMemory(compliance, FIELD.shape)
+    errors = TimeErrors(
+        plan_hereditary_integral(compliance, np.arange(len(values)) * duration, 2), LOAD
+    )
+    memory = InternalVariables(compliance, FIELD.shape)
     estimates = []
     for k, value in enumerate(values):
         each = Step(k * duration, duration if k else 0.0, None, smooth=k > 1)
@@ -73,8 +75,8 @@ def test_the_estimate_is_of_second_order_in_the_step():
 
 
 def test_a_first_step_without_a_successor_counts_by_its_change():
-    errors = TimeErrors(plan_memory(FLUID, np.arange(3.0), 2), step(1.0))
-    memory = RecursiveMemory(FLUID, FIELD.shape)
+    errors = TimeErrors(plan_hereditary_integral(FLUID, np.arange(3.0), 2), step(1.0))
+    memory = InternalVariables(FLUID, FIELD.shape)
     for each, value in (
         (Step(0.0, 0.0, 0.0, smooth=False), 0.0),
         (Step(1.0, 1.0, 1.0, smooth=False), 1.0),
@@ -95,8 +97,8 @@ def test_what_touches_first_is_measured_against_what_the_load_will_come_to():
     """A tenth of the way up a ramp there is the fourth root of ten yet to come."""
     parts = []
     for load, time in ((step(1.0), 1.0), (ramp(1.0, 10.0), 1.0)):
-        errors = TimeErrors(plan_memory(FLUID, np.arange(3.0), 2), load)
-        memory = RecursiveMemory(FLUID, FIELD.shape)
+        errors = TimeErrors(plan_hereditary_integral(FLUID, np.arange(3.0), 2), load)
+        memory = InternalVariables(FLUID, FIELD.shape)
         for each in (Step(0.0, 0.0, 0.0, smooth=False), Step(time, 1.0, 1.0, smooth=False)):
             response = memory.jump() if each.is_jump else memory.ramp(each.duration)
             measured = errors.of_step(each, load.at(each.time), each.time * FIELD, response)

@@ -16,8 +16,8 @@ from verification.pressing import BALL, FORCE, RADIUS, grid_around, over_time
 from viscontact.materials.compliance import SeriesCompliance
 from viscontact.simulation.setup import prepare_run
 from viscontact.time_integration import plan as choice
-from viscontact.time_integration.boltzmann_sum import SuperposedMemory
-from viscontact.time_integration.internal_variables import RecursiveMemory
+from viscontact.time_integration.boltzmann_sum import BoltzmannSum
+from viscontact.time_integration.internal_variables import InternalVariables
 
 
 @st.composite
@@ -41,7 +41,7 @@ def test_recursion_and_sum_over_all_steps_agree_to_rounding(law, history, planne
     """Jumps, ramps of all lengths, values of both signs; with the sums made ahead, and without."""
     lengths = np.array([10.0**power if power else 0.0 for power, _ in history])
     instants = np.cumsum(lengths) if planned else np.zeros(0)
-    memories = [RecursiveMemory(law, (2,)), SuperposedMemory(law, (2,), instants)]
+    memories = [InternalVariables(law, (2,)), BoltzmannSum(law, (2,), instants)]
     size = 0.0
     for (_, value), length in zip(history, lengths, strict=True):
         recursive, superposed = (

@@ -18,7 +18,7 @@ from viscontact.simulation.march import March
 from viscontact.simulation.setup import Run
 from viscontact.state import ContactState
 from viscontact.time_integration.fixed_steps import FixedSteps
-from viscontact.time_integration.plan import plan_memory
+from viscontact.time_integration.plan import plan_hereditary_integral
 
 #: Cells of the companions, in cells of the run, and whether they lie about the origin as the run's
 #: do: where a cell's centre was, there may be an edge between two.
@@ -253,7 +253,7 @@ def _companion(
     load = run.load if pace <= 1 else LooserLoad(run.load, pace)
     coarse = replace(run.on(grid), times=times, load=load, adaptive=None, automatic=None)
     numbers = 2 * coarse.open_gap.size // 2 ** sum(coarse.mirrored)
-    memory = plan_memory(run.compliance, FixedSteps(times, load).instants, numbers)
+    memory = plan_hereditary_integral(run.compliance, FixedSteps(times, load).instants, numbers)
     return Companion(spacing, pace, replace(coarse, memory=memory))
 
 

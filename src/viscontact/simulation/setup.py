@@ -27,7 +27,7 @@ from viscontact.materials.material import Material
 from viscontact.meshing.mesh_choice import Mesh, choose_mesh
 from viscontact.time_integration.adaptive_steps import AdaptiveSteps, estimated_steps
 from viscontact.time_integration.fixed_steps import FixedSteps
-from viscontact.time_integration.plan import MemoryPlan, plan_memory
+from viscontact.time_integration.plan import HereditaryPlan, plan_hereditary_integral
 from viscontact.time_integration.requested_times import AdaptiveTimes
 from viscontact.time_integration.run_times import field_instants, run_instants
 
@@ -67,7 +67,7 @@ class Run:
         Instants of the states [s]; those that adaptive steps have to hit, the last their end.
     adaptive : AdaptiveTimes or None
         The wish for steps that the run chooses itself.
-    memory : MemoryPlan
+    memory : HereditaryPlan
         How the past is remembered.
     tolerance : float
         Relative error of gap and balances.
@@ -88,7 +88,7 @@ class Run:
     open_gap: NDArray[np.float64]
     times: NDArray[np.float64]
     adaptive: AdaptiveTimes | None
-    memory: MemoryPlan
+    memory: HereditaryPlan
     tolerance: float
     threads: int
     transforms: str
@@ -180,7 +180,7 @@ def prepare_run(
         open_gap,
         instants,
         adaptive,
-        _planned_memory(compliance, load, instants, adaptive, open_gap, grid),
+        _hereditary_plan(compliance, load, instants, adaptive, open_gap, grid),
         float(tolerance),
         int(threads),
         fastest_transforms(),
@@ -230,19 +230,19 @@ def _mirrored(open_gap: NDArray[np.float64], load: LoadHistory, grid: Grid) -> t
     return along_x, along_y
 
 
-def _planned_memory(
+def _hereditary_plan(
     compliance: ContactCompliance,
     load: LoadHistory,
     instants: NDArray[np.float64],
     adaptive: AdaptiveTimes | None,
     open_gap: NDArray[np.float64],
     grid: Grid,
-) -> MemoryPlan:
+) -> HereditaryPlan:
     # Pressure and deflection are remembered, of all cells that are worked with.
     numbers = 2 * open_gap.size // 2 ** sum(_mirrored(open_gap, load, grid))
     if adaptive is None:
-        return plan_memory(compliance, FixedSteps(instants, load).instants, numbers)
+        return plan_hereditary_integral(compliance, FixedSteps(instants, load).instants, numbers)
     # The steps are not known yet: as if there were many, over all decades that may count.
     count = max(ADAPTIVE_STEPS, round(UNLIKELY * estimated_steps(adaptive, load, compliance)))
     expected = np.append(0.0, np.geomspace(1e-9 * adaptive.end, adaptive.end, count))
-    return replace(plan_memory(compliance, expected, numbers), instants=np.zeros(0))
+    return replace(plan_hereditary_integral(compliance, expected, numbers), instants=np.zeros(0))

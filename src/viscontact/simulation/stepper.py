@@ -22,8 +22,8 @@ from viscontact.time_integration.extrapolation import (
     predict,
 )
 from viscontact.time_integration.fixed_steps import Step
-from viscontact.time_integration.hereditary_integral import Memory, Response
-from viscontact.time_integration.internal_variables import RecursiveMemory
+from viscontact.time_integration.hereditary_integral import HereditaryIntegral, HereditaryResponse
+from viscontact.time_integration.internal_variables import InternalVariables
 from viscontact.time_integration.restart_data import RestartData
 from viscontact.time_integration.step_error import StepError, TimeErrors
 
@@ -44,7 +44,7 @@ class StepProblem:
     ----------
     point : LoadPoint
         The load at its end.
-    response : Response
+    response : HereditaryResponse
         Of the memory to the step.
     drive : float
         What the elastic elastic_reference moves with, as in `ElasticReference`.
@@ -53,7 +53,7 @@ class StepProblem:
     """
 
     point: LoadPoint
-    response: Response
+    response: HereditaryResponse
     drive: float
     problem: ContactProblem
 
@@ -68,7 +68,7 @@ class TrialStep:
         The load at its end.
     solution : ContactSolution
         Equilibrium there.
-    response : Response
+    response : HereditaryResponse
         Of the memory to the step.
     elastic_reference : ElasticReference
         Elastic elastic_reference of the end.
@@ -80,7 +80,7 @@ class TrialStep:
 
     point: LoadPoint
     solution: ContactSolution
-    response: Response
+    response: HereditaryResponse
     elastic_reference: ElasticReference
     outcome: Outcome
     error: StepError
@@ -103,7 +103,7 @@ class Stepper:
         self._memory = run.memory.memory(
             (2, *half_space.shape)
         )  # of pressure and of unit_displacement
-        self._force_memory = RecursiveMemory(run.memory.sketch, (1,))
+        self._force_memory = InternalVariables(run.memory.prony_approximation, (1,))
         self._errors = TimeErrors(run.memory, run.load)
         self._scale = 1e-12 * max(run.grid.cell_size)
         self._references: list[ElasticReference] = []
@@ -239,11 +239,13 @@ def _force(point: LoadPoint) -> NDArray[np.float64]:
     return np.array([point.force or 0.0])
 
 
-def _response(memory: Memory, step: Step) -> Response:
+def _response(memory: HereditaryIntegral, step: Step) -> HereditaryResponse:
     return memory.jump() if step.is_jump else memory.ramp(step.duration)
 
 
-def _guess(elastic_reference: ElasticReference | None, response: Response) -> Guess | None:
+def _guess(
+    elastic_reference: ElasticReference | None, response: HereditaryResponse
+) -> Guess | None:
     """From a predicted elastic_reference back to the pressure and the unit_displacement that would bring it about."""
     if elastic_reference is None:
         return None

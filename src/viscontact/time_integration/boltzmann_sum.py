@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from viscontact.materials.compliance import ContactCompliance
 from viscontact.time_integration.hereditary_integral import (
     FieldMap,
-    Memory,
-    Response,
+    HereditaryIntegral,
+    HereditaryResponse,
     is_resolved,
     longest_smooth_rise,
 )
@@ -28,7 +28,7 @@ STEPS_AHEAD = 16
 AT_ONCE = 2048
 
 
-class SuperposedMemory(Memory):
+class BoltzmannSum(HereditaryIntegral):
     """The running Boltzmann integral of one field under any law.
 
     Parameters
@@ -48,7 +48,7 @@ class SuperposedMemory(Memory):
     A fluid, J = 1 + t, that carries q = 1 from time 0 on has moved by J(2) = 3:
 
     >>> from viscontact.materials.compliance import SeriesCompliance
-    >>> memory = SuperposedMemory(SeriesCompliance(1.0, (), (), 1.0), (1,))
+    >>> memory = BoltzmannSum(SeriesCompliance(1.0, (), (), 1.0), (1,))
     >>> memory.jump().compliance
     1.0
     >>> memory.accept(np.ones(1))
@@ -78,22 +78,22 @@ class SuperposedMemory(Memory):
         self._ahead = np.zeros((0, self._increments.shape[1]))
         self._ahead_from = 0
 
-    def jump(self) -> Response:
-        """Response to a jump; see `Memory.jump`."""
+    def jump(self) -> HereditaryResponse:
+        """HereditaryResponse to a jump; see `HereditaryIntegral.jump`."""
         self._next_jumps = True
         past = self._past_until(self._time, rise=0.0)
         met = self._compliance.instant
-        return Response(past - met * self._value, met, resolved=True)
+        return HereditaryResponse(past - met * self._value, met, resolved=True)
 
-    def ramp(self, duration: float) -> Response:
-        """Response to a change over a step of the given time; see `Memory.ramp`."""
+    def ramp(self, duration: float) -> HereditaryResponse:
+        """HereditaryResponse to a change over a step of the given time; see `HereditaryIntegral.ramp`."""
         rise = longest_smooth_rise(self._compliance, duration, after_jump=self._jumped)
         self._next_jumps = False
         met = self._compliance.mean(duration - rise, duration)
         crept = self._compliance(duration) - self._compliance.instant
         resolved = is_resolved(crept, self._compliance.instant, whole=rise == duration)
         past = self._past_until(self._time + duration, rise=rise)
-        return Response(past - met * self._value, met, resolved, held=1 - rise / duration)
+        return HereditaryResponse(past - met * self._value, met, resolved, held=1 - rise / duration)
 
     def accept(self, value: NDArray[np.float64]) -> None:
         """Take the new value of the field into the memory and close the step."""
@@ -108,7 +108,7 @@ class SuperposedMemory(Memory):
         self._count += 1
 
     def restart_data(self) -> RestartData:
-        """All increments so far, and the sums that have been made ahead; see `Memory.restart_data`."""
+        """All increments so far, and the sums that have been made ahead; see `HereditaryIntegral.restart_data`."""
         return {
             "increments": self._increments[: self._count],
             "began": self._began[: self._count],
@@ -121,7 +121,7 @@ class SuperposedMemory(Memory):
         }
 
     def map_fields(self, grown: FieldMap) -> None:
-        """Go on with a larger field; see `Memory.map_fields`."""
+        """Go on with a larger field; see `HereditaryIntegral.map_fields`."""
         old, increments, ahead = self._shape, self._increments, self._ahead
         self._value = grown(self._value)
         self._shape, size = self._value.shape, self._value.size
@@ -131,7 +131,7 @@ class SuperposedMemory(Memory):
         self._ahead = grown(ahead.reshape(len(ahead), *old)).reshape(len(ahead), size)
 
     def restore(self, restart_data: RestartData) -> None:
-        """Go on from what was restart_data; see `Memory.restore`."""
+        """Go on from what was restart_data; see `HereditaryIntegral.restore`."""
         self._count = len(restart_data["began"])
         while len(self._began) < self._count:
             self._make_room()

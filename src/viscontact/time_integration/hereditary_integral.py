@@ -28,7 +28,7 @@ FieldMap = Callable[[NDArray[np.float64]], NDArray[np.float64]]
 
 
 @dataclass(frozen=True)
-class Response:
+class HereditaryResponse:
     """The displacement at the end of a step, before its load is known: u = history + J q.
 
     Attributes
@@ -57,7 +57,7 @@ class Response:
         return displacement
 
 
-class Memory(ABC):
+class HereditaryIntegral(ABC):
     """The running Boltzmann integral u(t) = ∫ J(t - t') dq(t') of one field q.
 
     What a body remembers is in its memories alone. Ask one for the `ramp` (or `jump`) that comes
@@ -65,12 +65,12 @@ class Memory(ABC):
     """
 
     @abstractmethod
-    def jump(self) -> Response:
-        """Response to a jump: nothing has time to creep, only J(0) meets the new value."""
+    def jump(self) -> HereditaryResponse:
+        """HereditaryResponse to a jump: nothing has time to creep, only J(0) meets the new value."""
 
     @abstractmethod
-    def ramp(self, duration: float) -> Response:
-        """Response to a change over a step of the given time.
+    def ramp(self, duration: float) -> HereditaryResponse:
+        """HereditaryResponse to a change over a step of the given time.
 
         The field rises linearly, over the whole step wherever the step is short enough for the
         law, and so with an error of second order. Over a step long against the relaxation times a
@@ -84,7 +84,7 @@ class Memory(ABC):
 
         Returns
         -------
-        Response
+        HereditaryResponse
             History at the end of the step and the compliance of the new value.
         """
 

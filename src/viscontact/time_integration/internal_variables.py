@@ -15,15 +15,15 @@ from numpy.typing import NDArray
 from viscontact.materials.compliance import SeriesCompliance
 from viscontact.time_integration.hereditary_integral import (
     FieldMap,
-    Memory,
-    Response,
+    HereditaryIntegral,
+    HereditaryResponse,
     is_resolved,
     longest_smooth_rise,
 )
 from viscontact.time_integration.restart_data import RestartData
 
 
-class RecursiveMemory(Memory):
+class InternalVariables(HereditaryIntegral):
     """The running Boltzmann integral of one field under a series law.
 
     Parameters
@@ -46,7 +46,7 @@ class RecursiveMemory(Memory):
 
     >>> import numpy as np
     >>> from viscontact.materials.compliance import SeriesCompliance
-    >>> memory = RecursiveMemory(SeriesCompliance(1.0, (), (), 1.0), (1,))
+    >>> memory = InternalVariables(SeriesCompliance(1.0, (), (), 1.0), (1,))
     >>> memory.jump().compliance
     1.0
     >>> memory.accept(np.ones(1))
@@ -63,14 +63,14 @@ class RecursiveMemory(Memory):
         self._jumped = self._next_jumps = False
         self._next = _jump(compliance)
 
-    def jump(self) -> Response:
-        """Response to a jump; see `Memory.jump`."""
+    def jump(self) -> HereditaryResponse:
+        """HereditaryResponse to a jump; see `HereditaryIntegral.jump`."""
         self._next_jumps = True
         self._next = _jump(self._compliance)
         return self._response()
 
-    def ramp(self, duration: float) -> Response:
-        """Response to a change over a step of the given time; see `Memory.ramp`."""
+    def ramp(self, duration: float) -> HereditaryResponse:
+        """HereditaryResponse to a change over a step of the given time; see `HereditaryIntegral.ramp`."""
         self._next_jumps = False
         self._next = ramp_weights(self._compliance, duration, after_jump=self._jumped)
         return self._response()
@@ -87,26 +87,26 @@ class RecursiveMemory(Memory):
         self._value = value.copy() if value.flags.writeable else value
 
     def restart_data(self) -> RestartData:
-        """The internal fields and the last value; see `Memory.restart_data`."""
+        """The internal fields and the last value; see `HereditaryIntegral.restart_data`."""
         return {"fields": self._fields.copy(), "value": self._value, "jumped": self._jumped}
 
     def map_fields(self, grown: FieldMap) -> None:
-        """Go on with a larger field; see `Memory.map_fields`."""
+        """Go on with a larger field; see `HereditaryIntegral.map_fields`."""
         self._fields, self._value = grown(self._fields), grown(self._value)
         self._term = np.empty(self._value.shape)
 
     def restore(self, restart_data: RestartData) -> None:
-        """Go on from what was restart_data; see `Memory.restore`."""
+        """Go on from what was restart_data; see `HereditaryIntegral.restore`."""
         self._fields = restart_data["fields"].copy()
         self._value, self._jumped = restart_data["value"], restart_data["jumped"]
 
-    def _response(self) -> Response:
+    def _response(self) -> HereditaryResponse:
         step = self._next
         history = step.old.sum() * self._value
         for field, decay in zip(self._fields, step.decay, strict=True):
             history += np.multiply(decay, field, out=self._term)
         met = self._compliance.instant + float(step.new.sum())
-        return Response(history, met, step.resolved, step.held)
+        return HereditaryResponse(history, met, step.resolved, step.held)
 
 
 @dataclass(frozen=True, eq=False)

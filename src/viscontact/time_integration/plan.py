@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.materials.compliance import ContactCompliance, SeriesCompliance
-from viscontact.time_integration.boltzmann_sum import SuperposedMemory
-from viscontact.time_integration.hereditary_integral import Memory
-from viscontact.time_integration.internal_variables import RecursiveMemory
+from viscontact.time_integration.boltzmann_sum import BoltzmannSum
+from viscontact.time_integration.hereditary_integral import HereditaryIntegral
+from viscontact.time_integration.internal_variables import InternalVariables
 from viscontact.time_integration.prony_approximation import as_exponentials
 from viscontact.units.formatting import format_quantity
 
@@ -27,7 +27,7 @@ MOST_STEPS = 2000
 
 
 @dataclass(frozen=True, eq=False)
-class MemoryPlan:
+class HereditaryPlan:
     """How the past of a run is remembered.
 
     Attributes
@@ -42,7 +42,7 @@ class MemoryPlan:
         In words.
     error : float
         Largest relative deviation of the J that is used from the material's [-].
-    sketch : SeriesCompliance
+    prony_approximation : SeriesCompliance
         J(t) as exponentials, whatever the method: for estimates and predictions, which it makes
         cheap.
     """
@@ -52,7 +52,7 @@ class MemoryPlan:
     steps: int
     method: str
     error: float
-    sketch: SeriesCompliance
+    prony_approximation: SeriesCompliance
 
     @property
     def fields_kept(self) -> int:
@@ -61,18 +61,18 @@ class MemoryPlan:
             return self.compliance.term_count
         return self.steps
 
-    def memory(self, shape: tuple[int, ...]) -> Memory:
+    def memory(self, shape: tuple[int, ...]) -> HereditaryIntegral:
         """Return an empty memory for a field of a shape."""
         if isinstance(self.compliance, SeriesCompliance):
-            return RecursiveMemory(self.compliance, shape)
+            return InternalVariables(self.compliance, shape)
         chosen_as_it_goes = not self.instants.size
         room = TO_SPARE * self.steps if chosen_as_it_goes else self.steps
-        return SuperposedMemory(self.compliance, shape, self.instants, room)
+        return BoltzmannSum(self.compliance, shape, self.instants, room)
 
 
-def plan_memory(
+def plan_hereditary_integral(
     compliance: ContactCompliance, instants: NDArray[np.float64], numbers: int
-) -> MemoryPlan:
+) -> HereditaryPlan:
     """Choose how a run remembers.
 
     Parameters
@@ -86,19 +86,19 @@ def plan_memory(
 
     Returns
     -------
-    MemoryPlan
+    HereditaryPlan
         A recursion for a series law, which is exact. For any other law the sum over all earlier
         steps, as long as they fit into 256 MiB and are at most 2000; else a sum of exponentials,
         whose deviation from the law is part of the plan.
 
     Examples
     --------
-    >>> plan_memory(SeriesCompliance(1.0, [1.0], [2.0]), np.array([0.0, 1.0]), 4096).error
+    >>> plan_hereditary_integral(SeriesCompliance(1.0, [1.0], [2.0]), np.array([0.0, 1.0]), 4096).error
     0.0
     """
     if isinstance(compliance, SeriesCompliance):
         exact = "recursion, exact for a series law"
-        return MemoryPlan(compliance, instants, len(instants), exact, 0.0, compliance)
+        return HereditaryPlan(compliance, instants, len(instants), exact, 0.0, compliance)
     durations = np.diff(instants)
     first = float(durations.min(initial=np.inf, where=durations > 0))
     if math.isinf(first):
@@ -108,9 +108,9 @@ def plan_memory(
     steps = len(instants)
     if steps <= MOST_STEPS and 8.0 * steps * numbers <= ROOM:
         method = "sum over all earlier steps, with the law as it stands"
-        return MemoryPlan(compliance, instants, steps, method, 0.0, series)
+        return HereditaryPlan(compliance, instants, steps, method, 0.0, series)
     method = (
         f"sum of {len(series.times)} exponentials, within {error:.1e} of the law's creep "
         f"compliance from {format_quantity(first, 's', 3)} to {format_quantity(last, 's', 3)}"
     )
-    return MemoryPlan(series, instants, steps, method, error, series)
+    return HereditaryPlan(series, instants, steps, method, error, series)

@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 
 from viscontact.loads import LoadHistory, LoadPoint
 from viscontact.time_integration.fixed_steps import Step
-from viscontact.time_integration.hereditary_integral import FieldMap, Response
+from viscontact.time_integration.hereditary_integral import FieldMap, HereditaryResponse
 from viscontact.time_integration.internal_variables import ramp_weights
-from viscontact.time_integration.plan import MemoryPlan
+from viscontact.time_integration.plan import HereditaryPlan
 from viscontact.time_integration.restart_data import RestartData
 
 #: The interpolation_error of a first step after a kink is guessed from the curvature in its successor, which is
@@ -66,7 +66,7 @@ class TimeErrors:
 
     Parameters
     ----------
-    plan : MemoryPlan
+    plan : HereditaryPlan
         How the run remembers.
     load : LoadHistory
         What presses. A first touch is alike at every scale: relative to what it has come to
@@ -75,12 +75,12 @@ class TimeErrors:
         grows as the third root of the force, a cone's not at all.
     """
 
-    def __init__(self, plan: MemoryPlan, load: LoadHistory) -> None:
+    def __init__(self, plan: HereditaryPlan, load: LoadHistory) -> None:
         self._load = load
         self._level = 0.0
-        self._compliance = plan.sketch
+        self._compliance = plan.prony_approximation
         #: What each term of J still owes, to bulges and to the wrong pressure together [m].
-        self._term_errors = np.zeros(plan.sketch.term_count)
+        self._term_errors = np.zeros(plan.prony_approximation.term_count)
         self._pressure_error, self._jumped = 0.0, True
         #: Lengths of the last two steps since a kink, values at their ends; rate over the last.
         self._past: list[tuple[float, NDArray[np.float64]]] = []
@@ -89,7 +89,11 @@ class TimeErrors:
         self._size = 0.0
 
     def of_step(
-        self, step: Step, point: LoadPoint, values: NDArray[np.float64], response: Response
+        self,
+        step: Step,
+        point: LoadPoint,
+        values: NDArray[np.float64],
+        response: HereditaryResponse,
     ) -> StepError:
         """Return what a step adds to the error of the pressure at its end.
 
@@ -101,7 +105,7 @@ class TimeErrors:
             The load at its end.
         values : ndarray, shape (2, nx, ny)
             Pressure ``p`` [Pa] and unit_displacement ``K p`` [Pa m] at its end.
-        response : Response
+        response : HereditaryResponse
             Of the memory to it.
 
         Returns
@@ -191,7 +195,7 @@ class TimeErrors:
         return (self._load.largest_level / level) ** LOAD_GROWTH_EXPONENT if level > 0 else 1.0
 
     def _interpolation_error(
-        self, step: Step, rate: NDArray[np.float64], response: Response
+        self, step: Step, rate: NDArray[np.float64], response: HereditaryResponse
     ) -> float:
         before = self._rate if step.smooth else None
         travel = step.duration * _largest(rate) if response.held or before is None else 0.0
