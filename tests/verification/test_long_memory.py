@@ -79,7 +79,7 @@ def test_a_sum_of_exponentials_is_as_good_as_it_says(name, monkeypatch):
 
     exact, kept = marched()
     assert (exact.error, exact.fields_kept) == (0.0, len(exact.instants))
-    monkeypatch.setattr(choice, "ROOM", 0)
+    monkeypatch.setattr(choice, "MAX_HISTORY_BYTES", 0)
     approximate, summed = marched()
     assert approximate.fields_kept < 60
     assert 0 < approximate.error < 1e-3

@@ -22,10 +22,10 @@ from viscontact.time_integration.hereditary_integral import (
 from viscontact.time_integration.restart_data import RestartData
 
 #: Steps ahead for which the sum over the past is made at once, as one product of matrices.
-STEPS_AHEAD = 16
+BLOCK_STEPS = 16
 
 #: Numbers of a field that are summed at once, so that a row of them stays in the nearest cache.
-AT_ONCE = 2048
+BLOCK_CELLS = 2048
 
 
 class BoltzmannSum(HereditaryIntegral):
@@ -62,7 +62,7 @@ class BoltzmannSum(HereditaryIntegral):
         compliance: ContactCompliance,
         shape: tuple[int, ...],
         instants: NDArray[np.float64] | None = None,
-        steps: int = STEPS_AHEAD,
+        steps: int = BLOCK_STEPS,
     ) -> None:
         self._compliance, self._shape = compliance, shape
         self._planned = np.zeros(0) if instants is None else instants
@@ -81,7 +81,7 @@ class BoltzmannSum(HereditaryIntegral):
     def jump(self) -> HereditaryResponse:
         """HereditaryResponse to a jump; see `HereditaryIntegral.jump`."""
         self._next_jumps = True
-        past = self._past_until(self._time, rise=0.0)
+        past = self._history_at(self._time, rise=0.0)
         met = self._compliance.instant
         return HereditaryResponse(past - met * self._value, met, resolved=True)
 
@@ -92,14 +92,14 @@ class BoltzmannSum(HereditaryIntegral):
         met = self._compliance.mean(duration - rise, duration)
         crept = self._compliance(duration) - self._compliance.instant
         resolved = is_resolved(crept, self._compliance.instant, whole=rise == duration)
-        past = self._past_until(self._time + duration, rise=rise)
+        past = self._history_at(self._time + duration, rise=rise)
         return HereditaryResponse(past - met * self._value, met, resolved, held=1 - rise / duration)
 
     def accept(self, value: NDArray[np.float64]) -> None:
         """Take the new value of the field into the memory and close the step."""
         self._jumped = self._next_jumps
         if self._count == len(self._began):
-            self._make_room()
+            self._grow_arrays()
         row, (end, rise) = self._count, self._next
         self._increments[row] = (value - self._value).ravel()
         self._began[row], self._ended[row] = self._time, self._time + rise
@@ -134,7 +134,7 @@ class BoltzmannSum(HereditaryIntegral):
         """Go on from what was restart_data; see `HereditaryIntegral.restore`."""
         self._count = len(restart_data["began"])
         while len(self._began) < self._count:
-            self._make_room()
+            self._grow_arrays()
         self._increments[: self._count] = restart_data["increments"]
         self._began[: self._count] = restart_data["began"]
         self._ended[: self._count] = restart_data["ended"]
@@ -143,18 +143,18 @@ class BoltzmannSum(HereditaryIntegral):
         )
         self._ahead, self._ahead_from = restart_data["ahead"], restart_data["ahead_from"]
 
-    def _past_until(self, end: float, *, rise: float) -> NDArray[np.float64]:
+    def _history_at(self, end: float, *, rise: float) -> NDArray[np.float64]:
         step = self._count
         is_planned = step < len(self._planned) and isclose(self._planned[step], end, rel_tol=1e-9)
         end = float(self._planned[step]) if is_planned else end
         self._next = (end, rise)
-        past = self._planned_past(step) if is_planned else self._summed(np.array([end]), 0)[0]
+        past = self._planned_history(step) if is_planned else self._summed(np.array([end]), 0)[0]
         return past.reshape(self._shape)
 
-    def _planned_past(self, step: int) -> NDArray[np.float64]:
+    def _planned_history(self, step: int) -> NDArray[np.float64]:
         """Displacement at the end of a planned step owed to all increments so far."""
         if not self._ahead_from <= step < self._ahead_from + len(self._ahead):
-            self._ahead = self._summed(self._planned[step : step + STEPS_AHEAD], 0)
+            self._ahead = self._summed(self._planned[step : step + BLOCK_STEPS], 0)
             self._ahead_from = step
         recent = self._summed(self._planned[step : step + 1], self._ahead_from)[0]
         return np.asarray(self._ahead[step - self._ahead_from] + recent)
@@ -167,8 +167,8 @@ class BoltzmannSum(HereditaryIntegral):
         weights = self._compliance.mean(since_ended, since_began)
         return _product(weights, self._increments[first : self._count])
 
-    def _make_room(self) -> None:
-        more = max(len(self._began) // 2, STEPS_AHEAD)
+    def _grow_arrays(self) -> None:
+        more = max(len(self._began) // 2, BLOCK_STEPS)
         roomier = np.zeros((len(self._began) + more, self._increments.shape[1]))
         roomier[: self._count] = self._increments[: self._count]
         self._increments = roomier
@@ -179,7 +179,7 @@ class BoltzmannSum(HereditaryIntegral):
 def _product(weights: NDArray[np.float64], increments: NDArray[np.float64]) -> NDArray[np.float64]:
     """The product of two matrices, not by BLAS, whose bits depend on its number of threads."""
     product = np.empty((len(weights), increments.shape[1]))
-    for first in range(0, increments.shape[1], AT_ONCE):
-        part = slice(first, first + AT_ONCE)
+    for first in range(0, increments.shape[1], BLOCK_CELLS):
+        part = slice(first, first + BLOCK_CELLS)
         np.einsum("ij,jk->ik", weights, increments[:, part], out=product[:, part])
     return product

@@ -16,12 +16,12 @@ from viscontact.time_integration.restart_data import RestartData
 #: A step that creeps more than this part of J(0) is long against the law. At this part a single
 #: step after a jump errs by less than 2 % of the pressure that the jump has left, for a Maxwell
 #: and a Zener body alike.
-RESOLVED = 0.5
+MAX_RESOLVED_CREEP = 0.5
 
 #: In a first step after a jump, what is owed to the old value is kept to this part of J(0). So a
 #: Maxwell body's relaxation is met within 0.07 of what it began with, by a single step of any
 #: length; at 1 it would be within 0.14, and zero beyond two relaxation times.
-AFTER_JUMP = 2 / 3
+OLD_WEIGHT_AFTER_JUMP = 2 / 3
 
 #: What makes larger fields of smaller ones.
 FieldMap = Callable[[NDArray[np.float64]], NDArray[np.float64]]
@@ -142,7 +142,7 @@ def is_resolved(crept: float, instant: float, *, whole: bool) -> bool:
     >>> is_resolved(0.4, 1.0, whole=True), is_resolved(0.6, 1.0, whole=True)
     (True, False)
     """
-    return whole if instant == 0 else crept <= RESOLVED * instant
+    return whole if instant == 0 else crept <= MAX_RESOLVED_CREEP * instant
 
 
 def longest_smooth_rise(
@@ -184,7 +184,7 @@ def longest_smooth_rise(
     (1.5, 2.0)
     """
     instant, end = compliance.instant, compliance(duration)
-    limit = AFTER_JUMP * instant if after_jump else instant
+    limit = OLD_WEIGHT_AFTER_JUMP * instant if after_jump else instant
 
     def excess(part: float) -> float:
         new = compliance.mean((1.0 - part) * duration, duration)

@@ -16,14 +16,14 @@ from viscontact.time_integration.prony_approximation import as_exponentials
 from viscontact.units.formatting import format_quantity
 
 #: Increments of the fields are kept and summed as long as they take no more than this [bytes].
-ROOM = 256 * 2**20
+MAX_HISTORY_BYTES = 256 * 2**20
 
 #: Where a run chooses its steps, there is room for so many times the planned ones: it is taken
 #: only as steps come, and never has to be moved, which would take it twice.
-TO_SPARE = 4
+STEP_RESERVE = 4
 
 #: Beyond this many steps a sum over all of them would take longer than the contact itself.
-MOST_STEPS = 2000
+MAX_SUMMED_STEPS = 2000
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,7 +66,7 @@ class HereditaryPlan:
         if isinstance(self.compliance, SeriesCompliance):
             return InternalVariables(self.compliance, shape)
         chosen_as_it_goes = not self.instants.size
-        room = TO_SPARE * self.steps if chosen_as_it_goes else self.steps
+        room = STEP_RESERVE * self.steps if chosen_as_it_goes else self.steps
         return BoltzmannSum(self.compliance, shape, self.instants, room)
 
 
@@ -106,7 +106,7 @@ def plan_hereditary_integral(
     last = max(float(instants[-1]), 10 * first)
     series, error = as_exponentials(compliance, first, last)
     steps = len(instants)
-    if steps <= MOST_STEPS and 8.0 * steps * numbers <= ROOM:
+    if steps <= MAX_SUMMED_STEPS and 8.0 * steps * numbers <= MAX_HISTORY_BYTES:
         method = "sum over all earlier steps, with the law as it stands"
         return HereditaryPlan(compliance, instants, steps, method, 0.0, series)
     method = (

@@ -14,14 +14,14 @@ from viscontact.materials.compliance import ContactCompliance, SeriesCompliance
 TIMES_PER_DECADE = (4, 8, 16, 32)
 
 #: Relative deviation that is good enough, and samples of J in each decade.
-GOOD_ENOUGH, SAMPLES_PER_DECADE = 1e-6, 24
+TARGET_DEVIATION, SAMPLES_PER_DECADE = 1e-6, 24
 
 #: Decades that the candidates reach beyond the times asked for, to either side.
-BEYOND = 2.0
+MARGIN_DECADES = 2.0
 
 #: Decades from the shortest time on, in which means from 0 are fitted besides: what a step meets
 #: of its own change. Later means are those of the values fitted.
-MEANS = 1.0
+MEAN_DECADES = 1.0
 
 
 def as_exponentials(
@@ -66,7 +66,7 @@ def as_exponentials(
         error = _deviation(compliance, series, first, last)
         if best is None or error < best[1]:
             best = series, error
-        if best[1] <= GOOD_ENOUGH:
+        if best[1] <= TARGET_DEVIATION:
             break
     assert best is not None  # there is at least one density
     return best
@@ -75,10 +75,10 @@ def as_exponentials(
 def _fitted(
     compliance: ContactCompliance, first: float, last: float, density: int
 ) -> SeriesCompliance:
-    begin, end = first / 10**BEYOND, last * 10**BEYOND
+    begin, end = first / 10**MARGIN_DECADES, last * 10**MARGIN_DECADES
     times = np.geomspace(begin, end, int(np.ceil(np.log10(end / begin) * density)) + 1)
     samples = _log_spaced(first, last)
-    early = samples[samples <= first * 10**MEANS]
+    early = samples[samples <= first * 10**MEAN_DECADES]
     creep = np.append(compliance(samples), compliance.mean(0.0 * early, early))
     weight = 1.0 / creep
     terms = np.vstack([_terms(samples, times, last), _mean_terms(early, times, last)])
