@@ -34,7 +34,7 @@ from viscontact.grid import AutomaticGrid, Grid
 from viscontact.results.variables import ERRORS
 from viscontact.runs import preparation
 from viscontact.runs.directory import recorder
-from viscontact.simulation.setup import Run, prepare_run
+from viscontact.simulation.setup import RunSetup, prepare_run
 
 SOURCES = Path(viscontact.__file__).parent
 WATCHED = (str(SOURCES / "runs" / "directory"), str(SOURCES / "cli" / "run" / "run_directory.py"))
@@ -232,7 +232,7 @@ def at_limits(campaign: Campaign, kind: str) -> None:
         size += STEP
 
 
-def outgrown(*arguments: Any, **options: Any) -> Run:
+def outgrown(*arguments: Any, **options: Any) -> RunSetup:
     """Prepare a run on an automatic grid that is too small."""
     run = prepare_run(*arguments, **options).on(Grid((16, 16), (2e-3, 2e-3)))
     return replace(run, automatic=AutomaticGrid())

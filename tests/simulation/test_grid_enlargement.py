@@ -19,7 +19,7 @@ from viscontact.runs.directory.recorder import RunRecord
 from viscontact.runs.single import labelled
 from viscontact.simulation.grid_enlargement import next_grid
 from viscontact.simulation.march import March
-from viscontact.simulation.setup import Run, prepare_run
+from viscontact.simulation.setup import RunSetup, prepare_run
 from viscontact.state import ContactState
 
 pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
@@ -33,33 +33,33 @@ COMPARED = (
 )
 
 
-def growing(run: Run) -> Run:
+def growing(run: RunSetup) -> RunSetup:
     """The run as if its grid, which is too small, had been chosen for it."""
     return replace(run, automatic=AutomaticGrid())
 
 
-def sphere(grid: vc.Grid, **more: Any) -> Run:
+def sphere(grid: vc.Grid, **more: Any) -> RunSetup:
     """Held until it has crept, lifted, and pressed anew: what is remembered counts."""
     load = vc.ForceHistory([0, 1, 1.5, 3], [0.01, 0.05, 0.0, 0.2])
     given = {"times": vc.uniform_times(3.0, 12), "tolerance": TOLERANCE} | more
     return prepare_run(vc.Sphere(0.01), ZENER, load, grid, **given)
 
 
-def eccentric(grid: vc.Grid) -> Run:
+def eccentric(grid: vc.Grid) -> RunSetup:
     """Not even across y, remembered step by step, and overrun along x first."""
     load = vc.ramp(0.1, 1.0, eccentricity_x=2e-4, eccentricity_y=2e-5)
     times = vc.uniform_times(2.0, 20)
     return prepare_run(vc.Sphere(0.01), POWER, load, grid, times, tolerance=TOLERANCE)
 
 
-def staged(grid: vc.Grid) -> Run:
+def staged(grid: vc.Grid) -> RunSetup:
     """Lifted off in between by an approach."""
     load = vc.ApproachHistory([0, 1, 1.3, 3], [0, 1e-5, 0, 3e-5])
     times = vc.uniform_times(3.0, 15)
     return prepare_run(vc.Sphere(0.01), ZENER, load, grid, times, tolerance=TOLERANCE)
 
 
-def jumping(grid: vc.Grid) -> Run:
+def jumping(grid: vc.Grid) -> RunSetup:
     """By a jump to far beyond the first grid: work is done on what had given way out there."""
     load = vc.ForceHistory([0, 1, 1, 2], [0.01, 0.02, 0.2, 0.2])
     return prepare_run(
@@ -67,7 +67,7 @@ def jumping(grid: vc.Grid) -> Run:
     )
 
 
-def chosen_steps(grid: vc.Grid) -> Run:
+def chosen_steps(grid: vc.Grid) -> RunSetup:
     return sphere(grid, times=vc.adaptive_times(3.0, 0.03))
 
 
@@ -80,7 +80,7 @@ RUNS = {
 }
 
 
-def states_of(run: Run) -> list[ContactState]:
+def states_of(run: RunSetup) -> list[ContactState]:
     return [taken.state for taken in March(run) if taken.state is not None]
 
 

@@ -12,7 +12,7 @@ import pytest
 import viscontact as vc
 from viscontact.runs.directory.npz_archive import read_plain, write_plain
 from viscontact.simulation.march import CompletedStep, March
-from viscontact.simulation.setup import Run, prepare_run
+from viscontact.simulation.setup import RunSetup, prepare_run
 from viscontact.time_integration.restart_data import RestartData
 
 pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
@@ -116,11 +116,11 @@ def differing(ours: list[CompletedStep], theirs: list[CompletedStep]) -> list[st
 
 
 @pytest.fixture(params=RUNS, scope="module")
-def run(request: pytest.FixtureRequest) -> Run:
+def run(request: pytest.FixtureRequest) -> RunSetup:
     return RUNS[request.param]()
 
 
-def test_run_goes_on_from_what_it_carried_after_any_step(run: Run) -> None:
+def test_run_goes_on_from_what_it_carried_after_any_step(run: RunSetup) -> None:
     whole = list(March(run))
     assert len(whole) > 7
     march = March(run)
@@ -131,7 +131,7 @@ def test_run_goes_on_from_what_it_carried_after_any_step(run: Run) -> None:
             assert differing(whole[count:], resumed) == []
 
 
-def test_what_was_carried_is_what_is_carried_on(run: Run) -> None:
+def test_what_was_carried_is_what_is_carried_on(run: RunSetup) -> None:
     # Some of it counts only in runs that are rare, such as those with long steps after a jump.
     march = March(run)
     for _, _ in zip(march, range(8), strict=False):
@@ -139,7 +139,7 @@ def test_what_was_carried_is_what_is_carried_on(run: Run) -> None:
         assert leaves(March(run, restart_data).restart_data()) == leaves(restart_data)
 
 
-def test_steps_solved_before_are_taken_again_to_the_same_bits(run: Run) -> None:
+def test_steps_solved_before_are_taken_again_to_the_same_bits(run: RunSetup) -> None:
     whole = list(March(run))
     for count in (1, len(whole) // 2, len(whole) - 1):
         march = March(run)
@@ -148,7 +148,7 @@ def test_steps_solved_before_are_taken_again_to_the_same_bits(run: Run) -> None:
         assert differing(whole[count:], list(march)) == []
 
 
-def test_step_of_another_run_is_refused(run: Run) -> None:
+def test_step_of_another_run_is_refused(run: RunSetup) -> None:
     march = March(run)
     whole = list(March(run))
     with pytest.raises(ValueError, match="is not the next one of this run"):

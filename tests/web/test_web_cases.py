@@ -13,7 +13,7 @@ from fastapi.testclient import TestClient
 import viscontact as vc
 from viscontact.case import Case
 from viscontact.cli import main
-from viscontact.runs.preparation import Prepared, prepared
+from viscontact.runs.preparation import PreparedRun, prepared
 from viscontact.web.cases import case_reader
 from web.calculator_page import CASE, as_printed, asking
 
@@ -285,7 +285,7 @@ def test_an_automatic_grid_is_found_once_for_a_check_and_a_drawing(
 ) -> None:
     found: list[str] = []
 
-    def counted(case: Case) -> Prepared:
+    def counted(case: Case) -> PreparedRun:
         found.append(case.title)
         return prepared(case)
 

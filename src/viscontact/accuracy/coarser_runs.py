@@ -15,7 +15,7 @@ from viscontact.errors import ConvergenceError, DomainError
 from viscontact.grid import Grid
 from viscontact.materials.compliance import ContactCompliance
 from viscontact.simulation.march import March
-from viscontact.simulation.setup import Run
+from viscontact.simulation.setup import RunSetup
 from viscontact.state import ContactState
 from viscontact.time_integration.fixed_steps import FixedSteps
 from viscontact.time_integration.plan import plan_hereditary_integral
@@ -47,13 +47,13 @@ class Companion:
         Its cells, in cells of the run.
     pace : float
         Its steps, in steps of the run: 2 for every second one, 0.5 for halves.
-    run : Run
+    run : RunSetup
         What is marched.
     """
 
     spacing: float
     pace: float
-    run: Run
+    run: RunSetup
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,12 +82,12 @@ class Course:
     is_sharp: bool
 
 
-def companions_of(run: Run, history: History) -> Iterator[Companion]:
+def companions_of(run: RunSetup, history: History) -> Iterator[Companion]:
     """Yield the companions of a run that is over, the cheapest first.
 
     Parameters
     ----------
-    run : Run
+    run : RunSetup
         The run.
     history : mapping of str to ndarray
         Its ``time`` [s] and its ``cells_across``.
@@ -247,7 +247,7 @@ def _creeps(compliance: ContactCompliance, times: NDArray[np.float64]) -> bool:
 
 
 def _companion(
-    run: Run, spacing: float, alike: bool, pace: float, times: NDArray[np.float64]
+    run: RunSetup, spacing: float, alike: bool, pace: float, times: NDArray[np.float64]
 ) -> Companion:
     grid = coarser_grid(run.grid, spacing, alike)
     load = run.load if pace <= 1 else LooserLoad(run.load, pace)

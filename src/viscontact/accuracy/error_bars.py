@@ -24,7 +24,7 @@ from viscontact.accuracy.levels import (
     spots_across,
 )
 from viscontact.accuracy.richardson import richardson
-from viscontact.simulation.setup import Run
+from viscontact.simulation.setup import RunSetup
 
 Array = NDArray[np.float64]
 
@@ -129,12 +129,14 @@ class ErrorBars:
     warnings: tuple[str, ...]
 
 
-def error_bars(run: Run, history: History, on_step: Callable[[], None] | None = None) -> ErrorBars:
+def error_bars(
+    run: RunSetup, history: History, on_step: Callable[[], None] | None = None
+) -> ErrorBars:
     """Estimate how far the scalars of a run are off, from companions that are marched for it.
 
     Parameters
     ----------
-    run : Run
+    run : RunSetup
         The run, which is over.
     history : mapping of str to ndarray
         What it has come to: its scalars by name and ``time``, ``cells_across``.
@@ -166,7 +168,7 @@ def error_bars(run: Run, history: History, on_step: Callable[[], None] | None = 
     return bars_from(run, history, courses)
 
 
-def bars_from(run: Run, history: History, courses: Iterable[Course]) -> ErrorBars:
+def bars_from(run: RunSetup, history: History, courses: Iterable[Course]) -> ErrorBars:
     """Estimate errors from companions that have been marched.
 
     Parameters
@@ -224,7 +226,7 @@ class _Places:
     of_spots: NDArray[np.bool_]
 
 
-def _bar(run: Run, name: str, levels: Levels, places: _Places, history: History) -> Array:
+def _bar(run: RunSetup, name: str, levels: Levels, places: _Places, history: History) -> Array:
     own = np.abs(levels.values[0])
     scale = largest_around(own)
     by_cells = TRUSTS[name].of(levels)
@@ -246,7 +248,7 @@ def _bar(run: Run, name: str, levels: Levels, places: _Places, history: History)
 
 
 def _least_bar(
-    run: Run, name: str, differs: NDArray[np.bool_], places: _Places, history: History
+    run: RunSetup, name: str, differs: NDArray[np.bool_], places: _Places, history: History
 ) -> Array | float:
     """What no agreement of grids undercuts: parts of a cell, and the balance of moments."""
     if name in EXTENTS:
@@ -288,7 +290,7 @@ def _endless(
     return np.asarray(contact & (at_end | (mean_around(endless) > 0.5)))
 
 
-def _surely_apart(run: Run, history: History) -> NDArray[np.bool_]:
+def _surely_apart(run: RunSetup, history: History) -> NDArray[np.bool_]:
     """Where there is no contact, and none that is lost or made between two instants."""
     apart = np.asarray(history["peak_pressure"] == 0)
     if run.load.control == "force":

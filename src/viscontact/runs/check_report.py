@@ -13,8 +13,8 @@ from viscontact.loads.largest_load import largest_load
 from viscontact.meshing.elastic_estimate import ContactEstimate
 from viscontact.results.stated_errors import MESH_DEPENDENT
 from viscontact.runs.forecast import Forecast, forecast
-from viscontact.runs.preparation import Prepared
-from viscontact.simulation.setup import Run
+from viscontact.runs.preparation import PreparedRun
+from viscontact.simulation.setup import RunSetup
 from viscontact.units.formatting import format_number, format_quantity
 
 #: A load is as large as the largest from this part of it on.
@@ -24,12 +24,12 @@ AS_LARGE = 0.999
 FARTHEST_END = 1.3
 
 
-def foreseen(prepared: Prepared) -> Forecast:
+def foreseen(prepared: PreparedRun) -> Forecast:
     """Foresee a run.
 
     Parameters
     ----------
-    prepared : Prepared
+    prepared : PreparedRun
         A case, checked.
 
     Returns
@@ -48,12 +48,12 @@ def foreseen(prepared: Prepared) -> Forecast:
         raise prepared.case.error(str(error)) from error
 
 
-def verdict(prepared: Prepared, expected: Forecast) -> str:
+def verdict(prepared: PreparedRun, expected: Forecast) -> str:
     """Say in a line whether anything is wrong with a case.
 
     Parameters
     ----------
-    prepared : Prepared
+    prepared : PreparedRun
         A case, checked.
     expected : Forecast
         What was foreseen of it.
@@ -63,12 +63,12 @@ def verdict(prepared: Prepared, expected: Forecast) -> str:
     return f"{prepared.case.document.path}: {told}"
 
 
-def drawn_size(run: Run) -> tuple[float, float]:
+def drawn_size(run: RunSetup) -> tuple[float, float]:
     """Return how much of the body is drawn: the grid, and more if the body ends not far beyond it.
 
     Parameters
     ----------
-    run : Run
+    run : RunSetup
         A run that has been checked.
 
     Returns
@@ -88,12 +88,12 @@ def drawn_size(run: Run) -> tuple[float, float]:
     return size[0], size[1]
 
 
-def needs(prepared: Prepared, expected: Forecast) -> list[tuple[str, str]]:
+def needs(prepared: PreparedRun, expected: Forecast) -> list[tuple[str, str]]:
     """Return what a run needs: grid, steps, memory, time, each with its name.
 
     Parameters
     ----------
-    prepared : Prepared
+    prepared : PreparedRun
         A case, checked.
     expected : Forecast
         What was foreseen of it.
@@ -119,7 +119,7 @@ def needs(prepared: Prepared, expected: Forecast) -> list[tuple[str, str]]:
     ]
 
 
-def _grid_error(run: Run) -> list[tuple[str, str]]:
+def _grid_error(run: RunSetup) -> list[tuple[str, str]]:
     """How exact the cells are, and when, where they were chosen for it."""
     if run.mesh is None or not run.mesh.errors:
         return []
@@ -132,7 +132,7 @@ def _grid_error(run: Run) -> list[tuple[str, str]]:
     return [("grid error", f"{', '.join(told)},\n{when}")]
 
 
-def _when_largest(run: Run) -> Iterator[str]:
+def _when_largest(run: RunSetup) -> Iterator[str]:
     """When the load is largest, for which the cells were chosen; and what is so at other times."""
     crest, point = largest_load(run.load, float(run.times[-1]))
     kinks = run.load.kinks[run.load.kinks <= run.times[-1]]
@@ -150,7 +150,7 @@ def _when_largest(run: Run) -> Iterator[str]:
         yield "more at smaller loads, whose contact has fewer cells"
 
 
-def _steps(run: Run) -> str:
+def _steps(run: RunSetup) -> str:
     if run.adaptive is None:
         return f"{len(run.times) - 1}"
     return f"as needed for an error of {100 * run.adaptive.tolerance:g} %"
@@ -163,12 +163,12 @@ def _kept(fields: str | Sequence[float]) -> str:
     return f"pressure, gap and displacement at {when}"
 
 
-def expectations(prepared: Prepared, expected: Forecast) -> tuple[str, list[tuple[str, str]]]:
+def expectations(prepared: PreparedRun, expected: Forecast) -> tuple[str, list[tuple[str, str]]]:
     """Return what a run may find: how that is known, and rows; no rows without a load.
 
     Parameters
     ----------
-    prepared : Prepared
+    prepared : PreparedRun
         A case, checked.
     expected : Forecast
         What was foreseen of it.
@@ -202,12 +202,12 @@ def _peak_told(expected: Forecast, found: ContactEstimate) -> str:
     return f"{MESH_DEPENDENT} ({told} on a coarse one)" if is_sharp else told
 
 
-def warnings_of(prepared: Prepared, expected: Forecast) -> list[str]:
+def warnings_of(prepared: PreparedRun, expected: Forecast) -> list[str]:
     """Return what a run would warn of, as far as the coarse solve can tell.
 
     Parameters
     ----------
-    prepared : Prepared
+    prepared : PreparedRun
         A case, checked.
     expected : Forecast
         What was foreseen of it.

@@ -14,7 +14,7 @@ from viscontact.checks.singularities import strain_of
 from viscontact.checks.steps import release_doubts, touch_doubts
 from viscontact.materials.material import Material
 from viscontact.meshing.elastic_estimate import ContactEstimate
-from viscontact.simulation.setup import Run
+from viscontact.simulation.setup import RunSetup
 from viscontact.time_integration.fixed_steps import FixedSteps
 
 #: So many of a run's first instants are looked at for a load that comes before the data do.
@@ -22,13 +22,13 @@ FIRST_INSTANTS = 200
 
 
 def foreseen_doubts(
-    run: Run, estimate: ContactEstimate | None, compliance: float
+    run: RunSetup, estimate: ContactEstimate | None, compliance: float
 ) -> dict[str, str]:
     """Doubts about the material, the steps and the estimated contact of a run.
 
     Parameters
     ----------
-    run : Run
+    run : RunSetup
         A run that has been checked.
     estimate : ContactEstimate or None
         Its largest contact, coarsely; None without a load.
@@ -47,11 +47,11 @@ def foreseen_doubts(
     return doubts if estimate is None else doubts | _contact_doubts(run, estimate, compliance)
 
 
-def _bodies(run: Run) -> list[Material]:
+def _bodies(run: RunSetup) -> list[Material]:
     return [body for body in (run.material, run.indenter_material) if body is not None]
 
 
-def _contact_doubts(run: Run, found: ContactEstimate, compliance: float) -> dict[str, str]:
+def _contact_doubts(run: RunSetup, found: ContactEstimate, compliance: float) -> dict[str, str]:
     geometry = Geometry(
         run.indenter,
         found.open_gap,
@@ -75,7 +75,7 @@ def _contact_doubts(run: Run, found: ContactEstimate, compliance: float) -> dict
 
 
 def _corner_doubts(
-    run: Run, geometry: Geometry, found: ContactEstimate, compliance: float
+    run: RunSetup, geometry: Geometry, found: ContactEstimate, compliance: float
 ) -> dict[str, str]:
     """Doubt about a peak at a corner; far coarser than the run's, a solve tells little of it."""
     coarse = found.rim.grid.cell_size
@@ -86,7 +86,7 @@ def _corner_doubts(
     return corner_doubts(replace(geometry, grid=grid), found.peak_place, strain, searched)
 
 
-def _material_doubts(run: Run) -> dict[str, str]:
+def _material_doubts(run: RunSetup) -> dict[str, str]:
     end = float(run.times[-1])
     doubts = law_doubts(run.memory.error, run.compliance.inversion_error)
     for body in _bodies(run):
@@ -100,7 +100,7 @@ def _material_doubts(run: Run) -> dict[str, str]:
     return doubts | data_doubts(end, run.measured_until)
 
 
-def _step_doubts(run: Run) -> dict[str, str]:
+def _step_doubts(run: RunSetup) -> dict[str, str]:
     """Of given steps that take much of the load on or off at once; adaptive ones see to it."""
     end, load = float(run.times[-1]), run.load
     if run.adaptive is not None or run.compliance(end) == run.compliance.instant:

@@ -17,7 +17,7 @@ from viscontact.meshing.elastic_estimate import ContactEstimate, estimate_contac
 from viscontact.runs.expected_warnings import foreseen_doubts
 from viscontact.runs.free_memory import available_memory
 from viscontact.runs.resources import run_memory, step_count
-from viscontact.simulation.setup import Run
+from viscontact.simulation.setup import RunSetup
 
 #: Plain convolutions' time that the first step and each later one take at tolerance 1e-6, and
 #: what a step takes besides [s]; measured on the shipped rollers and spheres.
@@ -63,12 +63,12 @@ class Forecast:
     doubts: dict[str, str]
 
 
-def forecast(run: Run, *, errors: bool = False) -> Forecast:
+def forecast(run: RunSetup, *, errors: bool = False) -> Forecast:
     """Foresee a run.
 
     Parameters
     ----------
-    run : Run
+    run : RunSetup
         A run that has been checked.
     errors : bool
         Whether the errors of its scalars are estimated as well.
@@ -116,13 +116,13 @@ def forecast(run: Run, *, errors: bool = False) -> Forecast:
     )
 
 
-def _estimate(run: Run, compliance: float, point: LoadPoint) -> ContactEstimate:
+def _estimate(run: RunSetup, compliance: float, point: LoadPoint) -> ContactEstimate:
     if run.grid.periodic:
         return estimate_period(run.indenter, compliance, point, run.grid)
     return estimate_contact(run.indenter, compliance, point)
 
 
-def _telling_compliance(run: Run, time: float) -> tuple[float, str]:
+def _telling_compliance(run: RunSetup, time: float) -> tuple[float, str]:
     if run.load.control == "force":
         return float(run.compliance(run.times[-1])), "creep as at the end of the run"
     if run.compliance.instant > 0:
@@ -130,7 +130,7 @@ def _telling_compliance(run: Run, time: float) -> tuple[float, str]:
     return float(run.compliance(time)), "creep as at that instant"
 
 
-def _seconds(run: Run, *, errors: bool) -> float:
+def _seconds(run: RunSetup, *, errors: bool) -> float:
     steps, each = step_count(run), _convolution_time(run.grid)
     marches = [(steps, each)]
     if errors:

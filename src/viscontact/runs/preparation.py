@@ -8,19 +8,19 @@ from viscontact.case import Case
 from viscontact.grid import Grid
 from viscontact.runs.free_memory import available_memory
 from viscontact.runs.resources import least_memory, needed_memory
-from viscontact.simulation.setup import Run, prepare_run
+from viscontact.simulation.setup import RunSetup, prepare_run
 from viscontact.units.formatting import format_number
 
 
 @dataclass(frozen=True, eq=False)
-class Prepared:
+class PreparedRun:
     """A case, and the run it makes."""
 
     case: Case
-    run: Run
+    run: RunSetup
 
 
-def prepared(case: Case, threads: int = 1) -> Prepared:
+def prepared(case: Case, threads: int = 1) -> PreparedRun:
     """Check everything that can be checked before the first step.
 
     Parameters
@@ -32,7 +32,7 @@ def prepared(case: Case, threads: int = 1) -> Prepared:
 
     Returns
     -------
-    Prepared
+    PreparedRun
         Ready to run.
 
     Raises
@@ -43,10 +43,10 @@ def prepared(case: Case, threads: int = 1) -> Prepared:
     _refuse_beyond_memory(case)
     run = _prepared_run(case, threads)
     _refuse_beyond(case, run.grid, needed_memory(run.grid, run.memory.fields_kept))
-    return Prepared(case, run)
+    return PreparedRun(case, run)
 
 
-def _prepared_run(case: Case, threads: int) -> Run:
+def _prepared_run(case: Case, threads: int) -> RunSetup:
     try:
         return prepare_run(
             case.indenter,

@@ -8,7 +8,7 @@ from itertools import accumulate
 from viscontact.grid import Grid
 from viscontact.materials.compliance import SeriesCompliance
 from viscontact.materials.material import Material
-from viscontact.simulation.setup import Run
+from viscontact.simulation.setup import RunSetup
 from viscontact.time_integration.adaptive_steps import estimated_steps
 from viscontact.time_integration.fixed_steps import FixedSteps
 
@@ -22,24 +22,24 @@ PROGRAM, WORK_ARRAYS, ARRAYS_PER_TERM = 2.2e8, 62, 2
 BYTES_PER_STEP = 2000.0
 
 
-def run_memory(run: Run) -> float:
+def run_memory(run: RunSetup) -> float:
     """Return how many bytes a run holds, what it keeps of its steps among them.
 
     Parameters
     ----------
-    run : Run
+    run : RunSetup
         A run that has been checked.
     """
     kept = BYTES_PER_STEP * step_count(run)
     return needed_memory(run.grid, run.memory.fields_kept) + kept
 
 
-def step_count(run: Run) -> float:
+def step_count(run: RunSetup) -> float:
     """Return the steps of a run, those at the load's kinks and within its swings among them.
 
     Parameters
     ----------
-    run : Run
+    run : RunSetup
         A run that has been checked; where it chooses its steps, those that are likely.
     """
     if run.adaptive is None:

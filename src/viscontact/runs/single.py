@@ -19,7 +19,7 @@ from viscontact.materials.material import Material
 from viscontact.results.dataset import field_axis, to_dataset
 from viscontact.results.enlarged_grid import enlargements
 from viscontact.simulation.provenance import run_attributes
-from viscontact.simulation.setup import Run, prepare_run
+from viscontact.simulation.setup import RunSetup, prepare_run
 from viscontact.simulation.state_generator import Progress, march_run
 from viscontact.state import ContactState
 from viscontact.time_integration.requested_times import AdaptiveTimes
@@ -141,7 +141,7 @@ def simulate(
     return labelled(run, states, fields, clock.perf_counter() - started, bars)
 
 
-def _bars(run: Run, states: Sequence[ContactState]) -> ErrorBars:
+def _bars(run: RunSetup, states: Sequence[ContactState]) -> ErrorBars:
     bars = error_bars(run.on(states[-1].grid), history_of(states))
     for text in bars.warnings:
         warnings.warn(text, AccuracyWarning, stacklevel=3)
@@ -149,7 +149,7 @@ def _bars(run: Run, states: Sequence[ContactState]) -> ErrorBars:
 
 
 def labelled(
-    run: Run,
+    run: RunSetup,
     states: Sequence[ContactState],
     fields: str | Sequence[float],
     wall_time: float,
@@ -159,7 +159,7 @@ def labelled(
 
     Parameters
     ----------
-    run : Run
+    run : RunSetup
         Before its first step, on the grid that it started with.
     states : sequence of ContactState
         Its states so far, at least one.

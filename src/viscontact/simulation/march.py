@@ -11,7 +11,7 @@ from viscontact.fourier import transforms_by
 from viscontact.grid import Grid
 from viscontact.simulation.grid_enlargement import FREE, GridEnlargement, next_grid, overrun
 from viscontact.simulation.observer import Observer
-from viscontact.simulation.setup import Run
+from viscontact.simulation.setup import RunSetup
 from viscontact.simulation.solved_step import StepRecord
 from viscontact.simulation.step_solution import StepSolution
 from viscontact.simulation.stepper import Stepper, TrialStep
@@ -47,7 +47,7 @@ class March:
 
     Parameters
     ----------
-    run : Run
+    run : RunSetup
         From `prepare_run`.
     restart_data : dict, optional
         What the same run had `restart_data` after some step: it goes on from there, to the same bits;
@@ -68,7 +68,7 @@ class March:
     True
     """
 
-    def __init__(self, run: Run, restart_data: RestartData | None = None) -> None:
+    def __init__(self, run: RunSetup, restart_data: RestartData | None = None) -> None:
         if restart_data is not None:
             run = run.on(run.grid.widened(tuple(restart_data["cells"])))
         self._run = run
@@ -196,12 +196,12 @@ class March:
         return CompletedStep(solved, state, self._done, self._steps.left)
 
 
-def _half_space(run: Run) -> ContactDomain:
+def _half_space(run: RunSetup) -> ContactDomain:
     transforms = transforms_by(run.transforms, run.threads)
     return ContactDomain(run.grid, mirrored=run.mirrored, transforms=transforms)
 
 
-def _refuse_rim(run: Run, step: Step, instant: StepSolution) -> None:
+def _refuse_rim(run: RunSetup, step: Step, instant: StepSolution) -> None:
     if run.grid.periodic or not any(overrun(instant.pressure)):
         return
     raise DomainError(
@@ -211,7 +211,7 @@ def _refuse_rim(run: Run, step: Step, instant: StepSolution) -> None:
     )
 
 
-def _too_large(run: Run, step: Step) -> str:
+def _too_large(run: RunSetup, step: Step) -> str:
     return (
         f"grid: the contact outgrows {format_quantity(run.grid.size[0], 'm')} x "
         f"{format_quantity(run.grid.size[1], 'm')} at t = {format_quantity(step.time, 's', 6)}, "
@@ -220,7 +220,7 @@ def _too_large(run: Run, step: Step) -> str:
     )
 
 
-def _not_converged(run: Run, solved: StepRecord) -> str:
+def _not_converged(run: RunSetup, solved: StepRecord) -> str:
     return (
         f"the contact solver stopped at t = {format_quantity(solved.time, 's', 6)} with residual "
         f"{solved.solution.residual:.2g} after {solved.solution.iterations} iterations, short of "

@@ -20,7 +20,7 @@ from viscontact.errors import DomainError
 from viscontact.loads.history import LoadPoint
 from viscontact.simulation.grid_enlargement import GridEnlargement
 from viscontact.simulation.load_cycles import Cycles
-from viscontact.simulation.setup import Run
+from viscontact.simulation.setup import RunSetup
 from viscontact.simulation.step_solution import StepSolution
 from viscontact.simulation.step_warnings import loading_doubts
 from viscontact.state import ContactState, Outcome
@@ -36,11 +36,11 @@ class Observer:
 
     Parameters
     ----------
-    run : Run
+    run : RunSetup
         The run it watches.
     """
 
-    def __init__(self, run: Run) -> None:
+    def __init__(self, run: RunSetup) -> None:
         self._look_at(run)
         self._doubts = Doubts()
         self._open = law_doubts(run.memory.error, run.compliance.inversion_error)
@@ -59,7 +59,7 @@ class Observer:
         self._peak, self._peak_time, self._peak_told = 0.0, 0.0, 0.0
         self._looked_at = 0.0
 
-    def _look_at(self, run: Run) -> None:
+    def _look_at(self, run: RunSetup) -> None:
         self._run = run
         self._outline = trace_outline(run.indenter, run.grid)
         self._geometry = Geometry(
@@ -70,12 +70,12 @@ class Observer:
             indenter_gives=run.indenter_material is not None,
         )
 
-    def map_fields(self, run: Run, onto: GridEnlargement) -> None:
+    def map_fields(self, run: RunSetup, onto: GridEnlargement) -> None:
         """Go on with the same run on a larger grid.
 
         Parameters
         ----------
-        run : Run
+        run : RunSetup
             The run on its new grid.
         onto : GridEnlargement
             From the old half-space to the new one.

@@ -7,15 +7,15 @@ from typing import Any
 
 from viscontact import __version__
 from viscontact.results.provenance import describe
-from viscontact.simulation.setup import Run
+from viscontact.simulation.setup import RunSetup
 
 
-def run_attributes(run: Run) -> dict[str, Any]:
+def run_attributes(run: RunSetup) -> dict[str, Any]:
     """Attributes that every result of a run carries.
 
     Parameters
     ----------
-    run : Run
+    run : RunSetup
         The run.
 
     Returns
@@ -36,12 +36,12 @@ def run_attributes(run: Run) -> dict[str, Any]:
     }
 
 
-def describe_run(run: Run) -> dict[str, Any]:
+def describe_run(run: RunSetup) -> dict[str, Any]:
     """Describe a whole run.
 
     Parameters
     ----------
-    run : Run
+    run : RunSetup
         The run.
 
     Returns

@@ -33,14 +33,14 @@ from viscontact.time_integration.run_times import field_instants, run_instants
 
 #: Adaptive steps that the memory is planned for: at least so many, and so many times those that are
 #: likely; more are remembered as well.
-ADAPTIVE_STEPS, UNLIKELY = 500, 3.0
+ADAPTIVE_STEPS, STEP_COUNT_SAFETY = 500, 3.0
 
 #: Where the steps of a run come from.
 Steps = FixedSteps | AdaptiveSteps
 
 
 @dataclass(frozen=True, eq=False)
-class Run:
+class RunSetup:
     """What a run needs, checked and complete.
 
     Attributes
@@ -114,7 +114,7 @@ class Run:
         """Last time on which the laws rest on data [s]; inf for formulas."""
         return min(body.known_until for body in self.bodies)
 
-    def on(self, grid: Grid) -> Run:
+    def on(self, grid: Grid) -> RunSetup:
         """The same run on another grid."""
         return replace(self, grid=grid, open_gap=_gap_on(self.indenter, grid))
 
@@ -136,7 +136,7 @@ def prepare_run(
     tolerance: float = 1e-6,
     fields: str | Sequence[float] = "all",
     threads: int = 1,
-) -> Run:
+) -> RunSetup:
     """Check and complete the arguments of `march`.
 
     Parameters
@@ -146,7 +146,7 @@ def prepare_run(
 
     Returns
     -------
-    Run
+    RunSetup
         Ready to be marched.
 
     Raises
@@ -168,7 +168,7 @@ def prepare_run(
         mesh = choose_mesh(indenter, compliance, load, automatic, end)
         grid = mesh.grid
     open_gap = _checked_gap(indenter, compliance, load, grid, end)
-    return Run(
+    return RunSetup(
         indenter,
         material,
         indenter_material,
@@ -243,6 +243,8 @@ def _hereditary_plan(
     if adaptive is None:
         return plan_hereditary_integral(compliance, FixedSteps(instants, load).instants, numbers)
     # The steps are not known yet: as if there were many, over all decades that may count.
-    count = max(ADAPTIVE_STEPS, round(UNLIKELY * estimated_steps(adaptive, load, compliance)))
+    count = max(
+        ADAPTIVE_STEPS, round(STEP_COUNT_SAFETY * estimated_steps(adaptive, load, compliance))
+    )
     expected = np.append(0.0, np.geomspace(1e-9 * adaptive.end, adaptive.end, count))
     return replace(plan_hereditary_integral(compliance, expected, numbers), instants=np.zeros(0))

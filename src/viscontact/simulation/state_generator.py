@@ -13,7 +13,7 @@ from viscontact.indenters import Indenter
 from viscontact.loads import LoadHistory
 from viscontact.materials.material import Material
 from viscontact.simulation.march import March
-from viscontact.simulation.setup import Run, prepare_run
+from viscontact.simulation.setup import RunSetup, prepare_run
 from viscontact.state import ContactState
 from viscontact.time_integration.requested_times import AdaptiveTimes
 
@@ -113,12 +113,12 @@ def march(
     return march_run(run, progress)
 
 
-def march_run(run: Run, progress: Progress | None = None) -> Iterator[ContactState]:
+def march_run(run: RunSetup, progress: Progress | None = None) -> Iterator[ContactState]:
     """Yield the states of a run that has been checked.
 
     Parameters
     ----------
-    run : Run
+    run : RunSetup
         From `prepare_run`.
     progress : callable, optional
         Called with (state, done, total) after each instant.

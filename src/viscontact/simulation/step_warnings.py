@@ -5,20 +5,20 @@ from __future__ import annotations
 import numpy as np
 
 from viscontact.checks.steps import relative_change, release_doubts, step_doubts, touch_doubts
-from viscontact.simulation.setup import Run
+from viscontact.simulation.setup import RunSetup
 from viscontact.simulation.step_solution import StepSolution
 from viscontact.state import Outcome
 from viscontact.time_integration.fixed_steps import KINK_TOLERANCE, Step
 
 
 def loading_doubts(
-    run: Run, step: Step, before: StepSolution | None, after: StepSolution
+    run: RunSetup, step: Step, before: StepSolution | None, after: StepSolution
 ) -> dict[str, str]:
     """Return doubts about a step over which a creeping body is loaded or let go.
 
     Parameters
     ----------
-    run : Run
+    run : RunSetup
         The run.
     step : Step
         The step; none is raised by a jump.
@@ -48,7 +48,7 @@ def loading_doubts(
     return step_doubts(step.duration, max(relative_change(*peaks), relative_change(*forces)))
 
 
-def _rise(run: Run, step: Step) -> float:
+def _rise(run: RunSetup, step: Step) -> float:
     """How far the load rises over a step that begins without contact, of its largest [-].
 
     A force begins from nothing then; but a dent is met again at an approach that may be far from 0,
@@ -58,13 +58,13 @@ def _rise(run: Run, step: Step) -> float:
     return (end - max(begin, 0.0)) / largest
 
 
-def _fall(run: Run, step: Step) -> float:
+def _fall(run: RunSetup, step: Step) -> float:
     """How far the load falls over a step that ends without contact, of its largest [-]."""
     begin, end, largest = _levels(run, step)
     return (begin - max(end, 0.0)) / largest
 
 
-def _levels(run: Run, step: Step) -> tuple[float, float, float]:
+def _levels(run: RunSetup, step: Step) -> tuple[float, float, float]:
     """The load just after a step's begin, at its end, and the largest of the run [N or m]."""
     load, begin = run.load, step.time - step.duration * (1 - KINK_TOLERANCE)
     # A clamped tilt can press with no approach at all.

@@ -13,7 +13,7 @@ from viscontact.contact.problem import ContactProblem, Guess
 from viscontact.contact.rigid_balance import Constraints
 from viscontact.loads import LoadPoint
 from viscontact.simulation.grid_enlargement import GridEnlargement
-from viscontact.simulation.setup import Run
+from viscontact.simulation.setup import RunSetup
 from viscontact.simulation.step_solution import StepSolution
 from viscontact.state import Outcome
 from viscontact.time_integration.extrapolation import (
@@ -91,13 +91,13 @@ class Stepper:
 
     Parameters
     ----------
-    run : Run
+    run : RunSetup
         The run.
     half_space : ContactDomain
         Where it takes place.
     """
 
-    def __init__(self, run: Run, half_space: ContactDomain) -> None:
+    def __init__(self, run: RunSetup, half_space: ContactDomain) -> None:
         self._run, self._half_space = run, half_space
         self._shape = half_space.reduce_by_symmetry(run.open_gap)
         self._memory = run.memory.memory(
@@ -141,7 +141,7 @@ class Stepper:
         ]
         self._motion = restart_data["motion"]
 
-    def map_fields(self, run: Run, half_space: ContactDomain) -> None:
+    def map_fields(self, run: RunSetup, half_space: ContactDomain) -> None:
         """Go on in the same run on a larger grid."""
         grown = GridEnlargement(self._half_space, half_space).pairs
         self._run, self._half_space = run, half_space
@@ -264,7 +264,7 @@ def _without_pressure(
     return ContactSolution(nothing, motion, gap, 0.0, 0, 0, converged=True)
 
 
-def _at_lowest_point(run: Run, apart: ContactSolution) -> ContactSolution:
+def _at_lowest_point(run: RunSetup, apart: ContactSolution) -> ContactSolution:
     """A flat surface is touched by the body's lowest point, not by the nearest cell centre."""
     tilts = apart.motion[1:]
     cells = run.open_gap - np.add.outer(tilts[0] * run.grid.x, tilts[1] * run.grid.y)

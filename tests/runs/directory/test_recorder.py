@@ -30,14 +30,14 @@ from viscontact.runs.directory.recorded_run import PROGRESS_NAME, ChangedCaseErr
 from viscontact.runs.directory.recorder import RunRecord
 from viscontact.runs.directory.step_log import LOG_NAME, StepLog, logged_steps
 from viscontact.simulation import stepper
-from viscontact.simulation.setup import Run, prepare_run
+from viscontact.simulation.setup import RunSetup, prepare_run
 from viscontact.simulation.solved_step import StepRecord
 from viscontact.state import Outcome
 
 COUNT = 12
 
 
-def sphere_run(force: float = 0.1, count: int = COUNT) -> Run:
+def sphere_run(force: float = 0.1, count: int = COUNT) -> RunSetup:
     rubber = vc.Material(vc.Zener(1e6, 1e6, 1e6), poisson_ratio=0.5)
     grid, times = vc.Grid((24, 24), (2.4e-3, 2.4e-3)), np.linspace(0.0, 1.0, count)
     return prepare_run(vc.Sphere(0.01), rubber, vc.step(force), grid, times)

@@ -15,7 +15,7 @@ from viscontact.cli.terminal.messages import refuse, say
 from viscontact.results.netcdf import RESULT_NAME
 from viscontact.runs.directory.checkpoint import STATE_NAME
 from viscontact.runs.directory.recorded_run import Recorded
-from viscontact.runs.preparation import Prepared
+from viscontact.runs.preparation import PreparedRun
 from viscontact.runs.processes.job import Standing
 from viscontact.runs.processes.request import RunRequest
 
@@ -25,7 +25,7 @@ class Attempt:
     """What a run was asked for, what it is, what is recorded of it, and who may stop it."""
 
     request: RunRequest
-    prepared: Prepared
+    prepared: PreparedRun
     recorded: Recorded
     interruption: Interruption
 

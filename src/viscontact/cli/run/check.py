@@ -20,13 +20,13 @@ from viscontact.runs.check_report import (
     warnings_of,
 )
 from viscontact.runs.forecast import Forecast
-from viscontact.runs.preparation import Prepared
+from viscontact.runs.preparation import PreparedRun
 
 #: Two lists below each other have their values in line.
 _NAMES = len("peak pressure")
 
 
-def print_forecast(prepared: Prepared) -> Forecast:
+def print_forecast(prepared: PreparedRun) -> Forecast:
     """Print what a run will need and what it may find."""
     try:
         expected = foreseen(prepared)
@@ -47,7 +47,7 @@ def print_forecast(prepared: Prepared) -> Forecast:
 
 
 def draw_body(
-    prepared: Prepared,
+    prepared: PreparedRun,
     expected: Forecast,
     picture: Path | None,
     width: str | float | None = None,

@@ -7,10 +7,10 @@ from pathlib import Path
 
 from viscontact.case import CaseError, read_case
 from viscontact.cli.terminal.messages import refuse
-from viscontact.runs.preparation import Prepared, prepared
+from viscontact.runs.preparation import PreparedRun, prepared
 
 
-def prepare(path: Path, settings: Sequence[str], threads: int = 1) -> Prepared:
+def prepare(path: Path, settings: Sequence[str], threads: int = 1) -> PreparedRun:
     """Read and check everything that can be checked before the first step."""
     try:
         return prepared(read_case(path, settings), threads)

@@ -29,7 +29,7 @@ from viscontact.runs.directory.step_log import LOG_NAME, is_step_log
 from viscontact.runs.directory.stored_result import stored_run
 from viscontact.simulation.march import March
 from viscontact.simulation.provenance import describe_run, run_attributes
-from viscontact.simulation.setup import Run
+from viscontact.simulation.setup import RunSetup
 from viscontact.time_integration.restart_data import RestartData
 
 #: The progress log's name in a run directory.
@@ -58,7 +58,7 @@ class Recorded:
     ----------
     directory : Path
         Where.
-    run : Run
+    run : RunSetup
         The run.
     fields : "all", "none" or sequence of float
         Instants [s] whose fields are kept.
@@ -69,7 +69,7 @@ class Recorded:
     """
 
     directory: Path
-    run: Run
+    run: RunSetup
     fields: str | Sequence[float]
     title: str = ""
     errors: bool = False

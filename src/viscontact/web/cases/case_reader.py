@@ -14,7 +14,7 @@ from viscontact.case.document import document_of
 from viscontact.runs.check_report import expectations, foreseen, needs, verdict, warnings_of
 from viscontact.runs.forecast import Forecast
 from viscontact.runs.free_memory import available_memory
-from viscontact.runs.preparation import Prepared, prepared
+from viscontact.runs.preparation import PreparedRun, prepared
 from viscontact.runs.resources import run_memory, step_count
 from viscontact.web.cases.coarse import coarse_settings, without_cells
 from viscontact.web.workspace.folder import Folder
@@ -28,9 +28,9 @@ class Desk:
     """Where cases are read."""
 
     folder: Folder
-    _foreseen: dict[str, tuple[Prepared, Forecast]] = field(default_factory=dict, repr=False)
+    _foreseen: dict[str, tuple[PreparedRun, Forecast]] = field(default_factory=dict, repr=False)
 
-    def foreseen(self, text: str) -> tuple[Prepared, Forecast]:
+    def foreseen(self, text: str) -> tuple[PreparedRun, Forecast]:
         """Read a case, check it, and foresee its run.
 
         What was asked for last is kept: a check, a drawing and a run of one case come after each
@@ -70,7 +70,7 @@ class Desk:
         except CaseError as error:
             raise case_problems(error, self.folder.case) from error
 
-    def prepared(self, text: str, quality: str) -> tuple[Prepared, tuple[str, ...]]:
+    def prepared(self, text: str, quality: str) -> tuple[PreparedRun, tuple[str, ...]]:
         """Read and check a case."""
         whole, expected = self.foreseen(text)
         if quality == "full":
@@ -163,7 +163,7 @@ def filled(value: Any) -> Any:
     return [filled(part) for part in value] if isinstance(value, list) else value
 
 
-def _steps(found: Prepared) -> int | None:
+def _steps(found: PreparedRun) -> int | None:
     return None if found.run.adaptive is not None else len(found.run.times) - 1
 
 

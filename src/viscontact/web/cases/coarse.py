@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from viscontact.case import Case
 from viscontact.grid import Grid
 from viscontact.runs.forecast import Forecast
-from viscontact.runs.preparation import Prepared
+from viscontact.runs.preparation import PreparedRun
 from viscontact.time_integration.requested_times import AdaptiveTimes
 
 #: So many steps and cells, and at least so many cells over each extent of the contact.
@@ -18,7 +18,7 @@ STEPS, CELLS, LEAST_ACROSS = 24, 6000, 16
 STEP_ERROR, GRID_ERROR, SOLVER_ERROR = 1e-2, 0.1, 1e-4
 
 
-def coarse_settings(prepared: Prepared, expected: Forecast) -> tuple[str, ...]:
+def coarse_settings(prepared: PreparedRun, expected: Forecast) -> tuple[str, ...]:
     """Return what to set in a case for an answer in seconds."""
     case = prepared.case
     settings = [*_steps(case), *_cells(case, expected)]

@@ -13,7 +13,7 @@ from viscontact.plot import creep_curve, draw_indenter, draw_load
 from viscontact.plot.layout.page import Width
 from viscontact.runs.check_report import drawn_size
 from viscontact.runs.forecast import Forecast
-from viscontact.runs.preparation import Prepared
+from viscontact.runs.preparation import PreparedRun
 from viscontact.time_integration.requested_times import AdaptiveTimes
 from viscontact.web.cases.case_reader import Desk
 from viscontact.web.workspace.problems import RequestError, case_problems
@@ -63,7 +63,7 @@ def _alone(parts: Parts, what: str, width: Width | None) -> Figure | None:
     return None
 
 
-def _indenter(found: Prepared, expected: Forecast, width: Width | None) -> Figure:
+def _indenter(found: PreparedRun, expected: Forecast, width: Width | None) -> Figure:
     case, estimate = found.case, expected.estimate
     contact = None
     if estimate is not None:
