@@ -187,12 +187,12 @@ class March:
     def _complete(self, step: Step, trial: TrialStep, solved: StepRecord) -> CompletedStep:
         instant = self._stepper.accept(step, trial)
         _refuse_rim(self._run, step, instant)
-        state = self._observer.observe(step, trial.point, instant)
+        state = self._observer.evaluate(step, trial.point, instant)
         if step.asked is None:
             return CompletedStep(solved, None, self._done, self._steps.left)
         self._done += 1
         last = step.asked >= float(self._run.times[-1])
-        state = self._observer.judge(state, last=last)
+        state = self._observer.add_warnings(state, last=last)
         return CompletedStep(solved, state, self._done, self._steps.left)
 
 

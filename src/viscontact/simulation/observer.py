@@ -28,7 +28,7 @@ from viscontact.time_integration.fixed_steps import Step
 from viscontact.time_integration.restart_data import RestartData
 
 #: By how much a pressure exceeds the one before that is looked at for corners.
-HIGHER = 1.1
+PEAK_CHECK_RATIO = 1.1
 
 
 class Observer:
@@ -41,7 +41,7 @@ class Observer:
     """
 
     def __init__(self, run: RunSetup) -> None:
-        self._look_at(run)
+        self._set_geometry(run)
         self._doubts = Doubts()
         self._open = law_doubts(run.memory.error, run.compliance.inversion_error)
         if run.mesh is not None:
@@ -56,10 +56,10 @@ class Observer:
         self._largest_area, self._cells_at_largest = 0.0, 0
         self._largest: NDArray[np.bool_] | None = None  # the contact whose spots are not told yet
         self._spots_at_largest = 0.0
-        self._peak, self._peak_time, self._peak_told = 0.0, 0.0, 0.0
-        self._looked_at = 0.0
+        self._peak, self._peak_time, self._peak_reported = 0.0, 0.0, 0.0
+        self._peak_checked = 0.0
 
-    def _look_at(self, run: RunSetup) -> None:
+    def _set_geometry(self, run: RunSetup) -> None:
         self._run = run
         self._outline = trace_outline(run.indenter, run.grid)
         self._geometry = Geometry(
@@ -80,11 +80,11 @@ class Observer:
         onto : GridEnlargement
             From the old half-space to the new one.
         """
-        self._look_at(run)
+        self._set_geometry(run)
         if self._before is not None:
             self._before = onto.instant(self._before)
 
-    def observe(self, step: Step, point: LoadPoint, instant: StepSolution) -> ContactState:
+    def evaluate(self, step: Step, point: LoadPoint, instant: StepSolution) -> ContactState:
         """Describe the end of a step.
 
         Parameters
@@ -99,7 +99,7 @@ class Observer:
         Returns
         -------
         ContactState
-            Without warnings yet; see `judge`.
+            Without warnings yet; see `add_warnings`.
         """
         contact = instant.pressure > 0
         rim = trace_rim(self._run.grid, contact, instant.gap, self._outline)
@@ -115,13 +115,13 @@ class Observer:
         self._before = instant
         return state
 
-    def judge(self, state: ContactState, *, last: bool) -> ContactState:
+    def add_warnings(self, state: ContactState, *, last: bool) -> ContactState:
         """Attach the doubts met since the last judged state, each kind once a run.
 
         Parameters
         ----------
         state : ContactState
-            From `observe`.
+            From `evaluate`.
         last : bool
             Whether it is the run's last, so that the mesh can be judged at the largest contact.
 
@@ -130,11 +130,11 @@ class Observer:
         ContactState
             With its warnings.
         """
-        self._peak_told = max(self._peak_told, state.peak_pressure)
+        self._peak_reported = max(self._peak_reported, state.peak_pressure)
         mesh, untold = {}, {}
         if last and self._largest_area:
             mesh = mesh_doubts(self._cells_at_largest, self._cells_across_spots())
-            untold = untold_doubts(self._peak, self._peak_time, self._peak_told)
+            untold = untold_doubts(self._peak, self._peak_time, self._peak_reported)
         return replace(state, warnings=self._doubts.new(self._open, mesh, untold))
 
     def refuse_coarse_mesh(self) -> None:
@@ -155,7 +155,7 @@ class Observer:
         )
 
     def restart_data(self) -> RestartData:
-        """What has to be kept to go on from here; asked for after an `observe`."""
+        """What has to be kept to go on from here; asked for after an `evaluate`."""
         before = self._before
         return {
             "said": self._doubts.said,
@@ -167,8 +167,8 @@ class Observer:
             "largest_area": self._largest_area,
             "cells_at_largest": self._cells_at_largest,
             "spots_at_largest": self._cells_across_spots(),
-            "peak": [self._peak, self._peak_time, self._peak_told],
-            "looked_at": self._looked_at,
+            "peak": [self._peak, self._peak_time, self._peak_reported],
+            "looked_at": self._peak_checked,
         }
 
     def restore(self, restart_data: RestartData) -> None:
@@ -186,8 +186,8 @@ class Observer:
         self._largest_area = restart_data["largest_area"]
         self._cells_at_largest = restart_data["cells_at_largest"]
         self._spots_at_largest = restart_data["spots_at_largest"]
-        self._peak, self._peak_time, self._peak_told = restart_data["peak"]
-        self._looked_at = restart_data["looked_at"]
+        self._peak, self._peak_time, self._peak_reported = restart_data["peak"]
+        self._peak_checked = restart_data["looked_at"]
 
     def _cells_across_spots(self) -> float:
         """Cells across the spots of the largest contact, counted when they are asked for."""
@@ -211,9 +211,9 @@ class Observer:
     def _corner_doubts(self, time: float, instant: StepSolution) -> dict[str, str]:
         """Whether the largest pressure so far lies at a corner; where it hardly grew, it stayed."""
         peak = float(instant.pressure.max())
-        if peak <= HIGHER * self._looked_at:
+        if peak <= PEAK_CHECK_RATIO * self._peak_checked:
             return {}
-        self._looked_at = peak
+        self._peak_checked = peak
         place = self._run.grid.largest_at(instant.pressure)
         strain = strain_of(peak, float(self._run.compliance(time)))
         return corner_doubts(self._geometry, place, strain)
