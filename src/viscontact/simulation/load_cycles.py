@@ -10,7 +10,7 @@ from viscontact.time_integration.fixed_steps import Step
 from viscontact.time_integration.restart_data import RestartData
 
 
-class Cycles:
+class LoadCycleWork:
     """The work at the beginnings and ends of the load's cycles.
 
     Parameters
@@ -20,10 +20,10 @@ class Cycles:
 
     Examples
     --------
-    >>> cycles = Cycles([((0.0, "left"), (2.0, "right"))])
+    >>> cycles = LoadCycleWork([((0.0, "left"), (2.0, "right"))])
     >>> cycles.last_loss
     nan
-    >>> cycles.pass_by(Step(2.0, 2.0, 2.0, smooth=False), work=3.0)
+    >>> cycles.record_work(Step(2.0, 2.0, 2.0, smooth=False), work=3.0)
     >>> cycles.last_loss
     3.0
     """
@@ -34,7 +34,7 @@ class Cycles:
         self._begun = 0.0 if cycles and cycles[0][0] == (0.0, "left") else math.nan
         self.last_loss = math.nan
 
-    def pass_by(self, step: Step, work: float) -> None:
+    def record_work(self, step: Step, work: float) -> None:
         """Take note of the work [J] at the end of a step, if a cycle ends or begins there."""
         if self._cycles and _meets(step, self._cycles[0][1]):
             self.last_loss = work - self._begun

@@ -19,7 +19,7 @@ from viscontact.contact.rim import Rim, trace_rim
 from viscontact.errors import DomainError
 from viscontact.loads.history import LoadPoint
 from viscontact.simulation.grid_enlargement import GridEnlargement
-from viscontact.simulation.load_cycles import Cycles
+from viscontact.simulation.load_cycles import LoadCycleWork
 from viscontact.simulation.setup import RunSetup
 from viscontact.simulation.step_solution import StepSolution
 from viscontact.simulation.step_warnings import loading_doubts
@@ -52,7 +52,7 @@ class Observer:
         self._work = 0.0
         self._before: StepSolution | None = None
         self._point: LoadPoint | None = None
-        self._cycles = Cycles(run.load.load_cycles)
+        self._cycles = LoadCycleWork(run.load.load_cycles)
         self._largest_area, self._cells_at_largest = 0.0, 0
         self._largest: NDArray[np.bool_] | None = None  # the contact whose spots are not told yet
         self._spots_at_largest = 0.0
@@ -104,7 +104,7 @@ class Observer:
         contact = instant.pressure > 0
         rim = trace_rim(self._run.grid, contact, instant.gap, self._outline)
         self._work += self._work_of(point, instant)
-        self._cycles.pass_by(step, self._work)
+        self._cycles.record_work(step, self._work)
         self._collect_doubts(step, instant, rim)
         state = _state(step, instant, rim, self._work, self._cycles.last_loss)
         if state.contact_area > self._largest_area:
