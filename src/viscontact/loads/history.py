@@ -13,10 +13,10 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact.display import Shown
 
 #: An instant [s], and which side of a jump there: "left" before it, "right" after it.
-Moment = tuple[float, str]
+LoadInstant = tuple[float, str]
 
 #: Where a cycle of the load begins and ends.
-Cycle = tuple[Moment, Moment]
+Cycle = tuple[LoadInstant, LoadInstant]
 
 #: What a history prescribes along z.
 Control = Literal["force", "approach"]

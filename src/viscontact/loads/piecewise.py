@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.loads import arguments
-from viscontact.loads.history import Cycle, LoadHistory, Moment
+from viscontact.loads.history import Cycle, LoadHistory, LoadInstant
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -74,7 +74,7 @@ class PiecewiseHistory(LoadHistory):
             if abs(back - low) <= same
         )
 
-    def _valleys(self) -> list[tuple[float, Moment]]:
+    def _valleys(self) -> list[tuple[float, LoadInstant]]:
         """Levels and instants of the first rise's begin and of the end of each fall."""
         plateaus = self._plateaus()
         levels = [level for level, _, _ in plateaus]
@@ -89,9 +89,9 @@ class PiecewiseHistory(LoadHistory):
         ]
         return [(levels[rises[0]], plateaus[rises[0]][2]), *falls]
 
-    def _plateaus(self) -> list[tuple[float, Moment, Moment]]:
+    def _plateaus(self) -> list[tuple[float, LoadInstant, LoadInstant]]:
         """Successive different levels at the points, each with its first and last instant."""
-        plateaus: list[tuple[float, Moment, Moment]] = []
+        plateaus: list[tuple[float, LoadInstant, LoadInstant]] = []
         # However far a stage is withdrawn, apart is apart.
         levels = [np.maximum(self.level_at(self.kinks, side=s), 0.0) for s in ("left", "right")]
         for time, *both in zip(self.kinks.tolist(), *(of.tolist() for of in levels), strict=True):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from viscontact.loads.history import Cycle, Moment
+from viscontact.loads.history import Cycle, LoadInstant
 from viscontact.time_integration.fixed_steps import Step
 from viscontact.time_integration.restart_data import RestartData
 
@@ -52,7 +52,7 @@ class LoadCycleWork:
         self._begun, self.last_loss = restart_data["begun"], restart_data["last_loss"]
 
 
-def _meets(step: Step, moment: Moment) -> bool:
+def _meets(step: Step, moment: LoadInstant) -> bool:
     """Whether a step ends at an instant; without a jump there, it does so on both its sides."""
     time, side = moment
     other = (step.before_jump and side == "right") or (step.is_jump and side == "left")
