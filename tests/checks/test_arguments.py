@@ -12,7 +12,7 @@ from hypothesis.extra.numpy import arrays
 from scipy.optimize import linprog
 
 import viscontact as vc
-from viscontact.checks.load_support import Reach
+from viscontact.checks.load_support import LoadSupport
 from viscontact.simulation.setup import prepare_run
 
 BALL = vc.Sphere(1e-3)
@@ -71,7 +71,7 @@ def test_a_force_is_let_through_just_where_some_pressure_balances_it(solid, plac
     grid = vc.Grid(solid.shape, (3.0 * solid.shape[0], 0.2 * solid.shape[1]))
     x, y = grid.x[0] + 3.0 * wanted[0], grid.y[0] + 0.2 * wanted[1]
     try:
-        Reach(solid, grid).refuse_outside((float(x), float(y)), 0.0)
+        LoadSupport(solid, grid).refuse_outside((float(x), float(y)), 0.0)
     except ValueError:
         assert not balanced
     else:
@@ -80,6 +80,6 @@ def test_a_force_is_let_through_just_where_some_pressure_balances_it(solid, plac
 
 def test_a_centred_force_beside_the_body_is_refused():
     corner = np.tri(8, k=-1, dtype=bool)[:, ::-1]  # one side of a diagonal
-    reach = Reach(corner, vc.Grid((8, 8), (1.0, 1.0)))
+    reach = LoadSupport(corner, vc.Grid((8, 8), (1.0, 1.0)))
     with pytest.raises(ValueError, match="outside the hull of what can touch"):
         reach.refuse_outside((0.0, 0.0), 0.0)

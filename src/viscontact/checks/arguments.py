@@ -7,7 +7,7 @@ from numbers import Integral
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.checks.load_support import Reach
+from viscontact.checks.load_support import LoadSupport
 from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.loads import LoadHistory
@@ -122,7 +122,7 @@ def check_balance(open_gap: NDArray[np.float64], grid: Grid, load: LoadHistory, 
     under_load = instants[(before > 0) | (levels > 0) | (after > 0)].tolist()
     if not _wanders(load):
         del under_load[1:]
-    reach = Reach(solid, grid)
+    reach = LoadSupport(solid, grid)
     for time in under_load:
         for side in ("left", "right"):
             point = load.at(time, side=side)

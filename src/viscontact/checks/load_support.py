@@ -16,7 +16,7 @@ from viscontact.grid import Grid
 from viscontact.units.formatting import format_quantity
 
 
-class Reach:
+class LoadSupport:
     """Where a force can act so that pressure, which is never negative, can balance it.
 
     Parameters
@@ -28,7 +28,7 @@ class Reach:
 
     Examples
     --------
-    >>> reach = Reach(np.ones((4, 4), dtype=bool), Grid((4, 4), (0.04, 0.04)))  # to 0.015 m
+    >>> reach = LoadSupport(np.ones((4, 4), dtype=bool), Grid((4, 4), (0.04, 0.04)))  # to 0.015 m
     >>> reach.refuse_outside((0.01, None), 0.0)
     >>> try:
     ...     reach.refuse_outside((0.02, None), 0.0)
