@@ -9,11 +9,11 @@ import pytest
 
 from viscontact.accuracy.richardson import richardson
 
-SPACINGS = np.array([1.0, 1.4, 2.0])
+CELL_RATIOS = np.array([1.0, 1.4, 2.0])
 
 
 @pytest.mark.parametrize("order", [0.5, 0.8, 1.0, 1.5, 2.0])
-@pytest.mark.parametrize("spacings", [SPACINGS, np.array([0.3, 0.7, 0.9])])
+@pytest.mark.parametrize("spacings", [CELL_RATIOS, np.array([0.3, 0.7, 0.9])])
 def test_a_power_of_the_spacing_is_found_with_its_error(order: float, spacings: np.ndarray) -> None:
     slopes = np.array([-3.0, 1e-3, 20.0])
     values = 7.0 + slopes * spacings[:, None] ** order
@@ -24,7 +24,7 @@ def test_a_power_of_the_spacing_is_found_with_its_error(order: float, spacings: 
     assert found.converges.all()
 
 
-@pytest.mark.parametrize("spacings", [SPACINGS, np.array([0.3, 0.7, 0.9])])
+@pytest.mark.parametrize("spacings", [CELL_RATIOS, np.array([0.3, 0.7, 0.9])])
 def test_what_has_no_limit_is_told(spacings: np.ndarray) -> None:
     tip, edge = -np.log(spacings) + 3.0, spacings**-0.5
     found = richardson(np.stack([tip, edge], axis=1), spacings)
@@ -34,7 +34,7 @@ def test_what_has_no_limit_is_told(spacings: np.ndarray) -> None:
 
 
 def test_a_better_order_than_second_is_not_believed() -> None:
-    found = richardson(1.0 + 1e-4 * SPACINGS**4, SPACINGS)
+    found = richardson(1.0 + 1e-4 * CELL_RATIOS**4, CELL_RATIOS)
     assert found.order == pytest.approx(4.0, rel=1e-6)
     assert found.error > 2e-4  # twice the distance from the limit, 1
 
@@ -47,21 +47,21 @@ def test_values_to_and_fro_count_as_first_order() -> None:
 
 
 def test_equal_values_have_no_error() -> None:
-    found = richardson(np.full((3, 2), 4.0), SPACINGS)
+    found = richardson(np.full((3, 2), 4.0), CELL_RATIOS)
     np.testing.assert_array_equal(found.error, 0.0)
     assert found.converges.all()
 
 
 def test_what_hardly_changes_converges() -> None:
     """Scatter of a part in 1e4 is not taken for the growth of a singular pressure."""
-    assert richardson([1.0002, 1.0001, 1.0], SPACINGS).converges
+    assert richardson([1.0002, 1.0001, 1.0], CELL_RATIOS).converges
 
 
 @pytest.mark.parametrize(
     ("values", "spacings", "told"),
     [
-        ([1.0, 2.0], SPACINGS, "three sets"),
-        (1.0, SPACINGS, "three sets"),
+        ([1.0, 2.0], CELL_RATIOS, "three sets"),
+        (1.0, CELL_RATIOS, "three sets"),
         ([1.0, 2.0, 3.0], [1.0, 1.0, 2.0], "increasing"),
         ([1.0, 2.0, 3.0], [0.0, 1.0, 2.0], "increasing"),
         ([1.0, 2.0, 3.0], [1.0, 2.0], "increasing"),

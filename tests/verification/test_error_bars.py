@@ -15,7 +15,7 @@ import pytest
 
 import viscontact as vc
 from verification.exact_contacts import ExactRun, drawn
-from viscontact.accuracy.coarser_runs import companions_of, history_of, marched
+from viscontact.accuracy.coarser_runs import history_of, march_coarser_run, plan_coarser_runs
 from viscontact.accuracy.error_bars import SINGULAR, bars_from, error_bars
 from viscontact.simulation.setup import prepare_run
 from viscontact.simulation.state_generator import march_run
@@ -202,7 +202,7 @@ def test_a_singular_peak_is_told(indenter: vc.Indenter, size: float) -> None:
 def test_a_peak_that_grows_on_from_grid_to_grid_has_no_limit(law, is_endless: bool) -> None:
     """Where neither the shape nor an end of the body tells it: roughness below the cells, say."""
     run, history = pressed(40)
-    courses = [marched(each) for each in companions_of(run, history)]
+    courses = [march_coarser_run(each) for each in plan_coarser_runs(run, history)]
     for course in courses:
         here = np.isin(history["time"], course.scalars["time"])
         course.scalars["peak_pressure"][:] = history["peak_pressure"][here] * law(course.spacing)

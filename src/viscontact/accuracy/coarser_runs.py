@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.accuracy.looser_load import LooserLoad
+from viscontact.accuracy.looser_load import LongerStepsLoad
 from viscontact.checks.mesh import cells_across_spots
 from viscontact.checks.singularities import is_sharp, strain_of, touches_end
 from viscontact.errors import ConvergenceError, DomainError
@@ -22,10 +22,10 @@ from viscontact.time_integration.plan import plan_hereditary_integral
 
 #: Cells of the companions, in cells of the run, and whether they lie about the origin as the run's
 #: do: where a cell's centre was, there may be an edge between two.
-SPACINGS = ((1.5, False), (2.4, True))
+CELL_RATIOS = ((1.5, False), (2.4, True))
 
 #: Their steps, in steps of the run, and how many steps the run must have for that.
-PACES = ((16, (2, 4)), (7, (2, 2)), (0, (1, 1)))
+STEP_RATIOS = ((16, (2, 4)), (7, (2, 2)), (0, (1, 1)))
 
 #: Cells that the coarsest companion has across the largest contact; fewer are no contact.
 FEWEST_ACROSS = 4.5
@@ -38,31 +38,31 @@ History = Mapping[str, NDArray[np.float64]]
 
 
 @dataclass(frozen=True, eq=False)
-class Companion:
+class CoarserRun:
     """A run beside a run.
 
     Attributes
     ----------
     spacing : float
         Its cells, in cells of the run.
-    pace : float
+    step_ratio : float
         Its steps, in steps of the run: 2 for every second one, 0.5 for halves.
     run : RunSetup
         What is marched.
     """
 
     spacing: float
-    pace: float
+    step_ratio: float
     run: RunSetup
 
 
 @dataclass(frozen=True, eq=False)
-class Course:
+class CoarserResult:
     """What a companion has come to.
 
     Attributes
     ----------
-    spacing, pace : float
+    spacing, step_ratio : float
         As of the companion.
     scalars : mapping of str to ndarray
         The scalars over its instants, ``time`` among them.
@@ -75,14 +75,14 @@ class Course:
     """
 
     spacing: float
-    pace: float
+    step_ratio: float
     scalars: History
     at_end: NDArray[np.bool_]
     spots: NDArray[np.float64]
     is_sharp: bool
 
 
-def companions_of(run: RunSetup, history: History) -> Iterator[Companion]:
+def plan_coarser_runs(run: RunSetup, history: History) -> Iterator[CoarserRun]:
     """Yield the companions of a run that is over, the cheapest first.
 
     Parameters
@@ -94,23 +94,23 @@ def companions_of(run: RunSetup, history: History) -> Iterator[Companion]:
 
     Yields
     ------
-    Companion
+    CoarserRun
         Two that are coarser in cells and in steps. Where steps are so few that none can be left
         out, and the bodies creep, one more with halved steps on the coarsest grid.
     """
     times = history["time"]
     paces = _paces(len(FixedSteps(times, run.load).steps))
     spacings = _spacings(float(history["cells_across"].max(initial=0.0)))
-    for (spacing, alike), pace in zip(reversed(spacings), reversed(paces), strict=True):
-        kept = times[::-1][::pace][::-1]
-        yield _companion(run, spacing, alike, float(pace), kept)
+    for (spacing, alike), step_ratio in zip(reversed(spacings), reversed(paces), strict=True):
+        kept = times[::-1][::step_ratio][::-1]
+        yield _coarser_run(run, spacing, alike, float(step_ratio), kept)
     if paces[-1] == 1 and _creeps(run.compliance, times):
         instants = np.unique(np.append(0.0, FixedSteps(times, run.load).instants))
         middles = (instants[1:] + instants[:-1]) / 2
-        yield _companion(run, *spacings[-1], 0.5, np.union1d(times, middles))
+        yield _coarser_run(run, *spacings[-1], 0.5, np.union1d(times, middles))
 
 
-def usual_companions(steps: int) -> tuple[tuple[float, int], ...]:
+def usual_coarsening(steps: int) -> tuple[tuple[float, int], ...]:
     """Return spacings and paces of the companions that a run of so many steps has.
 
     Parameters
@@ -120,15 +120,17 @@ def usual_companions(steps: int) -> tuple[tuple[float, int], ...]:
 
     Examples
     --------
-    >>> usual_companions(60)
+    >>> usual_coarsening(60)
     ((1.5, 2), (2.4, 4))
     """
     paces = _paces(steps)
-    return tuple((spacing, pace) for (spacing, _), pace in zip(SPACINGS, paces, strict=True))
+    return tuple(
+        (spacing, step_ratio) for (spacing, _), step_ratio in zip(CELL_RATIOS, paces, strict=True)
+    )
 
 
 def _paces(steps: int) -> tuple[int, int]:
-    return next(paces for least, paces in PACES if steps >= least)
+    return next(paces for least, paces in STEP_RATIOS if steps >= least)
 
 
 def coarser_grid(grid: Grid, spacing: float, alike: bool) -> Grid:
@@ -166,22 +168,24 @@ def coarser_grid(grid: Grid, spacing: float, alike: bool) -> Grid:
     return replace(grid, shape=(shape[0], shape[1]), size=size)
 
 
-def marched(companion: Companion, on_step: Callable[[], None] | None = None) -> Course | None:
+def march_coarser_run(
+    coarser_run: CoarserRun, on_step: Callable[[], None] | None = None
+) -> CoarserResult | None:
     """March a companion.
 
     Parameters
     ----------
-    companion : Companion
+    coarser_run : CoarserRun
         What to march.
     on_step : callable, optional
         Called after each of its steps; what it raises ends the march.
 
     Returns
     -------
-    Course or None
+    CoarserResult or None
         None if it could not be marched to its end: it tells nothing then.
     """
-    run, states, ends, spots = companion.run, [], [], []
+    run, states, ends, spots = coarser_run.run, [], [], []
     peak = 0.0
     sharp = False
     try:
@@ -196,15 +200,15 @@ def marched(companion: Companion, on_step: Callable[[], None] | None = None) -> 
             spots.append(cells_across_spots(contact, periodic=run.grid.periodic))
             if taken.state.peak_pressure > 1.1 * peak:
                 peak = taken.state.peak_pressure
-                sharp = sharp or _peaks_at_point(companion, taken.state)
+                sharp = sharp or _peaks_at_point(coarser_run, taken.state)
     except (ConvergenceError, DomainError):
         return None
-    return Course(
-        companion.spacing,
-        companion.pace,
+    return CoarserResult(
+        coarser_run.spacing,
+        coarser_run.step_ratio,
         history_of(states),
         np.array(ends, dtype=bool),
-        companion.spacing * np.array(spots, dtype=float),
+        coarser_run.spacing * np.array(spots, dtype=float),
         sharp,
     )
 
@@ -236,32 +240,32 @@ def history_of(states: Sequence[ContactState]) -> History:
 
 def _spacings(across: float) -> tuple[tuple[float, bool], ...]:
     """The spacings, closer together where the run has few cells across its contact."""
-    coarsest = SPACINGS[-1][0]
+    coarsest = CELL_RATIOS[-1][0]
     most = min(coarsest, max(across / FEWEST_ACROSS, LEAST_COARSENING))
     closer = (most - 1) / (coarsest - 1)
-    return tuple((1 + (spacing - 1) * closer, alike) for spacing, alike in SPACINGS)
+    return tuple((1 + (spacing - 1) * closer, alike) for spacing, alike in CELL_RATIOS)
 
 
 def _creeps(compliance: ContactCompliance, times: NDArray[np.float64]) -> bool:
     return bool(compliance(float(times[-1])) != compliance.instant)
 
 
-def _companion(
-    run: RunSetup, spacing: float, alike: bool, pace: float, times: NDArray[np.float64]
-) -> Companion:
+def _coarser_run(
+    run: RunSetup, spacing: float, alike: bool, step_ratio: float, times: NDArray[np.float64]
+) -> CoarserRun:
     grid = coarser_grid(run.grid, spacing, alike)
-    load = run.load if pace <= 1 else LooserLoad(run.load, pace)
+    load = run.load if step_ratio <= 1 else LongerStepsLoad(run.load, step_ratio)
     coarse = replace(run.on(grid), times=times, load=load, adaptive=None, automatic=None)
     numbers = 2 * coarse.open_gap.size // 2 ** sum(coarse.mirrored)
     memory = plan_hereditary_integral(run.compliance, FixedSteps(times, load).instants, numbers)
-    return Companion(spacing, pace, replace(coarse, memory=memory))
+    return CoarserRun(spacing, step_ratio, replace(coarse, memory=memory))
 
 
-def _peaks_at_point(companion: Companion, state: ContactState) -> bool:
+def _peaks_at_point(coarser_run: CoarserRun, state: ContactState) -> bool:
     """Whether its largest pressure lies at what is sharp to the cells of the run beside it."""
-    run = companion.run
+    run = coarser_run.run
     place = run.grid.largest_at(state.pressure)
     dx, dy = run.grid.cell_size
-    cell = (dx / companion.spacing, dy / companion.spacing)
+    cell = (dx / coarser_run.spacing, dy / coarser_run.spacing)
     strain = strain_of(state.peak_pressure, float(run.compliance(state.time)))
     return is_sharp(run.indenter, place, (1.5 * dx, 1.5 * dy), cell, strain)

@@ -14,7 +14,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.accuracy.coarser_runs import FEWEST_ACROSS, Course, History, companions_of, marched
+from viscontact.accuracy.coarser_runs import (
+    FEWEST_ACROSS,
+    CoarserResult,
+    History,
+    march_coarser_run,
+    plan_coarser_runs,
+)
 from viscontact.accuracy.levels import (
     Levels,
     end_flags,
@@ -164,18 +170,22 @@ def error_bars(
     >>> bool(bar / history["approach"][0] < 2e-3)
     True
     """
-    courses = [course for each in companions_of(run, history) if (course := marched(each, on_step))]
+    courses = [
+        course
+        for each in plan_coarser_runs(run, history)
+        if (course := march_coarser_run(each, on_step))
+    ]
     return bars_from(run, history, courses)
 
 
-def bars_from(run: RunSetup, history: History, courses: Iterable[Course]) -> ErrorBars:
+def bars_from(run: RunSetup, history: History, courses: Iterable[CoarserResult]) -> ErrorBars:
     """Estimate errors from companions that have been marched.
 
     Parameters
     ----------
     run, history
         As in `error_bars`.
-    courses : iterable of Course
+    courses : iterable of CoarserResult
         The companions.
 
     Returns
@@ -267,7 +277,7 @@ def _least_bar(
 
 
 def _endless(
-    history: History, courses: list[Course], at_end: NDArray[np.bool_]
+    history: History, courses: list[CoarserResult], at_end: NDArray[np.bool_]
 ) -> NDArray[np.bool_]:
     """Where the largest pressure has no limit: by the body's shape, or by what the grids show."""
     contact = np.asarray(history["peak_pressure"] > 0)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.accuracy.coarser_runs import Course, History
+from viscontact.accuracy.coarser_runs import CoarserResult, History
 
 Array = NDArray[np.float64]
 
@@ -37,11 +37,11 @@ class Levels:
     by_steps: Array
 
     @classmethod
-    def of(cls, name: str, history: History, courses: list[Course]) -> Levels:
+    def of(cls, name: str, history: History, courses: list[CoarserResult]) -> Levels:
         """Put a scalar of a run beside those of its companions."""
         times, own = history["time"], history[name]
-        twins = [course for course in courses if course.pace < 1]
-        grids = [course for course in courses if course.pace >= 1]
+        twins = [course for course in courses if course.step_ratio < 1]
+        grids = [course for course in courses if course.step_ratio >= 1]
         rows = np.stack([own, *(aligned(name, times, course) for course in grids)])
         by_steps = np.zeros(len(times))
         for twin in twins:
@@ -67,7 +67,7 @@ class Levels:
         return found
 
 
-def end_flags(times: Array, courses: list[Course]) -> Array:
+def end_flags(times: Array, courses: list[CoarserResult]) -> Array:
     """Return where any companion has reached the end of the body: 1, else 0."""
     flags = np.zeros(len(times))
     for course in courses:
@@ -75,7 +75,7 @@ def end_flags(times: Array, courses: list[Course]) -> Array:
     return flags
 
 
-def spots_across(times: Array, courses: list[Course]) -> Array:
+def spots_across(times: Array, courses: list[CoarserResult]) -> Array:
     """Return cells across spots as the companions see them, the least; NaN without contact."""
     spots = np.full(len(times), np.nan)
     for course in courses:
@@ -88,7 +88,7 @@ def spots_across(times: Array, courses: list[Course]) -> Array:
     return spots
 
 
-def aligned(name: str, times: Array, course: Course) -> Array:
+def aligned(name: str, times: Array, course: CoarserResult) -> Array:
     """Return a companion's scalar at the run's instants, NaN where it has none."""
     values, theirs = np.full(len(times), np.nan), course.scalars["time"]
     asked, known = np.isin(times, theirs), np.isin(theirs, times)

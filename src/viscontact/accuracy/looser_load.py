@@ -12,19 +12,19 @@ from viscontact.loads.history import Cycle
 
 
 @dataclass(frozen=True, eq=False)
-class LooserLoad(LoadHistory):
+class LongerStepsLoad(LoadHistory):
     """A load that asks for fewer steps of its own.
 
     Attributes
     ----------
     load : LoadHistory
         The load.
-    pace : float
+    step_ratio : float
         Its longest step, in longest steps of the load.
     """
 
     load: LoadHistory
-    pace: float
+    step_ratio: float
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "control", self.load.control)
@@ -55,7 +55,7 @@ class LooserLoad(LoadHistory):
     @property
     def longest_step(self) -> float:
         """Longest step, so many times the load's [s]."""
-        return self.pace * self.load.longest_step
+        return self.step_ratio * self.load.longest_step
 
     @property
     def load_cycles(self) -> tuple[Cycle, ...]:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import fft
 
-from viscontact.accuracy.coarser_runs import usual_companions
+from viscontact.accuracy.coarser_runs import usual_coarsening
 from viscontact.grid import Grid
 from viscontact.loads import LoadPoint
 from viscontact.loads.largest_load import largest_load
@@ -135,7 +135,8 @@ def _seconds(run: RunSetup, *, errors: bool) -> float:
     marches = [(steps, each)]
     if errors:
         marches += [
-            (steps / pace, each / spacing**2) for spacing, pace in usual_companions(round(steps))
+            (steps / step_ratio, each / spacing**2)
+            for spacing, step_ratio in usual_coarsening(round(steps))
         ]
     return sum(one * (FIRST_STEP + LATER_STEP * count) + BESIDES * count for count, one in marches)
 
