@@ -16,7 +16,7 @@ import pytest
 import viscontact as vc
 from verification.exact_contacts import ExactRun, drawn
 from viscontact.accuracy.coarser_runs import history_of, march_coarser_run, plan_coarser_runs
-from viscontact.accuracy.error_bars import SINGULAR, bars_from, error_bars
+from viscontact.accuracy.error_bars import SINGULAR, error_bars, error_bars_from
 from viscontact.simulation.setup import prepare_run
 from viscontact.simulation.state_generator import march_run
 
@@ -162,7 +162,7 @@ def test_without_contact_what_is_zero_is_exact() -> None:
 
 def test_what_no_companion_tells_is_not_known() -> None:
     run, history = pressed(20)
-    bars = bars_from(run, history, [])
+    bars = error_bars_from(run, history, [])
     assert all(np.isnan(bar).all() for bar in bars.values.values())
 
 
@@ -206,7 +206,7 @@ def test_a_peak_that_grows_on_from_grid_to_grid_has_no_limit(law, is_endless: bo
     for course in courses:
         here = np.isin(history["time"], course.scalars["time"])
         course.scalars["peak_pressure"][:] = history["peak_pressure"][here] * law(course.spacing)
-    endless = np.isinf(bars_from(run, history, courses).values["peak_pressure"])
+    endless = np.isinf(error_bars_from(run, history, courses).values["peak_pressure"])
     assert endless.all() if is_endless else not endless.any()
 
 

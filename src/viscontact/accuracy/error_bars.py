@@ -36,7 +36,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Trust:
+class ErrorModel:
     """How differences between grids are taken for errors.
 
     Attributes
@@ -56,10 +56,15 @@ class Trust:
         return self.factor * levels.by_cells(self.order)
 
 
-_BULK, _AREA, _EXTENT, _PEAK = Trust(2.0, 1.5), Trust(2.0, 2.0), Trust(1.0, 0.75), Trust(2.0, 2.0)
+_BULK, _AREA, _EXTENT, _PEAK = (
+    ErrorModel(2.0, 1.5),
+    ErrorModel(2.0, 2.0),
+    ErrorModel(1.0, 0.75),
+    ErrorModel(2.0, 2.0),
+)
 
 #: Scalars that have a bar. Pressure is smooth but for the rim, which lies somewhere between cells.
-TRUSTS = {
+ERROR_MODELS = {
     "force": _BULK,
     "eccentricity_x": _BULK,
     "eccentricity_y": _BULK,
@@ -77,22 +82,22 @@ TRUSTS = {
 
 #: Approach, force and work where a contact reaches the end of a body: pressure is singular there,
 #: and cells make a staircase of the end.
-AT_END = Trust(0.7, 1.2)
+BODY_END_MODEL = ErrorModel(0.7, 1.2)
 
 #: Area and peak where contact consists of spots of few cells, in the mean so many across: some of
 #: them come and go between grids. Calibrated on self-affine surfaces, 2 to 9 cells across.
-FEW_IN_A_SPOT = 8.0
-OF_SPOTS, PEAK_OF_SPOTS = Trust(1.0, 1.5), Trust(2.0, 4.0)
+COARSE_SPOT_CELLS = 8.0
+SPOT_MODEL, SPOT_PEAK_MODEL = ErrorModel(1.0, 1.5), ErrorModel(2.0, 4.0)
 
 #: Extents are known to no better than this part of a cell, however well two grids agree, and where
 #: the spots at the rim count or where pressure is singular, to so many cells.
-RIM_CELLS, RAGGED_RIM_CELLS = 0.25, 1.5
+RIM_CELLS, UNSMOOTH_RIM_CELLS = 0.25, 1.5
 
 #: Differences below this part of a value: an extent that all grids agree on is that of the body.
-AGREED = 1e-6
+AGREEMENT_TOLERANCE = 1e-6
 
 #: The solver's tolerance is met by the gap; what follows from it is off by some times that.
-SOLVER = 3.0
+SOLVER_ERROR_FACTOR = 3.0
 
 #: Extents of the contact along x and y, and what moments decide.
 EXTENTS = ("contact_length", "contact_width")
@@ -101,14 +106,14 @@ MOMENTS = ("eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y")
 TINY = float(np.finfo(np.float64).tiny)
 
 #: Scalars that are exactly zero without contact.
-ZERO_APART = (
+ZERO_WITHOUT_CONTACT = (
     *("force", "contact_area", "contact_length", "contact_width"),
     *("peak_pressure", "mean_pressure"),
 )
 
 #: What has no limit grows by at least this part of the mean pressure as cells shrink by a factor e:
 #: under a wedge it is 0.64, under a cone 1.
-ENDLESS_GROWTH = 0.3
+UNBOUNDED_GROWTH = 0.3
 
 #: What is said where a peak has no limit.
 SINGULAR = (
@@ -175,10 +180,10 @@ def error_bars(
         for each in plan_coarser_runs(run, history)
         if (course := march_coarser_run(each, on_step))
     ]
-    return bars_from(run, history, courses)
+    return error_bars_from(run, history, courses)
 
 
-def bars_from(run: RunSetup, history: History, courses: Iterable[CoarserResult]) -> ErrorBars:
+def error_bars_from(run: RunSetup, history: History, courses: Iterable[CoarserResult]) -> ErrorBars:
     """Estimate errors from companions that have been marched.
 
     Parameters
@@ -197,15 +202,16 @@ def bars_from(run: RunSetup, history: History, courses: Iterable[CoarserResult])
     if not found:
         return unknown_bars(len(history["time"]))
     at_end = largest_around(end_flags(history["time"], found)) > 0
-    of_spots = least_around(spots_across(history["time"], found)) < FEW_IN_A_SPOT
+    of_spots = least_around(spots_across(history["time"], found)) < COARSE_SPOT_CELLS
     places = _Places(at_end, of_spots)
     values = {
-        name: _bar(run, name, Levels.of(name, history, found), places, history) for name in TRUSTS
+        name: _bar(run, name, Levels.of(name, history, found), places, history)
+        for name in ERROR_MODELS
     }
-    apart = _surely_apart(run, history)
-    for name in ZERO_APART:
+    apart = _certainly_separated(run, history)
+    for name in ZERO_WITHOUT_CONTACT:
         values[name][apart] = 0.0
-    endless = _endless(history, found, at_end)
+    endless = _unbounded_peak(history, found, at_end)
     values["peak_pressure"][endless] = np.inf
     # The run itself tells of ends and corners.
     is_told = at_end.any() or any(course.is_sharp for course in found)
@@ -225,7 +231,7 @@ def unknown_bars(count: int) -> ErrorBars:
     >>> unknown_bars(2).values["force"]
     array([nan, nan])
     """
-    return ErrorBars({name: np.full(count, np.nan) for name in TRUSTS}, ())
+    return ErrorBars({name: np.full(count, np.nan) for name in ERROR_MODELS}, ())
 
 
 @dataclass(frozen=True, eq=False)
@@ -239,21 +245,23 @@ class _Places:
 def _bar(run: RunSetup, name: str, levels: Levels, places: _Places, history: History) -> Array:
     own = np.abs(levels.values[0])
     scale = largest_around(own)
-    by_cells = TRUSTS[name].of(levels)
-    if TRUSTS[name] is _BULK:
-        by_cells = np.where(places.at_end, AT_END.of(levels), by_cells)
-    if TRUSTS[name] is _AREA:
-        by_cells = np.where(places.of_spots, OF_SPOTS.of(levels), by_cells)
-    if TRUSTS[name] is _PEAK:
-        by_cells = np.where(places.of_spots, PEAK_OF_SPOTS.of(levels), by_cells)
+    by_cells = ERROR_MODELS[name].of(levels)
+    if ERROR_MODELS[name] is _BULK:
+        by_cells = np.where(places.at_end, BODY_END_MODEL.of(levels), by_cells)
+    if ERROR_MODELS[name] is _AREA:
+        by_cells = np.where(places.of_spots, SPOT_MODEL.of(levels), by_cells)
+    if ERROR_MODELS[name] is _PEAK:
+        by_cells = np.where(places.of_spots, SPOT_PEAK_MODEL.of(levels), by_cells)
     nothing = np.where(np.isnan(by_cells), np.nan, 0.0)
     parts = [
         largest_around(np.divide(part, scale, out=nothing.copy(), where=scale > 0))
         for part in (by_cells, levels.by_steps)
     ]
-    solver = SOLVER * run.tolerance + run.memory.error + run.compliance.inversion_error
+    solver = SOLVER_ERROR_FACTOR * run.tolerance + run.memory.error + run.compliance.inversion_error
     bar = (parts[0] + np.nan_to_num(parts[1]) + solver) * scale
-    bar = np.maximum(bar, _least_bar(run, name, by_cells > AGREED * own, places, history))
+    bar = np.maximum(
+        bar, _least_bar(run, name, by_cells > AGREEMENT_TOLERANCE * own, places, history)
+    )
     return np.where(np.isnan(own), np.nan, bar)
 
 
@@ -264,7 +272,7 @@ def _least_bar(
     if name in EXTENTS:
         cell = run.grid.cell_size[EXTENTS.index(name)]
         ragged = places.of_spots | places.at_end
-        parts = np.where(ragged, RAGGED_RIM_CELLS, RIM_CELLS)
+        parts = np.where(ragged, UNSMOOTH_RIM_CELLS, RIM_CELLS)
         return np.asarray(np.where(differs, parts * cell, 0.0))
     if name in MOMENTS:
         # Balanced to a part of the force times the extent, which may turn a body that is even.
@@ -272,11 +280,11 @@ def _least_bar(
         extent = np.nan_to_num(history[axis])
         slope = np.abs(history["approach"]) / np.maximum(extent, TINY)
         lever = extent if name.startswith("eccentricity") else slope
-        return np.asarray(np.where(extent > 0, SOLVER * run.tolerance * lever, 0.0))
+        return np.asarray(np.where(extent > 0, SOLVER_ERROR_FACTOR * run.tolerance * lever, 0.0))
     return 0.0
 
 
-def _endless(
+def _unbounded_peak(
     history: History, courses: list[CoarserResult], at_end: NDArray[np.bool_]
 ) -> NDArray[np.bool_]:
     """Where the largest pressure has no limit: by the body's shape, or by what the grids show."""
@@ -293,14 +301,14 @@ def _endless(
     known = np.isfinite(peaks).all(axis=0)
     verdict = richardson(np.where(known, peaks, 1.0), spacings)
     growth = (peaks[0] - peaks[-1]) / np.log(spacings[-1])
-    grows = growth > ENDLESS_GROWTH * history["mean_pressure"]
+    grows = growth > UNBOUNDED_GROWTH * history["mean_pressure"]
     # A contact of few cells is no contact on the coarsest grid.
     fine = history["cells_across"] >= FEWEST_ACROSS * spacings[-1]
     endless = np.where(known, ~verdict.converges & grows & fine, np.nan)
     return np.asarray(contact & (at_end | (mean_around(endless) > 0.5)))
 
 
-def _surely_apart(run: RunSetup, history: History) -> NDArray[np.bool_]:
+def _certainly_separated(run: RunSetup, history: History) -> NDArray[np.bool_]:
     """Where there is no contact, and none that is lost or made between two instants."""
     apart = np.asarray(history["peak_pressure"] == 0)
     if run.load.control == "force":
