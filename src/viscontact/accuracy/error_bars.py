@@ -22,11 +22,11 @@ from viscontact.accuracy.coarser_runs import (
     plan_coarser_runs,
 )
 from viscontact.accuracy.levels import (
-    Levels,
+    RefinementLevels,
     end_flags,
-    largest_around,
-    least_around,
-    mean_around,
+    moving_maximum,
+    moving_mean,
+    moving_minimum,
     spots_across,
 )
 from viscontact.accuracy.richardson import richardson
@@ -51,7 +51,7 @@ class ErrorModel:
     order: float
     factor: float
 
-    def of(self, levels: Levels) -> Array:
+    def of(self, levels: RefinementLevels) -> Array:
         """Return what cells make, taken for errors."""
         return self.factor * levels.by_cells(self.order)
 
@@ -201,11 +201,11 @@ def error_bars_from(run: RunSetup, history: History, courses: Iterable[CoarserRe
     found = list(courses)
     if not found:
         return unknown_bars(len(history["time"]))
-    at_end = largest_around(end_flags(history["time"], found)) > 0
-    of_spots = least_around(spots_across(history["time"], found)) < COARSE_SPOT_CELLS
+    at_end = moving_maximum(end_flags(history["time"], found)) > 0
+    of_spots = moving_minimum(spots_across(history["time"], found)) < COARSE_SPOT_CELLS
     places = _Places(at_end, of_spots)
     values = {
-        name: _bar(run, name, Levels.of(name, history, found), places, history)
+        name: _bar(run, name, RefinementLevels.of(name, history, found), places, history)
         for name in ERROR_MODELS
     }
     apart = _certainly_separated(run, history)
@@ -242,9 +242,11 @@ class _Places:
     of_spots: NDArray[np.bool_]
 
 
-def _bar(run: RunSetup, name: str, levels: Levels, places: _Places, history: History) -> Array:
+def _bar(
+    run: RunSetup, name: str, levels: RefinementLevels, places: _Places, history: History
+) -> Array:
     own = np.abs(levels.values[0])
-    scale = largest_around(own)
+    scale = moving_maximum(own)
     by_cells = ERROR_MODELS[name].of(levels)
     if ERROR_MODELS[name] is _BULK:
         by_cells = np.where(places.at_end, BODY_END_MODEL.of(levels), by_cells)
@@ -254,7 +256,7 @@ def _bar(run: RunSetup, name: str, levels: Levels, places: _Places, history: His
         by_cells = np.where(places.of_spots, SPOT_PEAK_MODEL.of(levels), by_cells)
     nothing = np.where(np.isnan(by_cells), np.nan, 0.0)
     parts = [
-        largest_around(np.divide(part, scale, out=nothing.copy(), where=scale > 0))
+        moving_maximum(np.divide(part, scale, out=nothing.copy(), where=scale > 0))
         for part in (by_cells, levels.by_steps)
     ]
     solver = SOLVER_ERROR_FACTOR * run.tolerance + run.memory.error + run.compliance.inversion_error
@@ -291,7 +293,7 @@ def _unbounded_peak(
     contact = np.asarray(history["peak_pressure"] > 0)
     if any(course.is_sharp for course in courses):
         return contact
-    levels = Levels.of("peak_pressure", history, courses)
+    levels = RefinementLevels.of("peak_pressure", history, courses)
     order = np.argsort(levels.spacings)
     if len(order) < 3:
         return np.asarray(contact & at_end)
@@ -305,7 +307,7 @@ def _unbounded_peak(
     # A contact of few cells is no contact on the coarsest grid.
     fine = history["cells_across"] >= FEWEST_ACROSS * spacings[-1]
     endless = np.where(known, ~verdict.converges & grows & fine, np.nan)
-    return np.asarray(contact & (at_end | (mean_around(endless) > 0.5)))
+    return np.asarray(contact & (at_end | (moving_mean(endless) > 0.5)))
 
 
 def _certainly_separated(run: RunSetup, history: History) -> NDArray[np.bool_]:
@@ -313,4 +315,4 @@ def _certainly_separated(run: RunSetup, history: History) -> NDArray[np.bool_]:
     apart = np.asarray(history["peak_pressure"] == 0)
     if run.load.control == "force":
         return apart
-    return np.asarray(apart & ~(largest_around(~apart, 1) > 0))
+    return np.asarray(apart & ~(moving_maximum(~apart, 1) > 0))

@@ -15,11 +15,11 @@ Array = NDArray[np.float64]
 
 #: What a difference between steps and halved ones counts: four thirds at second order, twice at
 #: first.
-HALVED = 1.5
+HALVED_STEP_FACTOR = 1.5
 
 
 @dataclass(frozen=True, eq=False)
-class Levels:
+class RefinementLevels:
     """A scalar on each grid at the run's instants.
 
     Attributes
@@ -37,7 +37,7 @@ class Levels:
     by_steps: Array
 
     @classmethod
-    def of(cls, name: str, history: History, courses: list[CoarserResult]) -> Levels:
+    def of(cls, name: str, history: History, courses: list[CoarserResult]) -> RefinementLevels:
         """Put a scalar of a run beside those of its companions."""
         times, own = history["time"], history[name]
         twins = [course for course in courses if course.step_ratio < 1]
@@ -49,7 +49,7 @@ class Levels:
                 row for row, c in zip(rows[1:], grids, strict=True) if c.spacing == twin.spacing
             ]
             for row in like:
-                by_steps = HALVED * np.abs(row - aligned(name, times, twin))
+                by_steps = HALVED_STEP_FACTOR * np.abs(row - aligned(name, times, twin))
         return cls((1.0, *(course.spacing for course in grids)), rows, by_steps)
 
     def by_cells(self, order: float) -> Array:
@@ -97,7 +97,7 @@ def aligned(name: str, times: Array, course: CoarserResult) -> Array:
 
 
 #: Instants on both sides.
-AROUND = 3
+WINDOW_STEPS = 3
 
 
 def _windows(values: NDArray[Any], reach: int) -> Array:
@@ -105,7 +105,7 @@ def _windows(values: NDArray[Any], reach: int) -> Array:
     return np.asarray(np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1))
 
 
-def largest_around(values: NDArray[Any], reach: int = AROUND) -> Array:
+def moving_maximum(values: NDArray[Any], reach: int = WINDOW_STEPS) -> Array:
     """Return the largest value of the instants around each; NaN where none of them has one.
 
     Parameters
@@ -117,31 +117,31 @@ def largest_around(values: NDArray[Any], reach: int = AROUND) -> Array:
 
     Examples
     --------
-    >>> largest_around(np.array([1.0, np.nan, 5.0, 2.0, 0.0]), reach=1)
+    >>> moving_maximum(np.array([1.0, np.nan, 5.0, 2.0, 0.0]), reach=1)
     array([1., 5., 5., 5., 2.])
     """
     return np.asarray(np.fmax.reduce(_windows(values, reach), axis=1))
 
 
-def least_around(values: NDArray[Any]) -> Array:
+def moving_minimum(values: NDArray[Any]) -> Array:
     """Return the least value of the instants around each; NaN where none of them has one.
 
     Examples
     --------
-    >>> least_around(np.array([1.0, np.nan, 5.0]))
+    >>> moving_minimum(np.array([1.0, np.nan, 5.0]))
     array([1., 1., 1.])
     """
-    return np.asarray(np.fmin.reduce(_windows(values, AROUND), axis=1))
+    return np.asarray(np.fmin.reduce(_windows(values, WINDOW_STEPS), axis=1))
 
 
-def mean_around(values: Array) -> Array:
+def moving_mean(values: Array) -> Array:
     """Return the mean of the instants around each that have a value; 0 where none has one.
 
     Examples
     --------
-    >>> mean_around(np.array([1.0, np.nan, 5.0]))
+    >>> moving_mean(np.array([1.0, np.nan, 5.0]))
     array([3., 3., 3.])
     """
-    windows = _windows(values, AROUND)
+    windows = _windows(values, WINDOW_STEPS)
     known = np.isfinite(windows)
     return np.asarray(np.where(known, windows, 0.0).sum(axis=1) / np.maximum(known.sum(axis=1), 1))
