@@ -22,10 +22,10 @@ MOST_CELLS = 2**22
 MOST_INSTANTS, MOST_CORNERS = 1000, 60
 
 #: Loads of at least this part of the largest are as good as it, where the force moves.
-AS_LARGE = 0.9
+NEAR_LARGEST_LOAD = 0.9
 
 #: Instants between which a load is followed to its crest.
-CREST_INSTANTS = 200
+PEAK_LOAD_SAMPLES = 200
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,7 +85,7 @@ def contacts_of_history(
     ]
 
 
-def hardest_contact(
+def smallest_contact(
     indenter: Indenter,
     compliance: ContactCompliance,
     load: LoadHistory,
@@ -118,7 +118,7 @@ def hardest_contact(
         If no grid fits that contact.
     """
     highest = max(each.point.level for each in found)
-    as_large = [each for each in found if each.point.level >= AS_LARGE * highest]
+    as_large = [each for each in found if each.point.level >= NEAR_LARGEST_LOAD * highest]
     smallest = min(as_large, key=lambda each: min(each.estimate.extents))
     if load.control == "approach":  # where the compliance scales the pressure, and nothing else
         return smallest
@@ -138,7 +138,9 @@ def _compliance_at_crest(
     ages of the load's parts.
     """
     crest, _ = largest_load(load, float(load.kinks[-1]) if end is None else end)
-    instants = np.union1d(np.linspace(0.0, crest, CREST_INSTANTS), load.kinks[load.kinks <= crest])
+    instants = np.union1d(
+        np.linspace(0.0, crest, PEAK_LOAD_SAMPLES), load.kinks[load.kinks <= crest]
+    )
     sides = [load.level_at(instants, side=side) for side in ("left", "right")]
     levels = np.maximum.accumulate(np.stack(sides, axis=1).ravel()).reshape(-1, 2)
     levels = np.maximum(levels, 0.0)
@@ -156,12 +158,14 @@ def _corners(load: LoadHistory, end: float | None) -> list[LoadPoint]:
     corners = load.kinks if end is None else np.append(load.kinks[load.kinks < end], end)
     within = [corners[:-1] + part * np.diff(corners) for part in (0.25, 0.5, 0.75)]
     crest, _ = largest_load(load, float(corners[-1]))
-    instants = _telling(np.unique(np.concatenate([corners, *within, [crest]])), load).tolist()
+    instants = _representative_times(
+        np.unique(np.concatenate([corners, *within, [crest]])), load
+    ).tolist()
     points = [load.at(time, side=side) for time in instants for side in ("left", "right")]
     return _outermost(list(dict.fromkeys(point for point in points if point.level > 0)))
 
 
-def _telling(instants: NDArray[np.float64], load: LoadHistory) -> NDArray[np.float64]:
+def _representative_times(instants: NDArray[np.float64], load: LoadHistory) -> NDArray[np.float64]:
     """Of very many instants those of the largest load, and as many over the whole history."""
     if instants.size <= 2 * MOST_INSTANTS:
         return instants

@@ -17,12 +17,12 @@ from viscontact.meshing.contact_extent import (
     MOST_CELLS,
     PointContact,
     contacts_of_history,
-    hardest_contact,
     largest_compliance,
+    smallest_contact,
 )
 from viscontact.meshing.height_map_error import facet_error
-from viscontact.meshing.refinement import PEAK, USUAL_ORDER, Resolution, resolve
-from viscontact.meshing.trial_mesh import RIM_SCATTER, Pressing
+from viscontact.meshing.refinement import PEAK, USUAL_ORDER, Resolution, refine_mesh
+from viscontact.meshing.trial_mesh import RIM_SCATTER, ElasticContact
 from viscontact.units.formatting import format_quantity
 
 #: No more cells are spent on a contact that is small at first and large for most of the run.
@@ -113,7 +113,7 @@ def choose_mesh(
     reach = np.array([each.estimate.reach for each in found], dtype=np.float64).max(axis=0)
     size = 2 * MARGIN * reach
     choice = _begun(indenter, wish, late, size)
-    early = hardest_contact(indenter, compliance, load, end, found)
+    early = smallest_contact(indenter, compliance, load, end, found)
     if min(np.divide(early.estimate.extents, late.estimate.extents)) < SMALLER:
         choice = _refined_early(indenter, wish, early, size, choice)
     return _as_the_map_allows(
@@ -122,7 +122,7 @@ def choose_mesh(
 
 
 @dataclass(frozen=True, eq=False)
-class _Choice:
+class _MeshChoice:
     """So many cells over the whole grid, for these quantities, with these errors and doubts."""
 
     cells: NDArray[np.float64]
@@ -130,7 +130,7 @@ class _Choice:
     errors: dict[str, float]
     doubts: dict[str, str]
 
-    def after(self, found: Resolution, cells: NDArray[np.float64]) -> _Choice:
+    def after(self, found: Resolution, cells: NDArray[np.float64]) -> _MeshChoice:
         """What is chosen after a contact has been resolved by so many cells."""
         errors = {
             name: max(found.trial.errors[name], self.errors.get(name, 0.0))
@@ -138,12 +138,12 @@ class _Choice:
         }
         left_out = set(self.quantities) - set(found.quantities)
         doubts = self.doubts | PEAK_DOUBT if left_out else self.doubts
-        return _Choice(cells, found.quantities, errors, doubts)
+        return _MeshChoice(cells, found.quantities, errors, doubts)
 
 
 def _begun(
     indenter: Indenter, wish: AutomaticGrid, late: PointContact, size: NDArray[np.float64]
-) -> _Choice:
+) -> _MeshChoice:
     """The cells that the largest contact needs at least."""
     cells, across = _fewest(indenter, wish, late, size), _across(wish)
     if not float(np.prod(cells)) <= MOST_CELLS:
@@ -160,7 +160,7 @@ def _begun(
             f"{format_quantity(size[1], 'm', 3)} needs {float(np.prod(cells)):.2g} cells for a "
             f"relative error of {wish.tolerance:.2g}, more than an automatic grid has; {remedy}"
         )
-    return _Choice(cells, tuple(wish.quantities), {}, {})
+    return _MeshChoice(cells, tuple(wish.quantities), {}, {})
 
 
 def _fewest(
@@ -185,8 +185,8 @@ def _refined_early(
     wish: AutomaticGrid,
     early: PointContact,
     whole: NDArray[np.float64],
-    choice: _Choice,
-) -> _Choice:
+    choice: _MeshChoice,
+) -> _MeshChoice:
     """Refine for a contact that is harder to resolve than the largest, as far as it pays."""
     size = np.minimum(2 * MARGIN * np.array(early.estimate.reach), whole)
     part = size / whole
@@ -208,7 +208,7 @@ def _refined_in_the_end(
     wish: AutomaticGrid,
     late: PointContact,
     size: NDArray[np.float64],
-    choice: _Choice,
+    choice: _MeshChoice,
 ) -> Mesh:
     """The grid that resolves the largest contact, too."""
     found = _resolved(indenter, wish, late, size, choice.quantities, choice.cells, MOST_CELLS)
@@ -249,10 +249,10 @@ def _resolved(
 ) -> Resolution:
     """Cells for one contact on a grid of this size; a map tells nothing between its points."""
     extents = (float(size[0]), float(size[1]))
-    pressing = Pressing(indenter, contact.compliance, contact.point, extents)
+    pressing = ElasticContact(indenter, contact.compliance, contact.point, extents)
     steps = np.array(indenter.sample_spacing)
     finest = np.divide(size, steps, out=np.full(2, math.inf), where=steps > 0)
-    return resolve(
+    return refine_mesh(
         pressing,
         quantities,
         wish.tolerance,

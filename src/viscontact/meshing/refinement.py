@@ -11,13 +11,13 @@ from numpy.typing import ArrayLike, NDArray
 from scipy import fft
 
 from viscontact.grid import GRID_QUANTITIES
-from viscontact.meshing.trial_mesh import Pressing, Trial, tried
+from viscontact.meshing.trial_mesh import ElasticContact, MeshTrial, try_mesh
 
 #: A trial solve converges to this part of the tolerance, and at least to this.
-EXACT, EXACT_ENOUGH = 0.01, 1e-4
+TRIAL_TOLERANCE_SHARE, MAX_TRIAL_TOLERANCE = 0.01, 1e-4
 
 #: A strip, a ring or a spot has so many cells in a row, whatever the error estimate says.
-CELLS_IN_A_ROW = 6.0
+MIN_CONSECUTIVE_CELLS = 6.0
 
 #: Orders that an error is taken to fall with, to foretell the next trial; below the lowest there
 #: is no limit to be expected. Nor is more than so much refined at once, along an axis.
@@ -26,7 +26,7 @@ LEAST_AT_ONCE, MOST_AT_ONCE = 1.1, 2.0
 
 #: A pressure that seems to have no limit is given up at so many times the cells of the first trial:
 #: a rounded edge seems sharp until it is resolved.
-PATIENCE = 16
+MAX_CELL_RATIO_WITHOUT_LIMIT = 16
 
 #: What may be singular.
 PEAK = "peak_pressure"
@@ -38,7 +38,7 @@ class Resolution:
 
     Attributes
     ----------
-    trial : Trial
+    trial : MeshTrial
         The mesh.
     quantities : tuple of str
         What it was refined for: the peak pressure is left out where it has no limit.
@@ -50,15 +50,15 @@ class Resolution:
         Whether it is the finest mesh that makes sense.
     """
 
-    trial: Trial
+    trial: MeshTrial
     quantities: tuple[str, ...]
     cells_needed: float
     is_enough: bool = True
     at_finest: bool = False
 
 
-def resolve(
-    pressing: Pressing,
+def refine_mesh(
+    pressing: ElasticContact,
     quantities: Sequence[str],
     tolerance: float,
     *,
@@ -70,7 +70,7 @@ def resolve(
 
     Parameters
     ----------
-    pressing : Pressing
+    pressing : ElasticContact
         The contact.
     quantities : sequence of str
         Those of `GRID_QUANTITIES` that count.
@@ -90,16 +90,16 @@ def resolve(
     --------
     >>> from viscontact.indenters import Sphere
     >>> from viscontact.loads import step
-    >>> ball = Pressing(Sphere(0.01), 1e-6, step(0.1).at(0.0), (2.4e-3, 2.4e-3))
-    >>> found = resolve(ball, GRID_QUANTITIES, 0.01, fewest=(24, 24))
+    >>> ball = ElasticContact(Sphere(0.01), 1e-6, step(0.1).at(0.0), (2.4e-3, 2.4e-3))
+    >>> found = refine_mesh(ball, GRID_QUANTITIES, 0.01, fewest=(24, 24))
     >>> found.is_enough, found.trial.shape
     (True, (48, 48))
     """
-    exact = min(EXACT_ENOUGH, EXACT * tolerance)
+    exact = min(MAX_TRIAL_TOLERANCE, TRIAL_TOLERANCE_SHARE * tolerance)
     names, shape = tuple(quantities), _good_shape(fewest, finest)
-    trials: list[Trial] = []
+    trials: list[MeshTrial] = []
     while True:
-        trial = tried(pressing, shape, exact)
+        trial = try_mesh(pressing, shape, exact)
         trials.append(trial)
         following = _refined(trial, names, tolerance, finest)
         is_last = following == shape or math.prod(following) > most_cells
@@ -122,13 +122,13 @@ def resolve(
         shape = following
 
 
-def _agree(trial: Trial, finer: Trial, names: Sequence[str], tolerance: float) -> bool:
+def _agree(trial: MeshTrial, finer: MeshTrial, names: Sequence[str], tolerance: float) -> bool:
     which = [GRID_QUANTITIES.index(name) for name in names]
     return np.allclose(trial.values[which], finer.values[which], rtol=tolerance, atol=0.0)
 
 
 def _refined(
-    trial: Trial, names: Sequence[str], tolerance: float, finest: ArrayLike
+    trial: MeshTrial, names: Sequence[str], tolerance: float, finest: ArrayLike
 ) -> tuple[int, int]:
     """The mesh to be tried next: something of what is needed, not all at once."""
     factors = _factors(trial, names, tolerance)
@@ -136,18 +136,22 @@ def _refined(
     return _good_shape(trial.shape * step, finest)
 
 
-def _factors(trial: Trial, names: Sequence[str], tolerance: float) -> NDArray[np.float64]:
+def _factors(trial: MeshTrial, names: Sequence[str], tolerance: float) -> NDArray[np.float64]:
     """How many times as many cells are needed along x and y; 1 if there are enough."""
     changes = trial.changes[:, [GRID_QUANTITIES.index(name) for name in names]] / tolerance
     # The error is shared by both ways; where one has little, the other may not have more.
     changes = np.where(changes.sum(axis=0) > 1, 2 * changes, 0.0)
     factors = changes.max(axis=1, initial=0.0) ** (1 / USUAL_ORDER)
-    return np.asarray(np.maximum(1.0, np.maximum(factors, CELLS_IN_A_ROW / trial.in_a_row)))
+    return np.asarray(
+        np.maximum(1.0, np.maximum(factors, MIN_CONSECUTIVE_CELLS / trial.consecutive_cells))
+    )
 
 
-def _has_no_limit(trials: Sequence[Trial], *, patient: bool) -> bool:
+def _has_no_limit(trials: Sequence[MeshTrial], *, patient: bool) -> bool:
     """Whether the peak pressure changes as much on smaller cells as it did on larger ones."""
-    telling = [trial for trial in trials if (trial.in_a_row >= CELLS_IN_A_ROW).all()]
+    telling = [
+        trial for trial in trials if (trial.consecutive_cells >= MIN_CONSECUTIVE_CELLS).all()
+    ]
     if len(telling) < 2:
         return False
     before, now = telling[-2:]
@@ -156,7 +160,9 @@ def _has_no_limit(trials: Sequence[Trial], *, patient: bool) -> bool:
     fall = before.changes[along, peak] / now.changes[along, peak]
     refined = now.shape[along] / before.shape[along]
     is_endless = refined > 1 and fall < refined**LOWEST_ORDER
-    return is_endless and not (patient and now.cells < PATIENCE * telling[0].cells)
+    return is_endless and not (
+        patient and now.cells < MAX_CELL_RATIO_WITHOUT_LIMIT * telling[0].cells
+    )
 
 
 def _good_shape(fewest: ArrayLike, finest: ArrayLike) -> tuple[int, int]:

@@ -27,7 +27,7 @@ TINY = float(np.finfo(np.float64).tiny)
 
 
 @dataclass(frozen=True, eq=False)
-class Pressing:
+class ElasticContact:
     """An elastic contact that is tried on several meshes.
 
     Attributes
@@ -49,7 +49,7 @@ class Pressing:
 
 
 @dataclass(frozen=True, eq=False)
-class Trial:
+class MeshTrial:
     """What a mesh finds, and how that changes when cells are twice as long.
 
     Attributes
@@ -60,14 +60,14 @@ class Trial:
         `GRID_QUANTITIES` [Pa, m², m].
     changes : ndarray, shape (2, 3)
         Relative changes of `GRID_QUANTITIES` for cells twice as long along x, and along y [-].
-    in_a_row : ndarray, shape (2,)
+    consecutive_cells : ndarray, shape (2,)
         Mean number of cells in a row within the contact, along x and along y.
     """
 
     shape: tuple[int, int]
     values: NDArray[np.float64]
     changes: NDArray[np.float64]
-    in_a_row: NDArray[np.float64]
+    consecutive_cells: NDArray[np.float64]
 
     @property
     def cells(self) -> int:
@@ -80,12 +80,12 @@ class Trial:
         return dict(zip(GRID_QUANTITIES, self.changes.sum(axis=0).tolist(), strict=True))
 
 
-def tried(pressing: Pressing, shape: tuple[int, int], tolerance: float) -> Trial:
+def try_mesh(pressing: ElasticContact, shape: tuple[int, int], tolerance: float) -> MeshTrial:
     """Solve a contact on a mesh, and on cells twice as long along x and along y.
 
     Parameters
     ----------
-    pressing : Pressing
+    pressing : ElasticContact
         The contact.
     shape : tuple of int
         Cells along x and y, even numbers.
@@ -94,15 +94,15 @@ def tried(pressing: Pressing, shape: tuple[int, int], tolerance: float) -> Trial
 
     Returns
     -------
-    Trial
+    MeshTrial
         What it finds, and how that changes.
 
     Examples
     --------
     >>> from viscontact.indenters import Sphere
     >>> from viscontact.loads import step
-    >>> ball = Pressing(Sphere(0.01), 1e-6, step(0.1).at(0.0), (2.4e-3, 2.4e-3))
-    >>> tried(ball, (24, 24), 1e-4).errors["approach"] < 0.01
+    >>> ball = ElasticContact(Sphere(0.01), 1e-6, step(0.1).at(0.0), (2.4e-3, 2.4e-3))
+    >>> try_mesh(ball, (24, 24), 1e-4).errors["approach"] < 0.01
     True
     """
     nx, ny = shape
@@ -112,8 +112,8 @@ def tried(pressing: Pressing, shape: tuple[int, int], tolerance: float) -> Trial
     fine = _found(pressing, shape, tolerance, (spread[0] + spread[1]) / 2)
     changes = np.stack([np.abs(other.values - fine.values) / fine.scales for other in coarser])
     area = GRID_QUANTITIES.index("contact_area")
-    changes[:, area] = np.maximum(changes[:, area], RIM_SCATTER / fine.in_a_row)
-    return Trial(shape, fine.values, changes, fine.in_a_row)
+    changes[:, area] = np.maximum(changes[:, area], RIM_SCATTER / fine.consecutive_cells)
+    return MeshTrial(shape, fine.values, changes, fine.consecutive_cells)
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,11 +123,11 @@ class _Found:
     pressure: NDArray[np.float64]
     values: NDArray[np.float64]
     scales: NDArray[np.float64]
-    in_a_row: NDArray[np.float64]
+    consecutive_cells: NDArray[np.float64]
 
 
 def _found(
-    pressing: Pressing,
+    pressing: ElasticContact,
     shape: tuple[int, int],
     tolerance: float,
     start: NDArray[np.float64] | None = None,
@@ -154,10 +154,10 @@ def _found(
     # Where the body mostly turns, its approach is no measure of its motion.
     sinks = pressing.compliance * float(solution.found.unit_displacement.max())
     scales = np.maximum(values, [TINY, TINY, sinks])
-    return _Found(pressure, values, scales, _cells_in_a_row(contact))
+    return _Found(pressure, values, scales, _consecutive_cells(contact))
 
 
-def _cells_in_a_row(contact: NDArray[np.bool_]) -> NDArray[np.float64]:
+def _consecutive_cells(contact: NDArray[np.bool_]) -> NDArray[np.float64]:
     """Mean lengths of the rows of cells that a contact consists of, along x and along y."""
     begun = [
         int(line[0].sum()) + int((line[1:] & ~line[:-1]).sum()) for line in (contact, contact.T)
