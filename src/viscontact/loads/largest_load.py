@@ -9,7 +9,7 @@ import numpy as np
 from viscontact.loads.history import LoadHistory, LoadPoint
 
 #: A load that swings shows its crest within so many of its longest steps.
-SWING_STEPS = 128
+CYCLE_SAMPLES = 128
 
 
 def largest_load(load: LoadHistory, end: float) -> tuple[float, LoadPoint]:
@@ -37,7 +37,7 @@ def largest_load(load: LoadHistory, end: float) -> tuple[float, LoadPoint]:
     """
     instants: list[float] = [*load.kinks[load.kinks <= end].tolist(), end]
     if math.isfinite(load.longest_step):
-        steps = np.arange(1, SWING_STEPS + 1) * load.longest_step
+        steps = np.arange(1, CYCLE_SAMPLES + 1) * load.longest_step
         instants += steps[steps < end].tolist()
     levels = np.stack([load.level_at(instants, side=side) for side in ("left", "right")], axis=1)
     first, side = divmod(int(levels.argmax()), 2)

@@ -18,7 +18,7 @@ from viscontact.simulation.setup import RunSetup
 from viscontact.units.formatting import format_number, format_quantity
 
 #: A load is as large as the largest from this part of it on.
-AS_LARGE = 0.999
+LARGEST_LOAD_FRACTION = 0.999
 
 #: An end of the body within so many times the grid is drawn as well.
 FARTHEST_END = 1.3
@@ -138,7 +138,7 @@ def _when_largest(run: RunSetup) -> Iterator[str]:
     kinks = run.load.kinks[run.load.kinks <= run.times[-1]]
     instants = np.union1d(run.times, [*kinks, crest])
     # On the left of a jump, say, it is at one instant only.
-    is_largest = run.load.level_at(instants) >= AS_LARGE * point.level
+    is_largest = run.load.level_at(instants) >= LARGEST_LOAD_FRACTION * point.level
     is_largest |= instants == crest
     first, last = (format_quantity(float(instants[is_largest][k]), "s", 3) for k in (0, -1))
     when = f" (t = {first} to {last})" if first != last else f" (t = {first})"

@@ -21,7 +21,7 @@ from viscontact.simulation.setup import RunSetup
 
 #: Plain convolutions' time that the first step and each later one take at tolerance 1e-6, and
 #: what a step takes besides [s]; measured on the shipped rollers and spheres.
-FIRST_STEP, LATER_STEP, BESIDES = 30.0, 3.5, 3e-3
+FIRST_STEP, LATER_STEP, STEP_OVERHEAD = 30.0, 3.5, 3e-3
 
 #: A larger grid is not timed but extrapolated.
 _TIMED_CELLS = 2**18
@@ -93,7 +93,7 @@ def forecast(run: RunSetup, *, errors: bool = False) -> Forecast:
     0.6
     """
     time, point = largest_load(run.load, float(run.times[-1]))
-    compliance, named = _telling_compliance(run, time)
+    compliance, named = _representative_compliance(run, time)
     if point.level > 0:
         estimate = _estimate(run, compliance, point)
         extents, reach = (estimate.length, estimate.width), estimate.reach
@@ -122,7 +122,7 @@ def _estimate(run: RunSetup, compliance: float, point: LoadPoint) -> ContactEsti
     return estimate_contact(run.indenter, compliance, point)
 
 
-def _telling_compliance(run: RunSetup, time: float) -> tuple[float, str]:
+def _representative_compliance(run: RunSetup, time: float) -> tuple[float, str]:
     if run.load.control == "force":
         return float(run.compliance(run.times[-1])), "creep as at the end of the run"
     if run.compliance.instant > 0:
@@ -138,7 +138,9 @@ def _seconds(run: RunSetup, *, errors: bool) -> float:
             (steps / step_ratio, each / spacing**2)
             for spacing, step_ratio in usual_coarsening(round(steps))
         ]
-    return sum(one * (FIRST_STEP + LATER_STEP * count) + BESIDES * count for count, one in marches)
+    return sum(
+        one * (FIRST_STEP + LATER_STEP * count) + STEP_OVERHEAD * count for count, one in marches
+    )
 
 
 def _convolution_time(grid: Grid) -> float:
