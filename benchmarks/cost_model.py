@@ -60,7 +60,7 @@ PARTS: tuple[tuple[str, tuple[tuple[Any, str], ...]], ...] = (
     ("prediction", ((stepper, "predict"), (stepper, "_guess"))),
     ("twin and time error", ((stepper.Stepper, "_trial_step"), (stepper.Stepper, "accept"))),
     ("state: unfold", ((stepper, "_on_full_grid"),)),
-    ("state: rim, area, work, doubts", ((Observer, "evaluate"), (Observer, "add_warnings"))),
+    ("state: rim, area, work, warnings", ((Observer, "evaluate"), (Observer, "add_warnings"))),
     ("preparation", ((vc.march.__globals__["prepare_run"].__globals__, "prepare_run"),)),
 )
 

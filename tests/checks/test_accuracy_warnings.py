@@ -7,8 +7,8 @@ import pytest
 
 import viscontact as vc
 from viscontact.checks.collector import Doubts
-from viscontact.checks.material import passivity_doubts
-from viscontact.checks.mesh import DOUBTFUL_CELLS, cells_across_spots, mesh_doubts
+from viscontact.checks.material import passivity_warnings
+from viscontact.checks.mesh import WARNING_CELLS, cells_across_spots, mesh_warnings
 from viscontact.checks.steps import relative_change
 from viscontact.laws import TabulatedCreep, TabulatedRelaxation, Zener
 
@@ -120,14 +120,14 @@ def test_steps_as_short_as_the_law_wants_are_not_doubted():
 
 
 def test_each_kind_is_said_once():
-    doubts = Doubts()
-    assert doubts.new({"mesh": "coarse"}, {"slope": "steep"}) == ("coarse", "steep")
-    assert doubts.new({"mesh": "coarser"}) == ()
+    warnings = Doubts()
+    assert warnings.new({"mesh": "coarse"}, {"slope": "steep"}) == ("coarse", "steep")
+    assert warnings.new({"mesh": "coarser"}) == ()
 
 
 def test_mesh_doubts_begin_below_their_bound():
-    assert mesh_doubts(DOUBTFUL_CELLS) == {}
-    assert "only 9 cells" in mesh_doubts(DOUBTFUL_CELLS - 1)["mesh"]
+    assert mesh_warnings(WARNING_CELLS) == {}
+    assert "only 9 cells" in mesh_warnings(WARNING_CELLS - 1)["mesh"]
 
 
 def test_spots_are_measured_by_their_chords():
@@ -146,7 +146,7 @@ def test_spots_are_measured_by_their_chords():
 
 
 def test_askew_strip_is_doubted_though_its_extents_hold_many_cells():
-    assert list(mesh_doubts(120, across_spots=3.0)) == ["spots"]
+    assert list(mesh_warnings(120, across_spots=3.0)) == ["spots"]
 
 
 def test_relative_change_knows_zero():
@@ -182,7 +182,7 @@ def test_a_law_that_is_remembered_or_converted_badly_is_doubted(monkeypatch):
 def test_a_table_that_would_gain_energy_is_doubted(times, compliance):
     law = TabulatedCreep(times, compliance)
     assert law.complex_modulus(np.geomspace(0.1, 100, 50)).imag.min() < 0
-    (text,) = passivity_doubts(law, 100.0).values()
+    (text,) = passivity_warnings(law, 100.0).values()
     assert "no material gains energy; add rows" in text
 
 
@@ -194,4 +194,4 @@ def test_a_table_of_a_material_is_not_doubted(rows):
         TabulatedRelaxation([0.0, *times], [zener.relaxation(0.0), *zener.relaxation(times)]),
         zener,
     ):
-        assert passivity_doubts(law, 100.0) == {}
+        assert passivity_warnings(law, 100.0) == {}

@@ -175,7 +175,7 @@ def test_a_singular_pressure_is_left_out_and_told(name):
 
 def test_a_smooth_contact_is_not_told_to_be_singular():
     run = prepare_run(vc.Sphere(0.01), STIFF, vc.step(10.0), None, [0.0])
-    assert run.mesh.doubts == {}
+    assert run.mesh.warnings == {}
 
 
 def test_cells_are_spent_the_way_that_needs_them():
@@ -196,7 +196,7 @@ def test_a_wave_has_ten_cells_and_a_map_no_more_than_it_has_points():
     rough = vc.HeightMap(steps, steps, heights)
     mesh = prepare_run(rough, STIFF, vc.step(30.0), vc.AutomaticGrid(1e-3), [0.0]).mesh
     assert min(mesh.grid.cell_size) > 0.8 * 5e-5  # but for good sizes of transforms
-    assert "steps of the height map" in mesh.doubts["map spacing"]
+    assert "steps of the height map" in mesh.warnings["map spacing"]
 
 
 def test_what_cannot_be_reached_is_refused_with_what_can(monkeypatch):
@@ -213,7 +213,7 @@ def test_a_contact_that_grows_out_of_all_proportion_is_told():
     fluid = vc.Material(vc.Maxwell(1e9, 1e9), 0.4)
     run = prepare_run(vc.Paraboloid(0.01, 0.01), fluid, vc.step(1e-3), None, [0.0, 1e6])
     assert math.prod(run.grid.shape) <= 1.1 * 2**18  # but for good sizes of transforms
-    assert "much smaller when the load is first largest" in run.mesh.doubts["early"]
+    assert "much smaller when the load is first largest" in run.mesh.warnings["early"]
 
 
 @pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
@@ -232,6 +232,6 @@ def test_expected_error_of_a_maps_peak_contains_what_its_facets_make():
     error = abs(state.peak_pressure / exact.peak_pressure - 1)
     assert error > 0.02  # which differences between grids as coarse as the map do not tell
     assert error < mesh.errors["peak_pressure"] < 5 * error
-    assert "straight" in mesh.doubts["facets"]
+    assert "straight" in mesh.warnings["facets"]
     # A ball that is a ball has no facets.
-    assert "facets" not in prepare_run(ball, STIFF, load, None, [0.0]).mesh.doubts
+    assert "facets" not in prepare_run(ball, STIFF, load, None, [0.0]).mesh.warnings

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 
 @dataclass
-class Doubts:
+class WarningCollector:
     """Each kind of doubt once: what has been said already, and what is new."""
 
     said: dict[str, str] = field(default_factory=dict)
@@ -25,7 +25,10 @@ class Doubts:
             The sentences of kinds met for the first time.
         """
         fresh = {
-            kind: text for doubts in found for kind, text in doubts.items() if kind not in self.said
+            kind: text
+            for warnings in found
+            for kind, text in warnings.items()
+            if kind not in self.said
         }
         self.said.update(fresh)
         return tuple(fresh.values())

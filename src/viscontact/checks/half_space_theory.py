@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.checks.sampling import Sampling, sampling_doubts
+from viscontact.checks.sampling import Sampling, sampling_warnings
 from viscontact.checks.singularities import is_sharp, touches_end
 from viscontact.contact.rim import Rim
 from viscontact.grid import Grid
@@ -41,7 +41,7 @@ THIN_BODY = 0.2
 
 @dataclass(frozen=True, eq=False)
 class Geometry:
-    """What the doubts about geometry need to know.
+    """What the warnings about geometry need to know.
 
     Attributes
     ----------
@@ -55,7 +55,7 @@ class Geometry:
         Of the thinner body; inf if none is told [m].
     indenter_gives : bool
         Whether the indenter is deformable, and so taken for a half-space as well.
-    foreseen : bool
+    predicted : bool
         Whether the contact is an estimate of what is to come, and spoken of as such.
     """
 
@@ -64,11 +64,11 @@ class Geometry:
     grid: Grid
     thickness: float = math.inf
     indenter_gives: bool = False
-    foreseen: bool = False
+    predicted: bool = False
 
     @property
     def _verbs(self) -> tuple[str, str]:
-        return ("will be about", "will reach") if self.foreseen else ("is", "reaches")
+        return ("will be about", "will reach") if self.predicted else ("is", "reaches")
 
     @cached_property
     def steepness(self) -> NDArray[np.float64]:
@@ -101,7 +101,7 @@ class Geometry:
         return Sampling(self.indenter, self.open_gap, self.grid)
 
 
-def geometry_doubts(
+def geometry_warnings(
     geometry: Geometry,
     rim: Rim,
     motion: NDArray[np.float64],
@@ -126,26 +126,26 @@ def geometry_doubts(
         Sentences by kind of doubt; empty if there is none.
     """
     return (
-        strain_doubts(geometry, rim, motion)
-        | body_doubts(geometry, rim)
-        | sampling_doubts(geometry._sampling, rim, motion, displacement)
+        strain_warnings(geometry, rim, motion)
+        | body_warnings(geometry, rim)
+        | sampling_warnings(geometry._sampling, rim, motion, displacement)
     )
 
 
-def strain_doubts(geometry: Geometry, rim: Rim, motion: NDArray[np.float64]) -> dict[str, str]:
+def strain_warnings(geometry: Geometry, rim: Rim, motion: NDArray[np.float64]) -> dict[str, str]:
     """Doubts about strains too large for a linear theory: slope, width, approach.
 
     Parameters
     ----------
     geometry, rim, motion
-        As in `geometry_doubts`.
+        As in `geometry_warnings`.
 
     Returns
     -------
     dict of str to str
         Sentences by kind of doubt; empty if there is none.
     """
-    doubts: dict[str, str] = {}
+    warnings: dict[str, str] = {}
     half_width, radius = _half_width(rim), geometry.indenter.radius_of_curvature
     # A roller's length is no measure of its width, and may be less.
     extents = zip((rim.length, rim.width), geometry.indenter.curvatures, strict=True)
@@ -153,12 +153,12 @@ def strain_doubts(geometry: Geometry, rim: Rim, motion: NDArray[np.float64]) -> 
     be, reach = geometry._verbs
     slope = _steepest_slope(geometry, rim, motion)
     if slope > STEEP_SLOPE:
-        doubts["slope"] = (
+        warnings["slope"] = (
             f"the indenter's slope within the contact {reach} {slope:.2g}; "
             f"small-strain half-space theory is meant for slopes below {STEEP_SLOPE:g}"
         )
     if wide > WIDE_CONTACT:
-        doubts["width"] = (
+        warnings["width"] = (
             f"the contact's half width {be} {wide:.2g} of the indenter's radius of "
             f"curvature; half-space theory is meant for less than {WIDE_CONTACT:g}"
         )
@@ -169,56 +169,56 @@ def strain_doubts(geometry: Geometry, rim: Rim, motion: NDArray[np.float64]) -> 
     # contact of few cells say little.
     known = math.isfinite(radius) or (slope <= STEEP_SLOPE and _spans(rim.contact, FEW_CELLS))
     if known and motion[0] > most * measure:
-        doubts["approach"] = (
+        warnings["approach"] = (
             f"the approach {be} {motion[0] / measure:.2g} of the {named}; "
             f"small-strain theory is meant for less than {most:g}"
         )
-    return doubts
+    return warnings
 
 
-def body_doubts(geometry: Geometry, rim: Rim) -> dict[str, str]:
+def body_warnings(geometry: Geometry, rim: Rim) -> dict[str, str]:
     """Doubts about bodies that end where a half-space goes on: profile, end face, thickness.
 
     Parameters
     ----------
     geometry, rim
-        As in `geometry_doubts`.
+        As in `geometry_warnings`.
 
     Returns
     -------
     dict of str to str
         Sentences by kind of doubt; empty if there is none.
     """
-    doubts: dict[str, str] = {}
+    warnings: dict[str, str] = {}
     half_width, (be, reach) = _half_width(rim), geometry._verbs
     if geometry.grid.periodic and _touches_seam(geometry, rim):
-        doubts["seam"] = (
+        warnings["seam"] = (
             f"the contact {reach} the border of the period, where the body does not continue: "
             "beside its next period it has a step, at which the peak pressure depends on the mesh; "
             "press a body that fits to itself, or not periodically"
         )
     if geometry.ends and touches_end(rim.cut(geometry.open_gap), rim.contact):
-        doubts["end"] = (
+        warnings["end"] = (
             f"the contact {reach} the end of the indenter's profile: pressure is singular there "
             "and the peak pressure depends on the mesh. The half-space goes on beyond it: a body "
             "that ends there as well gives way more"
         )
     if geometry.indenter_gives and _ends_within(geometry, rim, half_width):
-        doubts["end_face"] = (
+        warnings["end_face"] = (
             "the indenter ends within a half width of the contact, but its material is taken for a "
             "half-space that goes on there; a free end face gives way more, so that pressure near "
             "it is lower and the approach larger"
         )
     if half_width > THIN_BODY * geometry.thickness:
-        doubts["thickness"] = (
+        warnings["thickness"] = (
             f"the contact's half width {be} {half_width / geometry.thickness:.2g} of the body's "
             f"thickness of {format_quantity(geometry.thickness, 'm', 3)}; half-space theory is "
             f"meant for less than {THIN_BODY:g}, beyond it what the body rests on counts"
         )
-    return doubts
+    return warnings
 
 
-def corner_doubts(
+def corner_warnings(
     geometry: Geometry,
     place: tuple[float, float],
     strain: float,
@@ -246,7 +246,7 @@ def corner_doubts(
     along, across = (1.5 * each for each in searched or cell)
     if not is_sharp(geometry.indenter, place, (along, across), cell, strain):
         return {}
-    be = "lies" if not geometry.foreseen else "will lie"
+    be = "lies" if not geometry.predicted else "will lie"
     return {
         "corner": (
             f"the largest pressure {be} at a tip, an edge or a corner of the indenter, sharp or "

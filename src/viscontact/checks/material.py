@@ -12,13 +12,13 @@ from viscontact.units.formatting import format_quantity
 NEGATIVE_LOSS, FREQUENCIES = 0.02, 25
 
 #: A creep compliance that may be off by more than this part is not the material's any more.
-DOUBTFUL_LAW = 0.01
+MAX_LAW_ERROR = 0.01
 
 #: Part of the largest load that may have come later than the data can tell its creep.
-EARLY_PART = 0.25
+EARLY_LOAD_FRACTION = 0.25
 
 
-def data_doubts(time: float, measured_until: float) -> dict[str, str]:
+def data_warnings(time: float, measured_until: float) -> dict[str, str]:
     """Doubt about a run that goes beyond the times at which the material was measured.
 
     Parameters
@@ -35,7 +35,7 @@ def data_doubts(time: float, measured_until: float) -> dict[str, str]:
 
     Examples
     --------
-    >>> list(data_doubts(11.0, measured_until=10.0)), list(data_doubts(9.0, measured_until=10.0))
+    >>> list(data_warnings(11.0, measured_until=10.0)), list(data_warnings(9.0, measured_until=10.0))
     (['data'], [])
     """
     if time <= measured_until * (1 + 1e-9):
@@ -48,7 +48,7 @@ def data_doubts(time: float, measured_until: float) -> dict[str, str]:
     }
 
 
-def early_doubts(
+def early_warnings(
     measured_from: float, load: LoadHistory, time: float, side: str = "right"
 ) -> dict[str, str]:
     """Doubt about an instant so soon after the load that no data tell the material's creep yet.
@@ -72,7 +72,7 @@ def early_doubts(
     Examples
     --------
     >>> from viscontact.loads import step
-    >>> list(early_doubts(1.0, step(5.0), 0.5)), list(early_doubts(1.0, step(5.0), 1.0))
+    >>> list(early_warnings(1.0, step(5.0), 0.5)), list(early_warnings(1.0, step(5.0), 1.0))
     (['early'], [])
     """
     if measured_from <= 0:
@@ -80,7 +80,7 @@ def early_doubts(
     begin = time - measured_from * (1 - 1e-9)
     before = float(load.level_at(begin)) if begin >= 0 else 0.0
     came = abs(float(load.level_at(time, side=side)) - before)
-    if came <= EARLY_PART * load.largest_level:
+    if came <= EARLY_LOAD_FRACTION * load.largest_level:
         return {}
     return {
         "early": (
@@ -92,7 +92,7 @@ def early_doubts(
     }
 
 
-def law_doubts(memory_error: float, inversion_error: float) -> dict[str, str]:
+def law_warnings(memory_error: float, inversion_error: float) -> dict[str, str]:
     """Doubts about a creep compliance that is not quite the one of the law as given.
 
     Parameters
@@ -109,25 +109,25 @@ def law_doubts(memory_error: float, inversion_error: float) -> dict[str, str]:
 
     Examples
     --------
-    >>> list(law_doubts(0.1, 0.0)), list(law_doubts(1e-3, 0.02)), law_doubts(1e-3, 1e-3)
+    >>> list(law_warnings(0.1, 0.0)), list(law_warnings(1e-3, 0.02)), law_warnings(1e-3, 1e-3)
     (['memory'], ['conversion'], {})
     """
-    doubts: dict[str, str] = {}
-    if memory_error > DOUBTFUL_LAW:
-        doubts["memory"] = (
+    warnings: dict[str, str] = {}
+    if memory_error > MAX_LAW_ERROR:
+        warnings["memory"] = (
             f"the exponentials by which the past is remembered are off by up to "
             f"{memory_error:.0%} of the law's creep compliance; take fewer steps or cells, so "
             "that all steps are kept, or a law without scatter and sharp bends, such as a fit"
         )
-    if inversion_error > DOUBTFUL_LAW:
-        doubts["conversion"] = (
+    if inversion_error > MAX_LAW_ERROR:
+        warnings["conversion"] = (
             f"the creep compliance converted from the law's modulus may be off by "
             f"{inversion_error:.0%} (estimated); smooth the modulus or add rows, or give creep"
         )
-    return doubts
+    return warnings
 
 
-def passivity_doubts(law: Law, end: float) -> dict[str, str]:
+def passivity_warnings(law: Law, end: float) -> dict[str, str]:
     """Doubt about a measured law that would give energy back, and more than it was given.
 
     A table of few steep rows leaves so much open between them that its loss modulus can be negative
@@ -147,9 +147,9 @@ def passivity_doubts(law: Law, end: float) -> dict[str, str]:
 
     Examples
     --------
-    >>> list(passivity_doubts(TabulatedCreep([1, 10, 100], [1, 3, 10]), 100.0))
+    >>> list(passivity_warnings(TabulatedCreep([1, 10, 100], [1, 3, 10]), 100.0))
     ['passivity']
-    >>> list(passivity_doubts(TabulatedCreep([0, 1, 10, 100], [1, 1.1, 1.2, 1.3]), 100.0))
+    >>> list(passivity_warnings(TabulatedCreep([0, 1, 10, 100], [1, 1.1, 1.2, 1.3]), 100.0))
     []
     """
     if not isinstance(law, TabulatedCreep | TabulatedRelaxation) or end <= 0:

@@ -8,15 +8,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 #: Fewer cells across the largest contact than this are doubtful, or refused.
-DOUBTFUL_CELLS, REFUSED_CELLS = 10, 4
+WARNING_CELLS, MIN_CELLS_ACROSS = 10, 4
 
 
 #: Fewer cells across the spots that a contact consists of, in the mean, are doubtful. Counted
 #: along grid lines, where a disc of d cells has a mean chord of pi/4 d: 4 are a disc of 5 cells.
-DOUBTFUL_SPOTS = 4.0
+WARNING_SPOT_CELLS = 4.0
 
 
-def mesh_doubts(cells_across: int, across_spots: float = math.inf) -> dict[str, str]:
+def mesh_warnings(cells_across: int, across_spots: float = math.inf) -> dict[str, str]:
     """Doubt about a coarse mesh.
 
     Parameters
@@ -33,22 +33,22 @@ def mesh_doubts(cells_across: int, across_spots: float = math.inf) -> dict[str, 
 
     Examples
     --------
-    >>> list(mesh_doubts(8)), list(mesh_doubts(30)), list(mesh_doubts(30, across_spots=1.5))
+    >>> list(mesh_warnings(8)), list(mesh_warnings(30)), list(mesh_warnings(30, across_spots=1.5))
     (['mesh'], [], ['spots'])
     """
-    if cells_across < DOUBTFUL_CELLS:
+    if cells_across < WARNING_CELLS:
         return {
             "mesh": (
                 f"only {cells_across} cells lie across the largest contact, "
-                f"{DOUBTFUL_CELLS} or more are wanted; use a finer or smaller grid"
+                f"{WARNING_CELLS} or more are wanted; use a finer or smaller grid"
             )
         }
-    if across_spots >= DOUBTFUL_SPOTS:
+    if across_spots >= WARNING_SPOT_CELLS:
         return {}
     return {
         "spots": (
             f"the largest contact consists of spots or strips that are {across_spots:.1f} cells "
-            f"across in the mean, {DOUBTFUL_SPOTS:g} or more are wanted: their pressure and area "
+            f"across in the mean, {WARNING_SPOT_CELLS:g} or more are wanted: their pressure and area "
             "depend on the mesh; use a finer grid"
         )
     }

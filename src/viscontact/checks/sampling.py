@@ -127,7 +127,7 @@ class Sampling:
         yield self.indenter.sample_points
 
 
-def map_doubts(missed: float, cell: float, strain: float) -> dict[str, str]:
+def map_warnings(missed: float, cell: float, strain: float) -> dict[str, str]:
     """Doubt about a height map that is finer than the grid.
 
     Parameters
@@ -146,7 +146,7 @@ def map_doubts(missed: float, cell: float, strain: float) -> dict[str, str]:
 
     Examples
     --------
-    >>> list(map_doubts(1e-6, 1e-5, strain=0.1)), list(map_doubts(1e-8, 1e-5, strain=0.1))
+    >>> list(map_warnings(1e-6, 1e-5, strain=0.1)), list(map_warnings(1e-8, 1e-5, strain=0.1))
     (['map'], [])
     """
     if missed <= 0 or math.pi / 2 * missed <= MISSED_PEAK * strain * cell:
@@ -160,7 +160,7 @@ def map_doubts(missed: float, cell: float, strain: float) -> dict[str, str]:
     }
 
 
-def sampling_doubts(
+def sampling_warnings(
     sampling: Sampling,
     rim: Rim,
     motion: NDArray[np.float64],
@@ -190,20 +190,20 @@ def sampling_doubts(
     extent = min(rim.length, rim.width)
     strain = 2 * float(motion[0]) / extent if extent > 0 else math.inf
     cell = max(sampling.grid.cell_size)
-    doubts = map_doubts(missed, cell, strain) | texture_doubts(sampling.indenter.period, cell)
+    warnings = map_warnings(missed, cell, strain) | texture_warnings(sampling.indenter.period, cell)
     if sampling.grid.periodic:
-        return doubts  # the next period is beside it, not the body
+        return warnings  # the next period is beside it, not the body
     # Pressure is all within the grid, so displacement falls from its rim outwards.
     rim_displacement = max(displacement[[0, -1]].max(), displacement[:, [0, -1]].max())
     if sampling.reaches_beyond(motion, rim_displacement * (1 + 1e-9)):
-        doubts["beyond"] = (
+        warnings["beyond"] = (
             "the body would touch outside the grid, too, where nothing is computed: the contact "
             "carries a part of the load only; enlarge grid.size"
         )
-    return doubts
+    return warnings
 
 
-def texture_doubts(period: float, cell: float) -> dict[str, str]:
+def texture_warnings(period: float, cell: float) -> dict[str, str]:
     """Doubt about waves or dimples that are finer than the grid.
 
     Parameters
@@ -220,7 +220,7 @@ def texture_doubts(period: float, cell: float) -> dict[str, str]:
 
     Examples
     --------
-    >>> list(texture_doubts(1e-3, 2e-4)), list(texture_doubts(1e-3, 1e-4))
+    >>> list(texture_warnings(1e-3, 2e-4)), list(texture_warnings(1e-3, 1e-4))
     (['texture'], [])
     """
     # Ten cells exactly are not fewer for a rounding.

@@ -7,13 +7,13 @@ import numpy as np
 from viscontact.units.formatting import format_quantity
 
 #: The largest pressure may exceed the largest that is told by this part.
-UNTOLD = 0.1
+UNREPORTED_PEAK = 0.1
 
 #: Relative change of force or peak pressure that a step long against the law must not hide.
 NOTABLE_CHANGE = 0.25
 
 
-def step_doubts(duration: float, change: float) -> dict[str, str]:
+def step_warnings(duration: float, change: float) -> dict[str, str]:
     """Doubt about a time step too long for the law while the load or the pressure changes.
 
     Parameters
@@ -30,7 +30,7 @@ def step_doubts(duration: float, change: float) -> dict[str, str]:
 
     Examples
     --------
-    >>> list(step_doubts(10.0, change=0.5)), list(step_doubts(10.0, change=0.01))
+    >>> list(step_warnings(10.0, change=0.5)), list(step_warnings(10.0, change=0.01))
     (['step'], [])
     """
     if change < NOTABLE_CHANGE:
@@ -44,7 +44,7 @@ def step_doubts(duration: float, change: float) -> dict[str, str]:
     }
 
 
-def touch_doubts(duration: float, share: float) -> dict[str, str]:
+def touch_warnings(duration: float, share: float) -> dict[str, str]:
     """Doubt about a load that grows from nothing in one step of a creeping body.
 
     The contact grows with a root of the force, which a straight line through one step follows
@@ -64,7 +64,7 @@ def touch_doubts(duration: float, share: float) -> dict[str, str]:
 
     Examples
     --------
-    >>> list(touch_doubts(0.1, share=1.0)), list(touch_doubts(0.1, share=0.1))
+    >>> list(touch_warnings(0.1, share=1.0)), list(touch_warnings(0.1, share=0.1))
     (['touch'], [])
     """
     if share <= NOTABLE_CHANGE:
@@ -78,7 +78,7 @@ def touch_doubts(duration: float, share: float) -> dict[str, str]:
     }
 
 
-def release_doubts(duration: float, share: float) -> dict[str, str]:
+def release_warnings(duration: float, share: float) -> dict[str, str]:
     """Doubt about a contact of a creeping body that is lost in one step, as the load falls.
 
     The contact shrinks over it, and a straight line through one step gives the rim, which was left
@@ -98,7 +98,7 @@ def release_doubts(duration: float, share: float) -> dict[str, str]:
 
     Examples
     --------
-    >>> list(release_doubts(0.1, share=1.0)), list(release_doubts(0.1, share=0.1))
+    >>> list(release_warnings(0.1, share=1.0)), list(release_warnings(0.1, share=0.1))
     (['release'], [])
     """
     if share <= NOTABLE_CHANGE:
@@ -112,7 +112,7 @@ def release_doubts(duration: float, share: float) -> dict[str, str]:
     }
 
 
-def untold_doubts(peak: float, time: float, told: float) -> dict[str, str]:
+def unreported_peak_warnings(peak: float, time: float, told: float) -> dict[str, str]:
     """Doubt about instants between which more has happened than at them.
 
     Parameters
@@ -131,10 +131,10 @@ def untold_doubts(peak: float, time: float, told: float) -> dict[str, str]:
 
     Examples
     --------
-    >>> list(untold_doubts(2e6, 0.3, told=1e6)), list(untold_doubts(1e6, 0.3, told=1e6))
+    >>> list(unreported_peak_warnings(2e6, 0.3, told=1e6)), list(unreported_peak_warnings(1e6, 0.3, told=1e6))
     (['untold'], [])
     """
-    if peak <= (1 + UNTOLD) * told:
+    if peak <= (1 + UNREPORTED_PEAK) * told:
         return {}
     return {
         "untold": (

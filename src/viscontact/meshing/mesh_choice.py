@@ -39,13 +39,13 @@ SMALLER = 0.95
 
 #: What is said where the pressure grows on with smaller cells, and where a run begins with a
 #: contact too small for its grid.
-PEAK_DOUBT = {
+PEAK_WARNING = {
     "peak": (
         "the peak pressure depends on the mesh here: at a sharp edge or tip it grows on as cells "
         "get smaller, and the grid was not chosen for it"
     )
 }
-EARLY_DOUBT = {
+EARLY_WARNING = {
     "early": (
         "the contact is much smaller when the load is first largest than it becomes: the grid does "
         "not keep the tolerance until it has grown; give a grid, or make the run shorter"
@@ -64,13 +64,13 @@ class Mesh:
     errors : dict of str to float
         Expected relative errors of the quantities that it was chosen for, under the largest load
         [-].
-    doubts : dict of str to str
+    warnings : dict of str to str
         Sentences by kind of doubt: what it was not, or could not be, chosen for.
     """
 
     grid: Grid
     errors: dict[str, float]
-    doubts: dict[str, str]
+    warnings: dict[str, str]
 
 
 def choose_mesh(
@@ -123,12 +123,12 @@ def choose_mesh(
 
 @dataclass(frozen=True, eq=False)
 class _MeshChoice:
-    """So many cells over the whole grid, for these quantities, with these errors and doubts."""
+    """So many cells over the whole grid, for these quantities, with these errors and warnings."""
 
     cells: NDArray[np.float64]
     quantities: tuple[str, ...]
     errors: dict[str, float]
-    doubts: dict[str, str]
+    warnings: dict[str, str]
 
     def after(self, found: Resolution, cells: NDArray[np.float64]) -> _MeshChoice:
         """What is chosen after a contact has been resolved by so many cells."""
@@ -137,8 +137,8 @@ class _MeshChoice:
             for name in found.quantities
         }
         left_out = set(self.quantities) - set(found.quantities)
-        doubts = self.doubts | PEAK_DOUBT if left_out else self.doubts
-        return _MeshChoice(cells, found.quantities, errors, doubts)
+        warnings = self.warnings | PEAK_WARNING if left_out else self.warnings
+        return _MeshChoice(cells, found.quantities, errors, warnings)
 
 
 def _begun(
@@ -195,12 +195,12 @@ def _refined_early(
     excess = float(fewest.prod()) / most
     if excess > 1:
         cells = np.maximum(fewest / math.sqrt(excess), choice.cells * part)
-        return replace(choice, cells=cells / part, doubts=choice.doubts | EARLY_DOUBT)
+        return replace(choice, cells=cells / part, warnings=choice.warnings | EARLY_WARNING)
     found = _resolved(indenter, wish, early, size, choice.quantities, fewest, most)
     chosen = choice.after(found, np.array(found.trial.shape) / part)
     if found.is_enough or found.at_finest:
         return chosen
-    return replace(chosen, errors=choice.errors, doubts=chosen.doubts | EARLY_DOUBT)
+    return replace(chosen, errors=choice.errors, warnings=chosen.warnings | EARLY_WARNING)
 
 
 def _refined_in_the_end(
@@ -224,9 +224,9 @@ def _refined_in_the_end(
                 f"{found.cells_needed:.2g} cells, more than an automatic grid has; ask for a "
                 f"tolerance of {reachable:.2g} or more, or give a grid"
             )
-        chosen = replace(chosen, doubts=chosen.doubts | _map_doubt(worst, chosen.errors[worst]))
+        chosen = replace(chosen, warnings=chosen.warnings | _map_doubt(worst, chosen.errors[worst]))
     grid = Grid(found.trial.shape, (float(size[0]), float(size[1])))
-    return Mesh(grid, chosen.errors, chosen.doubts)
+    return Mesh(grid, chosen.errors, chosen.warnings)
 
 
 def _as_the_map_allows(indenter: Indenter, late: PointContact, mesh: Mesh) -> Mesh:
@@ -234,8 +234,8 @@ def _as_the_map_allows(indenter: Indenter, late: PointContact, mesh: Mesh) -> Me
     facets = facet_error(indenter, late.estimate, late.compliance)
     if facets <= mesh.errors.get(PEAK, math.inf):
         return mesh
-    doubts = mesh.doubts | _facet_doubt(facets)
-    return replace(mesh, errors=mesh.errors | {PEAK: facets}, doubts=doubts)
+    warnings = mesh.warnings | _facet_doubt(facets)
+    return replace(mesh, errors=mesh.errors | {PEAK: facets}, warnings=warnings)
 
 
 def _resolved(

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from viscontact.checks.half_space_theory import SINGULAR_KINDS
-from viscontact.checks.mesh import DOUBTFUL_CELLS
+from viscontact.checks.mesh import WARNING_CELLS
 from viscontact.loads.largest_load import largest_load
 from viscontact.meshing.elastic_estimate import ContactEstimate
 from viscontact.results.stated_errors import MESH_DEPENDENT
@@ -24,7 +24,7 @@ LARGEST_LOAD_FRACTION = 0.999
 FARTHEST_END = 1.3
 
 
-def foreseen(prepared: PreparedRun) -> Forecast:
+def predicted(prepared: PreparedRun) -> Forecast:
     """Foresee a run.
 
     Parameters
@@ -56,10 +56,10 @@ def verdict(prepared: PreparedRun, expected: Forecast) -> str:
     prepared : PreparedRun
         A case, checked.
     expected : Forecast
-        What was foreseen of it.
+        What was predicted of it.
     """
-    is_doubtful = bool(warnings_of(prepared, expected))
-    told = "can be read, but:" if is_doubtful else "no problems found"
+    has_warnings = bool(warnings_of(prepared, expected))
+    told = "can be read, but:" if has_warnings else "no problems found"
     return f"{prepared.case.document.path}: {told}"
 
 
@@ -96,7 +96,7 @@ def needs(prepared: PreparedRun, expected: Forecast) -> list[tuple[str, str]]:
     prepared : PreparedRun
         A case, checked.
     expected : Forecast
-        What was foreseen of it.
+        What was predicted of it.
     """
     run = prepared.run
     (nx, ny), (lx, ly), (dx, dy) = run.grid.shape, run.grid.size, run.grid.cell_size
@@ -171,7 +171,7 @@ def expectations(prepared: PreparedRun, expected: Forecast) -> tuple[str, list[t
     prepared : PreparedRun
         A case, checked.
     expected : Forecast
-        What was foreseen of it.
+        What was predicted of it.
     """
     found, control = expected.estimate, prepared.run.load.control
     title = "What to expect, by a quick elastic solve on few cells:"
@@ -198,7 +198,7 @@ def expectations(prepared: PreparedRun, expected: Forecast) -> tuple[str, list[t
 
 def _peak_told(expected: Forecast, found: ContactEstimate) -> str:
     told = format_quantity(found.peak_pressure, "Pa", 3)
-    is_sharp = not SINGULAR_KINDS.isdisjoint(expected.doubts)
+    is_sharp = not SINGULAR_KINDS.isdisjoint(expected.warnings)
     return f"{MESH_DEPENDENT} ({told} on a coarse one)" if is_sharp else told
 
 
@@ -210,28 +210,28 @@ def warnings_of(prepared: PreparedRun, expected: Forecast) -> list[str]:
     prepared : PreparedRun
         A case, checked.
     expected : Forecast
-        What was foreseen of it.
+        What was predicted of it.
     """
     grid = prepared.run.grid
     if expected.estimate is None:
-        return list(expected.doubts.values())
-    doubts = []
+        return list(expected.warnings.values())
+    warnings = []
     if not expected.fits:
         reach = " and ".join(format_quantity(far, "m", 3) for far in expected.estimate.reach)
         ends = " and ".join(format_quantity(extent / 2, "m", 3) for extent in grid.size)
-        doubts.append(
+        warnings.append(
             f"the contact will probably overrun the grid: it reaches {reach} from the middle "
             f"along x and y, and the grid {ends}; enlarge grid.size"
         )
     across = (expected.cells_along, expected.cells_across)
     # Where a contact goes on from period to period there is nothing that the cells lie across.
     ended = [n for n, k in zip(across, grid.shape, strict=True) if not grid.periodic or n < k]
-    if min(ended, default=math.inf) < DOUBTFUL_CELLS:
-        doubts.append(
-            f"fewer than {DOUBTFUL_CELLS} cells across the contact; use more cells or a smaller "
+    if min(ended, default=math.inf) < WARNING_CELLS:
+        warnings.append(
+            f"fewer than {WARNING_CELLS} cells across the contact; use more cells or a smaller "
             "grid.size"
         )
-    return doubts + list(expected.doubts.values())
+    return warnings + list(expected.warnings.values())
 
 
 def _duration(seconds: float) -> str:

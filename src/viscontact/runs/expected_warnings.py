@@ -7,11 +7,21 @@ from dataclasses import replace
 
 import numpy as np
 
-from viscontact.checks.half_space_theory import Geometry, body_doubts, corner_doubts, strain_doubts
-from viscontact.checks.material import data_doubts, early_doubts, law_doubts, passivity_doubts
-from viscontact.checks.sampling import Sampling, map_doubts, texture_doubts
+from viscontact.checks.half_space_theory import (
+    Geometry,
+    body_warnings,
+    corner_warnings,
+    strain_warnings,
+)
+from viscontact.checks.material import (
+    data_warnings,
+    early_warnings,
+    law_warnings,
+    passivity_warnings,
+)
+from viscontact.checks.sampling import Sampling, map_warnings, texture_warnings
 from viscontact.checks.singularities import strain_of
-from viscontact.checks.steps import release_doubts, touch_doubts
+from viscontact.checks.steps import release_warnings, touch_warnings
 from viscontact.materials.material import Material
 from viscontact.meshing.elastic_estimate import ContactEstimate
 from viscontact.simulation.setup import RunSetup
@@ -21,7 +31,7 @@ from viscontact.time_integration.fixed_steps import FixedSteps
 FIRST_INSTANTS = 200
 
 
-def foreseen_doubts(
+def predicted_warnings(
     run: RunSetup, estimate: ContactEstimate | None, compliance: float
 ) -> dict[str, str]:
     """Doubts about the material, the steps and the estimated contact of a run.
@@ -41,24 +51,24 @@ def foreseen_doubts(
         Sentences by kind of doubt, as a run would say them; empty if there is none. Those about
         a mesh that was given are left to who knows whether the grid fits.
     """
-    doubts = _material_doubts(run) | _step_doubts(run)
+    warnings = _material_warnings(run) | _step_warnings(run)
     if run.mesh is not None:
-        doubts |= run.mesh.doubts
-    return doubts if estimate is None else doubts | _contact_doubts(run, estimate, compliance)
+        warnings |= run.mesh.warnings
+    return warnings if estimate is None else warnings | _contact_warnings(run, estimate, compliance)
 
 
 def _bodies(run: RunSetup) -> list[Material]:
     return [body for body in (run.material, run.indenter_material) if body is not None]
 
 
-def _contact_doubts(run: RunSetup, found: ContactEstimate, compliance: float) -> dict[str, str]:
+def _contact_warnings(run: RunSetup, found: ContactEstimate, compliance: float) -> dict[str, str]:
     geometry = Geometry(
         run.indenter,
         found.open_gap,
         found.rim.grid,
         thickness=min(body.thickness or math.inf for body in _bodies(run)),
         indenter_gives=run.indenter_material is not None,
-        foreseen=True,
+        predicted=True,
     )
     on_grid = Sampling(run.indenter, run.open_gap, run.grid)
     within_x = np.abs(run.grid.x - found.centre_x) <= found.length / 2
@@ -66,15 +76,15 @@ def _contact_doubts(run: RunSetup, found: ContactEstimate, compliance: float) ->
     missed = float(on_grid.missed[np.ix_(within_x, within_y)].max(initial=0.0))
     strain = 2 * found.approach / min(found.length, found.width)
     return (
-        strain_doubts(geometry, found.rim, found.motion)
-        | body_doubts(geometry, found.rim)
-        | _corner_doubts(run, geometry, found, compliance)
-        | map_doubts(missed, max(run.grid.cell_size), strain)
-        | texture_doubts(run.indenter.period, max(run.grid.cell_size))
+        strain_warnings(geometry, found.rim, found.motion)
+        | body_warnings(geometry, found.rim)
+        | _corner_warnings(run, geometry, found, compliance)
+        | map_warnings(missed, max(run.grid.cell_size), strain)
+        | texture_warnings(run.indenter.period, max(run.grid.cell_size))
     )
 
 
-def _corner_doubts(
+def _corner_warnings(
     run: RunSetup, geometry: Geometry, found: ContactEstimate, compliance: float
 ) -> dict[str, str]:
     """Doubt about a peak at a corner; far coarser than the run's, a solve tells little of it."""
@@ -83,29 +93,29 @@ def _corner_doubts(
     grid = replace(run.grid, size=(finest[0] * run.grid.shape[0], finest[1] * run.grid.shape[1]))
     strain = strain_of(found.peak_pressure, compliance)
     searched = (max(finest[0], coarse[0]), max(finest[1], coarse[1]))
-    return corner_doubts(replace(geometry, grid=grid), found.peak_place, strain, searched)
+    return corner_warnings(replace(geometry, grid=grid), found.peak_place, strain, searched)
 
 
-def _material_doubts(run: RunSetup) -> dict[str, str]:
+def _material_warnings(run: RunSetup) -> dict[str, str]:
     end = float(run.times[-1])
-    doubts = law_doubts(run.memory.error, run.compliance.inversion_error)
+    warnings = law_warnings(run.memory.error, run.compliance.inversion_error)
     for body in _bodies(run):
-        doubts |= passivity_doubts(body.law, end)
+        warnings |= passivity_warnings(body.law, end)
     first = max(body.known_from for body in _bodies(run))
     kinks = run.load.kinks[run.load.kinks <= end]
     instants = np.union1d(kinks, run.times[:FIRST_INSTANTS])
     loaded = instants[run.load.level_at(instants) > 0] if first > 0 else instants[:0]
     for time in loaded.tolist():
-        doubts = early_doubts(first, run.load, time) | doubts
-    return doubts | data_doubts(end, run.measured_until)
+        warnings = early_warnings(first, run.load, time) | warnings
+    return warnings | data_warnings(end, run.measured_until)
 
 
-def _step_doubts(run: RunSetup) -> dict[str, str]:
+def _step_warnings(run: RunSetup) -> dict[str, str]:
     """Of given steps that take much of the load on or off at once; adaptive ones see to it."""
     end, load = float(run.times[-1]), run.load
     if run.adaptive is not None or run.compliance(end) == run.compliance.instant:
         return {}
-    doubts: dict[str, str] = {}
+    warnings: dict[str, str] = {}
     steps = FixedSteps(run.times, load).steps
     times = np.array([step.time for step in steps])
     before_jumps = np.array([step.before_jump for step in steps])
@@ -117,7 +127,7 @@ def _step_doubts(run: RunSetup) -> dict[str, str]:
         if step.is_jump:
             continue
         if before <= 0:
-            doubts = touch_doubts(step.duration, after / load.largest_level) | doubts
+            warnings = touch_warnings(step.duration, after / load.largest_level) | warnings
         elif load.control == "force":
-            doubts = release_doubts(step.duration, before / load.largest_level) | doubts
-    return doubts
+            warnings = release_warnings(step.duration, before / load.largest_level) | warnings
+    return warnings

@@ -14,7 +14,7 @@ from viscontact.grid import Grid
 from viscontact.loads import LoadPoint
 from viscontact.loads.largest_load import largest_load
 from viscontact.meshing.elastic_estimate import ContactEstimate, estimate_contact, estimate_period
-from viscontact.runs.expected_warnings import foreseen_doubts
+from viscontact.runs.expected_warnings import predicted_warnings
 from viscontact.runs.free_memory import available_memory
 from viscontact.runs.resources import run_memory, step_count
 from viscontact.simulation.setup import RunSetup
@@ -48,7 +48,7 @@ class Forecast:
         Cells over the estimated length and width.
     fits : bool
         Whether the grid holds the estimated contact.
-    doubts : dict of str to str
+    warnings : dict of str to str
         What the run will warn of besides, as far as it can be told, by kind of doubt.
     """
 
@@ -60,7 +60,7 @@ class Forecast:
     cells_along: float
     cells_across: float
     fits: bool
-    doubts: dict[str, str]
+    warnings: dict[str, str]
 
 
 def forecast(run: RunSetup, *, errors: bool = False) -> Forecast:
@@ -112,7 +112,7 @@ def forecast(run: RunSetup, *, errors: bool = False) -> Forecast:
         cells_across=across,
         fits=run.grid.periodic
         or all(r < size / 2 for r, size in zip(reach, run.grid.size, strict=True)),
-        doubts=foreseen_doubts(run, estimate, compliance),
+        warnings=predicted_warnings(run, estimate, compliance),
     )
 
 

@@ -1,4 +1,4 @@
-"""From an equilibrium to a state: resultants, sub-cell rim, work, and doubts."""
+"""From an equilibrium to a state: resultants, sub-cell rim, work, and warnings."""
 
 from __future__ import annotations
 
@@ -8,12 +8,17 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.checks.collector import Doubts
-from viscontact.checks.half_space_theory import Geometry, corner_doubts, geometry_doubts
-from viscontact.checks.material import data_doubts, early_doubts, law_doubts, passivity_doubts
-from viscontact.checks.mesh import REFUSED_CELLS, cells_across_spots, mesh_doubts
+from viscontact.checks.collector import WarningCollector
+from viscontact.checks.half_space_theory import Geometry, corner_warnings, geometry_warnings
+from viscontact.checks.material import (
+    data_warnings,
+    early_warnings,
+    law_warnings,
+    passivity_warnings,
+)
+from viscontact.checks.mesh import MIN_CELLS_ACROSS, cells_across_spots, mesh_warnings
 from viscontact.checks.singularities import strain_of
-from viscontact.checks.steps import untold_doubts
+from viscontact.checks.steps import unreported_peak_warnings
 from viscontact.contact.body_edge import trace_outline
 from viscontact.contact.rim import Rim, trace_rim
 from viscontact.errors import DomainError
@@ -22,7 +27,7 @@ from viscontact.simulation.grid_enlargement import GridEnlargement
 from viscontact.simulation.load_cycles import LoadCycleWork
 from viscontact.simulation.setup import RunSetup
 from viscontact.simulation.step_solution import StepSolution
-from viscontact.simulation.step_warnings import loading_doubts
+from viscontact.simulation.step_warnings import loading_warnings
 from viscontact.state import ContactState, Outcome
 from viscontact.time_integration.fixed_steps import Step
 from viscontact.time_integration.restart_data import RestartData
@@ -32,7 +37,7 @@ PEAK_CHECK_RATIO = 1.1
 
 
 class Observer:
-    """Watches a run from step to step, for what needs the step before: work and doubts.
+    """Watches a run from step to step, for what needs the step before: work and warnings.
 
     Parameters
     ----------
@@ -42,13 +47,13 @@ class Observer:
 
     def __init__(self, run: RunSetup) -> None:
         self._set_geometry(run)
-        self._doubts = Doubts()
-        self._open = law_doubts(run.memory.error, run.compliance.inversion_error)
+        self._warnings = WarningCollector()
+        self._open = law_warnings(run.memory.error, run.compliance.inversion_error)
         if run.mesh is not None:
-            self._open |= run.mesh.doubts
+            self._open |= run.mesh.warnings
         self._measured_from = max(body.known_from for body in run.bodies)
         for body in run.bodies:
-            self._open |= passivity_doubts(body.law, float(run.times[-1]))
+            self._open |= passivity_warnings(body.law, float(run.times[-1]))
         self._work = 0.0
         self._before: StepSolution | None = None
         self._point: LoadPoint | None = None
@@ -105,7 +110,7 @@ class Observer:
         rim = trace_rim(self._run.grid, contact, instant.gap, self._outline)
         self._work += self._work_of(point, instant)
         self._cycles.record_work(step, self._work)
-        self._collect_doubts(step, instant, rim)
+        self._collect_warnings(step, instant, rim)
         state = _state(step, instant, rim, self._work, self._cycles.last_loss)
         if state.contact_area > self._largest_area:
             self._largest_area, self._cells_at_largest = state.contact_area, state.cells_across
@@ -116,7 +121,7 @@ class Observer:
         return state
 
     def add_warnings(self, state: ContactState, *, last: bool) -> ContactState:
-        """Attach the doubts met since the last judged state, each kind once a run.
+        """Attach the warnings met since the last judged state, each kind once a run.
 
         Parameters
         ----------
@@ -133,9 +138,9 @@ class Observer:
         self._peak_reported = max(self._peak_reported, state.peak_pressure)
         mesh, untold = {}, {}
         if last and self._largest_area:
-            mesh = mesh_doubts(self._cells_at_largest, self._cells_across_spots())
-            untold = untold_doubts(self._peak, self._peak_time, self._peak_reported)
-        return replace(state, warnings=self._doubts.new(self._open, mesh, untold))
+            mesh = mesh_warnings(self._cells_at_largest, self._cells_across_spots())
+            untold = unreported_peak_warnings(self._peak, self._peak_time, self._peak_reported)
+        return replace(state, warnings=self._warnings.new(self._open, mesh, untold))
 
     def refuse_coarse_mesh(self) -> None:
         """Raise at the run's end if even its largest contact had too few cells.
@@ -145,12 +150,12 @@ class Observer:
         DomainError
             If fewer than four cells lay across it.
         """
-        if not self._largest_area or self._cells_at_largest >= REFUSED_CELLS:
+        if not self._largest_area or self._cells_at_largest >= MIN_CELLS_ACROSS:
             return
         nx, ny = self._run.grid.shape
         raise DomainError(
             f"grid: only {self._cells_at_largest} cells lie across the run's largest contact and "
-            f"{REFUSED_CELLS} are the least (20 or more recommended); use more cells than "
+            f"{MIN_CELLS_ACROSS} are the least (20 or more recommended); use more cells than "
             f"{nx} x {ny} or a smaller grid.size"
         )
 
@@ -158,7 +163,7 @@ class Observer:
         """What has to be kept to go on from here; asked for after an `evaluate`."""
         before = self._before
         return {
-            "said": self._doubts.said,
+            "said": self._warnings.said,
             "open": self._open,
             "work": self._work,
             "before": before and vars(before) | {"outcome": int(before.outcome)},
@@ -173,7 +178,7 @@ class Observer:
 
     def restore(self, restart_data: RestartData) -> None:
         """Go on from what was `restart_data`, in the same run."""
-        self._doubts.said = dict(restart_data["said"])
+        self._warnings.said = dict(restart_data["said"])
         self._open, self._work = dict(restart_data["open"]), restart_data["work"]
         before, point = restart_data["before"], restart_data["point"]
         self._before = (
@@ -197,18 +202,20 @@ class Observer:
             self._largest = None
         return self._spots_at_largest
 
-    def _collect_doubts(self, step: Step, instant: StepSolution, rim: Rim) -> None:
-        found = data_doubts(step.time, self._run.measured_until)
+    def _collect_warnings(self, step: Step, instant: StepSolution, rim: Rim) -> None:
+        found = data_warnings(step.time, self._run.measured_until)
         if instant.outcome is not Outcome.NO_CONTACT:
-            found = self._corner_doubts(step.time, instant) | found
+            found = self._corner_warnings(step.time, instant) | found
             found = (
-                geometry_doubts(self._geometry, rim, instant.motion, instant.displacement) | found
+                geometry_warnings(self._geometry, rim, instant.motion, instant.displacement) | found
             )
-            found = early_doubts(self._measured_from, self._run.load, step.time, step.side) | found
-        found = loading_doubts(self._run, step, self._before, instant) | found
+            found = (
+                early_warnings(self._measured_from, self._run.load, step.time, step.side) | found
+            )
+        found = loading_warnings(self._run, step, self._before, instant) | found
         self._open = found | self._open
 
-    def _corner_doubts(self, time: float, instant: StepSolution) -> dict[str, str]:
+    def _corner_warnings(self, time: float, instant: StepSolution) -> dict[str, str]:
         """Whether the largest pressure so far lies at a corner; where it hardly grew, it stayed."""
         peak = float(instant.pressure.max())
         if peak <= PEAK_CHECK_RATIO * self._peak_checked:
@@ -216,7 +223,7 @@ class Observer:
         self._peak_checked = peak
         place = self._run.grid.largest_at(instant.pressure)
         strain = strain_of(peak, float(self._run.compliance(time)))
-        return corner_doubts(self._geometry, place, strain)
+        return corner_warnings(self._geometry, place, strain)
 
     def _work_of(self, point: LoadPoint, instant: StepSolution) -> float:
         """Work over a step: exact while the load is held, and for all that is elastic.

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from viscontact.checks.steps import relative_change, release_doubts, step_doubts, touch_doubts
+from viscontact.checks.steps import relative_change, release_warnings, step_warnings, touch_warnings
 from viscontact.simulation.setup import RunSetup
 from viscontact.simulation.step_solution import StepSolution
 from viscontact.state import Outcome
 from viscontact.time_integration.fixed_steps import KINK_TOLERANCE, Step
 
 
-def loading_doubts(
+def loading_warnings(
     run: RunSetup, step: Step, before: StepSolution | None, after: StepSolution
 ) -> dict[str, str]:
     """Return doubts about a step over which a creeping body is loaded or let go.
@@ -39,13 +39,13 @@ def loading_doubts(
         if touched == touches or run.compliance(step.duration) == run.compliance.instant:
             return {}  # an elastic body takes the force however it comes
         if touches:
-            return touch_doubts(step.duration, _rise(run, step))
-        return release_doubts(step.duration, _fall(run, step))
+            return touch_warnings(step.duration, _rise(run, step))
+        return release_warnings(step.duration, _fall(run, step))
     if after.resolved:
         return {}
     peaks = [float(end.pressure.max()) for end in (before, after)]
     forces = [float(end.pressure.sum()) * run.grid.cell_area for end in (before, after)]
-    return step_doubts(step.duration, max(relative_change(*peaks), relative_change(*forces)))
+    return step_warnings(step.duration, max(relative_change(*peaks), relative_change(*forces)))
 
 
 def _rise(run: RunSetup, step: Step) -> float:

@@ -48,7 +48,7 @@ def fitting(jobs: Sequence[Job]) -> int:
     return max(1, resources.fitting((job.memory for job in jobs), available_memory()))
 
 
-def doubts(jobs: Sequence[Job], wanted: int, at_once: int, threads: int) -> list[str]:
+def warnings(jobs: Sequence[Job], wanted: int, at_once: int, threads: int) -> list[str]:
     """Say where more is asked for than the machine has."""
     lines = []
     if at_once < min(wanted, len(jobs)):

@@ -7,7 +7,7 @@ from collections import deque
 from collections.abc import Sequence
 from contextlib import suppress
 
-from viscontact.cli.many.jobs import checked_jobs, doubts, fitting
+from viscontact.cli.many.jobs import checked_jobs, fitting, warnings
 from viscontact.cli.many.progress import Shown, shown_runs
 from viscontact.cli.many.request import ManyRequest
 from viscontact.cli.many.table import print_table
@@ -34,7 +34,7 @@ def execute_many(request: ManyRequest) -> None:
             left = [job for job in jobs if job.standing is not Standing.FINISHED]
             at_once = min(request.jobs, fitting(left), max(1, len(left)))
             for line in (
-                () if quiet else doubts(left, request.jobs, at_once, request.common.threads)
+                () if quiet else warnings(left, request.jobs, at_once, request.common.threads)
             ):
                 say(line)
         with shown_runs(left, quiet=quiet) as shown:

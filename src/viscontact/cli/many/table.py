@@ -29,7 +29,7 @@ _NAMED = 3
 
 @dataclass(frozen=True)
 class _Found:
-    """What a run has found: its largest values [SI], time spent [s], and what it doubts.
+    """What a run has found: its largest values [SI], time spent [s], and what it warnings.
 
     Of the errors of those values the largest part of one, nan if none is known and inf if a value
     depends on the mesh.

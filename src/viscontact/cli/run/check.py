@@ -14,8 +14,8 @@ from viscontact.cli.terminal.messages import refuse
 from viscontact.runs.check_report import (
     drawn_size,
     expectations,
-    foreseen,
     needs,
+    predicted,
     verdict,
     warnings_of,
 )
@@ -29,7 +29,7 @@ _NAMES = len("peak pressure")
 def print_forecast(prepared: PreparedRun) -> Forecast:
     """Print what a run will need and what it may find."""
     try:
-        expected = foreseen(prepared)
+        expected = predicted(prepared)
     except CaseError as error:
         refuse(*error.problems)
     console = Console()

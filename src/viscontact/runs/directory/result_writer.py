@@ -224,7 +224,7 @@ class ResultWriter(Closing):
         if bars is not None:
             with self._writing():
                 write_errors(self._copies.file, bars.values)
-            self._account.doubt(bars.warnings)
+            self._account.add_warning(bars.warnings)
         self._attributes["complete"] = np.int32(1)
         for _ in range(TRIES):
             if self._publish():

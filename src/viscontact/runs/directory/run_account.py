@@ -43,7 +43,7 @@ class Account:
             self._enlarged.append(enlargement(state.time, self.grid, state.grid))
             self.grid = state.grid
 
-    def doubt(self, warnings: Sequence[str]) -> None:
+    def add_warning(self, warnings: Sequence[str]) -> None:
         """Take down warnings that no single state has raised."""
         self._warnings += warnings
 

@@ -11,7 +11,7 @@ from typing import Any
 
 from viscontact.case import Case, CaseError, Parts, read_case_text, read_parts
 from viscontact.case.document import document_of
-from viscontact.runs.check_report import expectations, foreseen, needs, verdict, warnings_of
+from viscontact.runs.check_report import expectations, needs, predicted, verdict, warnings_of
 from viscontact.runs.forecast import Forecast
 from viscontact.runs.free_memory import available_memory
 from viscontact.runs.preparation import PreparedRun, prepared
@@ -28,25 +28,25 @@ class Desk:
     """Where cases are read."""
 
     folder: Folder
-    _foreseen: dict[str, tuple[PreparedRun, Forecast]] = field(default_factory=dict, repr=False)
+    _predicted: dict[str, tuple[PreparedRun, Forecast]] = field(default_factory=dict, repr=False)
 
-    def foreseen(self, text: str) -> tuple[PreparedRun, Forecast]:
+    def predicted(self, text: str) -> tuple[PreparedRun, Forecast]:
         """Read a case, check it, and foresee its run.
 
         What was asked for last is kept: a check, a drawing and a run of one case come after each
         other, and an automatic grid is found once for all of them.
         """
-        if text in self._foreseen:
-            whole, expected = self._foreseen[text]
+        if text in self._predicted:
+            whole, expected = self._predicted[text]
             return whole, replace(expected, available=available_memory())
         try:
             whole = prepared(read_case_text(text, self.folder.case))
-            found = whole, foreseen(whole)
+            found = whole, predicted(whole)
         except CaseError as error:
             raise case_problems(error, self.folder.case) from error
-        self._foreseen.clear()
+        self._predicted.clear()
         if not whole.case.files:  # these may be replaced meanwhile
-            self._foreseen[text] = found
+            self._predicted[text] = found
         return found
 
     def values(self, text: str) -> Any:
@@ -72,7 +72,7 @@ class Desk:
 
     def prepared(self, text: str, quality: str) -> tuple[PreparedRun, tuple[str, ...]]:
         """Read and check a case."""
-        whole, expected = self.foreseen(text)
+        whole, expected = self.predicted(text)
         if quality == "full":
             return whole, ()
         settings = coarse_settings(whole, expected)
@@ -88,24 +88,24 @@ class Desk:
     def check(self, text: str, quality: str) -> dict[str, Any]:
         """Check a case, and say how large it is, how long it takes and what to expect."""
         if quality == "full":
-            run, expected = self.foreseen(text)
+            run, expected = self.predicted(text)
         else:
             run, _ = self.prepared(text, quality)
             try:
-                expected = foreseen(run)
+                expected = predicted(run)
             except CaseError as error:
                 raise case_problems(error, self.folder.case) from error
         first = without_folder(verdict(run, expected), self.folder.case.parent)
-        doubts, rows = warnings_of(run, expected), needs(run, expected)
+        warnings, rows = warnings_of(run, expected), needs(run, expected)
         title, found = expectations(run, expected)
         lines = [
-            *(first, *(f"warning: {line}" for line in doubts)),
+            *(first, *(f"warning: {line}" for line in warnings)),
             *(f"note: {line}" for line in run.case.notes),
             *(f"{name}: {value}" for name, value in rows),
             *((title, *(f"{name}: {value}" for name, value in found)) if found else ()),
         ]
         return {
-            **{"lines": lines, "warnings": doubts, "notes": list(run.case.notes)},
+            **{"lines": lines, "warnings": warnings, "notes": list(run.case.notes)},
             **{"needs": rows, "expectations_title": title, "expectations": found},
             **{"seconds": expected.seconds, "memory": expected.memory},
             **{"cells": list(run.run.grid.shape), "steps": _steps(run)},

@@ -37,7 +37,7 @@ def _of_case(desk: Desk, text: str, what: str, width: Width | None) -> Figure:
     case = desk.case(text)
     try:
         if what == "indenter":
-            return _indenter(*desk.foreseen(text), width)
+            return _indenter(*desk.predicted(text), width)
         if what == "load":
             return draw_load(case.load, _end(case))
         return _curves(_material(case, what), _end(case), width)
