@@ -45,18 +45,18 @@ class Response(NamedTuple):
     ----------
     curve : LogCurve
         The solution, from the nodes of the fine grid, extrapolated to a vanishing step.
-    nodes, doubts : ndarray
+    nodes, node_errors : ndarray
         The nodes of the coarse grid [s], and the estimated relative error at each [-].
     """
 
     curve: LogCurve
     nodes: Floats
-    doubts: Floats
+    node_errors: Floats
 
     def error(self, start: float, end: float) -> float:
         """Return the largest estimated error between two times [s]."""
         asked = (self.nodes >= start) & (self.nodes <= end * 1.5)  # a step further
-        return float(np.max(self.doubts[asked], initial=0.0))
+        return float(np.max(self.node_errors[asked], initial=0.0))
 
 
 def invert(function: Function, mean: Mean, instants: ArrayLike) -> tuple[Floats, float]:
@@ -156,10 +156,10 @@ def respond(
     scale = np.abs(values[::4])
     if load is None and values[-1] < values[0]:
         scale = 1.0 / function(coarse[: rough.size])
-    doubts = np.abs(values[::4] - _extrapolated(rough, better)[::2]) / scale
+    node_errors = np.abs(values[::4] - _extrapolated(rough, better)[::2]) / scale
     coarse, fine = coarse[: rough.size], fine[: values.size]
     if at_once not in (0.0, math.inf) or load is not None:
-        return Response(_curve(fine, at_once, values), coarse, doubts)
+        return Response(_curve(fine, at_once, values), coarse, node_errors)
     # The beginning as a power leaves this, on any grid; up to there it is known better.
     settled = np.searchsorted(fine, since / 2)  # clear of the kink there
     curve = LogCurve(
@@ -168,7 +168,7 @@ def respond(
         before=-first_exponent(function, first),
         beyond="power",
     )
-    return Response(curve, coarse, doubts + first / np.maximum(coarse, first))
+    return Response(curve, coarse, node_errors + first / np.maximum(coarse, first))
 
 
 def _extrapolated(rough: Floats, better: Floats) -> Floats:
@@ -200,7 +200,7 @@ def steadied(found: Response, trend: int, function: Function | None) -> Response
     Returns
     -------
     Response
-        Monotone, with the doubts; at most 1, as a monotone g that falls lies between 0 and 1/f.
+        Monotone, with the node_errors; at most 1, as a monotone g that falls lies between 0 and 1/f.
     """
     times, values, known = found.curve.times, found.curve.values, found.curve.at_once is not None
     if found.curve.at_once is not None:
@@ -220,8 +220,8 @@ def steadied(found: Response, trend: int, function: Function | None) -> Response
     falls = trend < 0 and function is not None
     scale = 1.0 / function(found.nodes) if falls and function is not None else at_nodes
     taken_off = np.nan_to_num(np.abs(at_nodes - found.curve(found.nodes)) / scale, nan=np.inf)
-    doubts = np.nan_to_num(found.doubts, nan=np.inf) + taken_off
-    return Response(curve, found.nodes, np.minimum(doubts, 1.0) if falls else doubts)
+    node_errors = np.nan_to_num(found.node_errors, nan=np.inf) + taken_off
+    return Response(curve, found.nodes, np.minimum(node_errors, 1.0) if falls else node_errors)
 
 
 def onset(function: Function, change: float = _FIRST_CHANGE) -> float:
