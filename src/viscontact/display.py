@@ -8,7 +8,7 @@ from typing import Any
 import viscontact
 
 
-class Shown:
+class Displayable:
     """A noun that can tell what it is, in readable units.
 
     Notebooks ask for `_repr_html_`, ``print`` for ``str``; ``repr`` stays the dataclass's own,
@@ -26,10 +26,10 @@ class Shown:
     __slots__ = ()
 
     def _repr_html_(self) -> str:
-        return str(viscontact.notebook.noun_html(self))
+        return str(viscontact.notebook.display_html(self))
 
     def __str__(self) -> str:
-        return str(viscontact.notebook.noun_text(self))
+        return str(viscontact.notebook.display_text(self))
 
 
 def result_plots(result: object) -> Any:
@@ -37,16 +37,16 @@ def result_plots(result: object) -> Any:
     return viscontact.plot.ResultPlots(result)
 
 
-class ShownWhole(Shown, ABC):
+class DisplayableGroup(Displayable, ABC):
     """A noun made of others, which are shown one below the other."""
 
     __slots__ = ()
 
     @property
     @abstractmethod
-    def shown_title(self) -> str:
+    def display_title(self) -> str:
         """What stands above."""
 
     @abstractmethod
-    def shown_parts(self) -> dict[str, Shown | str]:
+    def display_parts(self) -> dict[str, Displayable | str]:
         """Return the nouns it is made of, and what else is told of it in words, by their names."""

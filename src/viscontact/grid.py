@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.display import Shown
+from viscontact.display import Displayable
 from viscontact.units.numbers import as_real
 
 #: What a mesh can be chosen for.
@@ -24,7 +24,7 @@ _LARGEST = 1e300
 
 
 @dataclass(frozen=True)
-class Grid(Shown):
+class Grid(Displayable):
     """A uniform grid of rectangular cells, centred on the origin.
 
     Parameters
@@ -185,7 +185,7 @@ class Grid(Shown):
 
 
 @dataclass(frozen=True)
-class AutomaticGrid(Shown):
+class AutomaticGrid(Displayable):
     """A grid to be chosen by the run itself, fine enough for the tolerance asked for.
 
     Parameters

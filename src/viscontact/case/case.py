@@ -13,7 +13,7 @@ from viscontact.case.document import Document
 from viscontact.case.error_messages import noun_problem
 from viscontact.case.errors import CaseError, KeyPath
 from viscontact.case.yaml_source import with_overrides
-from viscontact.display import Shown, ShownWhole
+from viscontact.display import Displayable, DisplayableGroup
 from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.loads import LoadHistory
@@ -26,7 +26,7 @@ _RUN_NAMES = ("case.yaml", "result.nc", "progress.jsonl", "state.npz", "steps.lo
 
 
 @dataclass(frozen=True, eq=False)
-class Case(ShownWhole):
+class Case(DisplayableGroup):
     """A run as a case file describes it, in nouns and SI numbers.
 
     Parameters
@@ -80,11 +80,11 @@ class Case(ShownWhole):
     document: Document = field(repr=False)
 
     @property
-    def shown_title(self) -> str:
+    def display_title(self) -> str:
         """What the user calls it."""
         return self.title or "Case"
 
-    def shown_parts(self) -> dict[str, Shown | str]:
+    def display_parts(self) -> dict[str, Displayable | str]:
         """Return what a notebook shows of it."""
         return {
             "indenter": self.indenter,

@@ -8,7 +8,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from viscontact.display import Shown
+from viscontact.display import Displayable
 from viscontact.laws import CreepSeries, RelaxationSeries
 
 Array = NDArray[np.float64]
@@ -17,7 +17,7 @@ _SHOWN = 6  # terms that are printed
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Fit(Shown):
+class Fit(Displayable):
     """A series fitted to measured values.
 
     Made by `fit_creep`, `fit_relaxation` and `fit_dynamic`.

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.display import Shown
+from viscontact.display import Displayable
 from viscontact.identification.record import IndentationRecord
 from viscontact.laws import Law
 from viscontact.materials.material import Material
@@ -19,7 +19,7 @@ _TOUCH = 0.05  # of the largest force: less may be scatter without contact
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class IndentationFit(Shown):
+class IndentationFit(Displayable):
     """A law fitted to an indentation record.
 
     Made by `fit_indentation`.

@@ -10,7 +10,7 @@ from typing import Unpack
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.display import Shown
+from viscontact.display import Displayable
 from viscontact.identification.columns import positive_column, require_rows, require_trend
 from viscontact.identification.fit import Fit
 from viscontact.identification.overlap import Curve, log_shift
@@ -28,7 +28,7 @@ _SCATTER = np.log(10.0) / 3
 
 
 @dataclass(frozen=True, eq=False)
-class Isotherm(Shown):
+class Isotherm(Displayable):
     """What a test measured at one temperature.
 
     Parameters
@@ -99,7 +99,7 @@ class Isotherm(Shown):
 
 
 @dataclass(frozen=True, eq=False)
-class MasterCurve(Shown):
+class MasterCurve(Displayable):
     """One curve at a reference temperature, made of sets at several temperatures.
 
     Made by `build_master_curve`.

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.display import Shown
+from viscontact.display import Displayable
 from viscontact.indenters import Cone, FlatPunch, Indenter, Sphere
 from viscontact.reference import ConeProfile, PunchProfile, SphereProfile
 from viscontact.units.formatting import format_quantity
@@ -19,7 +19,7 @@ _LEAST_ROWS = 5
 
 
 @dataclass(frozen=True, eq=False)
-class IndentationRecord(Shown):
+class IndentationRecord(Displayable):
     """Approach and force of a rigid indenter over time, from before the first contact on.
 
     Parameters

@@ -9,11 +9,11 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from viscontact.display import Shown
+from viscontact.display import Displayable
 from viscontact.indenters.arguments import positions, real_number
 
 
-class Indenter(Shown, ABC):
+class Indenter(Displayable, ABC):
     """A rigid shape, known by its initial gap to the plane it is pressed on.
 
     To add a shape, write a frozen dataclass with a `gap`; give it `curvatures` too if it is

@@ -7,10 +7,10 @@ from abc import ABC, abstractmethod
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from viscontact.display import Shown
+from viscontact.display import Displayable
 
 
-class Profile(Shown, ABC):
+class Profile(Displayable, ABC):
     """The generating line of a roller: how far it drops below its highest point.
 
     A profile is a shape; the length is the roller's. To add one, write a frozen dataclass with a

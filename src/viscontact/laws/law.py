@@ -11,12 +11,12 @@ from typing import overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from viscontact.display import Shown
+from viscontact.display import Displayable
 from viscontact.laws.arguments import positive
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Law(Shown, ABC):
+class Law(Displayable, ABC):
     """A linear viscoelastic law in shear: creep compliance and relaxation modulus.
 
     ``law(t)`` is the creep compliance Phi(t), strain deviator per unit stress deviator, so that

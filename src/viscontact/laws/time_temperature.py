@@ -15,14 +15,14 @@ from typing import ClassVar, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from viscontact.display import Shown
+from viscontact.display import Displayable
 from viscontact.laws import arguments
 
 #: Molar gas constant, exact since 2019 [J/(mol K)].
 GAS_CONSTANT = 8.31446261815324
 
 
-class Shift(Shown, ABC):
+class Shift(Displayable, ABC):
     """A rule that gives the shift factor a_T of each temperature.
 
     ``law.slowed(shift.factor(T))`` is the law at temperature T.

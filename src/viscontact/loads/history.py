@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from viscontact.display import Shown
+from viscontact.display import Displayable
 
 #: An instant [s], and which side of a jump there: "left" before it, "right" after it.
 LoadInstant = tuple[float, str]
@@ -61,7 +61,7 @@ class LoadPoint:
         return level
 
 
-class LoadHistory(Shown, ABC):
+class LoadHistory(Displayable, ABC):
     """A force or an approach over time, with where the force acts and prescribed tilts.
 
     Examples

@@ -7,7 +7,7 @@ from dataclasses import KW_ONLY, dataclass, field
 
 import numpy as np
 
-from viscontact.display import Shown
+from viscontact.display import Displayable
 from viscontact.laws import BesideSpring, Law, SeriesLaw, TabulatedCreep, TabulatedRelaxation
 from viscontact.laws.arguments import compressibility, positive, store
 from viscontact.laws.interconversion.series import relaxation_from_creep
@@ -20,7 +20,7 @@ from viscontact.materials.compliance import (
 
 
 @dataclass(frozen=True)
-class Material(Shown):
+class Material(Displayable):
     """A linear viscoelastic material: creep in shear, and what its volume does.
 
     Parameters

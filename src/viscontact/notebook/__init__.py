@@ -4,6 +4,6 @@ Nouns ask for it by themselves (`viscontact.display`). Drawings are SVG written 
 they need no plotting library, take the colours of the page around them, and stay small.
 """
 
-from viscontact.notebook.cards import noun_html, noun_text
+from viscontact.notebook.cards import display_html, display_text
 
-__all__ = ["noun_html", "noun_text"]
+__all__ = ["display_html", "display_text"]

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 from xml.etree.ElementTree import Element
 
-from viscontact.display import Shown, ShownWhole
+from viscontact.display import Displayable, DisplayableGroup
 from viscontact.grid import Grid
 from viscontact.identification import Fit, IndentationFit, IndentationRecord, Isotherm, MasterCurve
 from viscontact.indenters import Indenter
@@ -33,12 +33,12 @@ from viscontact.surfaces import Surface
 from viscontact.units.formatting import format_quantity
 
 
-def noun_html(noun: Shown) -> str:
+def display_html(noun: Displayable) -> str:
     """Return a noun as a piece of HTML: small drawings beside a table.
 
     Parameters
     ----------
-    noun : Shown
+    noun : Displayable
         Indenter, law, material, load, grid, case, surface, record, fit, master curve, material
         card, or what a result has as ``ds.viscontact``.
 
@@ -50,26 +50,26 @@ def noun_html(noun: Shown) -> str:
     return as_html(_cards(noun))
 
 
-def noun_text(noun: Shown) -> str:
+def display_text(noun: Displayable) -> str:
     """Return a noun as a table for a terminal.
 
     Parameters
     ----------
-    noun : Shown
+    noun : Displayable
         Indenter, law, material, load, grid, case, surface, record, fit, master curve, material
         card, or what a result has as ``ds.viscontact``.
 
     Examples
     --------
     >>> from viscontact.indenters import Sphere
-    >>> print(noun_text(Sphere(radius=0.01)))
+    >>> print(display_text(Sphere(radius=0.01)))
     Sphere
       radius  10 mm
     """
     return as_text(_cards(noun))
 
 
-def _cards(noun: Shown) -> Iterator[Card]:
+def _cards(noun: Displayable) -> Iterator[Card]:
     if isinstance(noun, ResultAccessor):
         yield result_card(noun.result)
         return
@@ -78,19 +78,19 @@ def _cards(noun: Shown) -> Iterator[Card]:
         yield measured(noun)
         yield from (_card(part) for part in _found(noun))
         return
-    if not isinstance(noun, ShownWhole):
+    if not isinstance(noun, DisplayableGroup):
         yield _card(noun)
         return
-    parts = noun.shown_parts()
+    parts = noun.display_parts()
     words = [(name, part) for name, part in parts.items() if isinstance(part, str)]
-    yield Card(noun.shown_title, words)
+    yield Card(noun.display_title, words)
     for name, part in parts.items():
-        if isinstance(part, Shown):
+        if isinstance(part, Displayable):
             title = f"{name}: {_name_of(part)}" if _name_of(part) not in name else name
             yield Card(_sentence_case(title), _rows(part), _drawings(part))
 
 
-def _card(noun: Shown) -> Card:
+def _card(noun: Displayable) -> Card:
     return Card(_sentence_case(_name_of(noun)), _rows(noun), _drawings(noun))
 
 
@@ -99,7 +99,7 @@ def _material_card(card: MaterialCard) -> Card:
     return Card(f"Material card: {card.name}", rows)
 
 
-def _found(noun: Shown) -> Iterator[Shown]:
+def _found(noun: Displayable) -> Iterator[Displayable]:
     """What measurements and files hold that can be used: laws, materials, shift rules."""
     if isinstance(noun, Fit):
         yield noun.law
@@ -110,7 +110,7 @@ def _found(noun: Shown) -> Iterator[Shown]:
 
 
 #: Nouns that hold numbers by the thousand, which no table of arguments tells.
-_MEASURED: dict[type[Shown], Callable[[Any], Card]] = {
+_MEASURED: dict[type[Displayable], Callable[[Any], Card]] = {
     Surface: surface_card,
     IndentationRecord: record_card,
     Fit: fit_card,
@@ -121,7 +121,7 @@ _MEASURED: dict[type[Shown], Callable[[Any], Card]] = {
 }
 
 
-def _name_of(noun: Shown) -> str:
+def _name_of(noun: Displayable) -> str:
     return in_plain_words(type(noun).__name__)
 
 
@@ -129,7 +129,7 @@ def _sentence_case(name: str) -> str:
     return name[:1].upper() + name[1:]
 
 
-def _rows(noun: Shown) -> list[tuple[str, ...]]:
+def _rows(noun: Displayable) -> list[tuple[str, ...]]:
     told = list(particulars(describe(noun)))
     own = _name_of(noun)
     rows: list[tuple[str, ...]] = [row for row in told if row not in (("shape", own), ("law", own))]
@@ -137,7 +137,7 @@ def _rows(noun: Shown) -> list[tuple[str, ...]]:
     return [*rows, *(row for row in _following(noun) if row[1] not in known)]
 
 
-def _following(noun: Shown) -> Iterator[tuple[str, str]]:
+def _following(noun: Displayable) -> Iterator[tuple[str, str]]:
     """What follows from the arguments and is asked for as often."""
     if isinstance(noun, Grid):
         yield "cell", " × ".join(format_quantity(extent, "m") for extent in noun.cell_size)
@@ -153,14 +153,14 @@ def _following(noun: Shown) -> Iterator[tuple[str, str]]:
             )
 
 
-def _drawings(noun: Shown) -> list[Element]:
+def _drawings(noun: Displayable) -> list[Element]:
     try:
         return _drawn(noun)
     except ValueError:  # of a user's own noun, say, where it is not defined: the table is left
         return []
 
 
-def _drawn(noun: Shown) -> list[Element]:
+def _drawn(noun: Displayable) -> list[Element]:
     if isinstance(noun, Indenter):
         return indenter_drawings(noun)
     if isinstance(noun, Law | Material):

@@ -6,11 +6,11 @@ from typing import Any
 
 import xarray as xr
 
-from viscontact.display import Shown, result_plots
+from viscontact.display import Displayable, result_plots
 
 
 @xr.register_dataset_accessor("viscontact")
-class ResultAccessor(Shown):
+class ResultAccessor(Displayable):
     """A result of `simulate` or `open_results`, in a few lines and small drawings.
 
     Displayed in a notebook, or printed, it tells what was found. It is there after

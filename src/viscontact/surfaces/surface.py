@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from viscontact.display import Shown
+from viscontact.display import Displayable
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import as_real
 
@@ -19,7 +19,7 @@ _LARGEST = 1e6
 
 
 @dataclass(frozen=True, eq=False, init=False)
-class Surface(Shown):
+class Surface(Displayable):
     """Heights on an even mesh, as measured with the surface facing the instrument.
 
     Parameters

@@ -26,7 +26,7 @@ from viscontact.units.formatting import format_quantity
 _LINE_PART, _LINE_SECONDS = 0.1, 30.0
 
 
-class Shown:
+class RunsDisplay:
     """Runs, shown as they go on; this one shows nothing."""
 
     def __init__(self, jobs: Sequence[Job]) -> None:
@@ -56,7 +56,7 @@ class Shown:
         return f"{self._ended} of {self._count} runs ended"
 
 
-class _Lines(Shown):
+class _Lines(RunsDisplay):
     """A line for each run that ends, and one now and then."""
 
     def __init__(self, jobs: Sequence[Job]) -> None:
@@ -82,7 +82,7 @@ class _Lines(Shown):
         say(f"{ended.job.name}: {ended.outcome}; {self._runs}")
 
 
-class _Bars(Shown):
+class _Bars(RunsDisplay):
     """A bar for all, and one for each that is at work."""
 
     def __init__(self, jobs: Sequence[Job], bars: Progress) -> None:
@@ -110,10 +110,10 @@ class _Bars(Shown):
 
 
 @contextmanager
-def shown_runs(jobs: Sequence[Job], *, quiet: bool) -> Iterator[Shown]:
+def shown_runs(jobs: Sequence[Job], *, quiet: bool) -> Iterator[RunsDisplay]:
     """Show how several runs go on."""
     if quiet or not jobs:
-        yield Shown(jobs)
+        yield RunsDisplay(jobs)
     elif sys.stderr.isatty():
         bars = _bars()
         bars.start()

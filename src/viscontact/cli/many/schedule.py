@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 
 from viscontact.cli.many.jobs import checked_jobs, fitting, warnings
-from viscontact.cli.many.progress import Shown, shown_runs
+from viscontact.cli.many.progress import RunsDisplay, shown_runs
 from viscontact.cli.many.request import ManyRequest
 from viscontact.cli.many.table import print_table
 from viscontact.cli.many.variations import as_typed
@@ -46,7 +46,7 @@ class _Schedule:
     """Runs that wait, are at work, and have ended."""
 
     def __init__(
-        self, jobs: Sequence[Job], at_once: int, interruption: Interruption, shown: Shown
+        self, jobs: Sequence[Job], at_once: int, interruption: Interruption, shown: RunsDisplay
     ) -> None:
         self._waiting = deque(jobs)
         self._active: list[Child] = []

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from viscontact.case import CaseError, read_material, read_section, shipped_material
-from viscontact.cli.material.named_material import Shown
+from viscontact.cli.material.named_material import MaterialDisplay
 from viscontact.cli.terminal.messages import refuse, say
 from viscontact.materials import library as materials
 from viscontact.materials.cards import is_card
@@ -42,13 +42,13 @@ class Typed:
         return {key: value for key, value in values.items() if value is not None}
 
 
-def find_material(which: str, typed: Typed, *, writes: bool = False) -> Shown:
+def find_material(which: str, typed: Typed, *, writes: bool = False) -> MaterialDisplay:
     """Return a material by its shipped name, or from a file of any kind."""
     idle = ["data", "set", "name", "poisson_ratio", "bulk_modulus"]
     units = [] if writes else ["modulus_unit", "time_unit", "temperature_unit"]
     if which in materials.names():
         _refuse_idle(which, "a shipped material", typed, [*idle, *units])
-        return Shown(which, shipped_material(which), materials.entry(which))
+        return MaterialDisplay(which, shipped_material(which), materials.entry(which))
     path = Path(which)
     _refuse_unknown(which, path)
     kind = _kind(path)
@@ -60,7 +60,7 @@ def find_material(which: str, typed: Typed, *, writes: bool = False) -> Shown:
         return _from_card(path, typed)
     _refuse_idle(which, "a case file", typed, [*idle, *units])
     try:
-        return Shown(which, read_material(path))
+        return MaterialDisplay(which, read_material(path))
     except CaseError as error:
         refuse(*error.problems)
 
@@ -98,7 +98,7 @@ def _kind(path: Path) -> str:
     return "card" if suffix in _CARD_SUFFIXES else "table"
 
 
-def _from_table(path: Path, typed: Typed) -> Shown:
+def _from_table(path: Path, typed: Typed) -> MaterialDisplay:
     try:
         table = read_table(path)
         quantity = _quantity(table)
@@ -114,7 +114,7 @@ def _from_table(path: Path, typed: Typed) -> Shown:
         )
     volume = typed.given("poisson_ratio", "bulk_modulus", "set")
     section = {"law": "table", "file": str(path), "quantity": quantity, "data": data, **volume}
-    return Shown(str(path), _read(path, section).noun())
+    return MaterialDisplay(str(path), _read(path, section).noun())
 
 
 def _quantity(table: Table) -> str:
@@ -133,7 +133,7 @@ def _quantity(table: Table) -> str:
     return found[0]
 
 
-def _from_card(path: Path, typed: Typed) -> Shown:
+def _from_card(path: Path, typed: Typed) -> MaterialDisplay:
     if typed.modulus_unit is None or typed.time_unit is None:
         refuse(
             f"{path.name}: cards do not say what they are in; add e.g. --modulus-unit MPa "
@@ -147,7 +147,9 @@ def _from_card(path: Path, typed: Typed) -> Shown:
     }
     found = _read(path, section)
     card = found.card()
-    return Shown(str(path), found.noun(), card_name=card.name, shift=card.shift, notes=found.notes)
+    return MaterialDisplay(
+        str(path), found.noun(), card_name=card.name, shift=card.shift, notes=found.notes
+    )
 
 
 def _read(path: Path, section: dict[str, Any]) -> Any:

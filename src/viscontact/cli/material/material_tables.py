@@ -12,7 +12,7 @@ from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.table import Table
 
-from viscontact.cli.material.named_material import Shown
+from viscontact.cli.material.named_material import MaterialDisplay
 from viscontact.cli.results.figures import plot_package, save
 from viscontact.cli.terminal.messages import refuse
 from viscontact.laws import WLF, Arrhenius, Elastic, Shift
@@ -51,7 +51,9 @@ def list_library(output: Path | None = None) -> None:
     print("viscontact material NAME tells all of one; -o FIG.png draws it against its source")
 
 
-def show_material(shown: Shown, output: Path | None, width: str | float | None = None) -> None:
+def show_material(
+    shown: MaterialDisplay, output: Path | None, width: str | float | None = None
+) -> None:
     """Print, and draw if a file is named, one material."""
     if output is not None and (form := _WRITTEN.get(output.suffix.lower())):
         refuse(f"{output}: -o alone is a figure (.png, .pdf or .svg); add --to {form}")
@@ -65,7 +67,7 @@ def show_material(shown: Shown, output: Path | None, width: str | float | None =
         _draw(shown, output, width)
 
 
-def _print_about(shown: Shown) -> None:
+def _print_about(shown: MaterialDisplay) -> None:
     """Print what a file says besides."""
     if shown.card_name:
         print(f"  material      {shown.card_name}")
@@ -124,7 +126,7 @@ def _volume(material: Material) -> str:
     )
 
 
-def _values(shown: Shown) -> Table:
+def _values(shown: MaterialDisplay) -> Table:
     """Compliance, modulus and contact compliance at each decade."""
     first, last = shown.times()
     low, high = round(math.log10(first)), round(math.log10(last))
@@ -166,7 +168,7 @@ def _within(time: float, measured: tuple[float, float] | None) -> bool:
     return measured is None or measured[0] * 0.999 <= time <= measured[1] * 1.001
 
 
-def _draw(shown: Shown, output: Path, width: str | float | None) -> None:
+def _draw(shown: MaterialDisplay, output: Path, width: str | float | None) -> None:
     plot = plot_package()
     entry = shown.entry
 

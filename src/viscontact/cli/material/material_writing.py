@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.cli.material.material_files import Typed
-from viscontact.cli.material.named_material import Shown
+from viscontact.cli.material.named_material import MaterialDisplay
 from viscontact.cli.terminal.messages import refuse, say
 from viscontact.laws import TabulatedCreep, TabulatedRelaxation
 from viscontact.materials.cards import Card, write_abaqus, write_ansys
@@ -24,7 +24,7 @@ _LEAST_MODULUS = 1e-9
 _FIGURES = (".png", ".pdf", ".svg")
 
 
-def write_material(shown: Shown, form: str, typed: Typed, output: Path | None) -> None:
+def write_material(shown: MaterialDisplay, form: str, typed: Typed, output: Path | None) -> None:
     """Write a material to a file, or print it."""
     if output is not None and output.suffix.lower() in _FIGURES:
         refuse(f"{output}: with --to, -o is what is written; leave --to out for a figure")
@@ -59,7 +59,7 @@ def _require_units(moduli: str, times: str) -> None:
             refuse(f"{option}: {error}")
 
 
-def _card(shown: Shown, form: str, moduli: str, times: str, degrees: str | None) -> str:
+def _card(shown: MaterialDisplay, form: str, moduli: str, times: str, degrees: str | None) -> str:
     name = shown.card_name or _plain(shown)
     card = Card(name, shown.material, shown.shift)
     if form == "abaqus":
@@ -70,7 +70,7 @@ def _card(shown: Shown, form: str, moduli: str, times: str, degrees: str | None)
     )
 
 
-def _plain(shown: Shown) -> str:
+def _plain(shown: MaterialDisplay) -> str:
     """Return a name that any program takes."""
     name = shown.name if shown.entry is not None else Path(shown.name).stem
     return re.sub(r"[^\w-]", "_", name, flags=re.ASCII)[:80]
@@ -87,7 +87,7 @@ def _with_remedy(why: str, name: str) -> str:
     )
 
 
-def _table(shown: Shown, moduli: str, times: str) -> str:
+def _table(shown: MaterialDisplay, moduli: str, times: str) -> str:
     """Return creep compliance and relaxation modulus in shear over log time."""
     if shown.shift is not None:
         say("note: the table holds the law at its reference temperature, without its shift")
@@ -105,7 +105,7 @@ def _table(shown: Shown, moduli: str, times: str) -> str:
     return "\n".join([*lines, ",".join(heads), *(_line(*row) for row in rows)]) + "\n"
 
 
-def _columns(shown: Shown) -> dict[str, NDArray[np.float64]]:
+def _columns(shown: MaterialDisplay) -> dict[str, NDArray[np.float64]]:
     law = shown.material.law
     instants = _instants(shown)
     # Conversion by numbers may waver in its last digits; a law must not.
@@ -117,7 +117,7 @@ def _columns(shown: Shown) -> dict[str, NDArray[np.float64]]:
     return columns
 
 
-def _instants(shown: Shown) -> NDArray[np.float64]:
+def _instants(shown: MaterialDisplay) -> NDArray[np.float64]:
     """Return a table's own times, or some over log time and the instant of loading [s]."""
     law = shown.material.law
     if isinstance(law, TabulatedCreep | TabulatedRelaxation):

@@ -18,7 +18,7 @@ _ANY_TIMES = (1e-3, 1e6)
 
 
 @dataclass(frozen=True)
-class Shown:
+class MaterialDisplay:
     """A material to show or to write."""
 
     name: str

@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from decimal import Decimal
 
-from viscontact.display import Shown
+from viscontact.display import Displayable
 from viscontact.laws import Shift
 from viscontact.materials.material import Material
 from viscontact.units.parsing import Scale, parse_scale, parse_unit
 
 
 @dataclass(frozen=True)
-class Card(Shown):
+class Card(Displayable):
     """A material as a finite-element program has it.
 
     Parameters
