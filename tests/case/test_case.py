@@ -438,7 +438,7 @@ def test_tags_that_name_code_do_not_run_it(tag: str, tmp_path: Path) -> None:
     ],
 )
 def test_an_automatic_grid_is_asked_for_in_words(grid, wish):
-    assert Cells(**grid).noun() == vc.AutomaticGrid(*wish)
+    assert Cells(**grid).build() == vc.AutomaticGrid(*wish)
 
 
 @pytest.mark.parametrize(

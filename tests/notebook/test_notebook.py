@@ -107,7 +107,7 @@ MEASURED = [
     vc.build_master_curve(_ISOTHERMS, 293.15),
     vc.Card("gel", vc.Material(_ZENER, 0.5), vc.WLF(293.15, 17.44, 51.6), ("*DENSITY",)),
 ]
-NOUNS = [*INDENTERS, *LAWS, *OTHERS, *MEASURED]
+STORED_CLASSES = [*INDENTERS, *LAWS, *OTHERS, *MEASURED]
 #: Half of the last digit of a path, and what it may leave out of a straight piece [px].
 _ROUNDING = 0.05 + 0.03
 
@@ -145,7 +145,7 @@ def _line(drawing: ElementTree.Element, kind: str) -> tuple[NDArray[Any], NDArra
     return np.array(pairs, dtype=float).T[0], np.array(pairs, dtype=float).T[1]
 
 
-@pytest.mark.parametrize("noun", NOUNS, ids=lambda noun: type(noun).__name__)
+@pytest.mark.parametrize("noun", STORED_CLASSES, ids=lambda noun: type(noun).__name__)
 def test_what_is_shown_is_small_whole_and_asks_for_nothing(noun: Any) -> None:
     page = noun._repr_html_()
     assert len(page) < 30_000

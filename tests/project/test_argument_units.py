@@ -10,11 +10,11 @@ import pytest
 
 from viscontact.laws import WLF, Arrhenius, TabulatedShift
 from viscontact.loads.history import Control
-from viscontact.results.provenance import NOUNS
+from viscontact.results.provenance import STORED_CLASSES
 from viscontact.units.dimensions import DIMENSIONS
 from viscontact.units.numbers import unit_of
 
-CLASSES = (*NOUNS.values(), WLF, Arrhenius, TabulatedShift)
+CLASSES = (*STORED_CLASSES.values(), WLF, Arrhenius, TabulatedShift)
 NUMERIC = re.compile(r"\b(float|int|NDArray)\b")
 UNITS = {dimension.unit for dimension in DIMENSIONS.values()} | {"1"}
 
@@ -28,7 +28,7 @@ def test_numeric_fields_have_a_unit_and_other_fields_have_none(owner: type) -> N
 
 
 def test_a_unit_may_depend_on_what_a_load_controls() -> None:
-    harmonic = NOUNS["HarmonicHistory"]
+    harmonic = STORED_CLASSES["HarmonicHistory"]
     assert unit_of(harmonic, "mean", "force") == "N"
     assert unit_of(harmonic, "mean", "approach") == "m"
     assert unit_of(harmonic, "phase") == "rad"

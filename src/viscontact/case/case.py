@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.case.document import Document
-from viscontact.case.error_messages import noun_problem
+from viscontact.case.error_messages import object_problem
 from viscontact.case.errors import CaseError, KeyPath
 from viscontact.case.yaml_source import with_overrides
 from viscontact.display import Displayable, DisplayableGroup
@@ -134,7 +134,7 @@ class Case(DisplayableGroup):
         CaseError
             The same with file, line and key in front.
         """
-        return CaseError(noun_problem(self.document, (), why))
+        return CaseError(object_problem(self.document, (), why))
 
 
 def _steps_told(times: NDArray[np.float64] | AdaptiveTimes) -> str:

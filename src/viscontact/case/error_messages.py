@@ -76,7 +76,7 @@ def problem(document: Document, error: ErrorDetails) -> str:
     model = _model_at(error["loc"])
     if error["type"] == "value_error":
         why = str(error["ctx"]["error"])
-        return noun_problem(document, key, why)
+        return object_problem(document, key, why)
     if error["type"].startswith("union_tag"):
         key = (*key, _union_key(error))
     return document.problem(key, _why(key, model, error))
@@ -120,7 +120,7 @@ def _at(data: Any, path: KeyPath) -> Any:
     return data
 
 
-def noun_problem(document: Document, section: KeyPath, why: str) -> str:
+def object_problem(document: Document, section: KeyPath, why: str) -> str:
     """Write what a noun or the run refused as a line, at the key that it speaks of.
 
     Parameters

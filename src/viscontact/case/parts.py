@@ -87,13 +87,13 @@ def read_parts(text: str, path: str | PathLike[str]) -> Parts:
             return None
 
     def load(found: Any) -> LoadHistory | None:
-        history: LoadHistory | None = None if found.is_by_pressure else found.noun(1.0)
+        history: LoadHistory | None = None if found.is_by_pressure else found.build(1.0)
         return history
 
     return Parts(
         part("indenter", _SHAPES, combined),
-        part("material", _MATERIAL, lambda found: found.noun()),
-        part("indenter_material", _MATERIAL, lambda found: found.noun()),
+        part("material", _MATERIAL, lambda found: found.build()),
+        part("indenter_material", _MATERIAL, lambda found: found.build()),
         part("load", _LOAD, load),
         part("time", _TIME, lambda found: float(found.end)),
     )

@@ -44,8 +44,8 @@ class CaseFile(Section):
 
     def history(self) -> LoadHistory:
         """Return the load; a mean pressure acts on the area of the grid."""
-        cells = self.grid.noun() if self.grid else None
-        return self.load.noun(cells.area if isinstance(cells, Grid) else 1.0)
+        cells = self.grid.build() if self.grid else None
+        return self.load.build(cells.area if isinstance(cells, Grid) else 1.0)
 
 
 def case_schema() -> dict[str, Any]:

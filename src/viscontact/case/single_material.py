@@ -57,7 +57,7 @@ def shipped_material(name: str) -> Material:
         raise ValueError(
             f"no shipped material is called {name!r}{hint} There are {', '.join(MATERIALS)}"
         )
-    return _Alone.model_validate({"material": name}).material.noun()
+    return _Alone.model_validate({"material": name}).material.build()
 
 
 def read_material(path: str | PathLike[str]) -> Material:
@@ -85,7 +85,7 @@ def read_material(path: str | PathLike[str]) -> Material:
         raise CaseError(
             f"{path}: holds no material; a case file has a section material: with its law"
         )
-    return _alone(document, document.path.parent).noun()
+    return _alone(document, document.path.parent).build()
 
 
 def read_section(section: Mapping[str, Any], place: str | PathLike[str]) -> Medium:
@@ -112,7 +112,7 @@ def read_section(section: Mapping[str, Any], place: str | PathLike[str]) -> Medi
     Examples
     --------
     >>> keys = {"law": "elastic", "shear_modulus": "1 MPa", "poisson_ratio": 0.5}
-    >>> read_section(keys, "typed").noun().law
+    >>> read_section(keys, "typed").build().law
     Elastic(shear_modulus=1000000.0)
     """
     return _alone(Document(Path(place), "", {"material": dict(section)}, {}), Path())

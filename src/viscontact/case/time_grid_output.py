@@ -113,7 +113,7 @@ class Cells(Section):
         description="with an automatic grid: what has to be that exact; all of them if not",
     )
 
-    def noun(self) -> grid.Grid | grid.AutomaticGrid:
+    def build(self) -> grid.Grid | grid.AutomaticGrid:
         """Return the grid, or the wish for one."""
         if self.shape and self.size:
             return grid.Grid(self.shape, self.size, self.periodic)
@@ -141,7 +141,7 @@ class Cells(Section):
                 f"{missing} is missing; write e.g. '{missing}: {example}', or leave out the whole "
                 "section for an automatic grid"
             )
-        self.noun()
+        self.build()
         return self
 
 

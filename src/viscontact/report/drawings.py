@@ -18,7 +18,7 @@ from viscontact.notebook.shapes import indenter_drawings
 from viscontact.plot import creep_curve, draw_indenter
 from viscontact.plot.layout.saving import as_svg
 from viscontact.report.recorded_surface import is_left_out, recorded_surface
-from viscontact.results.recorded_case import case_of, recorded_noun
+from viscontact.results.recorded_case import case_of, recorded_object
 
 #: A law is drawn from so much earlier than the end on [-]: how it comes to where the run begins.
 _BACK = 1e-4
@@ -80,7 +80,7 @@ def _indenter(ds: xr.Dataset) -> Figure:
 def _body(ds: xr.Dataset) -> Indenter:
     if is_drawn_from_fields(ds):
         return recorded_surface(ds)
-    body: Indenter = recorded_noun(ds, "indenter", "geometry")
+    body: Indenter = recorded_object(ds, "indenter", "geometry")
     return body
 
 
@@ -89,7 +89,7 @@ def _small_sections(ds: xr.Dataset) -> list[Element]:
 
 
 def _small_curves(ds: xr.Dataset, part: str) -> list[Element]:
-    return law_drawings(recorded_noun(ds, part, "creep").law)
+    return law_drawings(recorded_object(ds, part, "creep").law)
 
 
 def _both(wide: Element, small: Callable[[], list[Element]]) -> Element:
@@ -117,7 +117,7 @@ def _middle(ds: xr.Dataset) -> tuple[float, float]:
 
 
 def _curves(ds: xr.Dataset, part: str) -> Figure:
-    law = recorded_noun(ds, part, "creep").law
+    law = recorded_object(ds, part, "creep").law
     instants = ds["time"].values
     positive = instants[instants > 0]
     end = float(positive.max(initial=0.0)) or 1.0

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 import numpy as np
 import xarray as xr
 
-from viscontact.results.recorded_case import case_of, recorded_noun
+from viscontact.results.recorded_case import case_of, recorded_object
 from viscontact.state import Outcome
 from viscontact.units.formatting import format_number, format_quantity
 
@@ -111,7 +111,7 @@ def _approach(ds: xr.Dataset) -> str:
 def _strain(ds: xr.Dataset) -> str:
     """Pressure over stiffness, which is of the order of the strain."""
     try:
-        creep = recorded_noun(ds, "material", "limits").law
+        creep = recorded_object(ds, "material", "limits").law
     except (ValueError, AttributeError, json.JSONDecodeError):
         return ""
     compliance = float(creep(float(ds["time"][-1])))

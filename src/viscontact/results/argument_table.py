@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from viscontact.laws import Law
-from viscontact.results.provenance import NOUNS
+from viscontact.results.provenance import STORED_CLASSES
 from viscontact.units.formatting import format_quantity
 
 _LENGTHS = (
@@ -62,7 +62,7 @@ _WORDS = {
     ("ForceHistory", "times"): "at times",
     ("ApproachHistory", "times"): "at times",
 }
-_LAWS = {name for name, noun in NOUNS.items() if issubclass(noun, Law)}
+_LAWS = {name for name, noun in STORED_CLASSES.items() if issubclass(noun, Law)}
 #: Nouns whose part of the table says what they are.
 _PLAIN = {"Material", "Grid", "AutomaticGrid"}
 _PLAIN |= {"ForceHistory", "ApproachHistory", "HarmonicHistory"}

@@ -51,7 +51,7 @@ from viscontact.laws import (
 from viscontact.loads import ApproachHistory, ForceHistory, HarmonicHistory
 from viscontact.materials.material import Material
 
-NOUNS = {
+STORED_CLASSES = {
     noun.__name__: noun
     for noun in (
         *(Sphere, Paraboloid, Cone, FlatPunch, Roller, HeightMap, CombinedIndenter),
@@ -135,10 +135,10 @@ def rebuild(description: Any) -> Any:
             f"an array of shape {description['shape']} is too large, or has holes, and is not kept "
             "in a result; build the indenter from its source again"
         )
-    noun = NOUNS.get(description.get("type", ""))
+    noun = STORED_CLASSES.get(description.get("type", ""))
     if noun is None:
         raise ValueError(
-            f"no noun is called {description.get('type')!r}; known are {sorted(NOUNS)}"
+            f"no noun is called {description.get('type')!r}; known are {sorted(STORED_CLASSES)}"
         )
     return noun(**{key: rebuild(value) for key, value in description.items() if key != "type"})
 

@@ -76,7 +76,7 @@ def prescribes_approach(ds: xr.Dataset) -> bool:
     return load.get("control") == "approach" or load.get("type") == "ApproachHistory"
 
 
-def recorded_noun(results: xr.Dataset, part: str, figure: str) -> Any:
+def recorded_object(results: xr.Dataset, part: str, figure: str) -> Any:
     """Rebuild a part of the case that is kept with a result.
 
     Parameters

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.contact.body_edge import Outline, trace_outline
 from viscontact.grid import Grid
-from viscontact.results.recorded_case import recorded_grid, recorded_noun
+from viscontact.results.recorded_case import recorded_grid, recorded_object
 from viscontact.results.snapshot import Snapshot as Snapshot
 from viscontact.units.formatting import format_quantity, time_labels
 
@@ -202,7 +202,7 @@ def _body_end(results: xr.Dataset) -> Outline | None:
     if np.isfinite(last).all() or "case" not in results.attrs:
         return None
     try:
-        indenter = recorded_noun(results, "indenter", "snapshot")
+        indenter = recorded_object(results, "indenter", "snapshot")
     except ValueError:  # a measured surface is not kept with the result
         return None
     x, y = results["x"].values, results["y"].values

@@ -25,12 +25,12 @@ class Shape(Section):
     offset_y: Offset = Field(default=0.0, description="where its origin lies along y")
 
     @abstractmethod
-    def noun(self) -> indenters.Indenter:
+    def build(self) -> indenters.Indenter:
         """Return the indenter that is described, where it is drawn."""
 
     def placed(self) -> indenters.Indenter:
         """Return the indenter turned and then moved to its place."""
-        noun = self.noun()
+        noun = self.build()
         if self.rotation:
             noun = noun.rotated(self.rotation)
         if self.offset_x or self.offset_y:
@@ -51,7 +51,7 @@ class Shape(Section):
     def _accepted(self) -> Shape:
         # What the noun refuses belongs among the problems of the file.
         try:
-            self.noun()
+            self.build()
         except ValueError as error:
             raise ValueError(str(error).removesuffix(_OF_PYTHON)) from error
         return self

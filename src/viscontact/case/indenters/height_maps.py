@@ -124,7 +124,7 @@ class HeightMap(Shape):
         told = (levelling_note(self._raw, self.level), described(surface))
         return (*filter(None, told), *surfaces.surface_doubts(surface), *_period_note(surface))
 
-    def noun(self) -> indenters.HeightMap:
+    def build(self) -> indenters.HeightMap:
         """Return the map, read, repaired and levelled."""
         return surfaces.indenter_of(self.surface, holes=self.missing == "hole")
 

@@ -26,7 +26,7 @@ class Ellipsoid(Shape):
     semi_axis_y: Length = Field(description="half its extent along y")
     semi_axis_z: Length = Field(description="half its height")
 
-    def noun(self) -> indenters.Ellipsoid:
+    def build(self) -> indenters.Ellipsoid:
         """Return the ellipsoid."""
         return indenters.Ellipsoid(self.semi_axis_x, self.semi_axis_y, self.semi_axis_z)
 
@@ -42,7 +42,7 @@ class Wedge(Shape):
         default=None, description="half the edge; without end when left out"
     )
 
-    def noun(self) -> indenters.Wedge:
+    def build(self) -> indenters.Wedge:
         """Return the wedge."""
         return indenters.Wedge(self.half_angle, self.half_length)
 
@@ -54,7 +54,7 @@ class Pyramid(Shape):
     half_angle: OpenAngle = Field(description="from the axis to a face", examples=["68 deg"])
     faces: FaceCount = Field(description="how many")
 
-    def noun(self) -> indenters.Pyramid:
+    def build(self) -> indenters.Pyramid:
         """Return the pyramid."""
         return indenters.Pyramid(self.half_angle, self.faces)
 
@@ -64,7 +64,7 @@ class Vickers(Shape):
 
     shape: Literal["vickers"]
 
-    def noun(self) -> indenters.Pyramid:
+    def build(self) -> indenters.Pyramid:
         """Return the pyramid."""
         return indenters.Pyramid.vickers()
 
@@ -74,7 +74,7 @@ class Berkovich(Shape):
 
     shape: Literal["berkovich"]
 
-    def noun(self) -> indenters.Pyramid:
+    def build(self) -> indenters.Pyramid:
         """Return the pyramid."""
         return indenters.Pyramid.berkovich()
 
@@ -84,7 +84,7 @@ class CubeCorner(Shape):
 
     shape: Literal["cube-corner"]
 
-    def noun(self) -> indenters.Pyramid:
+    def build(self) -> indenters.Pyramid:
         """Return the pyramid."""
         return indenters.Pyramid.cube_corner()
 
@@ -96,7 +96,7 @@ class Torus(Shape):
     ring_radius: Length = Field(description="radius of the ring's middle line")
     tube_radius: Length = Field(description="radius of its section")
 
-    def noun(self) -> indenters.Torus:
+    def build(self) -> indenters.Torus:
         """Return the ring."""
         return indenters.Torus(self.ring_radius, self.tube_radius)
 
@@ -115,7 +115,7 @@ class Waviness(Shape):
     phase_x: Angle = Field(default=0.0, description="at the origin; a crest when zero")
     phase_y: Angle = Field(default=0.0, description="at the origin; a crest when zero")
 
-    def noun(self) -> indenters.Waviness:
+    def build(self) -> indenters.Waviness:
         """Return the waves."""
         return indenters.Waviness(
             self.amplitude, self.wavelength_x, self.wavelength_y, self.phase_x, self.phase_y
@@ -133,7 +133,7 @@ class Dimples(Shape):
         default="square", description="how dimples lie beside each other"
     )
 
-    def noun(self) -> indenters.Dimples:
+    def build(self) -> indenters.Dimples:
         """Return the texture."""
         return indenters.Dimples(self.depth, self.radius, self.spacing, self.pattern)
 
@@ -180,7 +180,7 @@ class Revolved(_Drawn):
         """The file, by its key."""
         return {} if self.file is None else {("file",): Path(self.file)}
 
-    def noun(self) -> indenters.Revolved:
+    def build(self) -> indenters.Revolved:
         """Return the body."""
         return indenters.Revolved(*self._line(self.file, "r"), self.interpolation)
 
@@ -203,7 +203,7 @@ class Swept(_Drawn):
         """The file, by its key."""
         return {} if self.file is None else {("file",): Path(self.file)}
 
-    def noun(self) -> indenters.Swept:
+    def build(self) -> indenters.Swept:
         """Return the body."""
         line = self._line(self.file, "y")
         return indenters.Swept(*line, self.half_length, self.interpolation)

@@ -26,7 +26,7 @@ class Sphere(Shape):
     shape: Literal["sphere"]
     radius: Length = Field(description="of the sphere")
 
-    def noun(self) -> indenters.Sphere:
+    def build(self) -> indenters.Sphere:
         """Return the sphere."""
         return indenters.Sphere(self.radius)
 
@@ -38,7 +38,7 @@ class Paraboloid(Shape):
     radius_x: Length = Field(description="radius of curvature along x")
     radius_y: Length = Field(description="radius of curvature along y")
 
-    def noun(self) -> indenters.Paraboloid:
+    def build(self) -> indenters.Paraboloid:
         """Return the paraboloid."""
         return indenters.Paraboloid(self.radius_x, self.radius_y)
 
@@ -49,7 +49,7 @@ class Cone(Shape):
     shape: Literal["cone"]
     half_angle: OpenAngle = Field(description="from the axis to the flank", examples=["70 deg"])
 
-    def noun(self) -> indenters.Cone:
+    def build(self) -> indenters.Cone:
         """Return the cone."""
         return indenters.Cone(self.half_angle)
 
@@ -62,7 +62,7 @@ class FlatPunch(Shape):
     half_length: Length | None = Field(default=None, description="half the edge along x")
     half_width: Length | None = Field(default=None, description="half the edge along y")
 
-    def noun(self) -> indenters.FlatPunch:
+    def build(self) -> indenters.FlatPunch:
         """Return the punch."""
         return indenters.FlatPunch(
             self.radius, half_length=self.half_length, half_width=self.half_width
@@ -94,7 +94,7 @@ class Roller(Shape):
         found = {} if self.profile is None else self.profile.files
         return {("profile", *key): path for key, path in found.items()}
 
-    def noun(self) -> indenters.Roller:
+    def build(self) -> indenters.Roller:
         """Return the roller."""
         others: dict[str, Any] = {"cross_section": self.cross_section}
         if self.crown_radius is not None:

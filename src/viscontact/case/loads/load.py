@@ -46,7 +46,7 @@ class Load(Section):
     tilt_y: Tilt = Field(default=None, description=_FREE.format("y"))
 
     @abstractmethod
-    def noun(self, area: float = 1.0) -> LoadHistory:
+    def build(self, area: float = 1.0) -> LoadHistory:
         """Return the history that is described; a mean pressure acts on so much area [m²]."""
 
     @property
@@ -68,7 +68,7 @@ class Load(Section):
     @model_validator(mode="after")
     def _accepted(self) -> Load:
         # What the noun refuses belongs among the problems of the file.
-        self.noun()
+        self.build()
         return self
 
 
@@ -101,7 +101,7 @@ class Step(Controlled):
 
     kind: Literal["step"]
 
-    def noun(self, area: float = 1.0) -> LoadHistory:
+    def build(self, area: float = 1.0) -> LoadHistory:
         """Return the step."""
         return loads.step(**self._height(area), **self._tail)
 
@@ -112,7 +112,7 @@ class Ramp(Controlled):
     kind: Literal["ramp"]
     duration: Duration = Field(description="of the rise; then it is held")
 
-    def noun(self, area: float = 1.0) -> LoadHistory:
+    def build(self, area: float = 1.0) -> LoadHistory:
         """Return the ramp."""
         return loads.ramp(**self._height(area), duration=self.duration, **self._tail)
 
@@ -124,7 +124,7 @@ class Triangle(Controlled):
     rise: Duration = Field(description="how long the way up takes")
     fall: Duration | None = Field(default=None, description="as long as rise when left out")
 
-    def noun(self, area: float = 1.0) -> LoadHistory:
+    def build(self, area: float = 1.0) -> LoadHistory:
         """Return the triangle."""
         return loads.triangle(**self._height(area), rise=self.rise, fall=self.fall, **self._tail)
 
@@ -144,7 +144,7 @@ class Harmonic(Load):
     cycles: CycleCount = Field(description="after these the level stays where it is")
     phase: Angle = Field(default=0.0, description="at time 0")
 
-    def noun(self, area: float = 1.0) -> LoadHistory:
+    def build(self, area: float = 1.0) -> LoadHistory:
         """Return the harmonic load."""
         middle = _one_of(self.approach, "mean", self.mean)
         control: Control = "approach" if "approach" in middle else "force"
@@ -192,7 +192,7 @@ class History(Load):
         """The file that the history is read from, if there is one."""
         return None if self.file is None else Path(self.file)
 
-    def noun(self, area: float = 1.0) -> LoadHistory:
+    def build(self, area: float = 1.0) -> LoadHistory:
         """Return the history, from its points, its file or its sentences."""
         given = [self.points, self.mean_pressure, self.file, self.sentences]
         if given.count(None) != len(given) - 1:

@@ -45,17 +45,17 @@ class Medium(Section):
     )
 
     @abstractmethod
-    def law_noun(self) -> Law:
+    def build_law(self) -> Law:
         """Return the creep law that is described."""
 
-    def noun(self) -> Material:
+    def build(self) -> Material:
         """Return the material that is described, at its temperature."""
         if (self.poisson_ratio is None) == (self.bulk_modulus is None):
             raise ValueError(
                 "give poisson_ratio (e.g. 0.38) or bulk_modulus (e.g. '4 GPa'), and only one"
             )
-        material = Material(self.law_noun(), self.poisson_ratio, bulk_modulus=self.bulk_modulus)
-        return self._at_temperature(material, self.shift.noun() if self.shift else None)
+        material = Material(self.build_law(), self.poisson_ratio, bulk_modulus=self.bulk_modulus)
+        return self._at_temperature(material, self.shift.build() if self.shift else None)
 
     @property
     def files(self) -> Mapping[tuple[str, ...], Path]:
@@ -97,5 +97,5 @@ class Medium(Section):
     @model_validator(mode="after")
     def _accepted(self) -> Medium:
         # What the nouns refuse belongs among the problems of the file.
-        self.noun()
+        self.build()
         return self

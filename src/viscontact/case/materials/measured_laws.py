@@ -63,7 +63,7 @@ class TableLaw(FromFile):
         examples=[{"E_1": "relaxation_modulus", "remark": None}],
     )
 
-    def law_noun(self) -> Law:
+    def build_law(self) -> Law:
         """Return the law, whatever test the table is from."""
         if self.quantity == "relaxation_modulus" and self.data == "deviatoric":
             raise ValueError("data: moduli are shear or uniaxial; deviatoric is a compliance")
@@ -167,9 +167,9 @@ class CardLaw(FromFile):
         default=None, description="which material, or its number, where there are several"
     )
 
-    def law_noun(self) -> Law:
+    def build_law(self) -> Law:
         """Return the card's law."""
-        return self.noun().law
+        return self.build().law
 
     def card(self) -> Card:
         """Return the card as it stands in the file."""
@@ -190,7 +190,7 @@ class CardLaw(FromFile):
         """What stands in the card and is not used."""
         return self.card().notes
 
-    def noun(self) -> Material:
+    def build(self) -> Material:
         """Return the card's material, at the run's temperature."""
         for key in ("poisson_ratio", "bulk_modulus"):
             if getattr(self, key) is not None:
@@ -199,7 +199,7 @@ class CardLaw(FromFile):
         if card.shift is not None and self.shift is not None:
             raise ValueError("shift: stands in the card; leave it out")
         return self._at_temperature(
-            card.material, card.shift or (self.shift.noun() if self.shift else None)
+            card.material, card.shift or (self.shift.build() if self.shift else None)
         )
 
     def _require_units(self) -> None:

@@ -24,7 +24,7 @@ class CreepSeries(Medium):
     fluidity: Fluidity = Field(default=0.0, description="rate of steady flow")
     data: Literal["deviatoric", "shear", "uniaxial"] = Field(description=_DATA)
 
-    def law_noun(self) -> Law:
+    def build_law(self) -> Law:
         """Return the law, whatever test the compliances are from."""
         terms = (self.instant, self.amplitudes, self.times, self.fluidity)
         if self.data == "deviatoric":
@@ -43,7 +43,7 @@ class RelaxationSeries(Medium):
     times: list[Duration] = Field(description="relaxation times tau_i")
     data: Literal["shear", "uniaxial"] = Field(description="moduli are shear (G) or uniaxial (E)")
 
-    def law_noun(self) -> Law:
+    def build_law(self) -> Law:
         """Return the law, from shear or from tensile moduli."""
         terms = (self.equilibrium, self.moduli, self.times)
         if self.data == "shear":
@@ -61,7 +61,7 @@ class PowerLaw(Medium):
     instant: Compliance = Field(default=0.0, description="at once; without it no load can jump")
     data: Literal["deviatoric", "shear", "uniaxial"] = Field(description=_DATA)
 
-    def law_noun(self) -> Law:
+    def build_law(self) -> Law:
         """Return the law, whatever test the compliances are from."""
         terms = (self.compliance, self.exponent, self.reference_time, self.instant)
         if self.data == "deviatoric":

@@ -20,7 +20,7 @@ class Rule(Section):
     """A rule that gives the shift factor of each temperature."""
 
     @abstractmethod
-    def noun(self) -> laws.Shift:
+    def build(self) -> laws.Shift:
         """Return the rule that is described."""
 
     @property
@@ -37,7 +37,7 @@ class Wlf(Rule):
     c1: Annotated[float, Field(gt=0)] = Field(description="C_1 of the decimal logarithm")
     c2: TemperatureDifference = Field(description="C_2")
 
-    def noun(self) -> laws.Shift:
+    def build(self) -> laws.Shift:
         """Return the rule."""
         return laws.WLF(self.reference_temperature, self.c1, self.c2)
 
@@ -49,7 +49,7 @@ class Arrhenius(Rule):
     reference_temperature: Temperature = Field(description="T_r, which the law is given at")
     activation_energy: MolarEnergy = Field(description="of all temperatures alike")
 
-    def noun(self) -> laws.Shift:
+    def build(self) -> laws.Shift:
         """Return the rule."""
         return laws.Arrhenius(self.reference_temperature, self.activation_energy)
 
@@ -67,7 +67,7 @@ class Factors(Rule):
         """The file, by its key."""
         return {("file",): Path(self.file)}
 
-    def noun(self) -> laws.Shift:
+    def build(self) -> laws.Shift:
         """Return the rule, straight in ln a_T between the rows."""
         try:
             table = read_table(self.file)

@@ -25,7 +25,7 @@ class Springs(Medium):
         default=None, description="what all moduli and viscosities mean; shear when left out"
     )
 
-    def law_noun(self) -> Law:
+    def build_law(self) -> Law:
         """Return the law, from shear or from tensile moduli."""
         others = {name: getattr(self, name) for name in self._others()}
         if self._is_uniaxial():

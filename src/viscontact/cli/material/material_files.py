@@ -114,7 +114,7 @@ def _from_table(path: Path, typed: Typed) -> MaterialDisplay:
         )
     volume = typed.given("poisson_ratio", "bulk_modulus", "set")
     section = {"law": "table", "file": str(path), "quantity": quantity, "data": data, **volume}
-    return MaterialDisplay(str(path), _read(path, section).noun())
+    return MaterialDisplay(str(path), _read(path, section).build())
 
 
 def _quantity(table: Table) -> str:
@@ -148,7 +148,7 @@ def _from_card(path: Path, typed: Typed) -> MaterialDisplay:
     found = _read(path, section)
     card = found.card()
     return MaterialDisplay(
-        str(path), found.noun(), card_name=card.name, shift=card.shift, notes=found.notes
+        str(path), found.build(), card_name=card.name, shift=card.shift, notes=found.notes
     )
 
 

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from viscontact.plot.geometry.indenter_drawing import draw_indenter
 from viscontact.plot.layout.page import Width
-from viscontact.results.recorded_case import recorded_grid, recorded_noun
+from viscontact.results.recorded_case import recorded_grid, recorded_object
 from viscontact.results.snapshots import take_snapshots
 from viscontact.units.formatting import time_labels
 
@@ -52,7 +52,7 @@ def indenter(
     >>> [axes.get_xlabel() for axes in indenter(ds).axes]
     ['x [mm]', 'y [mm]', 'x [mm]', '']
     """
-    body = recorded_noun(results, "indenter", _NAME)
+    body = recorded_object(results, "indenter", _NAME)
     if times is not None and not np.isfinite(np.atleast_1d(np.asarray(times, float))).all():
         raise ValueError(f"{_NAME}: times must be finite numbers of seconds, got {times!r}")
     contact, shaded = None, ""

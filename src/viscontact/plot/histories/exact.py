@@ -16,7 +16,7 @@ from viscontact.plot.histories.span import within_span
 from viscontact.plot.histories.time_axis import scale_time
 from viscontact.plot.layout import style
 from viscontact.plot.layout.page import NARROW, Width, page_width
-from viscontact.results.recorded_case import recorded_noun
+from viscontact.results.recorded_case import recorded_object
 from viscontact.units.formatting import readable_unit
 
 _NAME = "exact"
@@ -104,7 +104,7 @@ def _curves(
 ) -> list[tuple[str, str, Array, Array]]:
     """Label, unit, what was computed and what is exact, of each quantity that was not given."""
     radius = np.sqrt(run["contact_area"].values / np.pi)
-    by_approach = isinstance(recorded_noun(results, "load", _NAME), ApproachHistory)
+    by_approach = isinstance(recorded_object(results, "load", _NAME), ApproachHistory)
     follows = (
         ("Force", "N", run["force"].values, theory.force[within])
         if by_approach

@@ -20,7 +20,7 @@ from viscontact.reference import (
     clustered_times,
     press_axisymmetric,
 )
-from viscontact.results.recorded_case import recorded_grid, recorded_noun
+from viscontact.results.recorded_case import recorded_grid, recorded_object
 
 Array = NDArray[np.float64]
 
@@ -70,7 +70,7 @@ def exact_history(results: xr.Dataset, figure: str) -> ExactHistory:
         If the indenter is no sphere or round paraboloid on the axis, the load acts off it or is
         not made of straight pieces, the surface is periodic, or the contact is not one circle.
     """
-    indenter, load = (recorded_noun(results, part, figure) for part in ("indenter", "load"))
+    indenter, load = (recorded_object(results, part, figure) for part in ("indenter", "load"))
     radius = sphere_radius(indenter)
     _require_known(results, indenter, radius, load, figure)
     compliance, is_elastic = _compliance(results, figure)
@@ -87,7 +87,7 @@ def exact_history(results: xr.Dataset, figure: str) -> ExactHistory:
 
 def what_is_exact(results: xr.Dataset, solution: str, figure: str) -> str:
     """Name an exact solution in a legend: theory takes a sphere for its paraboloid."""
-    sphere = isinstance(recorded_noun(results, "indenter", figure), Sphere)
+    sphere = isinstance(recorded_object(results, "indenter", figure), Sphere)
     return f"{'paraboloid' if sphere else 'exact'} ({solution})"
 
 
@@ -118,7 +118,7 @@ def _require_known(
 
 def _compliance(results: xr.Dataset, figure: str) -> tuple[Any, bool]:
     """The contact compliance of both bodies, and whether neither of them creeps."""
-    bodies = [recorded_noun(results, part, figure) for part in ("material", "indenter_material")]
+    bodies = [recorded_object(results, part, figure) for part in ("material", "indenter_material")]
     there = [body for body in bodies if body is not None]
     compliance = there[0].contact_compliance()
     for other in there[1:]:

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact.laws import Law
 from viscontact.plot.layout import style
 from viscontact.plot.layout.page import NARROW, Width, page_width
-from viscontact.results.recorded_case import recorded_noun
+from viscontact.results.recorded_case import recorded_object
 from viscontact.units.formatting import readable_unit
 
 _NAME = "creep"
@@ -99,7 +99,7 @@ def compare_creep(
     """
     if not runs:
         raise ValueError(f"{_NAME}: needs at least one run to compare, got none")
-    laws = {name: recorded_noun(run, "material", _NAME).law for name, run in runs.items()}
+    laws = {name: recorded_object(run, "material", _NAME).law for name, run in runs.items()}
     simulated = np.concatenate([run["time"].values for run in runs.values()])
     span = np.atleast_1d(np.asarray(simulated if times is None else times, float))
     positive = span[span > 0]

@@ -9,7 +9,7 @@ import xarray as xr
 from viscontact.indenters import Indenter, Paraboloid, Sphere
 from viscontact.loads import ForceHistory
 from viscontact.reference import LeeRadokContact, lee_radok_ramp, lee_radok_step
-from viscontact.results.recorded_case import recorded_noun
+from viscontact.results.recorded_case import recorded_object
 
 
 def exact_sphere(results: xr.Dataset, figure: str) -> LeeRadokContact | None:
@@ -28,7 +28,7 @@ def exact_sphere(results: xr.Dataset, figure: str) -> LeeRadokContact | None:
         None unless a sphere or round paraboloid carries a step or a ramp held thereafter.
     """
     indenter, load, material, other = (
-        recorded_noun(results, part, figure)
+        recorded_object(results, part, figure)
         for part in ("indenter", "load", "material", "indenter_material")
     )
     radius = sphere_radius(indenter)

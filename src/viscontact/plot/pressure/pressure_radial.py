@@ -19,7 +19,7 @@ from viscontact.plot.layout.error_band import peak_note
 from viscontact.plot.layout.page import NARROW, Width, page_width
 from viscontact.plot.pressure.exact_sphere import exact_sphere
 from viscontact.reference import LeeRadokContact
-from viscontact.results.recorded_case import recorded_noun
+from viscontact.results.recorded_case import recorded_object
 from viscontact.results.snapshots import Snapshot, take_snapshots
 from viscontact.units.formatting import ReadableUnit, format_quantity, readable_unit, time_labels
 
@@ -101,7 +101,7 @@ def pressure_radial(
 
 
 def _require_round(results: xr.Dataset, snapshots: list[Snapshot]) -> None:
-    indenter = recorded_noun(results, "indenter", _NAME)
+    indenter = recorded_object(results, "indenter", _NAME)
     kind = type(indenter).__name__
     if not _is_round(indenter, max(s.extent()[1] for s in snapshots if s.touching)):
         raise ValueError(
@@ -196,7 +196,7 @@ def _markers_only(colour: str, marker: str, count: int) -> dict[str, Any]:
 
 
 def _exact_label(results: xr.Dataset) -> str:
-    sphere = isinstance(recorded_noun(results, "indenter", _NAME), Sphere)
+    sphere = isinstance(recorded_object(results, "indenter", _NAME), Sphere)
     return "paraboloid (Lee–Radok)" if sphere else "exact (Lee–Radok)"
 
 
