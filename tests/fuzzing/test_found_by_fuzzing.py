@@ -20,7 +20,7 @@ from viscontact.materials.cards import read_card
 from viscontact.runs import preparation
 from viscontact.runs.forecast import forecast
 from viscontact.simulation.setup import prepare_run
-from viscontact.time_integration.fixed_steps import MOST_STEPS, FixedSteps
+from viscontact.time_integration.fixed_steps import MAX_STEPS, FixedSteps
 from viscontact.units.parsing import parse_quantity
 
 #: Each of these took minutes, or would have taken hours; now they take tenths of a second [s].
@@ -173,7 +173,7 @@ def test_swings_of_millions_of_steps_are_refused() -> None:
     with pytest.raises(ValueError, match="fewer cycles"):
         FixedSteps(np.array([0.0, 1e5]), load)
     # A run that ends within them takes only those up to its end.
-    assert len(FixedSteps(np.array([0.0, 2.0]), load).steps) < MOST_STEPS / 1000
+    assert len(FixedSteps(np.array([0.0, 2.0]), load).steps) < MAX_STEPS / 1000
 
 
 def test_steps_over_a_hundred_decades_are_refused() -> None:

@@ -129,7 +129,7 @@ def test_grid_grows_no_further_than_an_automatic_one_may_be(
 ) -> None:
     prepare, small = RUNS["sphere"]
     # 30 x 30, but not 48 x 48
-    monkeypatch.setattr("viscontact.simulation.grid_enlargement.MOST_CELLS", 1000)
+    monkeypatch.setattr("viscontact.simulation.grid_enlargement.MAX_CELLS", 1000)
     told = r"outgrows 1\.2 mm x 1\.2 mm at t = .*give a grid of your own"
     with pytest.raises(vc.DomainError, match=told):
         states_of(growing(prepare(small)))

@@ -200,7 +200,7 @@ def test_a_wave_has_ten_cells_and_a_map_no_more_than_it_has_points():
 
 
 def test_what_cannot_be_reached_is_refused_with_what_can(monkeypatch):
-    monkeypatch.setattr(meshes, "MOST_CELLS", 2**13)
+    monkeypatch.setattr(meshes, "MAX_CELLS", 2**13)
     indenter, load = vc.Sphere(0.01), vc.step(10.0)
     with pytest.raises(ValueError, match=r"relative error of 0\.001") as refusal:
         vc.auto_grid(indenter, STIFF, load, 1e-3)

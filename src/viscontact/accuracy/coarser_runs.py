@@ -28,10 +28,10 @@ CELL_RATIOS = ((1.5, False), (2.4, True))
 STEP_RATIOS = ((16, (2, 4)), (7, (2, 2)), (0, (1, 1)))
 
 #: Cells that the coarsest companion has across the largest contact; fewer are no contact.
-FEWEST_ACROSS = 4.5
+MIN_ACROSS = 4.5
 
 #: The least difference that is worth a run.
-LEAST_COARSENING = 1.6
+MIN_COARSENING = 1.6
 
 #: Scalars of a history by name, each over its instants, among them ``time``.
 History = Mapping[str, NDArray[np.float64]]
@@ -241,7 +241,7 @@ def history_of(states: Sequence[ContactState]) -> History:
 def _spacings(across: float) -> tuple[tuple[float, bool], ...]:
     """The spacings, closer together where the run has few cells across its contact."""
     coarsest = CELL_RATIOS[-1][0]
-    most = min(coarsest, max(across / FEWEST_ACROSS, LEAST_COARSENING))
+    most = min(coarsest, max(across / MIN_ACROSS, MIN_COARSENING))
     closer = (most - 1) / (coarsest - 1)
     return tuple((1 + (spacing - 1) * closer, alike) for spacing, alike in CELL_RATIOS)
 

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.accuracy.coarser_runs import (
-    FEWEST_ACROSS,
+    MIN_ACROSS,
     CoarserResult,
     History,
     march_coarser_run,
@@ -305,7 +305,7 @@ def _unbounded_peak(
     growth = (peaks[0] - peaks[-1]) / np.log(spacings[-1])
     grows = growth > UNBOUNDED_GROWTH * history["mean_pressure"]
     # A contact of few cells is no contact on the coarsest grid.
-    fine = history["cells_across"] >= FEWEST_ACROSS * spacings[-1]
+    fine = history["cells_across"] >= MIN_ACROSS * spacings[-1]
     endless = np.where(known, ~verdict.converges & grows & fine, np.nan)
     return np.asarray(contact & (at_end | (moving_mean(endless) > 0.5)))
 

@@ -23,7 +23,7 @@ Operator = Convolution | PeriodicConvolution
 PATCH_MARGIN = 0.06
 
 #: A coarser half-space has at least so many cells each way.
-FEWEST_CELLS = 32
+MIN_CELLS = 32
 
 #: A patch of more than this part of the grid saves nothing.
 WORTHWHILE = 0.8
@@ -130,7 +130,7 @@ class ContactDomain:
 
     def coarser(self) -> ContactDomain | None:
         """The same region in cells twice as long and wide; None where they do not pair, or few."""
-        if any(cells % 2 or cells < 2 * FEWEST_CELLS for cells in self.shape):
+        if any(cells % 2 or cells < 2 * MIN_CELLS for cells in self.shape):
             return None
         nx, ny = self.grid.shape
         halved = replace(self.grid, shape=(nx // 2, ny // 2))

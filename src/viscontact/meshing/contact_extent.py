@@ -16,10 +16,10 @@ from viscontact.materials.compliance import ContactCompliance, SeriesCompliance
 from viscontact.meshing.elastic_estimate import ContactEstimate, estimate_contact
 
 #: More cells than these are no choice to make for somebody.
-MOST_CELLS = 2**22
+MAX_CELLS = 2**22
 
 #: Of a history of more points only so many are looked at, and so many are solved for.
-MOST_INSTANTS, MOST_CORNERS = 1000, 60
+MAX_INSTANTS, MAX_CORNERS = 1000, 60
 
 #: Loads of at least this part of the largest are as good as it, where the force moves.
 NEAR_LARGEST_LOAD = 0.9
@@ -167,23 +167,23 @@ def _corners(load: LoadHistory, end: float | None) -> list[LoadPoint]:
 
 def _representative_times(instants: NDArray[np.float64], load: LoadHistory) -> NDArray[np.float64]:
     """Of very many instants those of the largest load, and as many over the whole history."""
-    if instants.size <= 2 * MOST_INSTANTS:
+    if instants.size <= 2 * MAX_INSTANTS:
         return instants
     levels = np.maximum(load.level_at(instants, side="left"), load.level_at(instants))
-    highest = np.argsort(-levels, kind="stable")[:MOST_INSTANTS]
-    spread = np.linspace(0, instants.size - 1, MOST_INSTANTS).astype(int)
+    highest = np.argsort(-levels, kind="stable")[:MAX_INSTANTS]
+    spread = np.linspace(0, instants.size - 1, MAX_INSTANTS).astype(int)
     return np.asarray(instants[np.union1d(highest, spread)])
 
 
 def _outermost(points: list[LoadPoint]) -> list[LoadPoint]:
     """Of very many loads those that are largest, and that act or tilt farthest each way."""
-    if len(points) <= MOST_CORNERS:
+    if len(points) <= MAX_CORNERS:
         return points
     ways = ("eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y")
     extremes = [max(points, key=lambda point: point.level)]
     for way in ways:
         extremes += _farthest(points, way)
-    highest = sorted(points, key=lambda point: point.level, reverse=True)[: MOST_CORNERS // 2]
+    highest = sorted(points, key=lambda point: point.level, reverse=True)[: MAX_CORNERS // 2]
     return list(dict.fromkeys([*extremes, *highest]))
 
 

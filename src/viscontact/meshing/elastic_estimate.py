@@ -195,7 +195,7 @@ def _coarse_contact(
 
 
 #: Cells of the coarse solve along each axis, at most: a period may hold many waves.
-MOST_PERIOD_CELLS = 128
+MAX_PERIOD_CELLS = 128
 
 
 def estimate_period(
@@ -234,7 +234,7 @@ def estimate_period(
     >>> round(estimate_period(waves, 1e-9, load.at(0.0), period).length * 1e3, 2)
     0.5
     """
-    nx, ny = (min(count, MOST_PERIOD_CELLS) for count in grid.shape)
+    nx, ny = (min(count, MAX_PERIOD_CELLS) for count in grid.shape)
     coarse = Grid((nx, ny), grid.size, periodic=True)
     open_gap = indenter.gap(coarse.x[:, None], coarse.y[None, :])
     half_space = ContactDomain(coarse)

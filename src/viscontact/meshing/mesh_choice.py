@@ -14,7 +14,7 @@ from viscontact.indenters.textures import CELLS_OF_A_WAVE
 from viscontact.loads import LoadHistory
 from viscontact.materials.compliance import ContactCompliance
 from viscontact.meshing.contact_extent import (
-    MOST_CELLS,
+    MAX_CELLS,
     PointContact,
     contacts_of_history,
     largest_compliance,
@@ -26,13 +26,13 @@ from viscontact.meshing.trial_mesh import RIM_SCATTER, ElasticContact
 from viscontact.units.formatting import format_quantity
 
 #: No more cells are spent on a contact that is small at first and large for most of the run.
-MOST_CELLS_EARLY = 2**18
+MAX_CELLS_EARLY = 2**18
 
 #: Room around the contact in the grid that is returned.
 MARGIN = 1.3
 
 #: Cells across the contact to begin with: at least so many, and more for small tolerances.
-FEWEST_ACROSS, ACROSS = 20.0, 3.0
+MIN_ACROSS, ACROSS = 20.0, 3.0
 
 #: A contact is looked at besides the largest if its extents are less than this part of those.
 SMALLER = 0.95
@@ -146,13 +146,13 @@ def _begun(
 ) -> _MeshChoice:
     """The cells that the largest contact needs at least."""
     cells, across = _fewest(indenter, wish, late, size), _across(wish)
-    if not float(np.prod(cells)) <= MOST_CELLS:
+    if not float(np.prod(cells)) <= MAX_CELLS:
         length, width = late.estimate.extents
-        had = across * math.sqrt(MOST_CELLS / float(np.prod(cells)))
+        had = across * math.sqrt(MAX_CELLS / float(np.prod(cells)))
         # By the rule for the first trial, or by what is known of the rim.
         reachable = max((ACROSS / had) ** 2, 4 * RIM_SCATTER / had)
         remedy = "give a grid"
-        if had > FEWEST_ACROSS:
+        if had > MIN_ACROSS:
             remedy = f"ask for a tolerance of {reachable:.2g} or more, or give a grid"
         raise ValueError(
             f"grid: a contact of {format_quantity(length, 'm', 3)} x "
@@ -170,14 +170,14 @@ def _fewest(
     across = size / contact.estimate.extents
     steps = np.array(indenter.sample_spacing)
     points = np.divide(size, steps, out=np.full(2, math.inf), where=steps > 0)
-    cells = np.minimum(_across(wish) * across, np.maximum(FEWEST_ACROSS * across, points))
+    cells = np.minimum(_across(wish) * across, np.maximum(MIN_ACROSS * across, points))
     return np.asarray(np.maximum(cells, CELLS_OF_A_WAVE * size / indenter.period))
 
 
 def _across(wish: AutomaticGrid) -> float:
     if wish.quantities == ("approach",):  # which knows little of the rim and of the middle
-        return FEWEST_ACROSS
-    return max(FEWEST_ACROSS, ACROSS / math.sqrt(wish.tolerance))
+        return MIN_ACROSS
+    return max(MIN_ACROSS, ACROSS / math.sqrt(wish.tolerance))
 
 
 def _refined_early(
@@ -191,7 +191,7 @@ def _refined_early(
     size = np.minimum(2 * MARGIN * np.array(early.estimate.reach), whole)
     part = size / whole
     fewest = np.maximum(_fewest(indenter, wish, early, size), choice.cells * part)
-    most = max(MOST_CELLS_EARLY, float(choice.cells.prod())) * float(part.prod())
+    most = max(MAX_CELLS_EARLY, float(choice.cells.prod())) * float(part.prod())
     excess = float(fewest.prod()) / most
     if excess > 1:
         cells = np.maximum(fewest / math.sqrt(excess), choice.cells * part)
@@ -211,12 +211,12 @@ def _refined_in_the_end(
     choice: _MeshChoice,
 ) -> Mesh:
     """The grid that resolves the largest contact, too."""
-    found = _resolved(indenter, wish, late, size, choice.quantities, choice.cells, MOST_CELLS)
+    found = _resolved(indenter, wish, late, size, choice.quantities, choice.cells, MAX_CELLS)
     chosen = choice.after(found, np.array(found.trial.shape))
     if not found.is_enough:
         worst = max(chosen.errors, key=chosen.errors.__getitem__)
         if not found.at_finest:
-            shrinks = (found.trial.cells / MOST_CELLS) ** (USUAL_ORDER / 2)
+            shrinks = (found.trial.cells / MAX_CELLS) ** (USUAL_ORDER / 2)
             # Rounded, and on the safe side.
             reachable = 1.2 * chosen.errors[worst] * shrinks
             raise ValueError(

@@ -22,7 +22,7 @@ MIN_CONSECUTIVE_CELLS = 6.0
 #: Orders that an error is taken to fall with, to foretell the next trial; below the lowest there
 #: is no limit to be expected. Nor is more than so much refined at once, along an axis.
 USUAL_ORDER, LOWEST_ORDER = 1.7, 0.5
-LEAST_AT_ONCE, MOST_AT_ONCE = 1.1, 2.0
+MIN_AT_ONCE, MAX_AT_ONCE = 1.1, 2.0
 
 #: A pressure that seems to have no limit is given up at so many times the cells of the first trial:
 #: a rounded edge seems sharp until it is resolved.
@@ -132,7 +132,7 @@ def _refined(
 ) -> tuple[int, int]:
     """The mesh to be tried next: something of what is needed, not all at once."""
     factors = _factors(trial, names, tolerance)
-    step = np.where(factors > 1, np.clip(factors, LEAST_AT_ONCE, MOST_AT_ONCE), 1.0)
+    step = np.where(factors > 1, np.clip(factors, MIN_AT_ONCE, MAX_AT_ONCE), 1.0)
     return _good_shape(trial.shape * step, finest)
 
 

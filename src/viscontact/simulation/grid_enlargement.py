@@ -11,7 +11,7 @@ from scipy import fft
 
 from viscontact.contact.domain import ContactDomain
 from viscontact.grid import Grid
-from viscontact.meshing.contact_extent import MOST_CELLS
+from viscontact.meshing.contact_extent import MAX_CELLS
 from viscontact.simulation.step_solution import StepSolution
 
 #: How much longer a grid becomes along an axis on which it is overrun.
@@ -67,7 +67,7 @@ def next_grid(grid: Grid, along: bool, across: bool) -> Grid | None:
         _longer(grid.shape[0], grid.cell_size[0]) if along else grid.shape[0],
         _longer(grid.shape[1], grid.cell_size[1]) if across else grid.shape[1],
     )
-    return grid.widened(shape) if shape[0] * shape[1] <= MOST_CELLS else None
+    return grid.widened(shape) if shape[0] * shape[1] <= MAX_CELLS else None
 
 
 def _longer(cells: int, size: float) -> int:

@@ -21,7 +21,7 @@ KINK_TOLERANCE = 1e-9
 MIN_STEP_OF_END = 1e-30
 
 #: More steps are more than anyone waits for, and a list of them takes more memory than the fields.
-MOST_STEPS = 1_000_000
+MAX_STEPS = 1_000_000
 
 
 @dataclass(frozen=True)
@@ -148,10 +148,10 @@ def _divisions(instants: list[float], load: LoadHistory) -> Iterator[float]:
     if math.isinf(load.longest_step):
         return
     swings = min(instants[-1], float(load.kinks[-1])) / load.longest_step
-    if swings > MOST_STEPS:
+    if swings > MAX_STEPS:
         raise ValueError(
             f"load: takes {swings:.3g} steps of {format_quantity(load.longest_step, 's', 3)} for "
-            f"its swings, and {MOST_STEPS} at most can be taken; give fewer cycles, or end the run "
+            f"its swings, and {MAX_STEPS} at most can be taken; give fewer cycles, or end the run "
             "earlier"
         )
     for begin, end in itertools.pairwise(instants):

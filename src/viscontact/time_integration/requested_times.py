@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from viscontact.units.numbers import as_real
 
 #: More are more than anyone waits for.
-_MOST_STEPS = 10_000_000
+_MAX_STEPS = 10_000_000
 
 
 def uniform_times(end: float, n: int) -> NDArray[np.float64]:
@@ -147,6 +147,6 @@ def _steps(n: object) -> int:
     steps = as_real(n)
     if steps is None or not (steps.is_integer() and steps >= 1):
         raise ValueError(f"n, the number of steps, must be a whole number >= 1, got {n!r}")
-    if steps > _MOST_STEPS:
-        raise ValueError(f"n, the number of steps, must be at most {_MOST_STEPS}, got {n!r}")
+    if steps > _MAX_STEPS:
+        raise ValueError(f"n, the number of steps, must be at most {_MAX_STEPS}, got {n!r}")
     return int(steps)
