@@ -12,7 +12,7 @@ from pydantic_core import PydanticCustomError
 
 import viscontact as vc
 from viscontact.case.loads.grammar import CAN_BE_SAID
-from viscontact.case.loads.sentence_history import MAX_POINTS, Course, SentenceError, course_of
+from viscontact.case.loads.sentence_history import MOST_POINTS, Course, SentenceError, course_of
 from viscontact.case.loads.sentences import read_sentences, split_sentences
 
 
@@ -254,7 +254,7 @@ def test_any_text_is_a_history_or_refused_in_one_line(text: str) -> None:
     else:
         build = vc.ForceHistory if control == "force" else vc.ApproachHistory
         build(times, levels)
-        assert len(times) <= MAX_POINTS
+        assert len(times) <= MOST_POINTS
         return
     assert said
     assert "\n" not in said

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import viscontact as vc
-from viscontact.checks.collector import Doubts
+from viscontact.checks.collector import WarningCollector
 from viscontact.checks.material import passivity_warnings
 from viscontact.checks.mesh import WARNING_CELLS, cells_across_spots, mesh_warnings
 from viscontact.checks.steps import relative_change
@@ -120,7 +120,7 @@ def test_steps_as_short_as_the_law_wants_are_not_doubted():
 
 
 def test_each_kind_is_said_once():
-    warnings = Doubts()
+    warnings = WarningCollector()
     assert warnings.new({"mesh": "coarse"}, {"slope": "steep"}) == ("coarse", "steep")
     assert warnings.new({"mesh": "coarser"}) == ()
 
@@ -172,7 +172,7 @@ def test_a_law_that_is_remembered_or_converted_badly_is_doubted(monkeypatch):
 
     assert kinds(creep) == [0, 0]  # the sum over all steps takes it as it stands
     assert kinds(modulus) == [0, 1]
-    monkeypatch.setattr("viscontact.time_integration.plan.ROOM", 0)
+    monkeypatch.setattr("viscontact.time_integration.plan.MAX_HISTORY_BYTES", 0)
     assert kinds(creep) == [1, 0]
 
 

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import viscontact as vc
-from verification.independent import love, unit_displacement
+from verification.independent import deflection, love
 from viscontact.contact import conjugate_gradients
 from viscontact.contact.domain import ContactDomain
 from viscontact.contact.equilibrium import ContactProblem, Guess, solve_contact
@@ -39,7 +39,7 @@ def test_the_certificate_is_that_of_the_returned_pressure(half_space):
         assert found.converged
         assert found.residual <= tolerance
         pressure, (approach, tilt_x, tilt_y) = found.found.pressure, found.found.motion
-        displacement = COMPLIANCE * unit_displacement(pressure, GRID.cell_size)
+        displacement = COMPLIANCE * deflection(pressure, GRID.cell_size)
         plane = approach + tilt_x * GRID.x[:, None] + tilt_y * GRID.y[None, :]
         gap = SPHERE + displacement - plane
         touching = pressure > 0
@@ -65,7 +65,7 @@ def nonsense(kind):
         "far too much": np.full(GRID.shape, 1e12),
         "hardly anything": np.full(GRID.shape, 1e-9),
     }[kind]
-    return Guess(pressure, unit_displacement(pressure, GRID.cell_size), np.zeros(3))
+    return Guess(pressure, deflection(pressure, GRID.cell_size), np.zeros(3))
 
 
 @pytest.mark.parametrize(

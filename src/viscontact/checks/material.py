@@ -35,7 +35,7 @@ def data_warnings(time: float, measured_until: float) -> dict[str, str]:
 
     Examples
     --------
-    >>> list(data_warnings(11.0, measured_until=10.0)), list(data_warnings(9.0, measured_until=10.0))
+    >>> list(data_warnings(11.0, 10.0)), list(data_warnings(9.0, 10.0))
     (['data'], [])
     """
     if time <= measured_until * (1 + 1e-9):

@@ -48,8 +48,8 @@ def mesh_warnings(cells_across: int, across_spots: float = math.inf) -> dict[str
     return {
         "spots": (
             f"the largest contact consists of spots or strips that are {across_spots:.1f} cells "
-            f"across in the mean, {WARNING_SPOT_CELLS:g} or more are wanted: their pressure and area "
-            "depend on the mesh; use a finer grid"
+            f"across in the mean, {WARNING_SPOT_CELLS:g} or more are wanted: their pressure and "
+            "area depend on the mesh; use a finer grid"
         )
     }
 

@@ -73,7 +73,8 @@ class ContactDomain:
     precision, costs a fraction of what the whole grid does; what is found is convolved on the
     whole grid in double precision and checked there. The last patch is kept, for a contact that
     creeps stays in it for many steps. A problem that is even across x = 0 or y = 0 needs only the
-    cells beyond: fields are then `reduce_by_symmetry`-ed, and supports halved, before they are used here. On a
+    cells beyond: fields are then `reduce_by_symmetry`-ed, and supports halved, before they are
+    used here. On a
     periodic grid all cells are worked with: nothing is padded there, and the preconditioner is an
     exact inverse.
 

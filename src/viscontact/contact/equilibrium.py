@@ -79,9 +79,10 @@ def solve_contact(
     half_space : ContactDomain
         Grid and operators.
     guess : Guess, optional
-        Start; its unit_displacement must belong to its pressure. Negative pressure is cut off, balances
-        are restored. The answer of a coarser grid when left out, and on the coarsest a foundation of
-        about the right stiffness.
+        Start; its unit_displacement must belong to its pressure. Negative pressure is cut off,
+        balances
+        are restored. The answer of a coarser grid when left out, and on the coarsest a foundation
+        of about the right stiffness.
     tolerance : float
         Bound on the relative residual of the returned pressure, and on the balances.
     max_iterations : int
@@ -95,8 +96,8 @@ def solve_contact(
     Notes
     -----
     After Polonsky & Keer (1999), with these departures: a preconditioner, Polak-Ribiere+
-    directions that are not reset when the contact set changes, the unit_displacement updated along the
-    direction instead of convolved again, and both moments balanced (in pressure itself: scaled
+    directions that are not reset when the contact set changes, the unit_displacement updated along
+    the direction instead of convolved again, and both moments balanced (in pressure itself: scaled
     variables lose convergence).
 
     References

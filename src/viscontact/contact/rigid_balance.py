@@ -69,7 +69,7 @@ class Constraints:
         return Constraints((halves[0], halves[1], halves[2]), (motions[0], motions[1], motions[2]))
 
     def level(self) -> Constraints:
-        """Constraints of one period of a body: it does not tilt, or periods would not fit together."""
+        """Constraints of one period of a body, which cannot tilt: its neighbours would not fit."""
         return Constraints((self.resultants[0], None, None), (self.motions[0], 0.0, 0.0))
 
     @cached_property

@@ -107,7 +107,8 @@ def project_onto_balance(
 
     >>> row = RigidPlane(np.array([-1.0, 0.0, 1.0]), np.zeros(1), (1.0, 1.0))
     >>> pressure, cells = np.array([[3.0], [-2.0], [-1.0]]), np.ones((3, 1), dtype=bool)
-    >>> project_onto_balance(pressure, cells, Constraints((2.0, 0.0, None)), row, 1.0).round(9).tolist()
+    >>> centred = Constraints((2.0, 0.0, None))
+    >>> project_onto_balance(pressure, cells, centred, row, 1.0).round(9).tolist()
     [[1.0], [0.0], [1.0]]
     """
     tension = np.where(cells, -pressure, np.inf)
@@ -126,8 +127,8 @@ def _balanced(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Motion and overlap on a foundation, from a soft one to the wanted one by steps.
 
-    A few cells under a stiff foundation cannot say which way the body has to tilt; the many cells of
-    a softer one can.
+    A few cells under a stiff foundation cannot say which way the body has to tilt; the many cells
+    of a softer one can.
     """
     solid = np.isfinite(gap)
     bearing = solid.astype(float)
@@ -153,8 +154,8 @@ def _newton_solve(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Motion of least energy and its overlap: damped Newton on a convex function.
 
-    The cells that bore the body on a softer foundation lend a little stiffness, so that no motion is
-    ever without any.
+    The cells that bore the body on a softer foundation lend a little stiffness, so that no
+    motion is ever without any.
     """
     energy, overlap = _energy(gap, motion, target, plane)
     for _ in range(MAX_NEWTON):

@@ -50,8 +50,8 @@ class March:
     run : RunSetup
         From `prepare_run`.
     restart_data : dict, optional
-        What the same run had `restart_data` after some step: it goes on from there, to the same bits;
-        from the start when left out.
+        What the same run had `restart_data` after some step: it goes on from there, to the same
+        bits; from the start when left out.
 
     Examples
     --------

@@ -246,7 +246,7 @@ def _response(memory: HereditaryIntegral, step: Step) -> HereditaryResponse:
 def _guess(
     elastic_reference: ElasticReference | None, response: HereditaryResponse
 ) -> Guess | None:
-    """From a predicted elastic_reference back to the pressure and the unit_displacement that would bring it about."""
+    """Pressure and unit displacement that a predicted elastic reference belongs to."""
     if elastic_reference is None:
         return None
     values = np.subtract(

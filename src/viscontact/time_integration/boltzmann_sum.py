@@ -86,7 +86,7 @@ class BoltzmannSum(HereditaryIntegral):
         return HereditaryResponse(past - met * self._value, met, resolved=True)
 
     def ramp(self, duration: float) -> HereditaryResponse:
-        """HereditaryResponse to a change over a step of the given time; see `HereditaryIntegral.ramp`."""
+        """Response to a change over a step of the given time; see `HereditaryIntegral.ramp`."""
         rise = longest_smooth_rise(self._compliance, duration, after_jump=self._jumped)
         self._next_jumps = False
         met = self._compliance.mean(duration - rise, duration)
@@ -108,7 +108,7 @@ class BoltzmannSum(HereditaryIntegral):
         self._count += 1
 
     def restart_data(self) -> RestartData:
-        """All increments so far, and the sums that have been made ahead; see `HereditaryIntegral.restart_data`."""
+        """All increments so far, and the sums computed ahead, as restart data."""
         return {
             "increments": self._increments[: self._count],
             "began": self._began[: self._count],

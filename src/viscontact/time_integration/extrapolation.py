@@ -1,10 +1,12 @@
 """A guess at the next instant from the last ones, by way of the elastic elastic_reference.
 
-The elastic_reference of a creeping contact is the elastic contact, of unit compliance, with the same
-displacement: its pressure is P = ∫ J dp. While a contact grows, the elastic_reference is an ordinary elastic
-contact under the elastic_reference force S = ∫ J dW, so that it changes smoothly and slowly with S, where the
-pressure itself relaxes. Extrapolating the elastic_reference in S and returning to p is worth several
-iterations a step, and the memory provides the way back.
+The elastic_reference of a creeping contact is the elastic contact, of unit compliance, with the
+same displacement: its pressure is P = ∫ J dp. While a contact grows, the elastic_reference is an
+ordinary elastic
+contact under the elastic_reference force S = ∫ J dW, so that it changes smoothly and slowly with
+S, where the
+pressure itself relaxes. Extrapolating the elastic_reference in S and returning to p is worth
+several iterations a step, and the memory provides the way back.
 """
 
 from __future__ import annotations
@@ -20,7 +22,8 @@ from numpy.typing import NDArray
 #: left in its answers than about physics: it costs half an iteration a step.
 EXTRAPOLATION_POINTS = 2
 
-#: Neighbouring steps of the elastic_reference force may differ by this factor, else time is extrapolated in.
+#: Neighbouring steps of the elastic_reference force may differ by this factor, else time is
+#: extrapolated in.
 MAX_STEP_RATIO = 20.0
 
 
@@ -33,10 +36,11 @@ class ElasticReference:
     time : float
         The instant [s].
     drive : float
-        What the elastic_reference moves with: the elastic_reference force ∫ J dW [m²], or a prescribed approach [m], which
-        is the twin's as well.
+        What the elastic_reference moves with: the elastic_reference force ∫ J dW [m²], or a
+        prescribed approach [m], which is the twin's as well.
     fields : ndarray, shape (2, nx, ny)
-        ElasticReference pressure ∫ J dp [-], and displacement ∫ J dq [m], which belong to each other.
+        ElasticReference pressure ∫ J dp [-], and displacement ∫ J dq [m], which belong to each
+        other.
     motion : ndarray, shape (3,)
         Approach [m] and tilts [rad].
     """

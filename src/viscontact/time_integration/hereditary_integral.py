@@ -66,7 +66,7 @@ class HereditaryIntegral(ABC):
 
     @abstractmethod
     def jump(self) -> HereditaryResponse:
-        """HereditaryResponse to a jump: nothing has time to creep, only J(0) meets the new value."""
+        """Response to a jump: nothing has time to creep, only J(0) meets the new value."""
 
     @abstractmethod
     def ramp(self, duration: float) -> HereditaryResponse:

@@ -70,7 +70,7 @@ class InternalVariables(HereditaryIntegral):
         return self._response()
 
     def ramp(self, duration: float) -> HereditaryResponse:
-        """HereditaryResponse to a change over a step of the given time; see `HereditaryIntegral.ramp`."""
+        """Response to a change over a step of the given time; see `HereditaryIntegral.ramp`."""
         self._next_jumps = False
         self._next = ramp_weights(self._compliance, duration, after_jump=self._jumped)
         return self._response()

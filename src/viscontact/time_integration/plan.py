@@ -93,7 +93,8 @@ def plan_hereditary_integral(
 
     Examples
     --------
-    >>> plan_hereditary_integral(SeriesCompliance(1.0, [1.0], [2.0]), np.array([0.0, 1.0]), 4096).error
+    >>> series = SeriesCompliance(1.0, [1.0], [2.0])
+    >>> plan_hereditary_integral(series, np.array([0.0, 1.0]), 4096).error
     0.0
     """
     if isinstance(compliance, SeriesCompliance):

@@ -1,6 +1,7 @@
 """What the time steps cost: an estimate of the pressure's error, from step to step.
 
-Within a step the pressure is taken for linear in time. What it is not, a interpolation_error of d² q''/12 in the
+Within a step the pressure is taken for linear in time. What it is not, a interpolation_error of d²
+q''/12 in the
 mean over a step of length d, enters the memory and acts on as long as the body remembers it: the
 displacement e(t) it amounts to has to be made good by a wrong pressure, J * dq = -e. A memory of
 single numbers follows both, with all bulges of one sign: an estimate of the most that they can have
@@ -21,8 +22,8 @@ from viscontact.time_integration.internal_variables import ramp_weights
 from viscontact.time_integration.plan import HereditaryPlan
 from viscontact.time_integration.restart_data import RestartData
 
-#: The interpolation_error of a first step after a kink is guessed from the curvature in its successor, which is
-#: smaller: after a first touch, where q grows as t^(2/3), by 2.9.
+#: The interpolation_error of a first step after a kink is guessed from the curvature in its
+#: successor, which is smaller: after a first touch, where q grows as t^(2/3), by 2.9.
 FIRST_STEP_CURVATURE = 3.0
 
 #: Curvatures are taken from the steps behind, and lag where they grow.
@@ -213,7 +214,7 @@ class TimeErrors:
         return np.asarray((last[1] - before[1]) / duration)
 
     def _settle(self, *, alone: bool, interpolation_error: float = 0.0) -> None:
-        """Remember a first step, with or without a successor that tells the interpolation_error per d²."""
+        """Keep a first step, whose interpolation error per d² its successor may supply."""
         if self._pending is None:
             return
         duration, change = self._pending
@@ -224,7 +225,7 @@ class TimeErrors:
         self._pending = None
 
     def _remember(self, duration: float, interpolation_error: float) -> None:
-        """Let a interpolation_error over a step enter the memory, and the pressure go wrong by what it does."""
+        """Add the interpolation error of a step to the history, and its effect on the pressure."""
         held = ramp_weights(self._compliance, duration, after_jump=True)
         wrong = ramp_weights(self._compliance, duration, after_jump=self._jumped)
         self._term_errors = (

@@ -200,7 +200,8 @@ def steadied(found: Response, trend: int, function: Function | None) -> Response
     Returns
     -------
     Response
-        Monotone, with the node_errors; at most 1, as a monotone g that falls lies between 0 and 1/f.
+        Monotone, with the node_errors; at most 1, as a monotone g that falls lies between 0 and
+        1/f.
     """
     times, values, known = found.curve.times, found.curve.values, found.curve.at_once is not None
     if found.curve.at_once is not None:

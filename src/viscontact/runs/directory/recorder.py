@@ -37,7 +37,8 @@ Undisturbed = Callable[[], AbstractContextManager[object]]
 class RunRecord:
     """A run on its way into its directory.
 
-    After each step the directory holds all that it takes to go on from there: what the run restart_data
+    After each step the directory holds all that it takes to go on from there: what the run
+    restart_data
     at the last checkpoint, and the steps solved since. A checkpoint puts the result in its place
     too. It comes after the first step, and then once a second or less often, so that checkpoints
     take a twentieth of the time at most.
