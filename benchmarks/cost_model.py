@@ -32,7 +32,7 @@ from run import reference_convolution, seconds_of
 
 import viscontact as vc
 from viscontact.contact import conjugate_gradients, domain, equilibrium, winkler
-from viscontact.halfspace import convolution, spectral
+from viscontact.halfspace import convolution, preconditioner
 from viscontact.simulation import stepper
 from viscontact.simulation.observer import Observer
 from viscontact.simulation.setup import prepare_run
@@ -43,7 +43,7 @@ from viscontact.time_integration.internal_variables import InternalVariables
 PARTS: tuple[tuple[str, tuple[tuple[Any, str], ...]], ...] = (
     ("operators: made", ((domain.ContactDomain, "__init__"), (domain.ContactDomain, "_patch"))),
     ("convolution", ((convolution.Convolution, "apply"),)),
-    ("preconditioner", ((spectral.Preconditioner, "apply"),)),
+    ("preconditioner", ((preconditioner.Preconditioner, "apply"),)),
     (
         "measure: gap and error",
         ((conjugate_gradients, "contact_residual"), (equilibrium, "contact_residual")),

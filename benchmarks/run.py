@@ -29,7 +29,7 @@ from published import estimate
 from scipy import fft
 
 from viscontact.fourier import fastest_transforms
-from viscontact.simulation.setup import Run, prepare_run
+from viscontact.simulation.setup import RunSetup, prepare_run
 from viscontact.simulation.state_generator import march_run
 
 CELLS, LARGE = (256, 256), (512, 512)
@@ -94,7 +94,7 @@ def run_between(case: Case, tolerance: float, library: str) -> float:
     return seconds / float(np.mean(references))
 
 
-def prepared(case: Case, tolerance: float, library: str) -> Run:
+def prepared(case: Case, tolerance: float, library: str) -> RunSetup:
     given = (case.indenter, case.material, case.load, case.grid, case.times)
     return replace(prepare_run(*given, tolerance=tolerance), transforms=library)
 
