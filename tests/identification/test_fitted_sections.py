@@ -1,4 +1,4 @@
-"""The `material:` section that `viscontact fit` prints is one that a case file takes."""
+"""The `material:` section of `viscontact fit` is valid in a case file."""
 
 from __future__ import annotations
 

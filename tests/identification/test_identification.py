@@ -1,4 +1,4 @@
-"""Prony series from creep, relaxation and oscillation: truths found again, data refused."""
+"""Prony series from creep, relaxation and oscillation: recovered series and refusals."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from viscontact.laws import CreepSeries, RelaxationSeries
 
 T = np.geomspace(1e-2, 1e3, 60)
 OMEGA = np.geomspace(1e-3, 1e2, 50)
-# A decade and more between neighbours: times that a test can tell apart at all.
+# A decade and more between neighbours: times that a test can distinguish.
 KNOWN_TIMES, KNOWN_STRENGTHS = (0.1, 5.0, 120.0), (2.0, 3.0, 1.5)
 
 
@@ -77,7 +77,7 @@ def test_scatter_is_not_taken_for_terms(seed):
     np.testing.assert_allclose(fit.fitted["modulus"], truth, rtol=0.015)
 
 
-def test_a_power_law_is_met_within_the_tolerance_asked_with_ever_more_terms():
+def test_a_power_law_is_met_within_the_tolerance_with_more_terms():
     """A pure power law is a fluid of infinitely many terms, densest where most is asked."""
     terms = []
     for tolerance in (1e-2, 1e-3, 1e-4):
@@ -136,7 +136,7 @@ def test_each_convention_of_a_test_gives_the_one_law():
 
 @settings(max_examples=20)
 @given(st.floats(-6, 12), st.floats(-8, 8), st.integers(0, 2**16))
-def test_units_of_time_and_stress_change_nothing_but_the_numbers(stress, time, seed):
+def test_fits_scale_with_units_of_time_and_stress(stress, time, seed):
     measured = scattered(relaxing(T, 1.0), 0.01, seed)
     one = fit_relaxation(T, measured, data="shear", terms=2)
     other = fit_relaxation(10.0**time * T, 10.0**stress * measured, data="shear", terms=2)
@@ -146,14 +146,14 @@ def test_units_of_time_and_stress_change_nothing_but_the_numbers(stress, time, s
     )
 
 
-def test_order_of_rows_and_instant_zero_are_welcome():
+def test_rows_in_any_order_and_time_zero_are_accepted():
     t = np.concatenate([[0.0], T])
     shuffled = np.random.default_rng(1).permutation(t)
     fit = fit_relaxation(shuffled, relaxing(shuffled, 1.0), data="shear", tolerance=1e-9)
     np.testing.assert_allclose(fit.law.times, KNOWN_TIMES, rtol=1e-6)
 
 
-def test_a_fit_says_how_good_it_is():
+def test_a_fit_prints_its_residuals():
     fit = fit_relaxation(T, scattered(relaxing(T, 1.0), 0.01, 0), data="shear", terms=2)
     worst = np.abs(fit.fitted["modulus"] / fit.measured["modulus"] - 1)
     assert fit.largest_residual == pytest.approx(worst.max())
@@ -230,7 +230,7 @@ def test_the_law_of_a_fit_is_a_law_like_any_other():
     ids=["fluid", "bulk", "relaxation", "shear fluid", "deviatoric"],
 )
 def test_the_section_of_a_case_file_is_the_law_to_its_six_digits(fit, tmp_path):
-    """By the reader of case files, which knows nothing of fits."""
+    """Read back by the reader of case files."""
     text = material_section(fit)
     if "uniaxial" not in text:
         assert "# the data are of shear alone" in text

@@ -1,4 +1,4 @@
-"""Laws from indentation records: truths found again, honest intervals, bad records refused."""
+"""Laws from indentation records: recovered parameters, confidence intervals, refusals."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def ting_force(t, rise, depth, modulus, tau):
     """Force on a sphere pressed into a Maxwell body and drawn back, each at constant rate.
 
     Ting (1966): on the way back F = (8/3) sqrt(R)/(1 - nu) times the integral of
-    G(t - t') d(approach^1.5) up to the instant t1 of equal contact radius on the way in, where
+    G(t - t') d(approach^1.5) up to the instant t1 of equal contact radius during loading, where
     the integral of G(t - t') d(approach) from t1 to t is 0. Here by quadrature.
     """
     rate = depth / rise
@@ -160,7 +160,7 @@ def test_the_elastic_interval_is_that_of_linear_regression():
 
 
 @pytest.mark.slow
-def test_truth_lies_within_the_intervals_as_often_as_they_say():
+def test_intervals_cover_the_truth_at_their_level():
     """Of 100 seeded repeats 95 ± 2.2 (binomial); outside 89 to 100 one in 200 times."""
     truth = {"shear_modulus": 1e6, "viscosity": 2e6}
     record = exact_record(Maxwell(*truth.values()))
@@ -201,7 +201,7 @@ def test_the_section_of_a_power_law_has_the_keys_of_its_arguments():
     assert keys == wanted
 
 
-def test_a_parameter_that_the_record_leaves_open_is_said_so():
+def test_an_undetermined_parameter_is_warned_about():
     record = scattered(exact_record(Elastic(1e6)), 0.01, 1)
     with pytest.warns(AccuracyWarning, match=r"leaves open .*fewer parameters"):
         fit_indentation(record, "maxwell", poisson_ratio=NU)

@@ -1,4 +1,4 @@
-"""Time-temperature superposition: shift factors found again, rules fitted, data refused."""
+"""Time-temperature superposition: recovered shift factors, fitted rules, refusals."""
 
 from __future__ import annotations
 
@@ -121,7 +121,7 @@ def test_losses_that_scatter_wildly_do_not_move_a_well_measured_storage(seed):
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_the_shift_found_has_the_least_mismatch_and_says_how_much_it_is(seed):
+def test_the_shift_found_has_the_least_mismatch_and_states_it(seed):
     rng = np.random.default_rng(seed)
     slow, fast = (
         Curve(
@@ -139,8 +139,8 @@ def test_the_shift_found_has_the_least_mismatch_and_says_how_much_it_is(seed):
         other = np.interp(x - shift, fast.log_times, fast.log_columns[0])
         return np.sqrt(np.mean((one - other) ** 2))
 
-    shift, said = log_shift(slow, fast)
-    assert said == pytest.approx(mismatch(shift), rel=0.01)
+    shift, stated = log_shift(slow, fast)
+    assert stated == pytest.approx(mismatch(shift), rel=0.01)
     assert mismatch(shift) <= min(mismatch(shift - 0.01), mismatch(shift + 0.01))
 
 
@@ -187,7 +187,7 @@ def test_another_reference_moves_the_whole_curve():
     assert ratio[0] == pytest.approx(middle)
 
 
-def test_given_shifts_are_taken_and_referred_to_the_temperature_asked():
+def test_given_shifts_are_referred_to_the_reference_temperature():
     """a_T from T_r' is a_T from T_r over that of T_r' itself: Ferry (1980), section 11.A."""
     curve = build_master_curve(relaxation_sets()[:3], 365.0, RULE)
     expected = RULE.factor(TEMPERATURES[:3]) / RULE.factor(365.0)
@@ -198,7 +198,7 @@ def test_given_shifts_are_taken_and_referred_to_the_temperature_asked():
     np.testing.assert_allclose(curve.measured["modulus"], on_law, rtol=1e-9)
 
 
-def test_wlf_and_arrhenius_are_found_again_exactly_and_say_what_they_miss():
+def test_wlf_and_arrhenius_are_recovered_exactly_with_their_residuals():
     exact = fit_wlf(TEMPERATURES, RULE.factor(TEMPERATURES), 380.0)
     assert (exact.shift.c1, exact.shift.c2) == pytest.approx((12.0, 70.0), rel=1e-6)
     assert exact.residual < 1e-9

@@ -1,10 +1,10 @@
-"""Laws found in measurements: from creep, relaxation and oscillation, at several temperatures."""
+"""Identification of laws from creep, relaxation, oscillation and indentation measurements."""
 
 from viscontact.identification.fit import Fit
 from viscontact.identification.indentation import fit_indentation
 from viscontact.identification.indentation_fit import IndentationFit
+from viscontact.identification.isotherm import Isotherm
 from viscontact.identification.master_curve import (
-    Isotherm,
     MasterCurve,
     build_master_curve,
     fit_master_curve,

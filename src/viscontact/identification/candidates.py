@@ -1,4 +1,4 @@
-"""Laws that an indentation record may be fitted with: their parameters, and where to begin."""
+"""Candidate laws of an indentation fit: parameters and starting values."""
 
 from __future__ import annotations
 
@@ -16,19 +16,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Candidate:
-    """A law with unknown parameters, all positive.
-
-    Parameters
-    ----------
-    names : tuple of str
-        Names of the parameters: those of the law's constructor.
-    units : tuple of str
-        Their units.
-    build : callable
-        Takes the parameters in this order, returns the law.
-    starts : tuple of tuple of float
-        Where to begin, one or more sets of values.
-    """
+    """Law with unknown positive parameters; names are those of its constructor."""
 
     names: tuple[str, ...]
     units: tuple[str, ...]
@@ -37,44 +25,25 @@ class Candidate:
 
     @property
     def bounded(self) -> Array:
-        """Which parameters are exponents, between 0 and 1."""
+        """Mask of the parameters that are exponents, between 0 and 1."""
         return np.array([name == "exponent" for name in self.names])
 
     def free(self, values: Array) -> Array:
-        """Return the parameters on a scale without limits: ln p, or ln(p/(1 - p)) of exponents."""
+        """Parameters on an unbounded scale: ln p, or ln(p/(1 - p)) of exponents."""
         below_one = np.where(self.bounded, 1.0 - values, 1.0)
         return np.asarray(np.log(values) - np.log(below_one))
 
     def values(self, free: Array) -> Array:
-        """Return the parameters from that scale."""
+        """Parameters from the unbounded scale."""
         with np.errstate(over="ignore"):
             grown = np.exp(free)
             return np.where(self.bounded, 1.0 / (1.0 + np.exp(-free)), grown)
 
 
 def candidate(name: str, terms: int, modulus: float, duration: float) -> Candidate:
-    """Return a candidate law by its name.
+    """Candidate law by its name in `CANDIDATES`; a creep series has `terms` exponentials.
 
-    Parameters
-    ----------
-    name : str
-        A key of `CANDIDATES`.
-    terms : int
-        How many exponentials a creep series has.
-    modulus : float
-        Shear modulus that an elastic body would need [Pa].
-    duration : float
-        How long the record lasts [s].
-
-    Returns
-    -------
-    Candidate
-        The law's parameters, and starting values made of modulus and duration.
-
-    Raises
-    ------
-    ValueError
-        If there is no such law.
+    Starting values follow from the apparent shear modulus [Pa] and the duration of the record [s].
     """
     if name not in CANDIDATES:
         raise ValueError(

@@ -1,4 +1,4 @@
-"""What a fit accepts as measured columns, and how it names the row it refuses."""
+"""Checks of measured columns; messages name the row, counted from 0."""
 
 from __future__ import annotations
 
@@ -9,32 +9,8 @@ from numpy.typing import ArrayLike, NDArray
 def positive_column(
     owner: str, name: str, values: ArrayLike, unit: str, *, zero: bool = False
 ) -> NDArray[np.float64]:
-    """Return a measured column as floats.
+    """Return a column of positive (or zero) finite numbers as floats, shape (n,).
 
-    Parameters
-    ----------
-    owner, name : str
-        Who asks, and what the column is called, for the message. Rows are counted from 0, as
-        Python does.
-    values : array_like, shape (n,)
-        The column.
-    unit : str
-        Its unit, for the message.
-    zero : bool
-        Whether 0 is accepted.
-
-    Returns
-    -------
-    ndarray, shape (n,)
-        The column.
-
-    Raises
-    ------
-    ValueError
-        If it is no column of numbers, or one of them is not finite or not positive.
-
-    Examples
-    --------
     >>> positive_column("fit_creep", "times", [1.0, -2.0], "s")
     Traceback (most recent call last):
     ...
@@ -60,22 +36,7 @@ def positive_column(
 
 
 def require_rows(owner: str, least: int, **columns: NDArray[np.float64]) -> None:
-    """Refuse columns of different lengths, or with too few rows.
-
-    Parameters
-    ----------
-    owner : str
-        Who asks, for the message.
-    least : int
-        How many rows are needed.
-    **columns : ndarray
-        The columns by name.
-
-    Raises
-    ------
-    ValueError
-        If the lengths differ or are below `least`.
-    """
+    """Refuse columns of different lengths, or with fewer than `least` rows."""
     lengths = {name: column.size for name, column in columns.items()}
     if len(set(lengths.values())) > 1:
         found = ", ".join(f"{count} {name}" for name, count in lengths.items())
@@ -88,22 +49,10 @@ def require_rows(owner: str, least: int, **columns: NDArray[np.float64]) -> None
 def require_trend(
     owner: str, name: str, points: NDArray[np.float64], values: NDArray[np.float64], rises: bool
 ) -> None:
-    """Refuse a curve that as a whole goes the way no such curve can.
+    """Refuse a curve that as a whole rises where it can only fall, or the reverse.
 
-    Parameters
-    ----------
-    owner, name : str
-        Who asks, and what the values are called, for the message.
-    points, values : ndarray, shape (n,)
-        The curve, in any order.
-    rises : bool
-        Whether such a curve rises.
-
-    Raises
-    ------
-    ValueError
-        If the median of its last third lies a tenth or more on the wrong side of that of its
-        first third. Scatter is no reason.
+    It does if the median of its last third is a tenth or more on the wrong side of that of its
+    first.
     """
     ordered = values[np.argsort(points, kind="stable")]
     third = max(1, ordered.size // 3)

@@ -1,4 +1,4 @@
-"""What measured values stand for: in which terms the data are, and what is known of the volume."""
+"""Conventions of measured data: deviatoric, shear or uniaxial, and the bulk behaviour."""
 
 from __future__ import annotations
 
@@ -9,65 +9,34 @@ from viscontact.laws import CreepSeries, RelaxationSeries
 
 Series = TypeVar("Series", CreepSeries, RelaxationSeries)
 
-#: How a law in shear is made of a creep series in the terms of the data.
+#: Constructors of a law in shear from a creep series, by the convention of the data.
 CREEP: dict[str, Callable[..., CreepSeries]] = {
     "deviatoric": CreepSeries,
     "shear": CreepSeries.from_shear,
     "uniaxial": CreepSeries.from_uniaxial,
 }
-#: Likewise of a relaxation series.
+#: The same for a relaxation series.
 MODULI: dict[str, Callable[..., RelaxationSeries]] = {
     "shear": RelaxationSeries,
     "uniaxial": RelaxationSeries.from_uniaxial,
 }
 
 
-def in_shear(
+def shear_law(
     owner: str, conventions: dict[str, Callable[..., Series]], data: str
 ) -> Callable[..., Series]:
-    """Return what makes a law in shear of a series in the terms of the data.
-
-    Parameters
-    ----------
-    owner : str
-        Who asks, for the message.
-    conventions : dict of str to callable
-        `CREEP` or `MODULI`.
-    data : str
-        The terms.
-
-    Raises
-    ------
-    ValueError
-        If such data have no such terms.
-    """
+    """Constructor of the law in shear from a series in the convention of the data."""
     if data not in conventions:
         raise ValueError(f"{owner}: data must be one of {', '.join(conventions)}, got {data!r}")
     return conventions[data]
 
 
-def in_volume(
+def bulk_arguments(
     owner: str, data: str, poisson_ratio: float | None, bulk_modulus: float | None
 ) -> dict[str, float | None]:
-    """Return what uniaxial data need besides, by name; other data need nothing.
+    """Bulk arguments of uniaxial data [-, Pa], by name; other data take none.
 
-    Parameters
-    ----------
-    owner : str
-        Who asks, for the message.
-    data : str
-        The terms of the data.
-    poisson_ratio, bulk_modulus : float or None
-        As given [-, Pa].
-
-    Raises
-    ------
-    ValueError
-        If one of them is given with data in shear.
-
-    Examples
-    --------
-    >>> in_volume("fit_creep", "uniaxial", 0.4, None)
+    >>> bulk_arguments("fit_creep", "uniaxial", 0.4, None)
     {'poisson_ratio': 0.4, 'bulk_modulus': None}
     """
     if data == "uniaxial":

@@ -1,4 +1,4 @@
-"""A law found in measured values, and how well it says them."""
+"""Result of a series fit: the law and its residuals."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _SHOWN = 6  # terms that are printed
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Fit(Displayable):
-    """A series fitted to measured values.
+    """Series fitted to measured values.
 
     Made by `fit_creep`, `fit_relaxation` and `fit_dynamic`.
 
@@ -37,7 +37,7 @@ class Fit(Displayable):
         The measured columns by name: ``compliance`` [1/Pa], ``modulus`` [Pa], or ``storage``
         and ``loss`` [Pa].
     poisson_ratio, bulk_modulus : float or None
-        What uniaxial data were converted with [-, Pa].
+        Bulk behaviour used to convert uniaxial data [-, Pa].
 
     Examples
     --------
@@ -58,12 +58,12 @@ class Fit(Displayable):
 
     @property
     def terms(self) -> int:
-        """How many exponential terms the series has."""
+        """Number of exponential terms of the series."""
         return len(self.series.times)
 
     @property
     def fitted(self) -> dict[str, Array]:
-        """What the series gives in the place of each measured column."""
+        """Values of the series in place of each measured column."""
         return self.curve(self.points)
 
     @property
@@ -83,7 +83,7 @@ class Fit(Displayable):
         return self._worst()[0]
 
     def curve(self, points: ArrayLike) -> dict[str, Array]:
-        """Return what the series gives elsewhere, in the terms of the data.
+        """Return the series at other points, in the convention of the data.
 
         Parameters
         ----------
@@ -116,7 +116,7 @@ class Fit(Displayable):
         )
 
     def _rms(self) -> str:
-        """Say the root mean square, of each column where there are two."""
+        """Root mean square in words, of each column where there are two."""
         if len(self.measured) == 1:
             return f"{self.residual:.2e}"
         rms = {name: np.sqrt(np.mean(each**2)) for name, each in self.residuals.items()}
@@ -131,7 +131,7 @@ class Fit(Displayable):
 
 
 def _in_short(law: CreepSeries | RelaxationSeries) -> str:
-    """Write a law with four digits, and no more than six terms of it."""
+    """Law with four digits and at most six terms."""
     parts = []
     for field in fields(law):
         value = getattr(law, field.name)

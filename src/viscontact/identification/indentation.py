@@ -1,4 +1,4 @@
-"""A law from an indentation record: force, approach and time of a sphere, cone or punch."""
+"""Fit of a law to an indentation record of a sphere, cone or punch."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ from viscontact.materials.material import Material
 
 Array = NDArray[np.float64]
 
-_ELEMENTS = 60  # the force then errs by some 1e-4, far below the scatter of any record
-_STEP = 1e-4  # of ln p, for differences: well above the rounding, well below what bends
-_REACH = np.log(1e8)  # how far from its start ln p may go
-_VAGUE = 10.0  # an interval this many times wider than its value says nothing
+_ELEMENTS = 60  # relative error of the force about 1e-4, far below the scatter of any record
+_STEP = 1e-4  # of ln p, for differences: well above rounding, well below the curvature
+_REACH = np.log(1e8)  # largest change of ln p from its start
+_VAGUE = 10.0  # ratio of an interval's bound to its value from which on it is undetermined
 
 
 def fit_indentation(
@@ -37,7 +37,7 @@ def fit_indentation(
     given: str = "approach",
     confidence: float = 0.95,
 ) -> IndentationFit:
-    """Return the law whose exact indentation follows a record best, with confidence intervals.
+    """Fit a law to an indentation record by its exact solution, with confidence intervals.
 
     Parameters
     ----------
@@ -47,13 +47,13 @@ def fit_indentation(
         ``"elastic"``, ``"maxwell"``, ``"zener"``, ``"burgers"``, ``"creep-series"``,
         ``"power-law"`` (without instant compliance) or ``"power-law-with-instant"``.
     terms : int, optional
-        How many exponentials a creep series has.
+        Number of exponentials of a creep series.
     poisson_ratio : float, optional
         Constant Poisson's ratio of the body.
     bulk_modulus : float, optional
         Its elastic bulk modulus [Pa] instead; exactly one of the two.
     given : str, optional
-        What is taken as exact: ``"approach"``, and the force is fitted; or ``"force"``, and the
+        Quantity taken as exact: ``"approach"``, and the force is fitted; or ``"force"``, and the
         approach is fitted where the force is above a twentieth of its largest.
     confidence : float, optional
         Level of the intervals, between 0 and 1.
@@ -67,24 +67,24 @@ def fit_indentation(
     ------
     ValueError
         If the law has no such name, an option is out of range, the record has fewer rows than
-        twice the parameters, or the body is so stiff or soft that nothing fits.
+        twice the parameters, or the body is so stiff or soft that no fit exists.
 
     Warns
     -----
     AccuracyWarning
-        If the record leaves a parameter open by more than a factor of ten.
+        If the record determines a parameter no better than within a factor of ten.
 
     Notes
     -----
     The force under a given approach, or the reverse, is the exact solution for an axisymmetric
-    contact on a viscoelastic half-space, after Hunter, Graham and Ting (1966), through
-    unloading, loss of contact and contact again: `viscontact.reference.press_axisymmetric`.
+    contact on a viscoelastic half-space, of Hunter, Graham and Ting (1966), through
+    unloading, loss of contact and renewed contact: `viscontact.reference.press_axisymmetric`.
     Least squares in the logarithms of the parameters (of n/(1 - n) for an exponent n). The
     intervals are those of the linearised model there, with Student's t and the scatter that the
-    residuals show: right for scatter that is independent from row to row and as large at small
+    residuals show: valid for scatter that is independent from row to row and as large at small
     forces as at large ones. A drift of the instrument is no such scatter.
 
-    A power law is given by its compliance at the time the record lasts.
+    A power law is given by its compliance at the end of the record.
 
     Examples
     --------
@@ -100,14 +100,16 @@ def fit_indentation(
     _require_options(terms, given, confidence)
     material = partial(Material, poisson_ratio=poisson_ratio, bulk_modulus=bulk_modulus)
     modulus = _apparent_modulus(record, poisson_ratio)
-    material(Elastic(modulus))  # refuses what is wrong with the body's volume
+    material(Elastic(modulus))  # checks the bulk arguments
     shape = _candidate(law, int(terms), modulus, record.times)
     measured, counted = compared(record, given)
     scale = float(np.abs(measured).max())
 
     def residuals(free: Array) -> Array:
-        answer = _answer(record, given, material(shape.build(*shape.values(free).tolist())))
-        return (answer - measured)[counted] / scale
+        response = _exact_response(
+            record, given, material(shape.build(*shape.values(free).tolist()))
+        )
+        return (response - measured)[counted] / scale
 
     found, jacobian = _descended(residuals, shape)
     intervals, correlation = _confidence(shape, found, residuals(found), jacobian, confidence)
@@ -122,13 +124,13 @@ def fit_indentation(
         correlation=correlation,
         record=record,
         given=given,
-        fitted=_answer(record, given, best),
+        fitted=_exact_response(record, given, best),
         units=shape.units,
     )
 
 
 def _candidate(law: str, terms: int, modulus: float, times: Array) -> Candidate:
-    """Return a law with starts near a modulus; it needs twice as many rows as parameters."""
+    """Candidate law; refused if the record has fewer than two rows per parameter."""
     shape = candidate(law, terms, modulus, float(np.ptp(times)))
     if times.size < 2 * len(shape.names):
         raise ValueError(
@@ -138,8 +140,8 @@ def _candidate(law: str, terms: int, modulus: float, times: Array) -> Candidate:
     return shape
 
 
-def _answer(record: IndentationRecord, given: str, material: Material) -> Array:
-    """Return what the exact solution gives for the other quantity of a record."""
+def _exact_response(record: IndentationRecord, given: str, material: Material) -> Array:
+    """Exact solution for the other quantity of a record [N or m]."""
     contact = reference.press_axisymmetric(
         record.profile,
         record.times,
@@ -148,15 +150,15 @@ def _answer(record: IndentationRecord, given: str, material: Material) -> Array:
         approach=record.approach if given == "approach" else None,
         force=np.maximum(record.force, 0.0) if given == "force" else None,
     )
-    answer = contact.force if given == "approach" else contact.approach
-    if not np.isfinite(answer).all():
-        row = int(np.argmax(~np.isfinite(answer)))
+    response = contact.force if given == "approach" else contact.approach
+    if not np.isfinite(response).all():
+        row = int(np.argmax(~np.isfinite(response)))
         raise ValueError(f"fit_indentation: the exact solution gives no number in row {row}")
-    return answer
+    return response
 
 
 def _apparent_modulus(record: IndentationRecord, poisson_ratio: float | None) -> float:
-    """Return the shear modulus of the elastic body that comes nearest [Pa]."""
+    """Shear modulus of the best-fitting elastic body [Pa]."""
     # Any Poisson's ratio serves to start from.
     nu = 0.4 if poisson_ratio is None else poisson_ratio
     d, F = record.approach, record.force
@@ -175,7 +177,7 @@ def _descended(residuals: Callable[[Array], Array], shape: Candidate) -> tuple[A
     tried = [_sum_of_squares(residuals, start) for start in starts]
     best = int(np.argmin(tried))
     if not np.isfinite(tried[best]):
-        residuals(starts[best])  # says what is wrong
+        residuals(starts[best])  # raises the error
     start = starts[best]
     penalty = residuals(start)  # kept where the solution ends, so that no step leads there
 
@@ -198,7 +200,7 @@ def _descended(residuals: Callable[[Array], Array], shape: Candidate) -> tuple[A
 
 
 def _differences(function: Callable[[Array], Array], free: Array) -> Array:
-    """Return the Jacobian by differences of a step that suits logarithms, wherever they lie."""
+    """Jacobian by forward differences in the logarithms of the parameters."""
     here = function(free)
     steps = _STEP * np.eye(free.size)
     return np.stack([(function(free + step) - here) / _STEP for step in steps], axis=1)
@@ -214,7 +216,7 @@ def _sum_of_squares(residuals: Callable[[Array], Array], free: Array) -> float:
 def _confidence(
     shape: Candidate, found: Array, residuals: Array, jacobian: Array, confidence: float
 ) -> tuple[list[tuple[float, float]], Array]:
-    """Return the intervals of the parameters and the correlation of their logarithms."""
+    """Intervals of the parameters and the correlation of their logarithms."""
     freedom = residuals.size - found.size
     variance = float(residuals @ residuals) / freedom
     _, singular, directions = np.linalg.svd(jacobian, full_matrices=False)

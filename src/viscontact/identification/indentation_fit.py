@@ -1,4 +1,4 @@
-"""A law found in an indentation record, and how sure it is."""
+"""Result of an indentation fit: the law and its confidence intervals."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _TOUCH = 0.05  # of the largest force: less may be scatter without contact
 
 @dataclass(frozen=True, eq=False, repr=False)
 class IndentationFit(Displayable):
-    """A law fitted to an indentation record.
+    """Law fitted to an indentation record.
 
     Made by `fit_indentation`.
 
@@ -36,13 +36,13 @@ class IndentationFit(Displayable):
         Its level, such as 0.95.
     correlation : ndarray, shape (p, p)
         Correlation of the parameters' logarithms, in their order: near 1 or -1, the record
-        knows a combination of two better than each [-].
+        determines a combination of two better than each [-].
     record : IndentationRecord
-        What was measured.
+        The measured record.
     given : str
-        What the solution was given, ``"approach"`` or ``"force"``; the other is fitted.
+        Quantity taken as exact, ``"approach"`` or ``"force"``; the other is fitted.
     fitted : ndarray, shape (n,)
-        The other one as the law gives it [N or m].
+        The other quantity from the law [N or m].
     units : tuple of str
         Units of the parameters, in their order.
 
@@ -70,12 +70,12 @@ class IndentationFit(Displayable):
 
     @property
     def law(self) -> Law:
-        """The law in shear."""
+        """Law in shear."""
         return self.material.law
 
     @property
     def measured(self) -> Array:
-        """What `fitted` stands beside [N or m]."""
+        """Measured values that `fitted` is compared with [N or m]."""
         return compared(self.record, self.given)[0]
 
     @property
@@ -106,23 +106,8 @@ class IndentationFit(Displayable):
 
 
 def compared(record: IndentationRecord, given: str) -> tuple[Array, NDArray[np.bool_]]:
-    """Return what is fitted, and in which rows.
-
-    Parameters
-    ----------
-    record : IndentationRecord
-        What was measured.
-    given : str
-        ``"approach"`` or ``"force"``.
-
-    Returns
-    -------
-    measured : ndarray, shape (n,)
-        Force [N], or approach [m].
-    counted : ndarray of bool, shape (n,)
-        Where it counts.
-    """
+    """Fitted quantity, force [N] or approach [m], and the mask of the rows that count."""
     if given == "approach":
         return record.force, np.ones(record.force.size, dtype=bool)
-    # Without force an approach says where the stage is, not where the body is.
+    # Without force the approach is the position of the stage, not of the surface.
     return record.approach, record.force > _TOUCH * record.force.max()

@@ -1,9 +1,9 @@
-"""Time-temperature superposition: one long curve from short ones at several temperatures."""
+"""Time-temperature superposition: master curve from sets at several temperatures."""
 
 from __future__ import annotations
 
 import itertools
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Unpack
 
@@ -11,9 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.display import Displayable
-from viscontact.identification.columns import positive_column, require_rows, require_trend
+from viscontact.identification.columns import positive_column, require_trend
 from viscontact.identification.fit import Fit
-from viscontact.identification.overlap import Curve, log_shift
+from viscontact.identification.isotherm import KINDS_OF_TEST, Isotherm
+from viscontact.identification.overlap import log_shift
 from viscontact.identification.prony import FitOptions, fit_creep, fit_dynamic, fit_relaxation
 from viscontact.identification.shift_fit import ShiftFit, fit_arrhenius, fit_wlf
 from viscontact.laws import Shift, TabulatedShift
@@ -21,86 +22,13 @@ from viscontact.laws import Shift, TabulatedShift
 Array = NDArray[np.float64]
 
 _OWNER = "build_master_curve"
-# Each kind of test: its columns, and whether the first one rises with time.
-_KINDS = ((("compliance",), True), (("modulus",), False), (("storage", "loss"), False))
 # Scatter may put a warmer set a little behind a colder one where the curves are almost level.
 _SCATTER = np.log(10.0) / 3
 
 
 @dataclass(frozen=True, eq=False)
-class Isotherm(Displayable):
-    """What a test measured at one temperature.
-
-    Parameters
-    ----------
-    temperature : float
-        Absolute temperature > 0 [K]: 20 °C is 293.15 K.
-    points : array_like, shape (n,)
-        Times >= 0 [s], or with `storage` and `loss` angular frequencies > 0 [rad/s]. In any
-        order; two or more above 0.
-    measured : mapping of str to array_like
-        The columns by name, all > 0: ``compliance`` [1/Pa], or ``modulus`` [Pa], or ``storage``
-        and ``loss`` [Pa].
-
-    Raises
-    ------
-    ValueError
-        If a number is not positive, naming its row; if the columns are others.
-
-    Examples
-    --------
-    >>> warm = Isotherm(303.15, [1.0, 10.0], {"compliance": [1.1e-9, 1.3e-9]})
-    >>> warm.points.tolist(), warm.oscillates
-    ([1.0, 10.0], False)
-    """
-
-    temperature: float
-    points: Array
-    measured: Mapping[str, Array]
-
-    def __post_init__(self) -> None:
-        [temperature] = positive_column("Isotherm", "temperature", [self.temperature], "K")
-        owner = f"Isotherm at {temperature:.6g} K"
-        names = tuple(self.measured)
-        if set(names) not in [set(columns) for columns, _ in _KINDS]:
-            raise ValueError(
-                f"{owner}: measured must have the column compliance, or modulus, or both storage "
-                f"and loss, got {', '.join(names) or 'none'}"
-            )
-        name, unit_of_points = ("angular_frequency", "rad/s") if self.oscillates else ("times", "s")
-        points = positive_column(owner, name, self.points, unit_of_points, zero=not self.oscillates)
-        unit = "1/Pa" if "compliance" in self.measured else "Pa"
-        measured = {
-            name: positive_column(owner, name, values, unit)
-            for name, values in self.measured.items()
-        }
-        require_rows(owner, 2, points=points, **measured)
-        if np.count_nonzero(points) < 2:
-            raise ValueError(f"{owner}: needs at least two rows above 0 {unit_of_points}")
-        if np.unique(points).size < points.size:
-            raise ValueError(f"{owner}: two rows have the same time or frequency; give one of them")
-        object.__setattr__(self, "temperature", float(temperature))
-        object.__setattr__(self, "points", points)
-        object.__setattr__(self, "measured", measured)
-
-    @property
-    def oscillates(self) -> bool:
-        """Whether the points are angular frequencies."""
-        return "storage" in self.measured
-
-    def curve(self) -> Curve:
-        """Return the set over ln(time), or over -ln(angular frequency), without the time 0."""
-        later = np.flatnonzero(self.points)
-        log_times = np.log(self.points[later]) * (-1 if self.oscillates else 1)
-        order = np.argsort(log_times)
-        names = next(columns for columns, _ in _KINDS if set(columns) == set(self.measured))
-        columns = np.array([self.measured[name][later][order] for name in names])
-        return Curve(log_times[order], np.log(columns))
-
-
-@dataclass(frozen=True, eq=False)
 class MasterCurve(Displayable):
-    """One curve at a reference temperature, made of sets at several temperatures.
+    """Master curve at a reference temperature, from sets at several temperatures.
 
     Made by `build_master_curve`.
 
@@ -144,7 +72,7 @@ class MasterCurve(Displayable):
 
     @property
     def reduced_points(self) -> tuple[Array, ...]:
-        """Points of each set as they would lie at the reference temperature.
+        """Points of each set, reduced to the reference temperature.
 
         Times t/a_T [s], or angular frequencies ω a_T [rad/s].
         """
@@ -168,18 +96,18 @@ class MasterCurve(Displayable):
         }
 
     def fit_wlf(self) -> ShiftFit:
-        """Return the WLF rule that fits the factors; `fit_wlf` says how."""
+        """Return the WLF rule that fits the factors, as `fit_wlf` does."""
         return fit_wlf(self.temperatures, self.factors, self.reference_temperature)
 
     def fit_arrhenius(self) -> ShiftFit:
-        """Return the Arrhenius rule that fits the factors; `fit_arrhenius` says how."""
+        """Return the Arrhenius rule that fits the factors, as `fit_arrhenius` does."""
         return fit_arrhenius(self.temperatures, self.factors, self.reference_temperature)
 
 
 def build_master_curve(
     isotherms: Sequence[Isotherm], reference_temperature: float, shift: Shift | None = None
 ) -> MasterCurve:
-    """Return the curve that sets of several temperatures make at a reference temperature.
+    """Return the master curve of sets at several temperatures.
 
     Parameters
     ----------
@@ -246,7 +174,7 @@ def fit_master_curve(curve: MasterCurve, **options: Unpack[FitOptions]) -> Fit:
     Parameters
     ----------
     curve : MasterCurve
-        What `build_master_curve` returned.
+        From `build_master_curve`.
     **options
         Those of `fit_creep`, `fit_relaxation` or `fit_dynamic`, by the kind of test; `data` is
         needed.
@@ -291,7 +219,9 @@ def _ordered(isotherms: Sequence[Isotherm], least: int) -> tuple[Isotherm, ...]:
                 "join them into one"
             )
     for isotherm in ordered:
-        columns, rises = next(kind for kind in _KINDS if set(kind[0]) == set(isotherm.measured))
+        columns, rises = next(
+            kind for kind in KINDS_OF_TEST if set(kind[0]) == set(isotherm.measured)
+        )
         curve = isotherm.curve()
         values = np.exp(curve.log_columns[0])
         where = f"{_OWNER}: set at {isotherm.temperature:.6g} K"
@@ -300,7 +230,7 @@ def _ordered(isotherms: Sequence[Isotherm], least: int) -> tuple[Isotherm, ...]:
 
 
 def _step(colder: Isotherm, warmer: Isotherm) -> tuple[float, float]:
-    """Return by how much ln a_T falls from one set to the next, and their mismatch."""
+    """Decrease of ln a_T from one set to the next, and their mismatch [-]."""
     between = f"{_OWNER}: sets at {colder.temperature:.6g} K and {warmer.temperature:.6g} K"
     try:
         step, mismatch = log_shift(colder.curve(), warmer.curve())

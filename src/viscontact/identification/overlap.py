@@ -1,4 +1,4 @@
-"""How far apart in ln(time) two measured curves of one body at two temperatures lie."""
+"""Horizontal shift in ln(time) between two measured curves at two temperatures."""
 
 from __future__ import annotations
 
@@ -17,14 +17,10 @@ _SCANNED = 41
 
 @dataclass(frozen=True, eq=False)
 class Curve:
-    """A set of one temperature, ready to be shifted.
+    """Set of one temperature in logarithms, increasing in ln(time) or -ln(angular frequency).
 
-    Parameters
-    ----------
-    log_times : ndarray, shape (n,)
-        ln of the times, or -ln of the angular frequencies, increasing.
-    log_columns : ndarray, shape (columns, n)
-        ln of the measured values; the first column never turns but for scatter.
+    `log_times` has shape (n,), `log_columns` (columns, n); the first column is monotone but for
+    scatter.
     """
 
     log_times: Array
@@ -32,37 +28,17 @@ class Curve:
 
 
 def log_shift(slow: Curve, fast: Curve) -> tuple[float, float]:
-    """Return by how much the faster curve must be delayed to lie on the slower one.
+    """Shift of the faster curve in ln(time) onto the slower one, and the mismatch [-].
 
-    Parameters
-    ----------
-    slow, fast : Curve
-        The colder set and the warmer one.
+    The mismatch is the root mean square relative difference in the overlap; NaN where the shifted
+    curves do not overlap in time.
 
-    Returns
-    -------
-    shift : float
-        What is added to the faster curve's ln(time) [-].
-    mismatch : float
-        Root mean square of what then differs in the overlap, relative to the values [-];
-        NaN where the curves do not overlap in time.
+    The start is closed-form shifting (ISO 18437-6; Gergesova et al., J. Rheol. 55 (2011) 1-16): the
+    mean distance in ln(time) of the two curves over the values they have in common, after isotonic
+    regression of the scatter. It needs no starting value and cannot diverge. From there the mean
+    squared difference over the overlap in time is minimised; with several columns it is that of the
+    vector of the columns relative to its length, so that the losses of an oscillation count too.
 
-    Raises
-    ------
-    ValueError
-        If the first columns have no value in common.
-
-    Notes
-    -----
-    The start is closed-form shifting (ISO 18437-6; Gergesova et al., J. Rheol. 55 (2011)
-    1-16): the mean distance in ln(time) of the two curves over the values they have in common,
-    with scatter that turns a curve evened out first (isotonic regression). It needs no
-    starting value and cannot run off. From there the mean squared difference over the overlap
-    in time is minimised; with several columns it is that of the vector they make, relative to
-    its length, so that the losses of an oscillation count too.
-
-    Examples
-    --------
     >>> t = np.linspace(0.0, 5.0, 30)
     >>> slow, fast = Curve(t, -0.1 * t[None] ** 2), Curve(t, -0.1 * (t[None] + 1.5) ** 2)
     >>> print(f"{log_shift(slow, fast)[0]:.3f}")
@@ -70,7 +46,7 @@ def log_shift(slow: Curve, fast: Curve) -> tuple[float, float]:
     """
     start = _closed_form_shift(slow, fast)
     places = start + _NEIGHBOURHOOD * np.linspace(-1.0, 1.0, _SCANNED)
-    least = _overlap(slow, fast, start) / 2  # a mere touch is no agreement
+    least = _overlap(slow, fast, start) / 2  # a short overlap is no agreement
     mismatches = np.array([_mismatch(slow, fast, place, least) for place in places])
     best = int(np.argmin(mismatches))
     if not np.isfinite(mismatches[best]):
@@ -107,7 +83,7 @@ def _closed_form_shift(slow: Curve, fast: Curve) -> float:
 
 
 def _times_of(values: Array, log_times: Array, evened: Array) -> Array:
-    """Return where a monotone curve takes given values; the middle of where it is level."""
+    """ln(time) at which a monotone curve takes given values; the middle where it is level."""
     distinct, where = np.unique(evened, return_inverse=True)
     middles = np.bincount(where, weights=log_times) / np.bincount(where)
     return np.interp(values, distinct, middles)
@@ -130,7 +106,7 @@ def _common_span(slow: Curve, fast: Curve, shift: float) -> tuple[float, float]:
 
 
 def _mismatch(slow: Curve, fast: Curve, shift: float, least: float) -> float:
-    """Return the mean squared difference over the overlap; inf where that is too short."""
+    """Mean squared difference over the overlap; inf where that is too short."""
     first, last = _common_span(slow, fast, shift)
     if not last - first > max(least, 0.0):
         return np.inf
@@ -139,8 +115,8 @@ def _mismatch(slow: Curve, fast: Curve, shift: float, least: float) -> float:
         np.array([np.interp(at, curve.log_times, column) for column in curve.log_columns])
         for at, curve in ((times, slow), (times - shift, fast))
     )
-    # Each column counts by its share of the value: a loss of a hundredth of the modulus cannot
-    # be measured as sharply as the modulus, nor does it say as much.
+    # Each column counts by its share of the value: a loss of a hundredth of the modulus is
+    # measured less accurately than the modulus, and matters less.
     shares = np.exp(one + other)
     shares /= shares.sum(axis=0)
     return float(np.mean(np.sum(shares * (one - other) ** 2, axis=0)))

@@ -1,4 +1,4 @@
-"""Prony series from a creep test, a relaxation test or an oscillation."""
+"""Fit of Prony series to creep, relaxation or oscillation tests."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.identification.columns import positive_column, require_rows, require_trend
-from viscontact.identification.conventions import CREEP, MODULI, in_shear, in_volume
+from viscontact.identification.conventions import CREEP, MODULI, bulk_arguments, shear_law
 from viscontact.identification.fit import Fit
 from viscontact.identification.responses import (
     CreepResponse,
@@ -19,9 +19,10 @@ from viscontact.identification.spectrum import (
     Observed,
     Spectrum,
     parsimonious_spectrum,
+    scatter_weighted,
     spectrum_of,
+    unweighted,
 )
-from viscontact.identification.weighing import alike, by_scatter
 from viscontact.laws import CreepSeries, RelaxationSeries
 
 _LEAST_ROWS = 3
@@ -29,7 +30,7 @@ _EXCESS, _TOLERANCE = 1.05, 1e-3
 
 
 class FitOptions(TypedDict, total=False):
-    """What `fit_creep`, `fit_relaxation` and `fit_dynamic` take besides the measured columns."""
+    """Options of `fit_creep`, `fit_relaxation` and `fit_dynamic`."""
 
     data: Required[str]
     poisson_ratio: float | None
@@ -52,7 +53,7 @@ def fit_creep(
     excess: float = _EXCESS,
     tolerance: float = _TOLERANCE,
 ) -> Fit:
-    """Return the creep series of fewest terms that says what a creep test measured.
+    """Fit the creep series of fewest terms to a creep test.
 
     Parameters
     ----------
@@ -61,7 +62,7 @@ def fit_creep(
     compliance : array_like, shape (n,)
         Measured compliances > 0 [1/Pa].
     data : str
-        What they are: ``"deviatoric"`` (Phi, strain deviator per stress deviator, 1/(2G) at
+        Convention: ``"deviatoric"`` (Phi, strain deviator per stress deviator, 1/(2G) at
         once), ``"shear"`` (a rheometer's 1/G) or ``"uniaxial"`` (1/E).
     poisson_ratio : float, optional
         With uniaxial data, constant Poisson's ratio.
@@ -70,7 +71,7 @@ def fit_creep(
     fluid : bool, optional
         Whether to allow steady flow.
     terms : int, optional
-        How many terms at most, in place of as few as needed.
+        Largest number of terms, instead of as few as needed.
     excess : float, optional
         The residual accepted, in multiples of the best that any number of terms can reach;
         1.05 if left out.
@@ -91,7 +92,7 @@ def fit_creep(
     Notes
     -----
     Phi(t) = J_0 + sum J_i (1 - exp(-t/τ_i)) + φ t with J_0, J_i, φ >= 0 minimises the sum of
-    squares of the *relative* residuals. How the number of terms is chosen, and their times:
+    squares of the *relative* residuals. The choice of the terms is described in
     `viscontact.identification.spectrum`.
 
     Examples
@@ -108,9 +109,10 @@ def fit_creep(
     require_rows(owner, _LEAST_ROWS, times=instants, compliance=values)
     require_trend(owner, "compliance", instants, values, rises=True)
     _require_span(owner, "times", instants)
-    make = in_shear(owner, CREEP, data)
-    volume = in_volume(owner, data, poisson_ratio, bulk_modulus)
-    found = _found(owner, alike(CreepResponse(instants, fluid), values), terms, excess, tolerance)
+    make = shear_law(owner, CREEP, data)
+    volume = bulk_arguments(owner, data, poisson_ratio, bulk_modulus)
+    observed = unweighted(CreepResponse(instants, fluid), values)
+    found = _found(owner, observed, terms, excess, tolerance)
     flow = float(found.constants[1]) if fluid else 0.0
     series = CreepSeries(
         float(found.constants[0]), found.strengths.tolist(), found.times.tolist(), flow
@@ -131,7 +133,7 @@ def fit_relaxation(
     excess: float = _EXCESS,
     tolerance: float = _TOLERANCE,
 ) -> Fit:
-    """Return the Prony series of fewest terms that says what a relaxation test measured.
+    """Fit the Prony series of fewest terms to a relaxation test.
 
     Parameters
     ----------
@@ -140,7 +142,7 @@ def fit_relaxation(
     modulus : array_like, shape (n,)
         Measured relaxation moduli > 0 [Pa].
     data : str
-        What they are: ``"shear"`` (G) or ``"uniaxial"`` (E).
+        Convention: ``"shear"`` (G) or ``"uniaxial"`` (E).
     poisson_ratio, bulk_modulus
         As in `fit_creep`.
     fluid : bool, optional
@@ -177,11 +179,10 @@ def fit_relaxation(
     require_rows(owner, _LEAST_ROWS, times=instants, modulus=values)
     require_trend(owner, "modulus", instants, values, rises=False)
     _require_span(owner, "times", instants)
-    make = in_shear(owner, MODULI, data)
-    volume = in_volume(owner, data, poisson_ratio, bulk_modulus)
-    found = _found(
-        owner, alike(RelaxationResponse(instants, fluid), values), terms, excess, tolerance
-    )
+    make = shear_law(owner, MODULI, data)
+    volume = bulk_arguments(owner, data, poisson_ratio, bulk_modulus)
+    observed = unweighted(RelaxationResponse(instants, fluid), values)
+    found = _found(owner, observed, terms, excess, tolerance)
     series = _relaxation_series(found)
     law = make(series.equilibrium, series.moduli, series.times, **volume)
     return Fit(law, series, data, instants, {"modulus": values}, **volume)
@@ -200,7 +201,7 @@ def fit_dynamic(
     excess: float = _EXCESS,
     tolerance: float = _TOLERANCE,
 ) -> Fit:
-    """Return the Prony series of fewest terms that says what an oscillating test measured.
+    """Fit the Prony series of fewest terms to an oscillation test.
 
     Parameters
     ----------
@@ -225,8 +226,8 @@ def fit_dynamic(
     -----
     G' = G_inf + sum G_i a²/(1 + a²) and G'' = sum G_i a/(1 + a²) with a = ωτ_i, both at once;
     relative residuals count. Losses scatter more than storage, and superpose less well from
-    several temperatures: each of the two columns counts by the inverse of its own scatter, which
-    the dense fit shows.
+    several temperatures: each of the two columns is weighted by the inverse of its scatter about
+    the dense fit.
 
     Examples
     --------
@@ -246,10 +247,10 @@ def fit_dynamic(
     )
     require_trend(owner, "storage", frequencies, in_phase, rises=True)
     _require_span(owner, "angular_frequency", frequencies)
-    make = in_shear(owner, MODULI, data)
-    volume = in_volume(owner, data, poisson_ratio, bulk_modulus)
+    make = shear_law(owner, MODULI, data)
+    volume = bulk_arguments(owner, data, poisson_ratio, bulk_modulus)
     values = np.concatenate([in_phase, out_of_phase])
-    observed = by_scatter(alike(DynamicResponse(frequencies, fluid), values), tolerance)
+    observed = scatter_weighted(unweighted(DynamicResponse(frequencies, fluid), values), tolerance)
     series = _relaxation_series(_found(owner, observed, terms, excess, tolerance))
     law = make(series.equilibrium, series.moduli, series.times, **volume)
     columns = {"storage": in_phase, "loss": out_of_phase}

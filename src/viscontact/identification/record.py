@@ -1,4 +1,4 @@
-"""An indentation record: what an instrument wrote down while it pressed."""
+"""Indentation record: approach and force of a rigid indenter over time."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _LEAST_ROWS = 5
 
 @dataclass(frozen=True, eq=False)
 class IndentationRecord(Displayable):
-    """Approach and force of a rigid indenter over time, from before the first contact on.
+    """Approach and force of a rigid indenter over time, starting before first contact.
 
     Parameters
     ----------
@@ -83,7 +83,7 @@ class IndentationRecord(Displayable):
 
     @property
     def profile(self) -> SphereProfile | ConeProfile | PunchProfile:
-        """The indenter as the exact solution takes it."""
+        """Indenter profile of the exact solution."""
         match self.indenter:
             case Sphere(radius=radius):
                 return SphereProfile(radius)

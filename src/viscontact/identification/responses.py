@@ -1,7 +1,8 @@
-"""How one exponential term shows in each kind of test: the columns of a linear fit.
+"""Responses of one exponential term to each kind of test: columns of a linear fit.
 
-A term of strength 1 and time τ answers a creep test with 1 - exp(-t/τ), a relaxation test with
-exp(-t/τ), and an oscillation with a²/(1 + a²) in phase and a/(1 + a²) out of phase, a = ωτ.
+A term of strength 1 and time τ responds to a creep test with 1 - exp(-t/τ), to a relaxation test
+with exp(-t/τ), and to an oscillation with a²/(1 + a²) in phase and a/(1 + a²) out of phase, a = ωτ.
+
 """
 
 from __future__ import annotations
@@ -16,34 +17,26 @@ Array = NDArray[np.float64]
 
 
 class Response(Protocol):
-    """One kind of test at the instants or frequencies where it was measured."""
+    """One kind of test at its measured times or frequencies."""
 
     @property
     def constants(self) -> Array:
-        """Columns, shape (rows, m), of what has no time of its own."""
+        """Columns of the constants: instant and flow, or equilibrium modulus; shape (rows, m)."""
 
     @property
     def reach(self) -> tuple[float, float]:
-        """Shortest and longest time of a term that would show in the test [s]."""
+        """Shortest and longest detectable time of a term [s]."""
 
     def terms(self, times: Array) -> Array:
         """Columns, shape (rows, n), of terms of strength 1 with these times [s]."""
 
     def slopes(self, times: Array) -> Array:
-        """Change of each of these columns per change of ln τ."""
+        """Derivatives of these columns with respect to ln τ."""
 
 
 @dataclass(frozen=True, eq=False)
 class CreepResponse:
-    """Creep under a held stress: J_0 + sum J_i (1 - exp(-t/τ_i)) + φ t.
-
-    Parameters
-    ----------
-    times : ndarray, shape (rows,)
-        Instants [s].
-    fluid : bool
-        Whether there is a term of steady flow.
-    """
+    """Creep at times [s] under constant stress: J_0 + sum J_i (1 - exp(-t/τ_i)) + φ t (fluid)."""
 
     times: Array
     fluid: bool
@@ -56,7 +49,7 @@ class CreepResponse:
 
     @property
     def reach(self) -> tuple[float, float]:
-        """Shortest and longest time of a term that would show [s]."""
+        """Shortest and longest detectable time of a term [s]."""
         first, last = _span(self.times)
         return first / 3, 3 * last
 
@@ -72,29 +65,21 @@ class CreepResponse:
 
 @dataclass(frozen=True, eq=False)
 class RelaxationResponse:
-    """Relaxation under a held strain: G_inf + sum G_i exp(-t/τ_i).
-
-    Parameters
-    ----------
-    times : ndarray, shape (rows,)
-        Instants [s].
-    fluid : bool
-        Whether everything relaxes: no G_inf.
-    """
+    """Relaxation at times [s] under constant strain: G_inf (0: fluid) + sum G_i exp(-t/τ_i)."""
 
     times: Array
     fluid: bool
 
     @property
     def constants(self) -> Array:
-        """Column of the modulus that stays; none for a fluid."""
+        """Column of the equilibrium modulus; none for a fluid."""
         return np.ones((self.times.size, 0 if self.fluid else 1))
 
     @property
     def reach(self) -> tuple[float, float]:
-        """Shortest and longest time of a term that would show [s]."""
+        """Shortest and longest detectable time of a term [s]."""
         first, last = _span(self.times)
-        # What relaxes far later is told from what stays only where nothing can stay.
+        # Late relaxation differs from an equilibrium modulus only where there is none.
         return first / 3, (30 if self.fluid else 3) * last
 
     def terms(self, times: Array) -> Array:
@@ -109,31 +94,23 @@ class RelaxationResponse:
 
 @dataclass(frozen=True, eq=False)
 class DynamicResponse:
-    """Steady oscillation: first the rows of G', then those of G''.
-
-    Parameters
-    ----------
-    angular_frequency : ndarray, shape (rows/2,)
-        Angular frequencies [rad/s].
-    fluid : bool
-        Whether everything relaxes: no G_inf.
-    """
+    """Oscillation at angular frequencies [rad/s]: rows of G', then of G''; fluid: no G_inf."""
 
     angular_frequency: Array
     fluid: bool
 
     @property
     def constants(self) -> Array:
-        """Column of the modulus that stays, in phase only; none for a fluid."""
+        """Column of the equilibrium modulus, in phase only; none for a fluid."""
         count = 0 if self.fluid else 1
         rows = self.angular_frequency.size
         return np.concatenate([np.ones((rows, count)), np.zeros((rows, count))])
 
     @property
     def reach(self) -> tuple[float, float]:
-        """Shortest and longest time of a term that would show [s]."""
+        """Shortest and longest detectable time of a term [s]."""
         lowest, highest = _span(self.angular_frequency)
-        # A term beyond either end still shows in the losses, which fall off as ωτ or 1/ωτ only.
+        # A term beyond either end still contributes to the losses, which decay as ωτ or 1/ωτ only.
         return 0.1 / highest, 10 / lowest
 
     def terms(self, times: Array) -> Array:

@@ -1,4 +1,4 @@
-"""A fitted law as the `material:` section of a case file."""
+"""The `material:` section of a case file for a fitted law."""
 
 from __future__ import annotations
 
@@ -23,17 +23,17 @@ _DIGITS = 6
 
 
 def material_section(fit: Fit | IndentationFit) -> str:
-    """Return the law of a fit as a section to paste in a case file.
+    """Return the law of a fit as a section to paste into a case file.
 
     Parameters
     ----------
     fit : Fit or IndentationFit
-        What `fit_creep`, `fit_relaxation`, `fit_dynamic` or `fit_indentation` returned.
+        From `fit_creep`, `fit_relaxation`, `fit_dynamic` or `fit_indentation`.
 
     Returns
     -------
     str
-        YAML, in the terms of the data and with six digits. Where the data say nothing of the
+        YAML, in the terms of the data and with six digits. Without data on the
         volume, a comment asks for it.
 
     Examples
@@ -63,7 +63,7 @@ def material_section(fit: Fit | IndentationFit) -> str:
 
 
 def _law(law: Law) -> list[str]:
-    """Return the lines of the law itself; the keys are the constructor's arguments."""
+    """Lines of the law itself; the keys are the constructor's arguments."""
     lines = [f"law: {_NAMES[type(law)]}"]
     for field in fields(law):
         value, write = getattr(law, field.name), _WRITTEN[field.name]
@@ -119,7 +119,7 @@ _NAMES: dict[type[Law], str] = {
     RelaxationSeries: "relaxation-series",
     Zener: "zener",
 }
-# What is 0 when it is left out.
+# Arguments that are 0 when left out.
 _OPTIONAL: dict[type[Law], tuple[str, ...]] = defaultdict(
     tuple, {CreepSeries: ("fluidity",), PowerLaw: ("instant",)}
 )

@@ -1,4 +1,4 @@
-"""The constants of WLF and of Arrhenius in measured shift factors."""
+"""Fit of WLF and Arrhenius rules to shift factors."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from viscontact.identification.columns import positive_column, require_rows
 from viscontact.laws import WLF, Arrhenius
 from viscontact.laws.time_temperature import GAS_CONSTANT
 
-# What a fit starts from: the universal constants, should nothing better be seen in the factors.
+# Starting values: the universal constants.
 _UNIVERSAL = (17.44, 51.6)
 _LARGEST_C2 = 1e5  # [K]; a rule this straight is one exponential at any temperature
 
 
 @dataclass(frozen=True)
 class ShiftFit:
-    """A rule fitted to shift factors.
+    """Rule fitted to shift factors.
 
     Attributes
     ----------
@@ -43,7 +43,7 @@ class ShiftFit:
 
 
 def fit_wlf(temperatures: ArrayLike, factors: ArrayLike, reference_temperature: float) -> ShiftFit:
-    """Return the WLF rule through a_T = 1 at the reference that fits shift factors best.
+    """Fit a WLF rule with a_T = 1 at the reference temperature to shift factors.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ def fit_wlf(temperatures: ArrayLike, factors: ArrayLike, reference_temperature: 
     Returns
     -------
     ShiftFit
-        The rule and what it misses.
+        The rule and its residuals.
 
     Raises
     ------
@@ -96,7 +96,7 @@ def fit_wlf(temperatures: ArrayLike, factors: ArrayLike, reference_temperature: 
 def fit_arrhenius(
     temperatures: ArrayLike, factors: ArrayLike, reference_temperature: float
 ) -> ShiftFit:
-    """Return the Arrhenius rule through a_T = 1 at the reference that fits factors best.
+    """Fit an Arrhenius rule with a_T = 1 at the reference temperature to shift factors.
 
     Parameters
     ----------
@@ -110,7 +110,7 @@ def fit_arrhenius(
     Returns
     -------
     ShiftFit
-        The rule and what it misses.
+        The rule and its residuals.
 
     Raises
     ------

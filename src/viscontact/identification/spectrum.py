@@ -1,11 +1,10 @@
-"""The fewest exponential terms that say what measured values say.
+"""Parsimonious spectrum: the fewest exponential terms that fit measured values.
 
-First the best that any number of terms can do: non-negative least squares over a dense row of
-candidate times, which is convex and needs no starting values. Its few non-zero strengths sit in
-clusters of neighbours, since the true times lie between the candidates. So neighbours are
-merged, and the times that remain are moved to where they fit best: a bounded least squares in
-ln τ alone, since for given times the strengths are again non-negative least squares (variable
-projection, [1]_).
+The first step is the best fit with any number of terms: non-negative least squares over a dense
+series of candidate times, which is convex and needs no starting values. Its few non-zero strengths
+form clusters of neighbours, since the true times lie between the candidates. So neighbours are
+merged, and the remaining times are optimised: a bounded least squares in ln τ alone, since for
+given times the strengths are again non-negative least squares (variable projection, [1]_).
 
 References
 ----------
@@ -13,6 +12,7 @@ References
    (1975) 49-57, whose shorter Jacobian is used.
 .. [2] M. Baumgaertel, H. H. Winter, J. Non-Newton. Fluid Mech. 44 (1992) 15-36: parsimonious
    spectra.
+
 """
 
 from __future__ import annotations
@@ -27,38 +27,28 @@ from viscontact.identification.responses import Response
 
 Array = NDArray[np.float64]
 
-# Ten a decade: the best sum of terms at other times is met to far below any measurement.
+# Ten per decade: fits any other times to far below the scatter of a measurement.
 _CANDIDATES_PER_DECADE = 10
-# While the number of terms is sought, a descent ends where a step gains less than this; the
-# number found is then descended to the bottom.
+# Relative gain at which a descent ends: while the number of terms is sought, and finally.
 _COARSE, _FINE = 1e-4, 1e-12
-_FEW = 8  # terms up to which a second start is worth its time
+_FEW = 8  # terms up to which a second start is tried
+_WEIGHT_ITERATIONS, _LARGEST_WEIGHT_RATIO = 3, 30.0
 
 
 @dataclass(frozen=True, eq=False)
 class Observed:
-    """Measured values, and how much each of them counts.
-
-    Parameters
-    ----------
-    response : Response
-        The kind of test, and where it was measured.
-    values : ndarray, shape (rows,)
-        Positive values; residuals are relative to them.
-    weights : ndarray, shape (rows,)
-        What the relative residuals are multiplied with [-].
-    """
+    """Positive measured values and the weights of their relative residuals, shape (rows,)."""
 
     response: Response
     values: Array
     weights: Array
 
     def relative(self, rows: Array) -> Array:
-        """Return columns of rows as shares of the measured values, weighted."""
+        """Rows relative to the measured values, weighted."""
         return rows * (self.weights / self.values)[:, None]
 
     def columns(self, times: Array) -> Array:
-        """Return the columns of the linear fit: what has no time, then the terms."""
+        """Columns of the linear fit: the constants, then the terms."""
         return self.relative(
             np.concatenate([self.response.constants, self.response.terms(times)], axis=1)
         )
@@ -66,40 +56,43 @@ class Observed:
 
 @dataclass(frozen=True, eq=False)
 class Spectrum:
-    """Strengths and times of a sum of exponential terms, and how well it fits.
+    """Strengths and times of a sum of exponential terms, and its residual."""
 
-    Attributes
-    ----------
-    constants : ndarray
-        Strengths of the columns without a time: instant and flow, or what stays.
-    strengths, times : ndarray, shape (n,)
-        Strengths > 0 and times ascending [s].
-    residual : float
-        Root mean square of the weighted relative residuals [-].
-    """
-
-    constants: Array
+    constants: Array  # strengths of the columns without a time: instant and flow, or equilibrium
+    # strengths > 0 and times ascending [s], shape (n,)
     strengths: Array
     times: Array
-    residual: float
+    residual: float  # root mean square of the weighted relative residuals [-]
+
+
+def unweighted(response: Response, values: Array) -> Observed:
+    """Measured values with equal weights: each row counts by its relative residual."""
+    return Observed(response, values, np.ones_like(values))
+
+
+def scatter_weighted(observed: Observed, tolerance: float) -> Observed:
+    """Weights of storage and loss rows by the inverse of their scatter, root mean square 1.
+
+    Feasible weighted least squares, iterated: the scatter is estimated from a fit with the previous
+    weights. Scatter below `tolerance` [-] is not distinguished.
+    """
+    for _ in range(_WEIGHT_ITERATIONS):
+        dense = dense_spectrum(observed)
+        strengths = np.concatenate([dense.constants, dense.strengths])
+        relative = observed.columns(dense.times) @ strengths / observed.weights - 1.0
+        scatter = np.sqrt(np.mean(relative.reshape(2, -1) ** 2, axis=1))
+        # Limits: scatter within the tolerance is equal, and no column loses its weight.
+        scatter = np.maximum(scatter, max(tolerance, scatter.max() / _LARGEST_WEIGHT_RATIO, 1e-12))
+        weights = np.repeat(1 / scatter, relative.size // 2)
+        weights /= np.sqrt(np.mean(weights**2))
+        observed = Observed(observed.response, observed.values, weights)
+    return observed
 
 
 def parsimonious_spectrum(observed: Observed, *, excess: float, tolerance: float) -> Spectrum:
-    """Return the spectrum of fewest terms that fits about as well as any can.
+    """Spectrum of fewest terms with a residual within `excess` times that of the dense fit.
 
-    Parameters
-    ----------
-    observed : Observed
-        The measured values, the kind of test, and how much each row counts.
-    excess : float
-        How many times the residual of the dense fit is accepted, above 1.
-    tolerance : float
-        A relative residual that is good enough whatever the dense fit reaches.
-
-    Returns
-    -------
-    Spectrum
-        The one with fewest terms whose residual is at most the larger of the two.
+    A relative residual up to `tolerance` is accepted in any case.
     """
     dense = dense_spectrum(observed)
     enough = max(excess * dense.residual, tolerance)
@@ -118,38 +111,17 @@ def parsimonious_spectrum(observed: Observed, *, excess: float, tolerance: float
 
 
 def dense_spectrum(observed: Observed) -> Spectrum:
-    """Return the best fit by a dense row of fixed times.
-
-    Parameters
-    ----------
-    observed
-        As in `parsimonious_spectrum`.
-
-    Returns
-    -------
-    Spectrum
-        Only what has a strength.
-    """
+    """Non-negative least-squares fit over a dense series of fixed times."""
     first, last = observed.response.reach
     count = 1 + round(_CANDIDATES_PER_DECADE * np.log10(last / first))
     return _strengths(observed, np.geomspace(first, last, max(count, 3)))[0]
 
 
 def spectrum_of(observed: Observed, count: int) -> Spectrum:
-    """Return the best fit found with so many terms.
+    """Best fit found with at most `count` terms.
 
-    Parameters
-    ----------
-    observed
-        As in `parsimonious_spectrum`.
-    count : int
-        How many terms, at most: one that gets no strength is left out.
-
-    Returns
-    -------
-    Spectrum
-        Where the merged neighbours of the dense fit descend to; for few terms the better of
-        this and a descent from times spread evenly over the span of the data.
+    It descends from the merged neighbours of the dense fit; for few terms also from times spread
+    evenly over the span of the data.
     """
     near = _near(observed, count, dense_spectrum(observed))
     return _descended(observed, np.log(near.times), _FINE)
@@ -160,7 +132,7 @@ def _near(observed: Observed, count: int, dense: Spectrum) -> Spectrum:
     starts = []
     if count <= dense.times.size:
         starts.append(_merged_neighbours(observed, dense, count))
-    if not starts or count <= _FEW:  # few terms can be caught in a wrong order of the clusters
+    if not starts or count <= _FEW:  # few terms may end in a local minimum
         starts.append(lowest + (highest - lowest) * (np.arange(count) + 0.5) / max(count, 1))
     found = [_descended(observed, start, _COARSE) for start in starts]
     return min(found, key=lambda spectrum: spectrum.residual)
@@ -184,7 +156,7 @@ def _descended(observed: Observed, start: Array, gain: float) -> Spectrum:
 
 
 def _strengths(observed: Observed, times: Array) -> tuple[Spectrum, Array]:
-    """Return the non-negative strengths that fit best at given times, and the residuals."""
+    """Spectrum of the best non-negative strengths at given times, and the residuals."""
     columns = observed.columns(times)
     lengths = np.maximum(np.linalg.norm(columns, axis=0), np.finfo(np.float64).tiny)
     # NNLS refuses a matrix without columns, which is a fluid without terms.
@@ -197,7 +169,7 @@ def _strengths(observed: Observed, times: Array) -> tuple[Spectrum, Array]:
 
 
 def _jacobian(observed: Observed, log_times: Array) -> Array:
-    """Return Kaufman's Jacobian: what moving a time does that no change of strengths can undo."""
+    """Kaufman's Jacobian: the effect of moving a time, orthogonal to that of the strengths."""
     times = np.exp(log_times)
     spectrum, _ = _strengths(observed, times)
     present = np.isin(times, spectrum.times)
@@ -210,10 +182,10 @@ def _jacobian(observed: Observed, log_times: Array) -> Array:
 
 
 def _merged_neighbours(observed: Observed, dense: Spectrum, count: int) -> Array:
-    """Return ln τ of the dense fit's terms, neighbours merged until so many are left.
+    """Logarithms ln τ of the dense fit's terms, neighbours merged until `count` are left.
 
-    Merged first are those whose merging displaces least, after Ward: w1 w2/(w1 + w2) times the
-    squared distance, where a weight is what the term contributes to the fit.
+    Ward's criterion: the pair with the least w1 w2/(w1 + w2) times the squared distance is merged
+    first, where a weight is the contribution of the term to the fit.
     """
     shown = observed.relative(observed.response.terms(dense.times) * dense.strengths)
     weights, places = list(np.linalg.norm(shown, axis=0)), list(np.log(dense.times))
