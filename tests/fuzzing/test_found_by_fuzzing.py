@@ -20,7 +20,7 @@ from viscontact.materials.cards import read_card
 from viscontact.runs import preparation
 from viscontact.runs.forecast import forecast
 from viscontact.simulation.setup import prepare_run
-from viscontact.time_integration.fixed_steps import MAX_STEPS, FixedSteps
+from viscontact.time_integration.fixed_steps import MAX_STEPS, plan_steps
 from viscontact.units.parsing import parse_quantity
 
 #: Each of these took minutes, or would have taken hours; now they take tenths of a second [s].
@@ -171,14 +171,14 @@ def test_name_that_no_file_can_have_is_refused(tmp_path: Path) -> None:
 def test_swings_of_millions_of_steps_are_refused() -> None:
     load = vc.harmonic(mean=2.0, amplitude=1.0, period=1.0, cycles=100_000)
     with pytest.raises(ValueError, match="fewer cycles"):
-        FixedSteps(np.array([0.0, 1e5]), load)
+        plan_steps(np.array([0.0, 1e5]), load)
     # A run that ends within them takes only those up to its end.
-    assert len(FixedSteps(np.array([0.0, 2.0]), load).steps) < MAX_STEPS / 1000
+    assert len(plan_steps(np.array([0.0, 2.0]), load)) < MAX_STEPS / 1000
 
 
 def test_steps_over_a_hundred_decades_are_refused() -> None:
     with pytest.raises(ValueError, match="decades"):
-        FixedSteps(np.array([1e-60, 1.0]), vc.step(1.0))
+        plan_steps(np.array([1e-60, 1.0]), vc.step(1.0))
 
 
 @pytest.mark.parametrize("place", [0.0, "wandering"])

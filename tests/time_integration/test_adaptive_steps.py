@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from viscontact.loads import ForceHistory, harmonic, ramp, step
 from viscontact.materials.compliance import SeriesCompliance
 from viscontact.time_integration.adaptive_steps import AdaptiveSteps
-from viscontact.time_integration.fixed_steps import FixedSteps
+from viscontact.time_integration.fixed_steps import FixedSteps, plan_steps
 from viscontact.time_integration.requested_times import adaptive_times
 
 KELVIN = SeriesCompliance(1.0, [1.0], [2.0])
@@ -128,7 +128,7 @@ def test_bad_tolerance_is_refused(tolerance):
 
 
 def test_fixed_steps_are_taken_whatever_error_they_make():
-    steps = FixedSteps(np.array([0.0, 1.0, 2.0]), step(1.0))
+    steps = FixedSteps(plan_steps(np.array([0.0, 1.0, 2.0]), step(1.0)))
     taken, refused = walk(steps, lambda each: 1e9)
     assert [each.time for each in taken] == [0.0, 1.0, 2.0]
     assert refused == 0

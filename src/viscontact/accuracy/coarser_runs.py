@@ -17,7 +17,7 @@ from viscontact.materials.compliance import ContactCompliance
 from viscontact.simulation.march import March
 from viscontact.simulation.setup import RunSetup
 from viscontact.state import ContactState
-from viscontact.time_integration.fixed_steps import FixedSteps
+from viscontact.time_integration.fixed_steps import plan_steps, step_ends
 from viscontact.time_integration.plan import plan_hereditary_integral
 
 #: Cells of the companions, in cells of the run, and whether they lie about the origin as the run's
@@ -99,13 +99,13 @@ def plan_coarser_runs(run: RunSetup, history: History) -> Iterator[CoarserRun]:
         out, and the bodies creep, one more with halved steps on the coarsest grid.
     """
     times = history["time"]
-    paces = _paces(len(FixedSteps(times, run.load).steps))
+    paces = _paces(len(plan_steps(times, run.load)))
     spacings = _spacings(float(history["cells_across"].max(initial=0.0)))
     for (spacing, alike), step_ratio in zip(reversed(spacings), reversed(paces), strict=True):
         kept = times[::-1][::step_ratio][::-1]
         yield _coarser_run(run, spacing, alike, float(step_ratio), kept)
     if paces[-1] == 1 and _creeps(run.compliance, times):
-        instants = np.unique(np.append(0.0, FixedSteps(times, run.load).instants))
+        instants = np.unique([0.0, *(step.time for step in plan_steps(times, run.load))])
         middles = (instants[1:] + instants[:-1]) / 2
         yield _coarser_run(run, *spacings[-1], 0.5, np.union1d(times, middles))
 
@@ -257,7 +257,7 @@ def _coarser_run(
     load = run.load if step_ratio <= 1 else LongerStepsLoad(run.load, step_ratio)
     coarse = replace(run.on(grid), times=times, load=load, adaptive=None, automatic=None)
     numbers = 2 * coarse.open_gap.size // 2 ** sum(coarse.mirrored)
-    memory = plan_hereditary_integral(run.compliance, FixedSteps(times, load).instants, numbers)
+    memory = plan_hereditary_integral(run.compliance, step_ends(plan_steps(times, load)), numbers)
     return CoarserRun(spacing, step_ratio, replace(coarse, memory=memory))
 
 

@@ -25,7 +25,7 @@ from viscontact.checks.steps import release_warnings, touch_warnings
 from viscontact.materials.material import Material
 from viscontact.meshing.elastic_estimate import ContactEstimate
 from viscontact.simulation.setup import RunSetup
-from viscontact.time_integration.fixed_steps import FixedSteps
+from viscontact.time_integration.fixed_steps import plan_steps
 
 #: So many of a run's first instants are looked at for a load that comes before the data do.
 FIRST_INSTANTS = 200
@@ -116,7 +116,7 @@ def _step_warnings(run: RunSetup) -> dict[str, str]:
     if run.adaptive is not None or run.compliance(end) == run.compliance.instant:
         return {}
     warnings: dict[str, str] = {}
-    steps = FixedSteps(run.times, load).steps
+    steps = plan_steps(run.times, load)
     times = np.array([step.time for step in steps])
     before_jumps = np.array([step.before_jump for step in steps])
     # All at once: a load at a hundred thousand instants one by one takes seconds.

@@ -10,7 +10,7 @@ from viscontact.materials.compliance import SeriesCompliance
 from viscontact.materials.material import Material
 from viscontact.simulation.setup import RunSetup
 from viscontact.time_integration.adaptive_steps import estimated_steps
-from viscontact.time_integration.fixed_steps import FixedSteps
+from viscontact.time_integration.fixed_steps import plan_steps
 
 #: Bytes of the program itself, and arrays of the grid's size that a run holds at a time and writes,
 #: both measured, of a body without mirror images; two arrays more for each term of the law. The
@@ -43,7 +43,7 @@ def step_count(run: RunSetup) -> float:
         A run that has been checked; where it chooses its steps, those that are likely.
     """
     if run.adaptive is None:
-        return float(len(FixedSteps(run.times, run.load).steps))
+        return float(len(plan_steps(run.times, run.load)))
     return estimated_steps(run.adaptive, run.load, run.compliance)
 
 

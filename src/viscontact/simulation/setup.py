@@ -26,7 +26,7 @@ from viscontact.materials.compliance import ContactCompliance
 from viscontact.materials.material import Material
 from viscontact.meshing.mesh_choice import Mesh, choose_mesh
 from viscontact.time_integration.adaptive_steps import AdaptiveSteps, estimated_steps
-from viscontact.time_integration.fixed_steps import FixedSteps
+from viscontact.time_integration.fixed_steps import FixedSteps, plan_steps, step_ends
 from viscontact.time_integration.plan import HereditaryPlan, plan_hereditary_integral
 from viscontact.time_integration.requested_times import AdaptiveTimes
 from viscontact.time_integration.run_times import field_instants, run_instants
@@ -121,7 +121,7 @@ class RunSetup:
     def steps(self) -> Steps:
         """The run's steps from the start."""
         if self.adaptive is None:
-            return FixedSteps(self.times, self.load)
+            return FixedSteps(plan_steps(self.times, self.load))
         return AdaptiveSteps(self.adaptive, self.times, self.load, self.compliance)
 
 
@@ -241,7 +241,7 @@ def _hereditary_plan(
     # Pressure and deflection are remembered, of all cells that are worked with.
     numbers = 2 * open_gap.size // 2 ** sum(_mirrored(open_gap, load, grid))
     if adaptive is None:
-        return plan_hereditary_integral(compliance, FixedSteps(instants, load).instants, numbers)
+        return plan_hereditary_integral(compliance, step_ends(plan_steps(instants, load)), numbers)
     # The steps are not known yet: as if there were many, over all decades that may count.
     count = max(
         ADAPTIVE_STEPS, round(STEP_COUNT_SAFETY * estimated_steps(adaptive, load, compliance))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -59,39 +59,54 @@ class Step:
         return "left" if self.before_jump else "right"
 
 
-class FixedSteps:
-    """Steps through given instants, and the load's own.
+def plan_steps(
+    times: NDArray[np.float64], load: LoadHistory, step_ratio: float = 1.0
+) -> tuple[Step, ...]:
+    """Plan steps through given times, and the load's own.
 
     Parameters
     ----------
     times : ndarray
-        Instants asked for, strictly increasing, none before 0 [s]. One that differs from a kink
+        Requested times, strictly increasing, none before 0 [s]. One that differs from a kink
         by rounding (a part in 1e9) is taken as the kink.
     load : LoadHistory
-        Its kinks and jumps up to the last instant are stepped, too, and intervals longer than it
+        Its kinks and jumps up to the last time are stepped, too, and intervals longer than it
         allows are divided.
+    step_ratio : float
+        Longest step, in longest steps that the load allows [-].
 
     Examples
     --------
     >>> import numpy as np
     >>> from viscontact.loads import ramp
-    >>> [step.time for step in FixedSteps(np.array([0.0, 2.0]), ramp(1.0, 0.5)).steps]
+    >>> [step.time for step in plan_steps(np.array([0.0, 2.0]), ramp(1.0, 0.5))]
     [0.0, 0.5, 2.0]
     """
+    wanted = _requested_ends(times, load, step_ratio * load.longest_step)
+    _refuse_endless_span(list(wanted))
+    return tuple(_steps(wanted, load))
 
-    def __init__(self, times: NDArray[np.float64], load: LoadHistory) -> None:
-        wanted = _step_ends(times, load)
-        _refuse_endless_span(list(wanted))
-        self.steps = list(_steps(wanted, load))
-        asked = [step.asked is not None for step in self.steps]
-        #: How many of the first steps end at instants asked for.
-        self._requested_counts = list(itertools.accumulate(asked, initial=0))
+
+def step_ends(steps: Iterable[Step]) -> NDArray[np.float64]:
+    """Return the ends of steps, a jump's twice [s]."""
+    return np.array([step.time for step in steps])
+
+
+class FixedSteps:
+    """Planned steps, taken one after the other.
+
+    Parameters
+    ----------
+    steps : tuple of Step
+        From `plan_steps`.
+    """
+
+    def __init__(self, steps: tuple[Step, ...]) -> None:
+        self._steps = steps
+        requested = [step.asked is not None for step in steps]
+        #: Number of requested times among the first steps.
+        self._requested_counts = list(itertools.accumulate(requested, initial=0))
         self._taken = 0
-
-    @property
-    def instants(self) -> NDArray[np.float64]:
-        """Ends of all steps, a jump's twice [s]."""
-        return np.array([step.time for step in self.steps])
 
     @property
     def left(self) -> int:
@@ -100,7 +115,7 @@ class FixedSteps:
 
     def next_step(self) -> Step | None:
         """The next step; None at the end."""
-        return self.steps[self._taken] if self._taken < len(self.steps) else None
+        return self._steps[self._taken] if self._taken < len(self._steps) else None
 
     def accept_step(self, error: float) -> bool:
         """Close the step; steps that are given are taken, whatever error they make."""
@@ -117,7 +132,9 @@ class FixedSteps:
         self._taken = restart_data["taken"]
 
 
-def _step_ends(times: NDArray[np.float64], load: LoadHistory) -> dict[float, float | None]:
+def _requested_ends(
+    times: NDArray[np.float64], load: LoadHistory, longest_step: float
+) -> dict[float, float | None]:
     """Where steps end, in order: the instant asked for there, or None."""
     stops = load.stops
     wanted: dict[float, float | None] = {}
@@ -126,7 +143,7 @@ def _step_ends(times: NDArray[np.float64], load: LoadHistory) -> dict[float, flo
     last = max(wanted)
     for stop in stops[stops <= last].tolist():
         wanted.setdefault(stop, None)
-    for divided in _divisions(sorted({0.0, *wanted}), load):
+    for divided in _divisions(sorted({0.0, *wanted}), load, longest_step):
         wanted[divided] = None
     return dict(sorted(wanted.items()))
 
@@ -143,21 +160,21 @@ def _refuse_endless_span(instants: list[float]) -> None:
         )
 
 
-def _divisions(instants: list[float], load: LoadHistory) -> Iterator[float]:
+def _divisions(instants: list[float], load: LoadHistory, longest_step: float) -> Iterator[float]:
     """Instants that divide intervals longer than the load allows, as long as it moves."""
-    if math.isinf(load.longest_step):
+    if math.isinf(longest_step):
         return
-    swings = min(instants[-1], float(load.kinks[-1])) / load.longest_step
+    swings = min(instants[-1], float(load.kinks[-1])) / longest_step
     if swings > MAX_STEPS:
         raise ValueError(
-            f"load: takes {swings:.3g} steps of {format_quantity(load.longest_step, 's', 3)} for "
+            f"load: takes {swings:.3g} steps of {format_quantity(longest_step, 's', 3)} for "
             f"its swings, and {MAX_STEPS} at most can be taken; give fewer cycles, or end the run "
             "earlier"
         )
     for begin, end in itertools.pairwise(instants):
         if end > load.kinks[-1]:
             return
-        parts = math.ceil((end - begin) / load.longest_step * (1 - KINK_TOLERANCE))
+        parts = math.ceil((end - begin) / longest_step * (1 - KINK_TOLERANCE))
         yield from np.linspace(begin, end, parts + 1)[1:-1].tolist()
 
 
