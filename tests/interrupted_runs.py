@@ -13,6 +13,7 @@ import xarray as xr
 import viscontact as vc
 from viscontact.cli import main
 from viscontact.cli.run import execution
+from viscontact.runs.directory import recorder
 
 #: The bodies of a case; load, time and grid are up to who uses them.
 BODIES = """\
@@ -77,15 +78,23 @@ def at_instant(number: int, act: Callable[[], None]) -> Callable[[], None]:
     return patched.undo
 
 
+def checkpoints_after_every_step(patched: pytest.MonkeyPatch) -> None:
+    """Let no time lie between two checkpoints."""
+    patched.setattr(recorder, "PAUSE", 0.0)
+    patched.setattr(recorder, "SHARE", 0.0)
+
+
 def kill(number: int, *words: str) -> None:
-    """Let a run end at an instant, as far as its directory is concerned, as if it were killed."""
+    """Let a run end as if it were killed at an instant, with a checkpoint after every step."""
 
     def die() -> None:
         raise Killed
 
     undo = at_instant(number, die)
-    with pytest.raises(Killed):
-        main(["run", "case.yaml", *words])
+    with pytest.MonkeyPatch.context() as patched:
+        checkpoints_after_every_step(patched)
+        with pytest.raises(Killed):
+            main(["run", "case.yaml", *words])
     undo()
 
 

@@ -27,7 +27,7 @@ from viscontact.cli.terminal import progress
 from viscontact.errors import ConvergenceError
 from viscontact.results.formatting import format_percent
 from viscontact.runs import resources
-from viscontact.runs.directory.step_log import StepLog
+from viscontact.runs.directory.progress_log import ProgressLog
 from viscontact.simulation import stepper
 from viscontact.simulation.setup import prepare_run
 from viscontact.units.formatting import format_quantity
@@ -377,7 +377,7 @@ def test_full_disk_stops_the_run_in_one_message(
     def full(*arguments: Any) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(StepLog, "append", full)
+    monkeypatch.setattr(ProgressLog, "append", full)
     assert main(["run", "case.yaml", "-q"]) == 1
     first, *rest = capsys.readouterr().err.splitlines()
     assert "No space left on device" in first

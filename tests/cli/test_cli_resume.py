@@ -30,7 +30,7 @@ from interrupted_runs import (
 from viscontact.cli import main
 from viscontact.cli.run import attempt, execution
 from viscontact.cli.terminal.interruption import watched_interruption
-from viscontact.runs.directory import recorder, restart_files
+from viscontact.runs.directory import recorder
 from viscontact.runs.directory.lock import locked
 from viscontact.runs.directory.recorder import RunRecord
 from viscontact.simulation import stepper
@@ -311,19 +311,19 @@ def test_second_request_within_a_step_stops_at_once(
 def test_second_request_within_a_checkpoint_waits_for_its_end(
     folder: Path, whole: xr.Dataset, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    save, whole_ones = restart_files.save_checkpoint, []
+    save, whole_ones = recorder.save_checkpoint, []
 
     def saving(path: Path, checkpoint: Any) -> None:
         if len(whole_ones) == 4:
             signal.raise_signal(signal.SIGINT)
             signal.raise_signal(signal.SIGINT)
         save(path, checkpoint)
-        whole_ones.append(checkpoint.steps)
+        whole_ones.append(checkpoint.lines)
 
     with monkeypatch.context() as patched:
         patched.setattr(recorder, "PAUSE", 0.0)
         patched.setattr(recorder, "SHARE", 0.0)
-        patched.setattr(restart_files, "save_checkpoint", saving)
+        patched.setattr(recorder, "save_checkpoint", saving)
         assert main(["run", "case.yaml", "-q"]) == 130
     assert len(whole_ones) == 5
     assert main(["run", "case.yaml", "-q", "--resume"]) == 0
@@ -362,7 +362,7 @@ def test_request_while_the_run_is_opened_leaves_nothing(
 def test_fault_that_comes_while_a_request_waits_is_told(
     folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    save, saved = restart_files.save_checkpoint, []
+    save, saved = recorder.save_checkpoint, []
 
     def failing(path: Path, checkpoint: Any) -> None:
         if len(saved) == 4:
@@ -370,11 +370,11 @@ def test_fault_that_comes_while_a_request_waits_is_told(
             signal.raise_signal(signal.SIGINT)
             raise OSError("no room")
         save(path, checkpoint)
-        saved.append(checkpoint.steps)
+        saved.append(checkpoint.lines)
 
     monkeypatch.setattr(recorder, "PAUSE", 0.0)
     monkeypatch.setattr(recorder, "SHARE", 0.0)
-    monkeypatch.setattr(restart_files, "save_checkpoint", failing)
+    monkeypatch.setattr(recorder, "save_checkpoint", failing)
     assert main(["run", "case.yaml", "-q"]) == 1
     assert "case: the run stopped: no room" in capsys.readouterr().err
 

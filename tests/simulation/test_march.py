@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import math
-from dataclasses import fields, replace
+from dataclasses import fields
 
 import numpy as np
 import pytest
@@ -137,31 +137,3 @@ def test_what_was_carried_is_what_is_carried_on(run: RunSetup) -> None:
     for _, _ in zip(march, range(8), strict=False):
         restart_data = through_a_file(march.restart_data())
         assert leaves(March(run, restart_data).restart_data()) == leaves(restart_data)
-
-
-def test_steps_solved_before_are_taken_again_to_the_same_bits(run: RunSetup) -> None:
-    whole = list(March(run))
-    for count in (1, len(whole) // 2, len(whole) - 1):
-        march = March(run)
-        repeated = [march.repeat(taken.solved) for taken in whole[:count]]
-        assert differing(whole[:count], repeated) == []
-        assert differing(whole[count:], list(march)) == []
-
-
-def test_step_of_another_run_is_refused(run: RunSetup) -> None:
-    march = March(run)
-    whole = list(March(run))
-    with pytest.raises(ValueError, match="is not the next one of this run"):
-        march.repeat(whole[-1].solved)
-
-
-def test_step_whose_error_this_run_does_not_allow_is_refused() -> None:
-    # Else what is remembered would be a step ahead of the time.
-    run = RUNS["adaptive swing"]()
-    march, whole = March(run), list(March(run))
-    for taken in whole[:-1]:
-        march.repeat(taken.solved)
-    last = whole[-1].solved
-    wrong = replace(last.solution, values=9 * last.solution.values)
-    with pytest.raises(ValueError, match="is not one that this run takes"):
-        march.repeat(replace(last, solution=wrong))

@@ -22,7 +22,7 @@ from viscontact.time_integration.requested_times import AdaptiveTimes
 from viscontact.units.formatting import format_quantity
 
 # What a run writes beside its case; names that begin with a dot are its own, too.
-_RUN_NAMES = ("case.yaml", "result.nc", "progress.jsonl", "state.npz", "steps.log")
+_RUN_NAMES = ("case.yaml", "result.nc", "progress.jsonl", "state.npz")
 
 
 @dataclass(frozen=True, eq=False)

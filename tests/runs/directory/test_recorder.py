@@ -28,11 +28,8 @@ from viscontact.runs.directory.checkpoint import (
 from viscontact.runs.directory.npz_archive import read_plain, write_plain
 from viscontact.runs.directory.recorded_run import PROGRESS_NAME, ChangedCaseError, Recorded
 from viscontact.runs.directory.recorder import RunRecord
-from viscontact.runs.directory.step_log import LOG_NAME, StepLog, logged_steps
 from viscontact.simulation import stepper
 from viscontact.simulation.setup import RunSetup, prepare_run
-from viscontact.simulation.solved_step import StepRecord
-from viscontact.state import Outcome
 
 COUNT = 12
 
@@ -65,8 +62,8 @@ def finish(record: RunRecord) -> None:
 
 def stop_after(record: RunRecord, instants: int) -> None:
     """March so far, then leave everything as a process that is killed would."""
-    for _ in record.steps():
-        if record.kept == instants:
+    for number, _ in enumerate(record.steps(), record.resumed.instants + 1):
+        if number == instants:
             break
     record.close()
 
@@ -152,73 +149,19 @@ def test_pickled_objects_are_never_loaded() -> None:
         read_plain(file)
 
 
-# --- log of steps -----------------------------------------------------------------------------
-
-
-def solved(number: int) -> StepRecord:
-    random = np.random.default_rng(number)
-    values, motion = random.random((2, 4, 3)), random.random(3)
-    solution = ContactSolution(
-        values, motion, random.random((4, 3)), 1e-7, number, 2, converged=True
-    )
-    return StepRecord(
-        number / 7, (0.5,) * number, solution, Outcome.CONVERGED, (0, 4, 0, 3), (4, 3)
-    )
-
-
-def test_log_cut_anywhere_gives_its_whole_steps(tmp_path: Path) -> None:
-    path = tmp_path / LOG_NAME
-    ends = []
-    with StepLog(path, "ours", 5) as log:
-        for number in (5, 6, 7):
-            log.append(solved(number))
-            ends.append(path.stat().st_size)
-    content = path.read_bytes()
-    # every byte of the head and around each end, and every seventh elsewhere
-    edges = {end + near for end in ends for near in range(-20, 30)} | set(range(100))
-    for end in sorted((edges | set(range(0, len(content), 7))) & set(range(len(content) + 1))):
-        path.write_bytes(content[:end])
-        times = [step.time for step in logged_steps(path, "ours", 5)]
-        assert times == [5 / 7, 6 / 7, 7 / 7][: sum(whole <= end for whole in ends)]
-
-
-def test_log_gives_steps_to_the_last_bit_and_only_those_wanted(tmp_path: Path) -> None:
-    path = tmp_path / LOG_NAME
-    with StepLog(path, "ours", 3) as log:
-        for number in range(3, 6):
-            log.append(solved(number))
-    fourth, fifth = logged_steps(path, "ours", 4)
-    assert (fourth.time, fifth.time, fifth.refused) == (4 / 7, 5 / 7, (0.5,) * 5)
-    for name in ("pressure", "deflection", "motion", "gap"):
-        assert fourth.plain()[name].tobytes() == solved(4).plain()[name].tobytes()
-    assert list(logged_steps(path, "ours", 2)) == []  # the step between is not there
-    assert list(logged_steps(path, "another run's", 3)) == []
-    assert list(logged_steps(tmp_path / "none", "ours", 3)) == []
-
-
-def test_log_damaged_anywhere_gives_the_steps_before(tmp_path: Path) -> None:
-    path = tmp_path / LOG_NAME
-    with StepLog(path, "ours", 0) as log:
-        log.append(solved(0))
-        begin = path.stat().st_size
-        log.append(solved(1))
-    content = path.read_bytes()
-    for position in (*range(begin, begin + 40), *range(begin + 40, len(content), 7)):
-        damaged = bytearray(content)
-        damaged[position] ^= 0xFF
-        path.write_bytes(damaged)
-        assert [step.time for step in logged_steps(path, "ours", 0)] == [0.0]
-
-
 # --- a run and its directory ------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("instants", [1, 2, 7, COUNT])
-def test_run_goes_on_to_the_same_bits(instants: int, recorded: Recorded, whole: Path) -> None:
+def test_run_goes_on_to_the_same_bits(
+    instants: int, recorded: Recorded, whole: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("viscontact.runs.directory.recorder.PAUSE", 0.0)
+    monkeypatch.setattr("viscontact.runs.directory.recorder.SHARE", 0.0)
     stop_after(RunRecord(recorded), instants)
     record = RunRecord.resume(recorded)
-    assert (record.resumed, record.kept, record.published) == (instants,) * 3
-    assert record.reached == recorded.run.times[instants - 1]
+    expected = (instants, recorded.run.times[instants - 1])
+    assert record.resumed == record.saved == record.shown == expected
     finish(record)
     assert same_bits(recorded.directory, whole)
     lines = [(each / PROGRESS_NAME).read_bytes() for each in (recorded.directory, whole)]
@@ -258,7 +201,7 @@ def test_what_a_checkpoint_saves_is_on_the_disk_in_an_order_that_a_power_cut_res
     record = RunRecord(recorded)
     lines = recorded.directory / PROGRESS_NAME
     for _ in record.steps():
-        if record.kept == 1:  # from here on the directory is this run's
+        if record.saved.instants == 1:  # from here on the directory is this run's
             events.clear()
             continue
         names = [name for name, *_ in events]
@@ -302,18 +245,29 @@ def test_course_of_a_finished_run_is_on_the_disk_before_its_state_is_gone(
     assert (course.st_ino, course.st_size) in flushed
 
 
-def test_steps_since_the_checkpoint_are_not_solved_again(
-    recorded: Recorded, monkeypatch: pytest.MonkeyPatch
+def test_run_that_is_killed_loses_the_steps_since_its_last_checkpoint_only(
+    recorded: Recorded, whole: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setattr("viscontact.runs.directory.recorder.PAUSE", 1e9)  # after the first step
     stop_after(RunRecord(recorded), 7)
-    # the first step's: the others came within its second
-    assert load_checkpoint(recorded.directory / STATE_NAME).steps < 7
+    assert len((recorded.directory / PROGRESS_NAME).read_bytes().splitlines()) == 7
+    record = RunRecord.resume(recorded)
+    assert record.resumed == record.saved == record.shown == (1, 0.0)
+    finish(record)
+    assert same_bits(recorded.directory, whole)
 
-    def solving(*arguments: Any, **options: Any) -> None:
-        raise AssertionError("solved again")
 
-    monkeypatch.setattr("viscontact.simulation.stepper.solve_contact", solving)
-    assert RunRecord.resume(recorded).resumed == 7
+def test_state_of_an_older_kind_is_refused_in_one_line(recorded: Recorded) -> None:
+    stop_after(RunRecord(recorded), 2)
+    path = recorded.directory / STATE_NAME
+    with path.open("rb") as file:
+        saved = read_plain(file)
+    with path.open("wb") as file:
+        write_plain(file, {**saved, "token": "0123", "steps": 2})
+    (recorded.directory / "steps.log").write_bytes(b"viscontact steps 1\n")
+    with pytest.raises(ValueError, match=r"another version of viscontact; .* --overwrite$") as told:
+        RunRecord.resume(recorded)
+    assert "\n" not in str(told.value)
 
 
 def test_first_step_that_fails_changes_nothing(
@@ -334,19 +288,6 @@ def test_first_step_that_fails_changes_nothing(
         list(record.steps())
     record.close()
     assert contents(recorded.directory) == before
-
-
-def test_log_of_another_run_is_not_taken_for_ones_own(
-    recorded: Recorded, whole: Path, tmp_path: Path
-) -> None:
-    (tmp_path / "other").mkdir()
-    other = Recorded(tmp_path / "other", sphere_run(0.2), [0.0, 1.0])
-    for each in (recorded, other):
-        stop_after(RunRecord(each), 5)
-    shutil.copy(other.directory / LOG_NAME, recorded.directory / LOG_NAME)
-    shutil.rmtree(other.directory)
-    finish(RunRecord.resume(recorded))
-    assert same_bits(recorded.directory, whole)
 
 
 def test_result_of_another_run_is_not_gone_on_with(recorded: Recorded, tmp_path: Path) -> None:
@@ -404,7 +345,7 @@ def test_hard_link_to_a_result_keeps_it_as_it_was(
     record = RunRecord(recorded)
     linked = recorded.directory / "snapshot.nc"
     for _ in record.steps():
-        if record.kept == 4:
+        if record.saved.instants == 4:
             linked.hardlink_to(recorded.directory / "result.nc")
             before = linked.read_bytes()
     record.finish()

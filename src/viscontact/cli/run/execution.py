@@ -21,7 +21,6 @@ from viscontact.runs.directory.checkpoint import STATE_NAME
 from viscontact.runs.directory.lock import DirectoryInUse, locked
 from viscontact.runs.directory.recorded_run import ChangedCaseError, remove_traces
 from viscontact.runs.directory.recorder import RunRecord, Undisturbed
-from viscontact.runs.directory.step_log import LOG_NAME
 from viscontact.runs.processes.job import Standing
 from viscontact.runs.processes.request import RunRequest
 from viscontact.units.formatting import format_quantity
@@ -105,8 +104,9 @@ def _taken_up(attempt: Attempt) -> RunRecord:
             f"{recorded.directory}: the run cannot go on: {error}",
             f"what it keeps is as it was; once that is mended: {attempt.request.resuming}",
         )
-    made = attempt.made(record.resumed, record.reached)
-    at = "" if record.reached is None else f", t = {format_quantity(record.reached, 's')}"
+    made = attempt.made(*record.resumed)
+    time = record.resumed.time
+    at = "" if time is None else f", t = {format_quantity(time, 's')}"
     attempt.say(f"{recorded.directory}: going on after {made}{'' if ', up to t =' in made else at}")
     return record
 
@@ -132,19 +132,21 @@ def _march(attempt: Attempt, record: RunRecord) -> None:
             is_whole = _is_marched_to_the_end(attempt, record)
     except (ConvergenceError, DomainError) as error:
         _publish(record)
-        # Going on would end in the same way.
-        remedy = "with that changed, run it again" + (" with --overwrite" if record.kept else "")
+        # A resumed run would end in the same way.
+        remedy = "with that changed, run it again" + (
+            " with --overwrite" if record.shown.instants else ""
+        )
         stop(*attempt.prepared.case.error(str(error)).problems, _kept(attempt, record), remedy)
     except (OSError, MemoryError) as error:
         _publish(record)
         why = f"{attempt.recorded.directory}: the run stopped: {str(error) or type(error).__name__}"
-        stop(why, _kept(attempt, record), f"once that is mended: {_remedy(attempt, record)}")
+        stop(why, _resumable(attempt, record), f"once that is mended: {_remedy(attempt, record)}")
     except KeyboardInterrupt:
         _publish(record)
         is_whole = False
     if not is_whole:
-        lines = ("interrupted", _kept(attempt, record), f"go on with: {_remedy(attempt, record)}")
-        stop(*lines, code=INTERRUPTED)
+        kept = _resumable(attempt, record)
+        stop("interrupted", kept, f"go on with: {_remedy(attempt, record)}", code=INTERRUPTED)
 
 
 def _is_marched_to_the_end(attempt: Attempt, record: RunRecord) -> bool:
@@ -152,7 +154,7 @@ def _is_marched_to_the_end(attempt: Attempt, record: RunRecord) -> bool:
     recorded = attempt.recorded
     run = recorded.run
     total = None if run.adaptive else len(run.times)
-    with shown_progress(total, record.resumed, quiet=attempt.request.quiet) as progress:
+    with shown_progress(total, record.resumed.instants, quiet=attempt.request.quiet) as progress:
         for state in record.steps(progress):
             is_last = state is not None and state.time >= run.times[-1]
             if attempt.interruption.requested and not is_last:
@@ -172,8 +174,7 @@ def _stop_if_asked(interruption: Interruption) -> None:
 
 
 def _publish(record: RunRecord) -> None:
-    # What is not in the result is in the log, and comes with the next attempt.
-    # And it stops already: nobody has to ask for that any more.
+    # The steps since the last checkpoint can be shown, but not resumed from within a step.
     with suppress(OSError, KeyboardInterrupt):
         record.publish()
 
@@ -182,25 +183,27 @@ def _kept(attempt: Attempt, record: RunRecord) -> str:
     directory = attempt.recorded.directory
     if _is_gone(attempt, record):
         return f"{directory} is not there any more, and what it kept has gone with it"
-    if not record.kept:
+    if not record.shown.instants:
         return f"{directory} keeps nothing yet: no instant was finished"
-    made = attempt.made(record.kept, record.reached)
-    late = ""
-    if record.published < record.kept:
-        late = f"; {RESULT_NAME} shows {record.published} of them until the run goes on"
-    return f"{directory} keeps {made}{late}"
+    return f"{directory} keeps {attempt.made(*record.shown)}"
+
+
+def _resumable(attempt: Attempt, record: RunRecord) -> str:
+    saved = record.saved.instants
+    lost = saved < record.shown.instants and not _is_gone(attempt, record)
+    return _kept(attempt, record) + (f"; the run goes on after {saved}" if lost else "")
 
 
 def _remedy(attempt: Attempt, record: RunRecord) -> str:
     """The command to type next; without a step there is nothing to go on from."""
-    keeps = record.kept and not _is_gone(attempt, record)
+    keeps = record.shown.instants and not _is_gone(attempt, record)
     return attempt.request.resuming if keeps else attempt.request.repeating
 
 
 def _is_gone(attempt: Attempt, record: RunRecord) -> bool:
-    """Whether somebody has removed or moved what is kept."""
-    files = (attempt.recorded.directory / name for name in (RESULT_NAME, STATE_NAME, LOG_NAME))
-    return record.kept > 0 and not any(file.exists() for file in files)
+    """Whether the directory has been removed or moved during the run."""
+    files = (attempt.recorded.directory / name for name in (RESULT_NAME, STATE_NAME))
+    return record.shown.instants > 0 and not any(file.exists() for file in files)
 
 
 def _say_finished(attempt: Attempt) -> None:

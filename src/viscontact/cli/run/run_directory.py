@@ -19,13 +19,12 @@ from viscontact.runs.directory.checkpoint import STATE_NAME, is_checkpoint
 from viscontact.runs.directory.lock import DirectoryInUse, locked
 from viscontact.runs.directory.progress_log import is_course
 from viscontact.runs.directory.recorded_run import PROGRESS_NAME
-from viscontact.runs.directory.step_log import LOG_NAME, is_step_log
 from viscontact.runs.directory.stored_result import stored_run
 
 #: What a run writes over without being asked, and what tells that a run has written it.
-_WRITTEN = {STATE_NAME: is_checkpoint, LOG_NAME: is_step_log, PROGRESS_NAME: is_course}
+_WRITTEN = {STATE_NAME: is_checkpoint, PROGRESS_NAME: is_course}
 
-_NAMES = (CASE_NAME, RESULT_NAME, STATE_NAME, LOG_NAME, PROGRESS_NAME)
+_NAMES = (CASE_NAME, RESULT_NAME, STATE_NAME, PROGRESS_NAME)
 
 
 def chosen_directory(case: Path, output: Path | None) -> Path:

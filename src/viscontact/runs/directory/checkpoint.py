@@ -24,10 +24,6 @@ class Checkpoint:
     ----------
     case : dict
         The run's description, which another run's must equal to go on from here.
-    token : str
-        What tells this start of the run from all others; its log of steps carries it too.
-    steps : int
-        Steps taken, inner ones included.
     lines : int
         Lines of the progress log.
     reached : float or None
@@ -43,8 +39,6 @@ class Checkpoint:
     """
 
     case: dict[str, Any]
-    token: str
-    steps: int
     lines: int
     reached: float | None
     result: RestartData
@@ -94,7 +88,7 @@ def is_checkpoint(path: Path) -> bool:
             outline = outline_of(file)
     except (OSError, ValueError):
         return False
-    return isinstance(outline, dict) and {"case", "token", "march"} <= set(outline)
+    return isinstance(outline, dict) and {"case", "march", "transforms"} <= set(outline)
 
 
 def load_checkpoint(path: Path) -> Checkpoint:
@@ -129,4 +123,4 @@ def load_checkpoint(path: Path) -> Checkpoint:
     try:
         return Checkpoint(**saved)
     except TypeError as error:
-        raise ValueError(f"{path}: holds something else than a run's state; {REMEDY}") from error
+        raise ValueError(f"{path}: was saved by another version of viscontact; {REMEDY}") from error

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import uuid
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
@@ -24,8 +23,7 @@ from viscontact.runs.directory.double_buffer import hidden_copies
 from viscontact.runs.directory.progress_log import ProgressLog
 from viscontact.runs.directory.result_spec import Contents
 from viscontact.runs.directory.result_validation import REMEDY
-from viscontact.runs.directory.result_writer import START, ResultWriter
-from viscontact.runs.directory.step_log import LOG_NAME, is_step_log
+from viscontact.runs.directory.result_writer import ResultWriter
 from viscontact.runs.directory.stored_result import stored_run
 from viscontact.simulation.march import March
 from viscontact.simulation.provenance import describe_run, run_attributes
@@ -113,18 +111,6 @@ class Recorded:
                 f"and to the last bit no others do: {error}; or start the run anew with --overwrite"
             ) from error
         return replace(self, run=replace(self.run, transforms=transforms))
-
-
-def new_state(recorded: Recorded) -> Checkpoint:
-    """Return the state of a run before its first step, under a token of its own.
-
-    Parameters
-    ----------
-    recorded : Recorded
-        The run.
-    """
-    token, transforms = uuid.uuid4().hex, recorded.run.transforms
-    return Checkpoint(recorded.case, token, 0, 0, None, dict(START), {}, transforms)
 
 
 def saved_state(recorded: Recorded) -> Checkpoint:
@@ -277,9 +263,8 @@ def remove_traces(directory: Path) -> None:
     directory : Path
         The run's.
     """
-    for name, is_ours in ((STATE_NAME, is_checkpoint), (LOG_NAME, is_step_log)):
-        if is_ours(directory / name):
-            (directory / name).unlink()
-        (directory / f".{name}.new").unlink(missing_ok=True)
+    if is_checkpoint(directory / STATE_NAME):
+        (directory / STATE_NAME).unlink()
+    (directory / f".{STATE_NAME}.new").unlink(missing_ok=True)
     for copy in hidden_copies(directory / RESULT_NAME):
         copy.unlink(missing_ok=True)
