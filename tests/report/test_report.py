@@ -24,7 +24,7 @@ from viscontact.notebook.html import as_script
 from viscontact.plot.pressure.rim_polygons import rim_curves
 from viscontact.report import report_page
 from viscontact.report.accuracy import accuracy_lines
-from viscontact.report.histories import answer_panels, load_panels
+from viscontact.report.histories import load_panels, response_panels
 from viscontact.report.inputs import inputs
 from viscontact.report.limits import notices
 from viscontact.report.map_data import map_data, section_csv, strides_of
@@ -184,7 +184,7 @@ def test_bands_are_the_errors_of_the_result(page: _Page) -> None:
 def test_a_peak_that_depends_on_the_mesh_is_marked() -> None:
     ds = _run(fields=False)
     ds["peak_pressure_error"][:] = np.inf
-    [panel] = [each for each in answer_panels(ds) if each["name"] == "peak_pressure"]
+    [panel] = [each for each in response_panels(ds) if each["name"] == "peak_pressure"]
     assert (set(panel["half"]), panel["mesh"]) == ({None}, True)
     assert re.search(r"the peak pressure [\d.]+ MPa \(depends on the mesh\)\.", headline(ds))
     assert "smaller cells give more" in dict(accuracy_lines(ds))["Depends on the mesh"]
@@ -235,9 +235,9 @@ def test_what_is_prescribed_is_the_load_and_the_rest_is_the_answer() -> None:
     motion = {"type": "HarmonicHistory", "control": "approach", "mean": 2e-6, "period": 2.0}
     moved = ds.assign_attrs(case=json.dumps(case | {"load": motion}))
     assert [each["name"] for each in load_panels(ds)] == ["force"]
-    assert "approach" in [each["name"] for each in answer_panels(ds)]
+    assert "approach" in [each["name"] for each in response_panels(ds)]
     assert [each["name"] for each in load_panels(moved)] == ["approach"]
-    assert "force" in [each["name"] for each in answer_panels(moved)]
+    assert "force" in [each["name"] for each in response_panels(moved)]
     assert ("mean", "2 µm") in [(each.name, each.value) for each in inputs(moved)]
 
 

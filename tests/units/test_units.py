@@ -15,7 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import viscontact
-from viscontact.results.rounding import is_rounding_tilt
+from viscontact.results.stated_errors import is_rounding_tilt
 from viscontact.units.dimensions import DIMENSIONS
 from viscontact.units.formatting import format_number, format_quantity, readable_unit
 from viscontact.units.parsing import parse_quantity

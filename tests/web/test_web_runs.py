@@ -90,7 +90,7 @@ def test_a_run_ends_in_the_numbers_of_the_command_line(client: TestClient, tmp_p
 
         # What is drawn while it is at work, in two parts.
         whole = strict(client.get(f"/api/runs/{run}/grown").text)
-        assert whole["peak_pressure"] == pressures
+        assert whole["scalars"]["peak_pressure"] == pressures
         assert whole["time"] == ds["time"].values.tolist()
     lines = (tmp_path / "page" / "runs" / run / "run" / "progress.jsonl").read_bytes()
     after = lines.index(b"\n") + 1

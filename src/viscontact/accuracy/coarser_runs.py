@@ -14,6 +14,7 @@ from viscontact.checks.singularities import is_sharp, strain_of, touches_end
 from viscontact.errors import ConvergenceError, DomainError
 from viscontact.grid import Grid
 from viscontact.materials.compliance import ContactCompliance
+from viscontact.results.variables import scalars_with_error
 from viscontact.simulation.march import March
 from viscontact.simulation.setup import RunSetup
 from viscontact.state import ContactState
@@ -213,24 +214,8 @@ def march_coarser_run(
     )
 
 
-#: What of a state tells how far it is off.
-SCALARS = (
-    "time",
-    "force",
-    "eccentricity_x",
-    "eccentricity_y",
-    "approach",
-    "tilt_x",
-    "tilt_y",
-    "contact_area",
-    "contact_length",
-    "contact_width",
-    "peak_pressure",
-    "mean_pressure",
-    "work",
-    "loss_per_cycle",
-    "cells_across",
-)
+#: Scalars of a state from which its errors are estimated.
+SCALARS = ("time", *scalars_with_error(), "cells_across")
 
 
 def history_of(states: Sequence[ContactState]) -> History:

@@ -12,24 +12,12 @@ from viscontact.notebook.card import Card
 from viscontact.notebook.svg_axes import Scale, linear, logarithmic
 from viscontact.notebook.svg_panel import ORANGE, Mark, panel
 from viscontact.results.formatting import format_scalar
-from viscontact.results.rounding import is_rounding_tilt
-from viscontact.results.stated_errors import errors_of
+from viscontact.results.stated_errors import errors_of, is_centred
 from viscontact.results.summary import headline
+from viscontact.results.variables import Place, labels_in
 from viscontact.units.formatting import format_quantity
 
 Floats = NDArray[np.float64]
-
-_ROWS = {
-    "force": "force",
-    "contact_area": "contact area",
-    "contact_length": "contact length",
-    "contact_width": "contact width",
-    "approach": "approach",
-    "tilt_x": "tilt along x",
-    "tilt_y": "tilt along y",
-    "peak_pressure": "peak pressure",
-    "mean_pressure": "mean pressure",
-}
 
 #: A contact no longer along y than so many times its extent along x is round, but for a cell.
 ROUND = 1.05
@@ -43,7 +31,8 @@ def result_card(ds: xr.Dataset) -> Card:
     ds : xarray.Dataset
         What ``simulate`` or ``open_results`` returned; of any other dataset it says so.
     """
-    missing = [name for name in ("time", *_ROWS) if name not in ds.variables]
+    labels = labels_in(Place.CARD)
+    missing = [name for name in ("time", *labels) if name not in ds.variables]
     if missing:
         lead = f"It has no {missing[0]}; simulate and open_results make results."
         return Card("No result of viscontact", [], lead=lead)
@@ -54,19 +43,15 @@ def result_card(ds: xr.Dataset) -> Card:
     shown = sorted({0, int(ds["contact_area"].values.argmax()), last})
     heads = tuple(f"t = {format_quantity(float(ds['time'][k]), 's')}" for k in shown)
     rows = [
-        (name, *(format_scalar(ds, key, k) for k in shown))
-        for key, name in _ROWS.items()
-        if not (key.startswith("tilt") and _is_idle(ds, key))
+        (label.lower(), *(format_scalar(ds, name, k) for k in shown))
+        for name, label in labels.items()
+        if not is_centred(ds, name)
     ]
     return Card(_title(ds), [*rows, *_warnings(ds)], _drawings(ds), heads, headline(ds))
 
 
 def _title(ds: xr.Dataset) -> str:
     return str(ds.attrs.get("title") or "Result of viscontact")
-
-
-def _is_idle(ds: xr.Dataset, tilt: str) -> bool:
-    return is_rounding_tilt(ds[tilt].values, ds["contact_length"].values, ds["approach"].values)
 
 
 def _warnings(ds: xr.Dataset) -> list[tuple[str, str]]:

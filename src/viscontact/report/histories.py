@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -14,9 +13,8 @@ from viscontact.plot.histories.time_axis import suits_log_time
 from viscontact.report.map_data import rounded
 from viscontact.results.formatting import format_with_error
 from viscontact.results.recorded_case import prescribes_approach
-from viscontact.results.rounding import is_rounding_tilt
-from viscontact.results.stated_errors import MESH_DEPENDENT, errors_of
-from viscontact.results.variables import SCALARS
+from viscontact.results.stated_errors import MESH_DEPENDENT, errors_of, is_centred
+from viscontact.results.variables import SCALARS, Place, shown_in
 from viscontact.units.formatting import format_compact, format_quantity, readable_unit
 
 Floats = NDArray[np.float64]
@@ -30,29 +28,6 @@ _SPAN, _SIZE = 1.0, 0.5
 _BEFORE = 0.5
 #: Below this ratio of last to first step there is nothing to spread.
 _LEAST_RATIO = 30.0
-
-
-@dataclass(frozen=True)
-class _Quantity:
-    name: str
-    label: str
-
-
-_FORCE, _APPROACH = _Quantity("force", "Force"), _Quantity("approach", "Approach")
-_LOAD = (
-    _FORCE,
-    _Quantity("eccentricity_x", "Eccentricity along x"),
-    _Quantity("eccentricity_y", "Eccentricity along y"),
-)
-_ANSWERS = (
-    _Quantity("contact_area", "Contact area"),
-    _APPROACH,
-    _Quantity("tilt_x", "Tilt along x"),
-    _Quantity("tilt_y", "Tilt along y"),
-    _Quantity("peak_pressure", "Peak pressure"),
-    _Quantity("contact_length", "Contact length, along x"),
-    _Quantity("contact_width", "Contact width, along y"),
-)
 
 
 def time_axis(ds: xr.Dataset) -> dict[str, Any]:
@@ -89,55 +64,33 @@ def time_axis(ds: xr.Dataset) -> dict[str, Any]:
 
 
 def load_panels(ds: xr.Dataset) -> list[dict[str, Any]]:
-    """Return the load over time, a panel a quantity.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result.
-    """
-    return [_panel(ds, each) for each in _prescribed(ds)]
+    """The prescribed load over time, a panel for each scalar."""
+    return [_panel(ds, name) for name in _prescribed(ds)]
 
 
-def answer_panels(ds: xr.Dataset) -> list[dict[str, Any]]:
-    """Return what the contact answers over time, a panel a quantity; idle tilts are left out.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result.
-    """
-    return [_panel(ds, each) for each in _answered(ds)]
+def response_panels(ds: xr.Dataset) -> list[dict[str, Any]]:
+    """The contact's response over time, a panel for each scalar; idle tilts are left out."""
+    return [_panel(ds, name) for name in _response(ds)]
 
 
 def panel_labels(ds: xr.Dataset) -> tuple[dict[str, str], dict[str, str]]:
-    """Return names and labels of what `load_panels` and `answer_panels` show.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result.
-    """
-    load, answers = (
-        {each.name: each.label for each in shown} for shown in (_prescribed(ds), _answered(ds))
+    """Names and labels of `load_panels` and of `response_panels`."""
+    load, response = (
+        {name: SCALARS[name].label for name in shown} for shown in (_prescribed(ds), _response(ds))
     )
-    return load, answers
+    return load, response
 
 
-def _prescribed(ds: xr.Dataset) -> list[_Quantity]:
+def _prescribed(ds: xr.Dataset) -> list[str]:
     if prescribes_approach(ds):
-        return [_APPROACH]
-    return [each for each in _LOAD if each.name == "force" or _varies(ds, each.name)]
+        return ["approach"]
+    return [name for name in shown_in(Place.LOAD) if name == "force" or _varies(ds, name)]
 
 
-def _answered(ds: xr.Dataset) -> list[_Quantity]:
-    lengths, approaches = ds["contact_length"].values, ds["approach"].values
-    return [
-        _FORCE if each is _APPROACH and prescribes_approach(ds) else each
-        for each in _ANSWERS
-        if not each.name.startswith("tilt")
-        or not is_rounding_tilt(ds[each.name].values, lengths, approaches)
-    ]
+def _response(ds: xr.Dataset) -> list[str]:
+    answer = {"approach": "force"} if prescribes_approach(ds) else {}
+    shown = shown_in(Place.RESPONSE)
+    return [answer.get(name, name) for name in shown if not is_centred(ds, name)]
 
 
 def _varies(ds: xr.Dataset, name: str) -> bool:
@@ -145,13 +98,13 @@ def _varies(ds: xr.Dataset, name: str) -> bool:
     return bool(values.size and np.ptp(values) > max(1e-9, _CONSTANT * np.abs(values).max()))
 
 
-def _panel(ds: xr.Dataset, quantity: _Quantity) -> dict[str, Any]:
-    values = np.asarray(ds[quantity.name].values, dtype=np.float64)
-    units = SCALARS[quantity.name].units
-    unit, errors = readable_unit(units, values), errors_of(ds, quantity.name)
+def _panel(ds: xr.Dataset, name: str) -> dict[str, Any]:
+    values = np.asarray(ds[name].values, dtype=np.float64)
+    units = SCALARS[name].units
+    unit, errors = readable_unit(units, values), errors_of(ds, name)
     return {
-        "name": quantity.name,
-        "label": quantity.label,
+        "name": name,
+        "label": SCALARS[name].label,
         "unit": unit.symbol,
         "value": _or_none(unit(values)),
         "half": _or_none(unit(errors)),

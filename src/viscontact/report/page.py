@@ -15,7 +15,7 @@ from plotly.offline import get_plotlyjs
 from viscontact import __version__
 from viscontact.notebook.html import as_script, element, written
 from viscontact.report import input_chapters, result_chapters
-from viscontact.report.histories import answer_panels, load_panels, time_axis
+from viscontact.report.histories import load_panels, response_panels, time_axis
 from viscontact.report.map_data import map_data, section_data
 from viscontact.report.shown_fields import ShownFields, shown_fields
 
@@ -117,7 +117,7 @@ def _data(ds: xr.Dataset, fields: ShownFields | None) -> dict[str, Any]:
     return {
         "time": time_axis(ds),
         "load": load_panels(ds),
-        "answers": answer_panels(ds),
+        "answers": response_panels(ds),
         "map": None if fields is None else map_data(fields),
         "sections": [] if fields is None else [section_data(fields, way) for way in ("x", "y")],
     }

@@ -19,14 +19,9 @@ from viscontact.results.formatting import format_scalar
 from viscontact.results.history_csv import write_history
 from viscontact.results.stated_errors import MESH_DEPENDENT
 from viscontact.results.summary import headline
+from viscontact.results.variables import Place, labels_in
 from viscontact.units.formatting import format_quantity
 
-_FACTS = {
-    "contact_area": "Contact area",
-    "approach": "Approach",
-    "peak_pressure": "Peak pressure",
-    "mean_pressure": "Mean pressure",
-}
 _WAYS: tuple[tuple[Literal["x", "y"], str], ...] = (("x", "Along x"), ("y", "Across, along y"))
 
 
@@ -122,7 +117,7 @@ def history_chapter(
     axis : dict
         The axis of time, from `time_axis`.
     load, answers : list of dict
-        The panels, from `load_panels` and `answer_panels`.
+        The panels, from `load_panels` and `response_panels`.
     """
     button = element("button", "Show the other scale of time", type="button", id="time-scale")
     csv = io.StringIO()
@@ -155,7 +150,7 @@ def _facts(ds: xr.Dataset) -> Element:
                 element("dt", _unbroken(name + when)),
                 element("dd", _unbroken(format_scalar(ds, scalar, last))),
             )
-            for scalar, name in _FACTS.items()
+            for scalar, name in labels_in(Place.FACTS).items()
         ),
         class_="facts",
     )

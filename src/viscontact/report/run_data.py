@@ -18,7 +18,7 @@ from viscontact.report.result_chapters import title_of
 from viscontact.report.shown_fields import shown_fields
 from viscontact.results.stated_errors import errors_of
 from viscontact.results.summary import summary_scalars
-from viscontact.results.variables import SCALARS
+from viscontact.results.variables import SCALARS, Place, labels_in
 from viscontact.units.formatting import readable_unit
 
 
@@ -62,6 +62,7 @@ def run_data(ds: xr.Dataset) -> dict[str, Any]:
         "scalars": {name: _scalar(ds, name) for name in SCALARS if name in ds},
         "given": given,
         "answers": answers,
+        "facts": labels_in(Place.FACTS),
         "told": summary_scalars(ds),
         "map": _map(ds),
         "notices": notices(ds),

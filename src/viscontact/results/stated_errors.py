@@ -1,4 +1,4 @@
-"""What a result states of its own errors, and the words for a value that has no limit."""
+"""Errors that a result states of its scalars, and scalars that are rounding only."""
 
 from __future__ import annotations
 
@@ -6,13 +6,17 @@ from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from viscontact.results.variables import error_name
 
-#: Said of a value whose stated error is infinite, and why it is.
+#: Of a value whose stated error is infinite, and why it is.
 MESH_DEPENDENT = "depends on the mesh"
 WHY_MESH_DEPENDENT = "the number is the largest mean over a cell, and smaller cells give more"
+#: Exactly centred loads leave eccentricities of rounding size [m].
+_ROUNDING_ECCENTRICITY = 1e-12
+#: Of the approach: a tilt that moves the ends of the contact by less is rounding.
+_ROUNDING_TILT = 1e-6
 
 
 def stated_error(results: xr.Dataset, name: str) -> NDArray[np.float64] | None:
@@ -37,10 +41,8 @@ def stated_error(results: xr.Dataset, name: str) -> NDArray[np.float64] | None:
     >>> stated_error(run, "approach"), stated_error(run, "force")
     (array([1.e-07]), None)
     """
-    companion = error_name(name)
-    if companion not in results:
-        return None
-    return np.asarray(results[companion].values, dtype=np.float64)
+    error = error_name(name)
+    return np.asarray(results[error].values, dtype=np.float64) if error in results else None
 
 
 def errors_of(ds: xr.Dataset, name: str) -> NDArray[np.float64]:
@@ -130,3 +132,36 @@ def largest_error(ds: xr.Dataset, name: str) -> LargestError | None:
     half_width, largest = float(error[at]), float(np.abs(values[given]).max())
     part = half_width / largest if largest > 0 else (np.inf if half_width > 0 else 0.0)
     return LargestError(half_width, part, unknown, float(ds["time"][at]))
+
+
+def is_rounding(ds: xr.Dataset, name: str) -> bool:
+    """Whether a scalar is zero throughout, or a tilt or eccentricity of rounding size."""
+    if is_centred(ds, name):
+        return True
+    return _largest(ds[name].values) == 0.0
+
+
+def is_centred(ds: xr.Dataset, name: str) -> bool:
+    """Whether a scalar is a tilt or an eccentricity of rounding size, as a centred load leaves."""
+    if name.startswith("tilt"):
+        return is_rounding_tilt(ds[name].values, ds["contact_length"].values, ds["approach"].values)
+    return name.startswith("eccentricity") and _largest(ds[name].values) <= _ROUNDING_ECCENTRICITY
+
+
+def is_rounding_tilt(tilt: ArrayLike, contact_length: ArrayLike, approach: ArrayLike) -> bool:
+    """Whether a tilt [rad] is what a centred load leaves by rounding; NaN counts as nothing.
+
+    It then moves the ends of the longest contact [m] by less than a millionth of the largest
+    approach [m].
+
+    Examples
+    --------
+    >>> is_rounding_tilt([0.0, 1e-12], 5e-3, 1e-4), is_rounding_tilt([0.0, 1e-6], 5e-3, 1e-4)
+    (True, False)
+    """
+    return _largest(tilt) * _largest(contact_length) <= _ROUNDING_TILT * _largest(approach)
+
+
+def _largest(values: ArrayLike) -> float:
+    magnitudes = np.abs(np.atleast_1d(np.asarray(values, dtype=np.float64)))
+    return float(magnitudes[np.isfinite(magnitudes)].max(initial=0.0))

@@ -1,4 +1,4 @@
-"""What a run found, a row for each scalar: values with their errors, and the largest error."""
+"""Summary of a result: a row for each scalar, with its errors, and a headline."""
 
 from __future__ import annotations
 
@@ -15,18 +15,15 @@ from viscontact.results.formatting import (
     format_scalar,
     format_with_error_in,
 )
-from viscontact.results.rounding import is_rounding_tilt
-from viscontact.results.stated_errors import MESH_DEPENDENT, LargestError, errors_of, largest_error
-from viscontact.results.variables import SCALARS
-from viscontact.units.formatting import ReadableUnit, format_quantity, readable_unit
-
-_ROWS = (
-    *("force", "eccentricity_x", "eccentricity_y", "approach", "tilt_x", "tilt_y"),
-    *("contact_area", "contact_length", "contact_width", "peak_pressure", "mean_pressure", "work"),
-    "loss_per_cycle",
+from viscontact.results.stated_errors import (
+    MESH_DEPENDENT,
+    LargestError,
+    errors_of,
+    is_rounding,
+    largest_error,
 )
-#: Exactly centred loads leave eccentricities of rounding size [m].
-_ROUNDING = 1e-12
+from viscontact.results.variables import SCALARS, scalars_with_error
+from viscontact.units.formatting import ReadableUnit, format_quantity, readable_unit
 
 #: What the columns mean.
 LEGEND = (
@@ -82,17 +79,7 @@ class SummaryRow:
 
 
 def summary_rows(ds: xr.Dataset) -> list[SummaryRow]:
-    """Return what a run found.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result.
-
-    Returns
-    -------
-    list of SummaryRow
-        One for each scalar that is more than rounding.
+    """Rows of the summary: one for each scalar of a result that is more than rounding.
 
     Examples
     --------
@@ -107,14 +94,8 @@ def summary_rows(ds: xr.Dataset) -> list[SummaryRow]:
 
 
 def summary_scalars(ds: xr.Dataset) -> list[str]:
-    """Return which scalars of a result a table tells of: not those that are rounding.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result.
-    """
-    return [name for name in _ROWS if name in ds and not _is_rounding(ds, name)]
+    """Scalars of a result that have errors and are more than rounding."""
+    return [name for name in scalars_with_error() if name in ds and not is_rounding(ds, name)]
 
 
 def _row(ds: xr.Dataset, name: str) -> SummaryRow:
@@ -143,27 +124,8 @@ def _largest_error(found: LargestError | None, unit: ReadableUnit) -> tuple[str,
     return error, part, format_quantity(found.time, "s", 3) if found.part > NEGLIGIBLE else ""
 
 
-def _is_rounding(ds: xr.Dataset, name: str) -> bool:
-    values = np.asarray(ds[name].values, dtype=np.float64)
-    if name.startswith("tilt"):
-        return is_rounding_tilt(values, ds["contact_length"].values, ds["approach"].values)
-    largest = float(np.abs(values[np.isfinite(values)]).max(initial=0.0))
-    return largest <= (_ROUNDING if name.startswith("eccentricity") else 0.0)
-
-
 def headline(ds: xr.Dataset) -> str:
-    """Say in a sentence what a run found.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result.
-
-    Returns
-    -------
-    str
-        The contact at the last instant, or when it was largest if it is lost by then.
-    """
+    """The result in a sentence: the contact at the end, or when largest if it is lost by then."""
     instants, area = ds["time"].values, ds["contact_area"].values
     end = format_quantity(float(instants[-1]), "s")
     if not np.any(area > 0):

@@ -1,13 +1,40 @@
-"""What a result holds: its variables, their units and what they are."""
+"""The table of a result's variables: units, names, labels, errors, and where each is shown.
+
+A new scalar is one entry of `SCALARS`, with an attribute of the same name in `ContactState` and,
+if it has an error bar, its factors in `viscontact.accuracy.error_bars.TRUSTS`. The dataset, the
+netCDF and CSV files, the tables, cards, pages and figures read the table.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import Flag, auto
 from typing import Any
 
 import numpy as np
 
 from viscontact.state import Outcome
+
+
+class Place(Flag):
+    """Where a scalar is shown. The summary and the report's table list all that have an error."""
+
+    NOWHERE = 0
+    #: The history table of the command line.
+    TABLE = auto()
+    #: A column of the table of several runs, and a panel of an animation.
+    KEY = auto()
+    #: The card of a result in a notebook.
+    CARD = auto()
+    #: The results at the head of the report and of the page.
+    FACTS = auto()
+    #: Histories of the report and of the page: the load, and the contact's response.
+    LOAD = auto()
+    RESPONSE = auto()
+    #: The history figure.
+    FIGURE = auto()
+    #: Curves on the page while a run is at work.
+    LIVE = auto()
 
 
 @dataclass(frozen=True)
@@ -24,15 +51,24 @@ class Variable:
         NumPy's name of its type.
     comment : str
         What else has to be known of it.
+    label : str
+        Its name on axes and pages.
     has_error : bool
-        Whether its error is estimated, and kept beside it.
+        Whether its error is estimated, and stored with it.
+    places : Place
+        Where it is shown.
+    rank : int
+        Its position on pages, cards and figures; tables keep the order of `SCALARS`.
     """
 
     units: str
     long_name: str
     kind: str = "f8"
     comment: str = ""
+    label: str = ""
     has_error: bool = False
+    places: Place = Place.NOWHERE
+    rank: int = 0
 
     @property
     def attributes(self) -> dict[str, Any]:
@@ -47,7 +83,7 @@ COORDINATES = {
     "y": Variable("m", "position across the indenter"),
 }
 
-#: Said of what is not computed beyond the grid of its instant.
+#: Of fields that are not computed beyond the grid of their instant.
 _BEYOND = "NaN beyond the grid of an instant before the grid was enlarged (see grid_enlarged)"
 
 FIELDS = {
@@ -58,27 +94,50 @@ FIELDS = {
     ),
 }
 
+
+def _scalar(
+    units: str, long_name: str, label: str, rank: int, places: Place = Place.NOWHERE
+) -> Variable:
+    """A scalar that has an error bar."""
+    return Variable(units, long_name, label=label, has_error=True, places=places, rank=rank)
+
+
+_EXTENT = Place.TABLE | Place.CARD | Place.RESPONSE
+_MOTION = _EXTENT | Place.FIGURE
+_RESULT = _MOTION | Place.KEY | Place.FACTS | Place.LIVE
+_FORCE = Place.TABLE | Place.KEY | Place.CARD | Place.LOAD | Place.FIGURE
+
 SCALARS = {
-    "force": Variable("N", "force on the contact", has_error=True),
-    "eccentricity_x": Variable("m", "position of the resultant along x", has_error=True),
-    "eccentricity_y": Variable("m", "position of the resultant along y", has_error=True),
-    "approach": Variable(
-        "m", "rigid approach, positive when the bodies come closer", has_error=True
+    "force": _scalar("N", "force on the contact", "Force", 1, _FORCE),
+    "eccentricity_x": _scalar(
+        "m", "position of the resultant along x", "Eccentricity along x", 2, Place.LOAD
     ),
-    "tilt_x": Variable(
-        "rad", "rigid slope along x, positive when the +x end is deeper", has_error=True
+    "eccentricity_y": _scalar(
+        "m", "position of the resultant along y", "Eccentricity along y", 3, Place.LOAD
     ),
-    "tilt_y": Variable(
-        "rad", "rigid slope along y, positive when the +y end is deeper", has_error=True
+    "approach": _scalar(
+        "m", "rigid approach, positive when the bodies come closer", "Approach", 5, _RESULT
     ),
-    "contact_area": Variable("m2", "contact area", has_error=True),
-    "contact_length": Variable("m", "extent of the contact along x", has_error=True),
-    "contact_width": Variable("m", "extent of the contact along y", has_error=True),
-    "peak_pressure": Variable("Pa", "largest pressure", has_error=True),
-    "mean_pressure": Variable("Pa", "force over contact area", has_error=True),
-    "work": Variable("J", "work of the load on the contact since the start", has_error=True),
-    "loss_per_cycle": Variable(
-        "J", "work that the last whole cycle of the load has cost", has_error=True
+    "tilt_x": _scalar(
+        "rad", "rigid slope along x, positive when the +x end is deeper", "Tilt along x", 6, _MOTION
+    ),
+    "tilt_y": _scalar(
+        "rad", "rigid slope along y, positive when the +y end is deeper", "Tilt along y", 7, _MOTION
+    ),
+    "contact_area": _scalar("m2", "contact area", "Contact area", 4, _RESULT),
+    "contact_length": _scalar(
+        "m", "extent of the contact along x", "Contact length, along x", 10, _EXTENT
+    ),
+    "contact_width": _scalar(
+        "m", "extent of the contact along y", "Contact width, along y", 11, _EXTENT
+    ),
+    "peak_pressure": _scalar("Pa", "largest pressure", "Peak pressure", 8, _RESULT),
+    "mean_pressure": _scalar(
+        "Pa", "force over contact area", "Mean pressure", 9, Place.CARD | Place.FACTS
+    ),
+    "work": _scalar("J", "work of the load on the contact since the start", "Work", 12),
+    "loss_per_cycle": _scalar(
+        "J", "work that the last whole cycle of the load has cost", "Loss per cycle", 13
     ),
     "time_error": Variable("1", "estimated relative error of pressure owed to the time steps"),
     "iterations": Variable("1", "iterations of the contact solver", "i4"),
@@ -86,6 +145,30 @@ SCALARS = {
     "cells_across": Variable("1", "cells across the contact, along its shorter way", "i4"),
     "outcome": Variable("1", "how the instant ended", "i1"),
 }
+
+
+def shown_in(place: Place) -> list[str]:
+    """Names of the scalars that are shown in a place, in its order.
+
+    Examples
+    --------
+    >>> shown_in(Place.LIVE)
+    ['contact_area', 'approach', 'peak_pressure']
+    """
+    names = [name for name, variable in SCALARS.items() if place & variable.places]
+    in_table = place in Place.TABLE | Place.KEY
+    return names if in_table else sorted(names, key=lambda name: SCALARS[name].rank)
+
+
+def labels_in(place: Place) -> dict[str, str]:
+    """Labels of the scalars that are shown in a place, by their names and in its order."""
+    return {name: SCALARS[name].label for name in shown_in(place)}
+
+
+def scalars_with_error() -> list[str]:
+    """Names of the scalars whose error is estimated."""
+    return [name for name, variable in SCALARS.items() if variable.has_error]
+
 
 #: CF's way to write an enumeration.
 OUTCOME_FLAGS = {
@@ -97,12 +180,7 @@ _BAR = "half width of the error bar: inf where the value depends on the mesh, Na
 
 
 def error_name(name: str) -> str:
-    """Return what the error of a variable is called in a result.
-
-    Parameters
-    ----------
-    name : str
-        The variable.
+    """Name of a variable's error in a result.
 
     Examples
     --------
@@ -123,14 +201,7 @@ ERRORS = {
 
 
 def scalar_attributes(name: str, *, errors: bool) -> dict[str, Any]:
-    """Return what a scalar carries, with CF's pointer to its error if it has one.
-
-    Parameters
-    ----------
-    name : str
-        The scalar.
-    errors : bool
-        Whether the result has errors.
+    """Attributes of a scalar, with CF's pointer to its error if the result has errors.
 
     Examples
     --------

@@ -16,12 +16,9 @@ from rich.table import Table
 from viscontact.results.formatting import format_percent
 from viscontact.results.netcdf import open_results
 from viscontact.results.stated_errors import largest_error
-from viscontact.results.variables import SCALARS
+from viscontact.results.variables import SCALARS, Place, shown_in
 from viscontact.runs.processes.child import Ended
 from viscontact.units.formatting import format_number, format_quantity, readable_unit
-
-#: Of each the largest over time: what a design is judged by.
-_COLUMNS = ("force", "approach", "contact_area", "peak_pressure")
 
 #: So many runs are named with a warning.
 _NAMED = 3
@@ -68,9 +65,10 @@ def _found(ended: Ended) -> _Found | None:
 
 
 def _of(ds: xr.Dataset) -> _Found:
-    largest = {name: float(np.nanmax(np.abs(ds[name].values), initial=0.0)) for name in _COLUMNS}
+    names = shown_in(Place.KEY)
+    largest = {name: float(np.nanmax(np.abs(ds[name].values), initial=0.0)) for name in names}
     warnings = tuple(str(ds.attrs.get("warnings", "")).splitlines())
-    known = [found.part for name in _COLUMNS if (found := largest_error(ds, name)) is not None]
+    known = [found.part for name in names if (found := largest_error(ds, name)) is not None]
     error = max((part for part in known if not math.isnan(part)), default=math.nan)
     return _Found(largest, error, float(ds.attrs["wall_time"]), warnings)
 
@@ -87,8 +85,8 @@ def _table(runs: Sequence[Ended], found: Sequence[_Found | None]) -> Table:
     table.add_column("run", no_wrap=True)
     table.add_column("outcome", no_wrap=True)
     table.add_column("took", justify="right", no_wrap=True)
-    units = {}
-    for name in _COLUMNS:
+    names, units = shown_in(Place.KEY), {}
+    for name in names:
         largest = max((each.largest[name] for each in found if each), default=0.0)
         units[name] = readable_unit(SCALARS[name].units, largest)
         heading = f"{name.replace('_', ' ')} [{units[name].symbol}]"
@@ -97,9 +95,9 @@ def _table(runs: Sequence[Ended], found: Sequence[_Found | None]) -> Table:
     if has_errors:
         table.add_column("largest error", justify="right", vertical="bottom")
     for ended, each in zip(runs, found, strict=True):
-        cells = ["", *("" for _ in _COLUMNS)]
+        cells = ["", *("" for _ in names)]
         if each is not None:
-            values = (format_number(each.largest[name] / units[name].factor) for name in _COLUMNS)
+            values = (format_number(each.largest[name] / units[name].factor) for name in names)
             cells = [format_quantity(each.seconds, "s", 2), *values]
             if has_errors:
                 cells.append("" if math.isnan(each.error) else format_percent(each.error))

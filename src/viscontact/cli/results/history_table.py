@@ -27,8 +27,8 @@ from viscontact.cli.results.stored import early_end
 from viscontact.cli.terminal.messages import refuse
 from viscontact.results.formatting import format_error, format_percent, format_supported
 from viscontact.results.history_csv import write_history
-from viscontact.results.rounding import is_rounding_tilt
-from viscontact.results.stated_errors import LargestError, largest_error, stated_error
+from viscontact.results.stated_errors import LargestError, is_rounding, largest_error, stated_error
+from viscontact.results.variables import Place, shown_in
 from viscontact.units.formatting import (
     format_number,
     format_quantity,
@@ -36,10 +36,6 @@ from viscontact.units.formatting import (
     without_trailing_zeros,
 )
 
-_COLUMNS = (
-    *("force", "approach", "tilt_x", "tilt_y", "contact_area", "contact_length"),
-    *("contact_width", "peak_pressure"),
-)
 _ROWS = 20
 #: Blanks between columns, and the room below which heads are broken here: where it is left to
 #: the terminal's width, words are broken as well.
@@ -63,7 +59,7 @@ def print_history(ds: xr.Dataset, *, everything: bool = False, errors: bool = Fa
     console = Console()
     count = ds.sizes["time"]
     rows = np.arange(count) if everything else _spread(count)
-    shown = [name for name in _COLUMNS if _is_shown(ds, name)]
+    shown = [name for name in shown_in(Place.TABLE) if not is_rounding(ds, name)]
     columns = _columns(ds, ["time", *shown], rows, errors=errors)
     least = sum(column.width + _GAP for column in columns)
     table = _table(ds, columns, narrow=least + _TO_SPARE > console.width)
@@ -124,10 +120,6 @@ def _spread(count: int) -> NDArray[np.int_]:
 def _loss_error(ds: xr.Dataset) -> str:
     found = largest_error(ds, "loss_per_cycle")
     return f", within {format_percent(found.part)}" if found and np.isfinite(found.part) else ""
-
-
-def _is_shown(ds: xr.Dataset, name: str) -> bool:
-    return bool(_largest(ds, name) > 0) and not (name.startswith("tilt") and _is_rounding(ds, name))
 
 
 def _largest(ds: xr.Dataset, name: str) -> float:
@@ -210,7 +202,3 @@ def _error_in_percent(found: LargestError | None) -> str:
         return format_error(found.half_width)
     percent = format_percent(found.part).replace(" ", "")
     return percent if percent.startswith("<") else f"±{percent}"
-
-
-def _is_rounding(ds: xr.Dataset, tilt: str) -> bool:
-    return is_rounding_tilt(ds[tilt].values, ds["contact_length"].values, ds["approach"].values)

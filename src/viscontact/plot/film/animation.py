@@ -13,12 +13,7 @@ from matplotlib.lines import Line2D
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.plot.film.sheet import Sheet, new_sheet
-from viscontact.plot.histories.history import (
-    QUANTITIES,
-    Quantity,
-    draw_quantities,
-    worthwhile_quantities,
-)
+from viscontact.plot.histories.history import draw_scalars, drawn_scalars, needed_variables
 from viscontact.plot.histories.span import within_span
 from viscontact.plot.histories.time_axis import BEFORE_FIRST, suits_log_time
 from viscontact.plot.layout import style
@@ -32,14 +27,13 @@ from viscontact.plot.pressure.pressure_map import (
     pressure_levels,
 )
 from viscontact.results.snapshots import Snapshot, field_times, snapshot_reader
-from viscontact.results.variables import error_name
+from viscontact.results.variables import Place, shown_in
 from viscontact.units.formatting import ReadableUnit, format_quantity, time_labels
 
 _NAME = "animation"
 Array = NDArray[np.float64]
 
-#: What is shown of the histories, the most telling first, and how wide each is at least [inch].
-_TOLD = ("peak_pressure", "contact_area", "approach", "force")
+#: The least width of a history [inch].
 _HISTORY_WIDTH = 1.7
 _MOST_FRAMES = 5000
 _MARKER = "#D55E00"
@@ -149,7 +143,7 @@ def animation(
     [0.0, 1.0]
     """
     count = _frames(seconds, fps)
-    run = within_span(results, _drawn(results), times, _NAME, "")
+    run = within_span(results, needed_variables(results), times, _NAME, "")
     first, last = run["time"].values[[0, -1]]
     stored = field_times(results, _NAME)
     shown = stored[(stored >= first) & (stored <= last)]
@@ -161,17 +155,12 @@ def animation(
         )
     scene = _scene(results, stored, shown)
     wide = page_width(width, style.TWO_COLUMNS)
-    quantities = _told(run, wide)
-    sheet = new_sheet(scene.window, wide, len(quantities))
-    show = _stage(sheet, scene, run, quantities)
+    names = _histories(run, wide)
+    sheet = new_sheet(scene.window, wide, len(names))
+    show = _stage(sheet, scene, run, names)
     chosen = _spread_evenly(shown, run, count)
     show(float(chosen[0]))
     return Film(sheet.figure, chosen, fps, show)
-
-
-def _drawn(results: xr.Dataset) -> list[str]:
-    names = [quantity.name for quantity in QUANTITIES]
-    return [*names, *(error_name(n) for n in names if error_name(n) in results), "contact_length"]
 
 
 def _frames(seconds: float, fps: float) -> int:
@@ -209,11 +198,11 @@ def _scene(results: xr.Dataset, stored: Array, shown: Array) -> _Scene:
     return _Scene(stored, read, window, levels, unit, "x" if is_long else "y", note)
 
 
-def _told(run: xr.Dataset, width: float) -> list[Quantity]:
-    """As many histories as there is room for, the most telling ones."""
-    there = {quantity.name: quantity for quantity in worthwhile_quantities({"": run})}
-    names = [name for name in _TOLD if name in there]
-    return [there[name] for name in names[: max(1, int(width / _HISTORY_WIDTH))]]
+def _histories(run: xr.Dataset, width: float) -> list[str]:
+    """As many key scalars as there is room for: the contact's response first, then the load."""
+    worthwhile = drawn_scalars({"": run})
+    names = [name for name in reversed(shown_in(Place.KEY)) if name in worthwhile]
+    return names[: max(1, int(width / _HISTORY_WIDTH))]
 
 
 def _spread_evenly(shown: Array, run: xr.Dataset, count: int) -> Array:
@@ -236,11 +225,11 @@ def _place_on_axis(instants: Array, run: xr.Dataset) -> Array:
 
 
 def _stage(
-    sheet: Sheet, scene: _Scene, run: xr.Dataset, quantities: list[Quantity]
+    sheet: Sheet, scene: _Scene, run: xr.Dataset, names: list[str]
 ) -> Callable[[float], None]:
     """Draw what stays, and return what draws the rest at an instant."""
     curve = _set_up_fields(sheet, scene)
-    time_unit, _ = draw_quantities(sheet.histories, quantities, {"": run})
+    time_unit, _ = draw_scalars(sheet.histories, names, {"": run})
     markers = []
     for axes in sheet.histories:
         # The bar of time behind the curve, the dot on it.

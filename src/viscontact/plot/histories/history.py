@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 import xarray as xr
@@ -23,35 +22,14 @@ from viscontact.plot.layout.error_band import (
     peak_note,
 )
 from viscontact.plot.layout.page import NARROW, Width, page_width
-from viscontact.results.rounding import is_rounding_tilt
-from viscontact.results.stated_errors import stated_error
-from viscontact.results.variables import error_name
+from viscontact.results.stated_errors import is_centred, stated_error
+from viscontact.results.variables import SCALARS, Place, error_name, shown_in
 from viscontact.units.formatting import ReadableUnit, readable_unit
 
 _NAME = "history"
 
 #: What changes by less than this part, its error included, is rounding, not to fill an axis.
 _ROUNDING = 1e-6
-
-
-@dataclass(frozen=True)
-class Quantity:
-    """A variable of the dataset as it is drawn, and whether to leave it out when idle."""
-
-    name: str
-    label: str
-    si_unit: str
-    only_if_varied: bool = False
-
-
-QUANTITIES = (
-    Quantity("force", "Force", "N", only_if_varied=True),
-    Quantity("contact_area", "Contact area", "m2"),
-    Quantity("approach", "Approach", "m"),
-    Quantity("tilt_x", "Tilt along x", "rad", only_if_varied=True),
-    Quantity("tilt_y", "Tilt along y", "rad", only_if_varied=True),
-    Quantity("peak_pressure", "Peak pressure", "Pa"),
-)
 
 
 def history(
@@ -135,64 +113,46 @@ def compare_histories(
     """
     if not runs:
         raise ValueError(f"{_NAME}: needs at least one run to compare, got none")
-    shown = {name: within_span(run, _drawn(run), times, _NAME, name) for name, run in runs.items()}
-    quantities = worthwhile_quantities(shown)
-    figure, panels = _panels(len(quantities), page_width(width, style.TWO_COLUMNS))
-    _, bands = draw_quantities(panels, quantities, shown)
+    shown = {
+        name: within_span(run, needed_variables(run), times, _NAME, name)
+        for name, run in runs.items()
+    }
+    names = drawn_scalars(shown)
+    figure, panels = _panels(len(names), page_width(width, style.TWO_COLUMNS))
+    _, bands = draw_scalars(panels, names, shown)
     _add_key(figure, panels, list(shown), bands)
     return figure
 
 
-def worthwhile_quantities(runs: Mapping[str, xr.Dataset]) -> list[Quantity]:
-    """Return what is drawn of runs: not a force or a tilt that never changes."""
-    return [quantity for quantity in QUANTITIES if _worth_a_panel(quantity, runs)]
+def drawn_scalars(runs: Mapping[str, xr.Dataset]) -> list[str]:
+    """Names of the scalars that are drawn of runs: not a constant force or an idle tilt."""
+    return [name for name in shown_in(Place.FIGURE) if _worth_a_panel(name, runs.values())]
 
 
-def draw_quantities(
-    panels: list[Axes], quantities: list[Quantity], runs: Mapping[str, xr.Dataset]
+def draw_scalars(
+    panels: list[Axes], names: Sequence[str], runs: Mapping[str, xr.Dataset]
 ) -> tuple[ReadableUnit, list[Band]]:
-    """Draw quantities over time, one in each panel.
-
-    Parameters
-    ----------
-    panels : list of matplotlib.axes.Axes
-        As many as quantities.
-    quantities : list of Quantity
-        From `worthwhile_quantities`.
-    runs : mapping of str to xarray.Dataset
-        Results by name.
-
-    Returns
-    -------
-    unit : ReadableUnit
-        Of the time axis.
-    bands : list of Band
-        The errors that are shaded.
-    """
+    """Draw scalars over time, one in each panel; return the unit of time, and the error bands."""
     time_unit = readable_unit("s", *(run["time"].values for run in runs.values()))
     bands: list[Band] = []
-    for axes, quantity in zip(panels, quantities, strict=True):
-        bands += _draw(axes, quantity, runs, time_unit)
+    for axes, name in zip(panels, names, strict=True):
+        bands += _draw(axes, name, runs, time_unit)
     scale_time(panels, runs, time_unit)
     return time_unit, bands
 
 
-def _drawn(run: xr.Dataset) -> list[str]:
-    names = [quantity.name for quantity in QUANTITIES]
+def needed_variables(run: xr.Dataset) -> list[str]:
+    """Names of the variables of a result that its histories are drawn from."""
+    names = shown_in(Place.FIGURE)
     errors = [error_name(name) for name in names if error_name(name) in run]
     return [*names, *errors, "contact_length"]
 
 
-def _worth_a_panel(quantity: Quantity, runs: Mapping[str, xr.Dataset]) -> bool:
-    if not quantity.only_if_varied:
-        return True
-    values = [run[quantity.name].values for run in runs.values()]
-    if quantity.name == "force":
-        return any(np.ptp(force) > 1e-6 * np.max(force) for force in values)
-    return not all(
-        is_rounding_tilt(tilt, run["contact_length"].values, run["approach"].values)
-        for tilt, run in zip(values, runs.values(), strict=True)
-    )
+def _worth_a_panel(name: str, runs: Collection[xr.Dataset]) -> bool:
+    if name == "force":
+        forces = (run["force"].values for run in runs)
+        return any(np.ptp(force) > 1e-6 * np.max(force) for force in forces)
+    return not all(is_centred(run, name) for run in runs)
 
 
 def _panels(count: int, width: float) -> tuple[Figure, list[Axes]]:
@@ -215,25 +175,26 @@ def _panels(count: int, width: float) -> tuple[Figure, list[Axes]]:
 
 
 def _draw(
-    axes: Axes, quantity: Quantity, runs: Mapping[str, xr.Dataset], time_unit: ReadableUnit
+    axes: Axes, scalar: str, runs: Mapping[str, xr.Dataset], time_unit: ReadableUnit
 ) -> list[Band]:
     bands = []
-    unit = readable_unit(quantity.si_unit, *(run[quantity.name].values for run in runs.values()))
+    variable = SCALARS[scalar]
+    unit = readable_unit(variable.units, *(run[scalar].values for run in runs.values()))
     for (name, run), look in zip(runs.items(), style.run_styles(len(runs)), strict=True):
-        values = run[quantity.name].values
-        instants, error = time_unit(run["time"].values), stated_error(run, quantity.name)
+        values = run[scalar].values
+        instants, error = time_unit(run["time"].values), stated_error(run, scalar)
         axes.plot(instants, unit(values), label=name, **look)
         bar = None if error is None else unit(error)
         bands.append(draw_band(axes, instants, unit(values), bar, look["color"]))
-    axes.set_ylabel(unit.label(quantity.label))
-    if quantity.name == "force":
+    axes.set_ylabel(unit.label(variable.label))
+    if scalar == "force":
         axes.set_ylim(0.0, 1.08 * axes.dataLim.y1)
     elif np.ptp(axes.dataLim.intervaly) <= _ROUNDING * abs(axes.dataLim.y1):
         axes.set_ylim(0.0, 1.15 * axes.dataLim.y1 or 1.0)
     drawn = [band for band in bands if band is not None]
     if drawn:
-        keep_curves_in_sight(axes, *(unit(run[quantity.name].values) for run in runs.values()))
-    if quantity.name == "peak_pressure":
+        keep_curves_in_sight(axes, *(unit(run[scalar].values) for run in runs.values()))
+    if scalar == "peak_pressure":
         style.add_heading(axes, peak_note(runs.values()), aside=True)
     return drawn
 

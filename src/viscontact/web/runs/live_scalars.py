@@ -1,4 +1,4 @@
-"""The scalars of a run at work, as its lines tell them: a part at a time, as they are written."""
+"""Scalars of a run at work, read from its progress lines as they are written."""
 
 from __future__ import annotations
 
@@ -8,16 +8,15 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
+from viscontact.results.variables import Place, labels_in
 from viscontact.runs.directory.recorded_run import PROGRESS_NAME
 
-#: What is drawn while a run is at work.
-QUANTITIES = ("contact_area", "approach", "peak_pressure")
 #: At most so much is read at once [bytes].
 _MOST = 1_000_000
 
 
 def grown(directory: Path, after: int) -> dict[str, Any]:
-    """Return what a run has written since somebody last asked.
+    """Return what a run has written since it was last read.
 
     Parameters
     ----------
@@ -29,19 +28,25 @@ def grown(directory: Path, after: int) -> dict[str, Any]:
     Returns
     -------
     dict
-        Instants [s] and scalars in SI units since then, `None` where they are no number; from
-        where on they are, and how far they now have been read. What is read from 0 on replaces
-        whatever was read before.
+        Labels of the scalars, and instants [s] and scalars in SI units since then, `None` where
+        they are not a number; from where on they are, and how far they have now been read. What
+        is read from 0 on replaces whatever was read before.
     """
     begun, lines = _lines(directory / PROGRESS_NAME, after)
-    told: dict[str, list[float | None]] = {name: [] for name in ("time", *QUANTITIES)}
+    labels = labels_in(Place.LIVE)
+    times: list[float | None] = []
+    scalars: dict[str, list[float | None]] = {name: [] for name in labels}
     for line in lines.splitlines():
         with suppress(ValueError, LookupError, TypeError):
             found = json.loads(line)
-            values = {name: _number(found[name]) for name in told}
-            for name, value in values.items():
-                told[name].append(value)
-    return {"begun": begun, "after": begun + len(lines), **told}
+            time, *values = (_finite(found[name]) for name in ("time", *scalars))
+            times.append(time)
+            for name, value in zip(scalars, values, strict=True):
+                scalars[name].append(value)
+    return {
+        **{"begun": begun, "after": begun + len(lines), "labels": labels},
+        **{"time": times, "scalars": scalars},
+    }
 
 
 def _lines(path: Path, after: int) -> tuple[int, bytes]:
@@ -55,5 +60,5 @@ def _lines(path: Path, after: int) -> tuple[int, bytes]:
     return 0, b""
 
 
-def _number(value: Any) -> float | None:
+def _finite(value: Any) -> float | None:
     return float(value) if isinstance(value, int | float) and math.isfinite(value) else None

@@ -5,14 +5,13 @@ import { make, place } from "./dom.js";
 import { get } from "./server.js";
 import { unitFor } from "./units.js";
 
-const CURVES = { contact_area: "Contact area", approach: "Approach", peak_pressure: "Peak pressure" };
 const WIDTH = 200, HEIGHT = 60, MOST_POINTS = 400;
 // Between two questions; a run may take hundreds of steps a second.
 const PAUSE = 400;
 let curves = null;
 let asked = 0;
 
-const none = (id) => ({ id, after: 0, step: -1, busy: false, time: [], contact_area: [], approach: [], peak_pressure: [] });
+const none = (id) => ({ id, after: 0, step: -1, busy: false, time: [], scalars: {}, labels: {} });
 
 export function drawGrowing(status) {
   if (curves?.id !== status.id) curves = none(status.id);
@@ -42,16 +41,18 @@ async function ask(mine, status) {
 function take(mine, news) {
   if (news.begun === 0) Object.assign(mine, none(mine.id), { busy: true });
   const kept = news.time.length ? mine.time.filter((time) => time < news.time[0]).length : mine.time.length;
-  for (const name of ["time", ...Object.keys(CURVES)]) mine[name].splice(kept, Infinity, ...news[name]);
+  mine.time.splice(kept, Infinity, ...news.time);
+  for (const [name, values] of Object.entries(news.scalars)) (mine.scalars[name] ??= []).splice(kept, Infinity, ...values);
+  mine.labels = news.labels;
   mine.after = news.after;
 }
 
 function show(mine, status) {
   const end = status.end, at = scale(mine.time, end), isFirst = !place("growing").firstChild;
-  place("growing").replaceChildren(...Object.entries(CURVES).map(([name, label]) => {
+  place("growing").replaceChildren(...Object.entries(mine.labels).map(([name, label]) => {
     const text = status.scalars[name]?.text ?? "";
     return make("figure", {},
-      make("figcaption", {}, `${label} `, make("b", { textContent: text })), drawn(mine.time, mine[name], at, label),
+      make("figcaption", {}, `${label} `, make("b", { textContent: text })), drawn(mine.time, mine.scalars[name], at, label),
       make("div", { class: "ends", "aria-hidden": "true" },
         make("span", { textContent: "0" }), make("span", { textContent: instant(end, unitFor("s", [end])) })));
   }));

@@ -8,10 +8,6 @@ import { numbersTable } from "./numbers.js";
 import { state } from "./runs.js";
 import { told, unitFor } from "./units.js";
 
-const FACTS = {
-  contact_area: "Contact area", approach: "Approach",
-  peak_pressure: "Peak pressure", mean_pressure: "Mean pressure",
-};
 // What may be taken along: where it is, what it is called, and whether it is saved or looked at.
 const DOWNLOADS = [
   ["case.yaml", "Case (YAML)", true],
@@ -73,7 +69,7 @@ function drawFacts(data) {
   const index = telling(data), atEnd = index === data.time.length - 1;
   const when = `At t = ${instant(data.time[index], unitFor("s", data.time))}`;
   write(place("facts-when"), atEnd ? when : `${when}, when the contact is largest`);
-  place("facts").replaceChildren(...Object.entries(FACTS).map(([name, label]) => {
+  place("facts").replaceChildren(...Object.entries(data.facts).map(([name, label]) => {
     const { value, error, unit, mesh } = data.scalars[name];
     const [number, half] = told(value[index], error[index], unit, mesh).split(" ± ");
     return make("div", {}, make("dt", { textContent: label }),

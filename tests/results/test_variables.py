@@ -1,0 +1,124 @@
+"""One table lists the scalars of a result, and everything that shows scalars reads it."""
+
+from __future__ import annotations
+
+import dataclasses
+import io
+import re
+from importlib.resources import files
+from pathlib import Path
+
+import pytest
+import xarray as xr
+
+import viscontact as vc
+from viscontact.accuracy.coarser_runs import SCALARS as ESTIMATED
+from viscontact.accuracy.error_bars import TRUSTS, ZERO_APART
+from viscontact.cli import main
+from viscontact.notebook.result_card import result_card
+from viscontact.plot import history
+from viscontact.report.histories import load_panels, response_panels
+from viscontact.report.page import report_page
+from viscontact.report.run_data import run_data
+from viscontact.results import variables
+from viscontact.results.dataset import to_dataset
+from viscontact.results.history_csv import write_history
+from viscontact.results.summary import summary_rows
+from viscontact.results.variables import SCALARS, Place, Variable, error_name, shown_in
+from viscontact.state import ContactState
+from viscontact.web.runs.live_scalars import grown
+
+EVERYWHERE = ~Place.NOWHERE
+NEW = "rim_slope"
+LABEL = "Slope at the rim"
+
+
+@pytest.fixture(scope="module")
+def ds() -> xr.Dataset:
+    rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    grid = vc.Grid((24, 24), (2e-3, 2e-3))
+    load = vc.step(0.05, eccentricity_x=2e-5)
+    return vc.simulate(vc.Sphere(0.01), rubber, load, grid, [0.0, 1.0, 2.0], errors=False)
+
+
+@pytest.fixture
+def extended(ds: xr.Dataset, monkeypatch: pytest.MonkeyPatch) -> xr.Dataset:
+    """A result with a scalar more than the program has: one entry of the table, and its values."""
+    entry = Variable(
+        "rad", "slope at the rim", label=LABEL, has_error=True, places=EVERYWHERE, rank=20
+    )
+    monkeypatch.setitem(variables.SCALARS, NEW, entry)
+    units = {"units": "rad"}
+    return ds.assign(
+        {NEW: ("time", [0.1, 0.2, 0.3], units), error_name(NEW): ("time", [0.01] * 3, units)}
+    )
+
+
+def test_table_has_every_scalar_of_a_state_and_of_a_dataset(ds: xr.Dataset) -> None:
+    fields = {field.name for field in dataclasses.fields(ContactState)}
+    assert set(SCALARS) <= fields
+    stored = [name for name in ds if ds[name].dims == ("time",) and name not in ("gap", "pressure")]
+    assert stored == list(SCALARS)
+
+
+def test_estimated_errors_are_those_of_the_table() -> None:
+    promised = [name for name, variable in SCALARS.items() if variable.has_error]
+    assert list(TRUSTS) == promised
+    assert set(ZERO_APART) <= set(promised)
+    assert ("time", *promised, "cells_across") == ESTIMATED
+
+
+def test_every_scalar_that_is_shown_has_a_label_and_a_position_of_its_own() -> None:
+    shown = [variable for variable in SCALARS.values() if variable.places]
+    assert all(variable.label and variable.has_error for variable in shown)
+    assert len({variable.rank for variable in shown}) == len(shown)
+    assert all(shown_in(place) for place in Place)
+
+
+def test_new_entry_is_in_dataset_and_csv(
+    extended: xr.Dataset, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    csv = io.StringIO()
+    write_history(extended, csv)
+    header = csv.getvalue().splitlines()[0].split(",")
+    assert f"{NEW} [rad]" in header
+    assert f"{NEW}_error [rad]" in header
+    rubber, grid = vc.Material(vc.Elastic(1e6), 0.5), vc.Grid((24, 24), (2e-3, 2e-3))
+    state = next(vc.march(vc.Sphere(0.01), rubber, vc.step(0.05), grid, [0.0]))
+    monkeypatch.setattr(ContactState, NEW, 0.5, raising=False)
+    assert float(to_dataset([state], "none", {})[NEW][0]) == 0.5
+
+
+def test_new_entry_is_in_summary_card_and_tables(
+    extended: xr.Dataset, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert NEW in [row.name for row in summary_rows(extended)]
+    assert LABEL.lower() in [row[0] for row in result_card(extended).rows]
+    vc.save(extended, tmp_path / "result.nc")
+    assert main(["show", str(tmp_path / "result.nc")]) == 0
+    assert "slope" in capsys.readouterr().out
+
+
+def test_new_entry_is_in_figures_and_report(extended: xr.Dataset) -> None:
+    assert f"{LABEL} [mrad]" in [axes.get_ylabel() for axes in history(extended).axes]
+    panels = [*load_panels(extended), *response_panels(extended)]
+    assert LABEL in [panel["label"] for panel in panels]
+    assert re.search(rf"<dt>{LABEL}</dt><dd>300 ± 10", report_page(extended).replace("\xa0", " "))
+
+
+def test_page_receives_the_list_of_scalars(extended: xr.Dataset, tmp_path: Path) -> None:
+    data = run_data(extended)
+    assert data["facts"][NEW] == LABEL
+    assert data["answers"][NEW] == LABEL
+    assert data["scalars"][NEW]["value"] == [0.1, 0.2, 0.3]
+    assert grown(tmp_path, 0)["labels"][NEW] == LABEL
+
+
+def test_scripts_of_the_page_have_no_list_of_scalars() -> None:
+    labels = {variable.label for variable in SCALARS.values() if " " in variable.label}
+    scripts = [*files("viscontact.web").joinpath("static").iterdir()]
+    scripts += [files("viscontact.report").joinpath("page.js")]
+    for script in scripts:
+        if script.name.endswith(".js") and "plotly" not in script.name:
+            text = script.read_text(encoding="utf-8")
+            assert not [label for label in labels if f'"{label}"' in text], script.name
