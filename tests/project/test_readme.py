@@ -71,7 +71,7 @@ ERRORS = [
         3,
         (*CREEPING, "central pressure"),
     ),
-    ("pressed and let go", 2, ("force up and down, Maxwell", "Ting 1966", "approach")),
+    ("pressed and let go", 2, ("force triangle, Maxwell", "Ting 1966", "approach")),
     (
         PERIODIC_ROW,
         2,

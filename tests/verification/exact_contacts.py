@@ -13,7 +13,7 @@ import numpy as np
 
 import viscontact as vc
 from viscontact import reference
-from viscontact.verify.creeping import Creeping, every_body
+from viscontact.verify.creeping import CreepingBody, all_bodies
 
 Array = np.ndarray
 
@@ -188,14 +188,14 @@ def elastic_punch(rng: np.random.Generator, most: int) -> ExactRun:
     return ExactRun("elastic punch", vc.FlatPunch(radius), material, load, grid, times, exact)
 
 
-def random_body(rng: np.random.Generator) -> Creeping:
+def random_body(rng: np.random.Generator) -> CreepingBody:
     """One of the laws there are closed forms for, some with drawn numbers."""
     if rng.random() < 0.5:
-        bodies = every_body()
+        bodies = all_bodies()
         return bodies[rng.integers(1, len(bodies))]
     shear, time, more = 10 ** rng.uniform(5, 10), 10 ** rng.uniform(-2, 4), rng.uniform(0.2, 8)
     if rng.random() < 0.4:
-        return Creeping(
+        return CreepingBody(
             "Maxwell, drawn",
             vc.Material(vc.Maxwell(shear, shear * time), 0.5),
             lambda t: (1 + np.asarray(t) / time) / (4 * shear),
@@ -204,7 +204,7 @@ def random_body(rng: np.random.Generator) -> Creeping:
             more * time,
         )
     relaxing = time / (1 + more)
-    return Creeping(
+    return CreepingBody(
         "Zener, drawn",
         vc.Material(vc.Zener(shear, shear / more, shear / more * time), 0.5),
         lambda t: (1 - more * np.expm1(-np.asarray(t) / time)) / (4 * shear),
@@ -268,19 +268,19 @@ def _work_of_growth(contact: Any, t: Array, duration: float, *, sudden: bool) ->
 
 
 def creeping_punch(rng: np.random.Generator, most: int) -> ExactRun:
-    """Boltzmann and Sneddon: a round flat punch under stairs of force."""
+    """Boltzmann and Sneddon: a round flat punch under a staircase of force."""
     body = random_body(rng)
     radius = 10 ** rng.uniform(-3, -1)
     across = cells(rng, most)
     grid = grid_over(rng, (radius, radius), (across, across))
-    stairs = np.append(0.0, np.sort(rng.uniform(0.05, 0.9, 2))) * body.end
+    jumps = np.append(0.0, np.sort(rng.uniform(0.05, 0.9, 2))) * body.end
     levels = rng.uniform(0.5, 20.0, 3)
-    load = vc.ForceHistory(np.repeat(stairs, 2)[1:], np.repeat(levels, 2)[:-1])
+    load = vc.ForceHistory(np.repeat(jumps, 2)[1:], np.repeat(levels, 2)[:-1])
     times = instants(rng, body.first, body.end, 40)
 
     def exact(t: Array) -> dict[str, Array]:
-        approach = reference.punch_staircase(t, stairs, levels, radius, body.creep)
-        force = levels[np.searchsorted(stairs, t, side="right") - 1]
+        approach = reference.punch_staircase(t, jumps, levels, radius, body.creep)
+        force = levels[np.searchsorted(jumps, t, side="right") - 1]
         return {
             "force": force,
             "approach": np.asarray(approach),

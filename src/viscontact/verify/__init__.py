@@ -1,8 +1,9 @@
-"""Our results beside exact ones: the cases that users, tests and the documentation run.
+"""Verification cases: comparisons of the solver with exact solutions.
 
-Each case presses a body for which theory has an answer, at several refinements, and states how far
-off we are and how fast that falls. The exact solutions are `viscontact.reference`; they share no
-numerics with what is checked.
+Each case presses a body for which an exact solution is known, at several refinements, and states
+the error and its observed order. The exact solutions are those of `viscontact.reference`, which
+share no numerics with the solver.
+
 """
 
 from viscontact.verify.case import Case, Comparison, Quantity, Result

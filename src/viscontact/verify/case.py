@@ -1,4 +1,4 @@
-"""A verification case, what it compares, and what came of it."""
+"""Verification case: compared quantities, refinements and results."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ SOLVED = 1e-8
 
 @dataclass(frozen=True)
 class Quantity:
-    """What is compared, and how well it has to agree.
+    """Compared quantity and its error bounds.
 
     Attributes
     ----------
     name : str
-        What it is.
+        Name of the quantity.
     unit : str
         Its SI unit.
     fast_bound, bound : float
@@ -47,7 +47,7 @@ class Quantity:
 
 @dataclass(frozen=True)
 class Comparison:
-    """An exact value and ours.
+    """Exact and computed value, and their relative error.
 
     Attributes
     ----------
@@ -69,16 +69,16 @@ class Comparison:
 
 @dataclass(frozen=True)
 class Case:
-    """One comparison with theory, at several refinements.
+    """Comparison with an exact solution at several refinements.
 
     Attributes
     ----------
     name : str
-        What is pressed on what, and how.
+        Bodies and load.
     reference : str
         Author and year of the exact solution.
     quantities : tuple of Quantity
-        What is compared.
+        Compared quantities.
     levels : tuple of int
         Refinements, ascending: cells on a radius, or steps of a cycle. The fast form takes the
         first two.
@@ -101,7 +101,7 @@ class Case:
 
 @dataclass(frozen=True)
 class Result:
-    """What came of one quantity of a case.
+    """Result of one quantity of a case.
 
     Attributes
     ----------
@@ -116,9 +116,9 @@ class Result:
     order : float
         Observed exponent of the error in the refinement; NaN where there is none [-].
     seconds : float
-        What the whole case took [s].
+        Wall time of the whole case [s].
     failure : str
-        Why there are no values; empty if there are.
+        Reason of missing values; empty if there are values.
 
     Examples
     --------
@@ -140,15 +140,13 @@ class Result:
 
     @property
     def passed(self) -> bool:
-        """Whether the error is within its bound."""
+        """True if the error is within its bound."""
         return self.error <= self.bound
 
 
 def single(exact: float, ours: float) -> Comparison:
-    """Return the comparison of two numbers.
+    """Comparison of two numbers.
 
-    Examples
-    --------
     >>> round(single(2.0, 2.02).error, 9)
     0.01
     """
@@ -157,10 +155,8 @@ def single(exact: float, ours: float) -> Comparison:
 
 
 def with_mean_error(found: Sequence[Comparison]) -> Comparison:
-    """Return the last of some comparisons on meshes of like size, with the mean of their errors.
+    """Last comparison, with the mean error of all, on meshes of similar size.
 
-    Examples
-    --------
     >>> round(with_mean_error([single(2.0, 2.02), single(2.0, 2.06)]).error, 9)
     0.02
     """
@@ -168,20 +164,8 @@ def with_mean_error(found: Sequence[Comparison]) -> Comparison:
 
 
 def history(exact: ArrayLike, ours: ArrayLike) -> Comparison:
-    """Return the comparison of two histories where they differ most, relative to the largest.
+    """Comparison of two histories where they differ most, relative to the largest value.
 
-    Parameters
-    ----------
-    exact, ours : array_like, shape (n,)
-        Values at the same instants, or places.
-
-    Returns
-    -------
-    Comparison
-        The worst pair.
-
-    Examples
-    --------
     >>> history([1.0, 4.0], [1.2, 4.0]).error
     0.05
     """
@@ -193,25 +177,12 @@ def history(exact: ArrayLike, ours: ArrayLike) -> Comparison:
 
 
 def run_case(case: Case, *, fast: bool) -> list[Result]:
-    """Run one case at its refinements.
-
-    Parameters
-    ----------
-    case : Case
-        The case.
-    fast : bool
-        Whether the two coarsest refinements are enough.
-
-    Returns
-    -------
-    list of Result
-        One for each quantity; failed ones, with the reason, if the solver stopped.
-    """
+    """Run a case at its refinements, or the two coarsest; a stopped solver is a failed result."""
     levels = case.levels[:2] if fast else case.levels
     started = clock.perf_counter()
     try:
         with warnings.catch_warnings():
-            # Coarse meshes and punches' edges are known here; what they cost is what is measured.
+            # Coarse meshes and sharp edges are intended: their errors are measured here.
             warnings.simplefilter("ignore", AccuracyWarning)
             found = [case.compare(level) for level in levels]
     except (ConvergenceError, DomainError, ArithmeticError) as error:
@@ -246,22 +217,8 @@ def _order(quantity: Quantity, levels: tuple[int, ...], at_levels: tuple[Compari
 
 
 def observed_order(levels: tuple[int, ...], errors: list[float]) -> float:
-    """Return the exponent with which errors fall, or NaN where they are the solver's.
+    """Observed order: slope of log(error) over log(level); NaN at the solver's tolerance.
 
-    Parameters
-    ----------
-    levels : tuple of int
-        Refinements.
-    errors : list of float
-        Relative errors at them [-].
-
-    Returns
-    -------
-    float
-        Slope of the straight line through the logarithms.
-
-    Examples
-    --------
     >>> round(observed_order((8, 16, 32), [4e-3, 1e-3, 2.5e-4]), 9)
     2.0
     >>> observed_order((8, 16), [1e-9, 2e-9])

@@ -1,9 +1,10 @@
-"""The creeping bodies of the cases, and their J(t) and M(t) written out beside them.
+"""CreepingBody bodies of the cases, with J(t) and M(t) in closed form.
 
-Nothing of the package's own conversions is used for these: where a law has two times, poles are the
-roots of a quadratic and amplitudes their residues in s² L[J] L[M] = 1; Mittag-Leffler's function of
-order 1/2 is E(-x) = exp(x²) erfc(x) (Mainardi 2010, Fractional Calculus and Waves in Linear
-Viscoelasticity, appendix E).
+The package's own conversions are not used here: for laws with two times, poles are the roots of a
+quadratic and amplitudes their residues in s² L[J] L[M] = 1; Mittag-Leffler's function of order 1/2
+is E(-x) = exp(x²) erfc(x) (Mainardi 2010, Fractional Calculus and Waves in Linear Viscoelasticity,
+appendix E).
+
 """
 
 from __future__ import annotations
@@ -38,30 +39,18 @@ G, TIME = 5e8, 100.0  # shear modulus [Pa], time of a law [s]
 
 
 @dataclass(frozen=True, eq=False)
-class Creeping:
-    """A body, what it is in theory, and how long it is watched.
-
-    Attributes
-    ----------
-    name : str
-        Its law.
-    material : Material
-        The half-space.
-    creep, relaxation : callable
-        J(t) [1/Pa] and M(t) [Pa], of both bodies if the ball creeps too.
-    first, end : float
-        Instants between which it creeps [s].
-    ball : Material or None
-        The ball; None if it is rigid.
-    """
+class CreepingBody:
+    """CreepingBody body, its exact J(t) and M(t), and the time span of the comparison."""
 
     name: str
     material: Material
+    # J(t) [1/Pa] and M(t) [Pa], of both bodies if the ball creeps too
     creep: TimeFunction
     relaxation: TimeFunction
+    # instants between which it creeps [s]
     first: float
     end: float
-    ball: Material | None = None
+    ball: Material | None = None  # ball; None if it is rigid
 
 
 def _solid(instant: float, delayed: float, delay: float) -> tuple[TimeFunction, TimeFunction]:
@@ -86,17 +75,17 @@ def _delayed_and_flowing(
     )
 
 
-def zener() -> Creeping:
+def zener() -> CreepingBody:
     """Spring and Kelvin unit of equal moduli."""
     pair = _solid(1 / (8 * G), 1 / (8 * G), TIME)
-    return Creeping(
+    return CreepingBody(
         "Zener", Material(Zener(2 * G, 2 * G, 2 * G * TIME), 0.5), *pair, TIME / 50, 5 * TIME
     )
 
 
-def maxwell() -> Creeping:
+def maxwell() -> CreepingBody:
     """A fluid: Spinu & Cerlinca (2018), Table 1."""
-    return Creeping(
+    return CreepingBody(
         "Maxwell",
         Material(Maxwell(G, G * TIME), 0.5),
         lambda t: (1 + t / TIME) / (4 * G),
@@ -106,13 +95,13 @@ def maxwell() -> Creeping:
     )
 
 
-def _elastic() -> Creeping:
+def _elastic() -> CreepingBody:
     modulus = 2 * G / 0.7
 
     def relaxation(t: Array) -> Array:
         return np.full_like(t, modulus)
 
-    return Creeping(
+    return CreepingBody(
         "Elastic",
         Material(Elastic(G), 0.3),
         lambda t: 1 / relaxation(t),
@@ -122,32 +111,32 @@ def _elastic() -> Creeping:
     )
 
 
-def _burgers() -> Creeping:
+def _burgers() -> CreepingBody:
     share = 0.62 / (2 * G)
     pair = _delayed_and_flowing(share, share / 2, TIME / 10, share / (2 * TIME))
     law = Burgers(G, 2 * G * TIME, 2 * G, 2 * G * TIME / 10)
-    return Creeping("Burgers", Material(law, 0.38), *pair, TIME / 100, 3 * TIME)
+    return CreepingBody("Burgers", Material(law, 0.38), *pair, TIME / 100, 3 * TIME)
 
 
-def _creep_series() -> Creeping:
+def _creep_series() -> CreepingBody:
     amplitudes = np.array([1.0, 0.7, 0.4, 1e-3]) / G
     pair = _delayed_and_flowing(
         0.62 * amplitudes[0], 0.62 * amplitudes[1], TIME, 0.62 * amplitudes[3]
     )
     law = CreepSeries(amplitudes[0], (amplitudes[1],), (TIME,), amplitudes[3])
-    return Creeping("CreepSeries", Material(law, 0.38), *pair, TIME / 50, 5 * TIME)
+    return CreepingBody("CreepSeries", Material(law, 0.38), *pair, TIME / 50, 5 * TIME)
 
 
-def _relaxation_series() -> Creeping:
+def _relaxation_series() -> CreepingBody:
     law = RelaxationSeries(G, (2 * G,), (TIME / 3,))
     pair = _solid(0.5 / (6 * G), 0.5 * (1 / (2 * G) - 1 / (6 * G)), TIME)
-    return Creeping("RelaxationSeries", Material(law, 0.5), *pair, TIME / 50, 5 * TIME)
+    return CreepingBody("RelaxationSeries", Material(law, 0.5), *pair, TIME / 50, 5 * TIME)
 
 
-def _power_law() -> Creeping:
+def _power_law() -> CreepingBody:
     instant, crept, share = 1 / (2 * G), 1 / (2 * G), 0.62
     law = PowerLaw(crept, 0.5, TIME, instant)
-    return Creeping(
+    return CreepingBody(
         "PowerLaw",
         Material(law, 0.38),
         lambda t: share * (instant + crept * np.sqrt(t / TIME)),
@@ -157,8 +146,8 @@ def _power_law() -> Creeping:
     )
 
 
-def _fractional_maxwell() -> Creeping:
-    return Creeping(
+def _fractional_maxwell() -> CreepingBody:
+    return CreepingBody(
         "FractionalMaxwell",
         Material(FractionalMaxwell(G, TIME, 0.5), 0.5),
         lambda t: (1 + np.sqrt(t / TIME) / math.gamma(1.5)) / (4 * G),
@@ -168,9 +157,9 @@ def _fractional_maxwell() -> Creeping:
     )
 
 
-def fractional_zener() -> Creeping:
-    """From 3 G to G; slower in creep than in relaxation by the square of that ratio."""
-    return Creeping(
+def fractional_zener() -> CreepingBody:
+    """Modulus from 3 G to G; slower in creep than in relaxation by the square of that ratio."""
+    return CreepingBody(
         "FractionalZener",
         Material(FractionalZener(3 * G, G, TIME / 9, 0.5), 0.5),
         lambda t: (1 - 2 / 3 * erfcx(np.sqrt(t / TIME))) / (4 * G),
@@ -185,27 +174,27 @@ def table_times() -> Array:
     return np.append(0.0, np.geomspace(TIME / 1e4, 10 * TIME, 61))
 
 
-def tabulated_creep() -> Creeping:
-    """The Zener body's creep, as measured at the table's times."""
+def tabulated_creep() -> CreepingBody:
+    """Creep table of the Zener body at the table's times."""
     body, times = zener(), table_times()
     law = TabulatedCreep(times.tolist(), (2 * body.creep(times)).tolist())
     return replace(body, name="TabulatedCreep", material=Material(law, 0.5))
 
 
-def _tabulated_relaxation() -> Creeping:
+def _tabulated_relaxation() -> CreepingBody:
     body, times = zener(), table_times()
     law = TabulatedRelaxation(times.tolist(), (body.relaxation(times) / 4).tolist())
     return replace(body, name="TabulatedRelaxation", material=Material(law, 0.5))
 
 
-def _two_bodies() -> Creeping:
+def _two_bodies() -> CreepingBody:
     ball = Material(Zener(G, G / 2, G * TIME / 20), 0.3)
     pair = _delayed_and_flowing(1.2 / (2 * G), 0.7 / G, TIME / 10, 0.5 / (2 * G * TIME))
     fluid = Material(Maxwell(G, G * TIME), 0.5)
-    return Creeping("Zener ball on Maxwell", fluid, *pair, TIME / 100, 3 * TIME, ball)
+    return CreepingBody("Zener ball on Maxwell", fluid, *pair, TIME / 100, 3 * TIME, ball)
 
 
-def _elastic_bulk() -> Creeping:
+def _elastic_bulk() -> CreepingBody:
     """L[J] = [1/G~ + 3/(3K + G~)]/(4 s) with G~ = s L[G] = G s τ/(1 + s τ)."""
     bulk = 3 * G
     delay, relaxing = (1 + G / (3 * bulk)) * TIME, (1 + 4 * G / (3 * bulk)) * TIME
@@ -220,10 +209,12 @@ def _elastic_bulk() -> Creeping:
         return G * np.exp(-t / TIME) + second * np.exp(-t / relaxing)
 
     material = Material(Maxwell(G, G * TIME), bulk_modulus=bulk)
-    return Creeping("Maxwell with elastic bulk", material, creep, relaxation, TIME / 100, 3 * TIME)
+    return CreepingBody(
+        "Maxwell with elastic bulk", material, creep, relaxation, TIME / 100, 3 * TIME
+    )
 
 
-def every_body() -> tuple[Creeping, ...]:
+def all_bodies() -> tuple[CreepingBody, ...]:
     """One body for each law, two creeping bodies, and one that is elastic in bulk."""
     return (
         _elastic(),

@@ -1,4 +1,4 @@
-"""Profiled rollers and singular edges: where pressure is even, and how it grows where it is not."""
+"""Verification cases of profiled rollers and singular edges."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ _CORNER = 0.7034
 
 
 def _roller(cells: int) -> tuple[Comparison, ...]:
-    """The middle section's own force; mean error of some meshes, for the rim hits them by chance.
+    """Peak pressure and half width under the middle section's force; mean errors of several meshes.
 
-    What the roller lacks beyond its ends, (b/L)²/8 of the peak, is 3e-6.
+    The missing load beyond the roller's ends, (b/L)²/8 of the peak, is 3e-6.
     """
     parts = (0.95, 0.97, 0.99, 1.0, 1.02, 1.05)
     peaks, widths = zip(*(_middle(part * cells) for part in parts), strict=True)
@@ -52,7 +52,7 @@ def _middle(cells: float) -> tuple[Comparison, Comparison]:
     (state,) = press(BODY, step(force), [0.0], grid, indenter=roller, tolerance=1e-8).states
     pressure = state.pressure[32]
     exact = reference.hertz_line(float(pressure.sum()) * grid.cell_size[1], _RADIUS, MODULUS)
-    # Where the straight line through p² against y² is zero, drawn through the inner half.
+    # Zero of the straight line through p² over y², fitted to the inner half.
     inner = np.abs(grid.y) < exact.half_width / 2
     slope, top = np.polyfit(grid.y[inner] ** 2, pressure[inner] ** 2, 1)
     width = math.sqrt(-top / slope)
@@ -60,17 +60,17 @@ def _middle(cells: float) -> tuple[Comparison, Comparison]:
 
 
 def _square(cells: int) -> tuple[Comparison, ...]:
-    """Exponents with which the largest pressures grow as these cells are halved."""
+    """Exponents with which the largest pressures grow as the cells are halved."""
     coarse, fine = (_on_square(n) for n in (cells, 2 * cells))
     edge, corner = (
-        math.log2(_largest(fine, beside) / _largest(coarse, beside)) for beside in (True, False)
+        math.log2(_largest(fine, at_edge) / _largest(coarse, at_edge)) for at_edge in (True, False)
     )
     approach = FORCE / (math.pi * MODULUS * _CAPACITANCE * _SIDE)
     return single(approach, fine.approach), single(0.5, edge), single(_CORNER, corner)
 
 
 def _on_square(cells: int) -> ContactState:
-    """The punch's edges are those of cells, of which two more lie beside them."""
+    """Contact of the square punch, whose edges are cell edges with two more cells outside."""
     punch, size = (
         FlatPunch(half_length=_SIDE / 2, half_width=_SIDE / 2),
         _SIDE / cells * (cells + 4),
@@ -80,7 +80,7 @@ def _on_square(cells: int) -> ContactState:
 
 
 def _largest(state: ContactState, edge: bool) -> float:
-    """Largest pressure in the middle of an edge, or of all, at a corner [Pa]."""
+    """Largest pressure in the middle of an edge, or overall, at a corner [Pa]."""
     middle = state.pressure.shape[0] // 2
     return float((state.pressure[middle] if edge else state.pressure).max())
 

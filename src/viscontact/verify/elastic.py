@@ -1,4 +1,4 @@
-"""Elastic contacts: what space alone costs."""
+"""Verification cases of elastic contacts: the error of the mesh alone."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def _ellipse(cells: int) -> tuple[Comparison, ...]:
 
 
 def _roller(cells: int) -> tuple[Comparison, ...]:
-    """The middle section's own force: the sharp ends carry more than their share."""
+    """Peak pressure under the middle section's force: the sharp ends carry an excess."""
     radius = half_length = 5e-3
     b = radius / 100
     force = math.pi * MODULUS * b**2 / (4 * radius) * 2 * half_length
@@ -57,7 +57,7 @@ def _roller(cells: int) -> tuple[Comparison, ...]:
 
 
 def _punch(cells: int) -> tuple[Comparison, ...]:
-    """The staircase of cells at the edge jitters: the mean error of some meshes of like size."""
+    """Mean errors of several meshes, since the error of the edge varies with the cells."""
     exact = reference.flat_punch(FORCE, _PUNCH, MODULUS, _ASIDE)
     load, found = step(FORCE, eccentricity_x=_ASIDE), []
     for part in (0.95, 0.97, 0.99, 1.0, 1.02, 1.05):

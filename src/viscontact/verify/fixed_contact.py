@@ -1,6 +1,7 @@
-"""Contacts that stay as they are or are known beforehand: what time alone costs.
+"""Verification cases of constant or known contact areas: the error in time alone.
 
-Space is taken off by one elastic contact on the same mesh.
+The error of the mesh is removed by one elastic contact on the same mesh.
+
 """
 
 from __future__ import annotations
@@ -21,35 +22,35 @@ from viscontact.materials.material import Material
 from viscontact.time_integration.requested_times import log_times
 from viscontact.verify.case import Case, Comparison, Quantity, history, single
 from viscontact.verify.creeping import TIME, G, fractional_zener, tabulated_creep, zener
-from viscontact.verify.indentation import FORCE, RADIUS, Marched, press, press_ball
+from viscontact.verify.indentation import FORCE, RADIUS, CaseRun, press, press_ball
 
 Array = NDArray[np.float64]
 
 _PUNCH = FlatPunch(5e-3)
 _GRID = Grid((18, 18), (11e-3, 11e-3))
-_PERIOD, _SWING, _MEAN = 2 * TIME, 4.0, 10.0  # s, N, N
+_PERIOD, _AMPLITUDE, _MEAN = 2 * TIME, 4.0, 10.0  # s, N, N
 
 
 def _softness() -> float:
-    """Approach by force and compliance on this mesh; 1/(2 a) on an infinitely fine one [1/m]."""
+    """Approach over force and compliance on this mesh; 1/(2 a) for fine meshes [1/m]."""
     body = Material(Elastic(2.5e8), 0.5)  # J = 1e-9/Pa
     run = press(body, step(1.0), [0.0], _GRID, indenter=_PUNCH, tolerance=1e-10)
     return run.states[0].approach * 1e9
 
 
-def _swinging(control: Control, compliance: complex, softness: float, steps: int) -> Marched:
-    cycles = 8  # what began it has faded to exp(-14)
-    swing = _SWING if control == "force" else _SWING * abs(compliance) * softness
+def _oscillation(control: Control, compliance: complex, softness: float, steps: int) -> CaseRun:
+    cycles = 8  # the transient has decayed to exp(-14)
+    amplitude = _AMPLITUDE if control == "force" else _AMPLITUDE * abs(compliance) * softness
     load = (
-        harmonic(_MEAN, swing, _PERIOD, cycles)
+        harmonic(_MEAN, amplitude, _PERIOD, cycles)
         if control == "force"
-        else harmonic(approach=20 * swing, amplitude=swing, period=_PERIOD, cycles=cycles)
+        else harmonic(approach=20 * amplitude, amplitude=amplitude, period=_PERIOD, cycles=cycles)
     )
     times = _PERIOD * np.arange(cycles * steps + 1) / steps
     return press(zener().material, load, times, _GRID, indenter=_PUNCH, tolerance=1e-8)
 
 
-def _amplitude(run: Marched, name: str, steps: int) -> complex:
+def _amplitude(run: CaseRun, name: str, steps: int) -> complex:
     """Complex amplitude over the last cycle."""
     values = run.over_time(name)[-steps - 1 :]
     turns = np.exp(-2j * math.pi * np.arange(steps + 1) / steps)
@@ -59,7 +60,7 @@ def _amplitude(run: Marched, name: str, steps: int) -> complex:
 def _harmonic(control: Control, steps: int) -> tuple[Comparison, ...]:
     frequency, softness = 2 * math.pi / _PERIOD, _softness()
     compliance = reference.series_complex_compliance(frequency, 1 / (8 * G), [1 / (8 * G)], [TIME])
-    run = _swinging(control, compliance, softness, steps)
+    run = _oscillation(control, compliance, softness, steps)
     force, approach = (_amplitude(run, name, steps) for name in ("force", "approach"))
     exact = reference.punch_harmonic(1 / (2 * softness), compliance, force_amplitude=abs(force))
     return (
@@ -69,19 +70,19 @@ def _harmonic(control: Control, steps: int) -> tuple[Comparison, ...]:
     )
 
 
-def _stairs(steps: int) -> tuple[Comparison, ...]:
-    del steps  # none are needed between the stairs
+def _staircase(steps: int) -> tuple[Comparison, ...]:
+    del steps  # none are needed between the jumps
     body, softness = fractional_zener(), _softness()
-    stairs, levels = np.array([0.0, 7.0, 20.0, 80.0]), np.array([10.0, 25.0, 4.0, 12.0])
-    load = ForceHistory(np.repeat(stairs, 2)[1:], np.repeat(levels, 2)[:-1])
+    jumps, levels = np.array([0.0, 7.0, 20.0, 80.0]), np.array([10.0, 25.0, 4.0, 12.0])
+    load = ForceHistory(np.repeat(jumps, 2)[1:], np.repeat(levels, 2)[:-1])
     times = np.array([3.0, 7.0, 15.0, 20.0, 26.0, 80.0, 300.0])
     run = press(body.material, load, times, _GRID, indenter=_PUNCH, tolerance=1e-8)
-    exact = reference.punch_staircase(times, stairs, levels, 1 / (2 * softness), body.creep)
+    exact = reference.punch_staircase(times, jumps, levels, 1 / (2 * softness), body.creep)
     return (history(exact, run.over_time("approach")),)
 
 
 def _table(cells: int) -> tuple[Comparison, ...]:
-    """At the table's own times, which is where a table is exact."""
+    """Contact at the table's own times, at which a table is exact."""
     table = tabulated_creep()
     times = np.append(0.0, np.geomspace(TIME / 1e4, 10 * TIME, 61))[:-4:3]
     radius = float(np.cbrt(0.75 * RADIUS * FORCE * table.creep(times[-1:])[0]))
@@ -95,13 +96,13 @@ def _table(cells: int) -> tuple[Comparison, ...]:
 
 
 def _roller(cells: int) -> tuple[Comparison, ...]:
-    """Approach, tilt and area of a growing contact are those of an elastic body of J(t)."""
+    """Approach, tilt and area of a growing contact, which are those of an elastic body of J(t)."""
     law = CreepSeries(5.545e-10, [6.17e-11, 8.38e-11], [10.0, 133.8688])
     roller, load = Roller(5e-3, 9.565e-3, 75e-3), step(1e4, eccentricity_x=5e-3)
     grid = Grid((3 * cells, 3 * cells), (48e-3, 3.2e-3))
     crept = press(Material(law, 0.38), load, log_times(1.0, 1e3, 12), grid, indenter=roller)
-    alike = Material(Elastic(1 / (2 * law(1e3))), 0.38)
-    (exact,) = press(alike, load, [0.0], grid, indenter=roller).states
+    elastic_body = Material(Elastic(1 / (2 * law(1e3))), 0.38)
+    (exact,) = press(elastic_body, load, [0.0], grid, indenter=roller).states
     last = crept.states[-1]
     return (
         single(exact.approach, last.approach),
@@ -126,11 +127,11 @@ CASES = (
         for control in ("force", "approach")
     ),
     Case(
-        "flat punch, stairs of force, fractional Zener",
+        "flat punch, staircase of force, fractional Zener",
         "Boltzmann 1874, Sneddon 1965",
         (Quantity("approach", "m", 1e-7, 1e-7),),
         (1,),
-        _stairs,
+        _staircase,
     ),
     Case(
         "ball, table of a series at its own times",

@@ -1,4 +1,4 @@
-"""Contacts that only grow: a ball under a force put on at once, or by a ramp."""
+"""Verification cases of growing contacts: a ball under a sudden force, or a ramp."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from viscontact import reference
 from viscontact.loads import ramp, step
 from viscontact.time_integration.requested_times import log_times
 from viscontact.verify.case import Case, Comparison, Quantity, history
-from viscontact.verify.creeping import Creeping, every_body, maxwell, zener
+from viscontact.verify.creeping import CreepingBody, all_bodies, maxwell, zener
 from viscontact.verify.indentation import FORCE, RADIUS, press_ball
 
 
-def _radius_at_end(body: Creeping) -> float:
+def _radius_at_end(body: CreepingBody) -> float:
     return float(np.cbrt(0.75 * RADIUS * FORCE * body.creep(np.array([body.end]))[0]))
 
 
-def _step(body: Creeping, cells: int) -> tuple[Comparison, ...]:
+def _step(body: CreepingBody, cells: int) -> tuple[Comparison, ...]:
     exact = reference.lee_radok_step(FORCE, RADIUS, body.creep, body.relaxation)
     times = log_times(body.first, body.end, 3 * cells)
     run = press_ball(
@@ -32,14 +32,14 @@ def _step(body: Creeping, cells: int) -> tuple[Comparison, ...]:
     )
 
 
-def _ramp(body: Creeping, cells: int) -> tuple[Comparison, ...]:
+def _ramp(body: CreepingBody, cells: int) -> tuple[Comparison, ...]:
     duration = 0.95 * body.end / 3
     exact = reference.lee_radok_ramp(FORCE, duration, RADIUS, body.creep, body.relaxation)
     # Pressure starts as the cube root of time.
     times = body.end * np.linspace(0, 1, 3 * cells + 1) ** 2
     run = press_ball(body.material, ramp(FORCE, duration), times, _radius_at_end(body), cells)
     radius = np.asarray(exact.contact_radius(times))
-    late = np.flatnonzero(times >= duration / 5)  # before that, a coarse mesh has no centre
+    late = np.flatnonzero(times >= duration / 5)  # a coarse mesh resolves these
     return (
         history(radius[late] ** 2 / RADIUS, run.over_time("approach")[late]),
         history(exact.pressure(0.0, times[late]), run.central_pressure[late]),
@@ -59,7 +59,7 @@ CASES = (
             (10, 20, 40),
             partial(_step, body),
         )
-        for body in every_body()
+        for body in all_bodies()
     ),
     *(
         Case(

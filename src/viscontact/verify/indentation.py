@@ -1,4 +1,4 @@
-"""How the cases press: grids by cells on a radius, and what a run gives over time."""
+"""Contacts of the cases: grids by cells on a radius, runs and their histories."""
 
 from __future__ import annotations
 
@@ -21,37 +21,29 @@ Array = NDArray[np.float64]
 RADIUS, FORCE = 0.01, 10.0  # of the ball [m], on it [N]
 BALL = Paraboloid(RADIUS, RADIUS)  # Hertz's sphere is a paraboloid
 
-#: Parts into which a step is divided in which contact is lost or made.
+#: Parts of a step within which contact is lost or made.
 PARTS = 40
 
 
 @dataclass(frozen=True, eq=False)
-class Marched:
-    """A run and its instants.
-
-    Attributes
-    ----------
-    grid : Grid
-        The cells.
-    states : tuple of ContactState
-        One for each instant.
-    """
+class CaseRun:
+    """Run of a case: its grid and the states at all times."""
 
     grid: Grid
-    states: tuple[ContactState, ...]
+    states: tuple[ContactState, ...]  # at all times
 
     def over_time(self, name: str) -> Array:
-        """One of the states' numbers at each instant."""
+        """Attribute of the states at each time."""
         return np.array([getattr(state, name) for state in self.states], dtype=float)
 
     @property
     def radius(self) -> Array:
-        """Radius of the circle of the traced area [m]."""
+        """Radius of the circle of the contact area [m]."""
         return np.sqrt(self.over_time("contact_area") / math.pi)
 
     @property
     def central_pressure(self) -> Array:
-        """Pressure of the cell at the origin of an odd grid [Pa]."""
+        """Pressure of the central cell of an odd grid [Pa]."""
         middle = tuple(n // 2 for n in self.grid.shape)
         return np.array([state.pressure[middle] for state in self.states])
 
@@ -67,7 +59,7 @@ class Marched:
 def grid_around(
     semi_axes: tuple[float, float], cells: float, *, margin: float = 1.25, odd: bool = True
 ) -> Grid:
-    """Return a grid with so many cells on each semi-axis of a contact [m]."""
+    """Grid with `cells` cells on each semi-axis of a contact [m]."""
     count = 2 * int(margin * cells + 1) + odd
     return Grid((count, count), (count * semi_axes[0] / cells, count * semi_axes[1] / cells))
 
@@ -81,8 +73,8 @@ def press(
     indenter: Indenter = BALL,
     indenter_material: Material | None = None,
     tolerance: float = 1e-7,
-) -> Marched:
-    """Press an indenter and keep all states."""
+) -> CaseRun:
+    """Run a contact and keep all states."""
     states = march(
         indenter,
         material,
@@ -92,7 +84,7 @@ def press(
         indenter_material=indenter_material,
         tolerance=tolerance,
     )
-    return Marched(grid, tuple(states))
+    return CaseRun(grid, tuple(states))
 
 
 def press_ball(
@@ -104,9 +96,9 @@ def press_ball(
     *,
     indenter_material: Material | None = None,
     margin: float = 1.25,
-) -> Marched:
-    """Press the ball on an odd grid with so many cells on a contact radius [m]."""
-    # Not a whole number: no mesh is to hit the rim by design.
+) -> CaseRun:
+    """Run the contact of the ball on an odd grid with `cells` cells on a contact radius [m]."""
+    # Not a whole number, so that no mesh meets the rim by design.
     grid = grid_around((radius, radius), cells + 0.3, margin=margin)
     return press(material, load, times, grid, indenter_material=indenter_material)
 
@@ -114,23 +106,9 @@ def press_ball(
 def instants_of_change(
     material: Material, load: LoadHistory, times: Array, radius: float, cells: float
 ) -> list[float]:
-    """Return when contact is made and lost, found in steps divided there [s].
+    """Instants of contact made and lost, without the first contact [s].
 
-    Parameters
-    ----------
-    material, load
-        What is pressed, and how.
-    times : ndarray
-        Instants of a first run [s].
-    radius : float
-        Largest contact radius [m].
-    cells : float
-        Cells on it.
-
-    Returns
-    -------
-    list of float
-        The middles of the parts in which the contact changes, the first touch left out.
+    They are the middles of the parts of divided steps, found in a second run on the same mesh.
     """
     first = press_ball(material, load, times, radius, cells)
     between = [np.linspace(begin, end, PARTS + 1) for begin, end in first.changes[1:]]

@@ -1,4 +1,4 @@
-"""Periodic contacts: waves without end, pressed towards flatness."""
+"""Verification cases of periodic wavy surfaces up to full contact."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ _CROSSED = Waviness(_HEIGHT, wavelength_x=_WAVE, wavelength_y=_WAVE)
 _FLAT = full_contact_pressure(_HEIGHT, MODULUS, wavelength_x=_WAVE)
 _FLAT_CROSSED = full_contact_pressure(_HEIGHT, MODULUS, wavelength_x=_WAVE, wavelength_y=_WAVE)
 
-#: Parts of the pressure of full contact over which errors are averaged: the rim meets the cells by
-#: chance.
+#: Parts of the pressure of full contact over which errors are averaged: the rim is at
+#: random positions in the cells.
 _PARTS = (0.2, 0.3, 0.4, 0.5, 0.6, 0.7)
 
 _CREEPING = Material(Zener(0.35 * MODULUS, 0.35 * MODULUS, 3.5 * MODULUS), poisson_ratio=0.3)
@@ -63,7 +63,7 @@ def _ridges(cells: int) -> tuple[Comparison, ...]:
 
 
 def _creeping(cells: int) -> tuple[Comparison, ...]:
-    """As far as the troughs are open: of full contact the extent is exact."""
+    """Approach and width while the troughs are open: in full contact the extent is exact."""
     grid, mean = _strip(cells), 0.6 * _FLAT
     compliance = _CREEPING.contact_compliance()
     states = march(_RIDGES, _CREEPING, step(mean * grid.area), grid, _INSTANTS, tolerance=1e-8)
@@ -75,7 +75,7 @@ def _creeping(cells: int) -> tuple[Comparison, ...]:
 
 
 def _flat(cells: int) -> tuple[Comparison, ...]:
-    """A little more than the pressure of full contact: it is p̄ - p* in the deepest trough."""
+    """Amplitude of the pressure above full contact, where it is p̄ - p* in the deepest trough."""
     grid = Grid((cells, cells), (_WAVE, _WAVE), periodic=True)
     load = step(1.01 * _FLAT_CROSSED * grid.area)
     state = next(march(_CROSSED, BODY, load, grid, [0.0], tolerance=1e-8))

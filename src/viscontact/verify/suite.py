@@ -1,4 +1,4 @@
-"""All cases, and running them."""
+"""List of all verification cases, and their execution."""
 
 from __future__ import annotations
 
@@ -26,14 +26,14 @@ def run_cases(
     cases: Sequence[Case] = CASES,
     progress: Progress | None = None,
 ) -> list[Result]:
-    """Compare with all exact solutions.
+    """Run verification cases and compare them with exact solutions.
 
     Parameters
     ----------
     fast : bool
         Two coarse refinements of each case instead of three.
     cases : sequence of Case
-        Which cases; all when left out.
+        Cases to run; all when left out.
     progress : callable, optional
         Called with (case, done, total) before each case.
 

@@ -1,4 +1,4 @@
-"""The table of results: as rows of words, as Markdown, as CSV."""
+"""Table of verification results as text, Markdown or CSV."""
 
 from __future__ import annotations
 
@@ -23,20 +23,8 @@ SUFFIXES = (".md", ".csv")
 
 
 def row_of_words(result: Result) -> tuple[str, ...]:
-    """Return a result as it is shown, one word for each of `HEADINGS`.
+    """Result as formatted cells, one for each of `HEADINGS`, in a readable unit.
 
-    Parameters
-    ----------
-    result : Result
-        The result.
-
-    Returns
-    -------
-    tuple of str
-        Values in a readable unit; "ok", or what is wrong.
-
-    Examples
-    --------
     >>> result = Result("cone", "Love 1939", "approach", "m", 2e-5, 2.001e-5, 5e-4, 1e-3, 1.98, 0.1)
     >>> row_of_words(result)[3:]
     ('20.0000 µm', '20.0100', '5.0e-04', '1e-03', '2.0', 'ok')
@@ -57,20 +45,8 @@ def row_of_words(result: Result) -> tuple[str, ...]:
 
 
 def as_markdown(results: Sequence[Result]) -> str:
-    """Return the table as GitHub and Sphinx read it.
+    """Markdown table; case and reference are given in the first row of a case only.
 
-    Parameters
-    ----------
-    results : sequence of Result
-        The results.
-
-    Returns
-    -------
-    str
-        Lines of Markdown; case and reference stand beside the first quantity of a case only.
-
-    Examples
-    --------
     >>> radius = Result("cone", "Love 1939", "radius", "m", 2e-4, 2e-4, 0.0, 1e-3, 1.4, 0.1)
     >>> approach = Result("cone", "Love 1939", "approach", "m", 2e-5, 2e-5, 0.0, 1e-3, 1.4, 0.1)
     >>> [line[:27] for line in as_markdown([radius, approach]).splitlines()[2:]]
@@ -86,18 +62,7 @@ def as_markdown(results: Sequence[Result]) -> str:
 
 
 def as_csv(results: Sequence[Result]) -> str:
-    """Return the table as CSV, values in SI units.
-
-    Parameters
-    ----------
-    results : sequence of Result
-        The results.
-
-    Returns
-    -------
-    str
-        A row of names and one for each result.
-    """
+    """CSV table of all fields, values in SI units."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     names = [field.name for field in fields(Result)]
@@ -116,7 +81,7 @@ def write_table(results: Sequence[Result], path: Path) -> None:
     results : sequence of Result
         The results.
     path : Path
-        Where to; its suffix says how, ``.md`` or ``.csv``.
+        The file, in the format of its suffix, ``.md`` or ``.csv``.
 
     Raises
     ------

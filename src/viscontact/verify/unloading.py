@@ -1,4 +1,4 @@
-"""Contacts that shrink, are lost, and are made again."""
+"""Verification cases of shrinking contacts, loss of contact and renewed contact."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from viscontact.verify.creeping import TIME, G, maxwell, zener
 from viscontact.verify.indentation import (
     FORCE,
     RADIUS,
-    Marched,
+    CaseRun,
     instants_of_change,
     press_ball,
 )
@@ -23,17 +23,17 @@ from viscontact.verify.indentation import (
 Array = NDArray[np.float64]
 
 _PROFILE = reference.SphereProfile(RADIUS)
-_PEAK, _RISE = 1e-5, 60.0  # way in [m] and its time [s]
+_PEAK, _RISE = 1e-5, 60.0  # largest approach [m] and its time [s]
 _LARGEST = math.sqrt(RADIUS * _PEAK)
 
-#: In, out beyond where the ball began, away, in again.
+#: Loading, withdrawal beyond the surface, rest, and loading again.
 _STAGE = ApproachHistory(
     [0, _RISE, 2 * _RISE, 4 * _RISE, 5 * _RISE], _PEAK * np.array([0, 1, -0.2, -0.2, 0.8])
 )
 
 
-def _radius(run: Marched, exact: Array) -> Comparison:
-    """While six cells or more fit into it: a cell or two have no rim to be traced."""
+def _radius(run: CaseRun, exact: Array) -> Comparison:
+    """Contact radius where it spans six cells or more: a smaller contact has no traceable rim."""
     fine = exact > 6 * run.grid.cell_size[0]
     at = np.flatnonzero(fine)
     return history(exact[at], run.radius[at])
@@ -112,7 +112,7 @@ def _force_haversines(cells: int) -> tuple[Comparison, ...]:
     )
 
 
-def _dent(cells: int) -> tuple[Comparison, ...]:
+def _renewed_contact(cells: int) -> tuple[Comparison, ...]:
     body, times = zener(), uniform_times(5 * _RISE, 5 * cells)
     exact = reference.press_axisymmetric(
         _PROFILE,
@@ -125,7 +125,7 @@ def _dent(cells: int) -> tuple[Comparison, ...]:
     run = press_ball(body.material, _STAGE, times, _LARGEST, cells, margin=1.8)
     changes = instants_of_change(body.material, _STAGE, times, _LARGEST, cells / 2)
     row = run.grid.shape[0] // 2
-    k = 3 * cells  # at three times the rise: away for half the time
+    k = 3 * cells  # at three times the rise, in the middle of the rest
     surface = exact.displacement(run.grid.x[row:], float(times[k]))
     return (
         history(surface, run.states[k].displacement[row:, row]),
@@ -141,21 +141,21 @@ _APPROACH = Quantity("approach", "m", 1e-3, 3e-4)
 
 CASES = (
     Case(
-        "stage in and out, Zener",
+        "approach triangle, Zener",
         "Ting 1966",
         (_FORCE, _RADIUS, Quantity("contact lost", "s", 1e-3, 5e-4, has_order=False)),
         _LEVELS,
         _stage_triangle,
     ),
     Case(
-        "stage in and out smoothly, Zener",
+        "approach haversine, Zener",
         "Ting 1966",
         (_FORCE, _RADIUS),
         _LEVELS,
         _stage_haversine,
     ),
     Case(
-        "stage in and out three times, Maxwell",
+        "three approach triangles, Maxwell",
         "Ting 1968",
         (
             Quantity("force", "N", 3e-3, 1e-3),
@@ -165,24 +165,24 @@ CASES = (
         _LEVELS,
         _stage_cycles,
     ),
-    Case("force up and down, Maxwell", "Ting 1966", (_APPROACH, _RADIUS), _LEVELS, _force_triangle),
+    Case("force triangle, Maxwell", "Ting 1966", (_APPROACH, _RADIUS), _LEVELS, _force_triangle),
     Case(
-        "force swings twice, Zener",
+        "two force haversines, Zener",
         "Graham 1965",
         (_APPROACH, _RADIUS, Quantity("work", "J", 3e-3, 1e-3)),
         _LEVELS,
         _force_haversines,
     ),
     Case(
-        "dent after lost contact, met again, Zener",
+        "contact lost and made again, Zener",
         "Graham 1967, Ting 1968",
         (
-            Quantity("dent", "m", 3e-3, 1e-3),
+            Quantity("residual displacement", "m", 3e-3, 1e-3),
             Quantity("contact lost", "s", 1e-3, 5e-4, has_order=False),
-            Quantity("touched again", "s", 1e-3, 5e-4, has_order=False),
+            Quantity("second contact", "s", 1e-3, 5e-4, has_order=False),
             _FORCE,
         ),
         _LEVELS,
-        _dent,
+        _renewed_contact,
     ),
 )
