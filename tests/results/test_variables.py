@@ -13,7 +13,7 @@ import xarray as xr
 
 import viscontact as vc
 from viscontact.accuracy.coarser_runs import SCALARS as ESTIMATED
-from viscontact.accuracy.error_bars import TRUSTS, ZERO_APART
+from viscontact.accuracy.error_bars import ERROR_MODELS, ZERO_WITHOUT_CONTACT
 from viscontact.cli import main
 from viscontact.notebook.result_card import result_card
 from viscontact.plot import history
@@ -63,8 +63,8 @@ def test_table_has_every_scalar_of_a_state_and_of_a_dataset(ds: xr.Dataset) -> N
 
 def test_estimated_errors_are_those_of_the_table() -> None:
     promised = [name for name, variable in SCALARS.items() if variable.has_error]
-    assert list(TRUSTS) == promised
-    assert set(ZERO_APART) <= set(promised)
+    assert list(ERROR_MODELS) == promised
+    assert set(ZERO_WITHOUT_CONTACT) <= set(promised)
     assert ("time", *promised, "cells_across") == ESTIMATED
 
 
