@@ -4,23 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from numbers import Real
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.display import Displayable
-from viscontact.units.numbers import as_real
+from viscontact.units.numbers import as_real, positive, whole
 
 #: What a mesh can be chosen for.
 GRID_QUANTITIES = ("peak_pressure", "contact_area", "approach")
 
 #: The tolerances that a mesh can be chosen for.
 FINEST, COARSEST = 1e-4, 0.5
-
-#: Larger whole numbers are no floats.
-_LARGEST = 1e300
 
 
 @dataclass(frozen=True)
@@ -59,11 +55,9 @@ class Grid(Displayable):
     def __post_init__(self) -> None:
         cells, extents = _pair("shape", self.shape), _pair("size", self.size)
         for name, count in zip(("nx", "ny"), cells, strict=True):
-            if not (_is_number(count) and count >= 4 and float(count).is_integer()):
-                raise ValueError(f"grid.shape: {name} must be a whole number >= 4, got {count!r}")
+            whole(f"grid.shape: {name}", count, 4)
         for name, extent in zip(("lx", "ly"), extents, strict=True):
-            if not (_is_number(extent) and extent > 0):
-                raise ValueError(f"grid.size: {name} must be a positive length, got {extent!r} m")
+            positive(f"grid.size: {name}", extent, "m")
         if not isinstance(self.periodic, bool | np.bool_):
             raise ValueError(f"grid.periodic must be true or false, got {self.periodic!r}")
         object.__setattr__(self, "periodic", bool(self.periodic))
@@ -231,11 +225,6 @@ def _pair(name: str, given: Any) -> tuple[Any, Any]:
     except (TypeError, ValueError):
         raise ValueError(f"grid.{name} needs two entries, along x and y, got {given!r}") from None
     return along_x, along_y
-
-
-def _is_number(value: Any) -> bool:
-    plain = isinstance(value, Real) and not isinstance(value, bool)
-    return plain and bool(abs(value) <= _LARGEST)
 
 
 def _centres(cells: int, extent: float) -> NDArray[np.float64]:

@@ -333,7 +333,13 @@ def test_adding_a_number_is_refused():
 # -- refusals --------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("bad", [0.0, -1e-3, math.nan, math.inf, True, "5 mm", None, [1.0]])
+@pytest.mark.parametrize(
+    ("bad", "shown"),
+    [
+        *((0.0, "0 "), (-1e-3, "-1 m"), (math.nan, "nan"), (math.inf, "inf")),
+        *((True, "True"), ("5 mm", "'5 mm'"), (None, "None"), ([1.0], "[1.0]")),
+    ],
+)
 @pytest.mark.parametrize(
     ("make", "name"),
     [
@@ -345,10 +351,10 @@ def test_adding_a_number_is_refused():
         (lambda bad: Cone(bad), "Cone: half_angle"),
     ],
 )
-def test_bad_length_is_refused_with_its_name_and_value(make, name, bad):
+def test_bad_length_is_refused_with_its_name_and_value(make, name, bad, shown):
     with pytest.raises(ValueError, match=name) as refusal:
         make(bad)
-    assert repr(bad) in str(refusal.value)
+    assert shown in str(refusal.value)
 
 
 @pytest.mark.parametrize("bad", [0.0, -1.0, math.nan, math.inf, False, "75 mm"])
@@ -358,7 +364,7 @@ def test_bad_crown_radius_is_refused(bad):
 
 
 def test_half_angle_in_degrees_is_met_with_the_remedy():
-    with pytest.raises(ValueError, match=r"half_angle.*got 60; for degrees use math\.radians"):
+    with pytest.raises(ValueError, match=r"half_angle.*got 60 rad; for degrees use math\.radians"):
         Cone(60)
     with pytest.raises(ValueError, match="half_angle"):
         Cone(math.pi / 2)

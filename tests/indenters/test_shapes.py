@@ -332,7 +332,7 @@ def test_turned_roller_presses_as_the_roller_does() -> None:
     ("make", "message"),
     [
         (lambda: vc.Ellipsoid(1.0, 0.0, 1.0), "semi_axis_y must be a positive"),
-        (lambda: vc.Wedge(60), "half_angle must lie .* got 60; for degrees use math.radians"),
+        (lambda: vc.Wedge(60), "half_angle must lie .* got 60 rad; for degrees use math.radians"),
         (lambda: vc.Wedge(1.0, -1.0), "half_length must be a positive"),
         (lambda: vc.Pyramid(1.0, 2), "faces must be a whole number from 3 .* got 2"),
         (lambda: vc.Pyramid(1.0, 3.5), "faces must be a whole number"),
@@ -340,7 +340,7 @@ def test_turned_roller_presses_as_the_roller_does() -> None:
         (lambda: vc.Torus(1.0, math.inf), "tube_radius must be a positive"),
         (lambda: vc.Waviness(1.0), "give wavelength_x, wavelength_y or both"),
         (lambda: vc.Waviness(1.0, 1.0, phase_y=1.0), "phase_y goes with wavelength_y"),
-        (lambda: vc.Waviness(1.0, 1.0, phase_x=math.nan), "phase_x must be finite"),
+        (lambda: vc.Waviness(1.0, 1.0, phase_x=math.nan), "phase_x must be a finite"),
         (lambda: vc.Dimples(1.0, 0.5, 2.0), "depth must be at most the radius"),
         (lambda: vc.Dimples(0.1, 0.5, 0.9), "spacing must be at least two radii"),
         (lambda: vc.Dimples(0.1, 0.5, 2.0, "hex"), "pattern must be 'square' or 'hexagonal', got"),
@@ -351,8 +351,8 @@ def test_turned_roller_presses_as_the_roller_does() -> None:
         (lambda: vc.Swept([0, 1], [0, 1], interpolation="cubic"), "interpolation must be 'smooth'"),
         (lambda: vc.Swept("ab", [0, 1]), "y must be a list of lengths"),
         (lambda: vc.Swept([[0], [1, 2]], [0, 1]), "y must be a list of lengths"),
-        (lambda: vc.Sphere(1.0).rotated("30 deg"), "angle must be a number in rad"),
-        (lambda: vc.Sphere(1.0).shifted(math.inf), "x must be finite"),
+        (lambda: vc.Sphere(1.0).rotated("30 deg"), "angle must be a finite number in rad"),
+        (lambda: vc.Sphere(1.0).shifted(math.inf), "x must be a finite"),
     ],
 )
 def test_nonsense_is_refused(make: Any, message: str) -> None:

@@ -206,23 +206,23 @@ BAD = [0.0, -1.0, float("nan"), float("inf"), "x"]
 @pytest.mark.parametrize("noun", LAWS[:4], ids=lambda law: type(law).__name__)
 def test_moduli_and_viscosities_that_are_not_positive_are_refused_by_name(noun, bad):
     for field in dataclasses.fields(noun):
-        with pytest.raises(ValueError, match=rf"{type(noun).__name__}\.{field.name}: must be"):
+        with pytest.raises(ValueError, match=rf"{type(noun).__name__}: {field.name} must be"):
             dataclasses.replace(noun, **{field.name: bad})
 
 
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: CreepSeries(-1.0, [1.0], [1.0]), r"CreepSeries\.instant: .*got -1\.0"),
-        (lambda: CreepSeries(1.0, [1.0, -2.0], [1.0, 2.0]), r"CreepSeries\.amplitudes\[1\]"),
-        (lambda: CreepSeries(1.0, [1.0], [0.0]), r"CreepSeries\.times\[0\]: .*got 0\.0 s"),
-        (lambda: CreepSeries(1.0, [1.0], [np.nan]), r"CreepSeries\.times\[0\]"),
+        (lambda: CreepSeries(-1.0, [1.0], [1.0]), r"CreepSeries: instant .*got -1 1/Pa"),
+        (lambda: CreepSeries(1.0, [1.0, -2.0], [1.0, 2.0]), r"CreepSeries: amplitudes\[1\]"),
+        (lambda: CreepSeries(1.0, [1.0], [0.0]), r"CreepSeries: times\[0\] .*got 0 s"),
+        (lambda: CreepSeries(1.0, [1.0], [np.nan]), r"CreepSeries: times\[0\]"),
         (lambda: CreepSeries(1.0, [1.0], [1.0, 2.0]), "got 1 amplitudes and 2 times"),
-        (lambda: CreepSeries(1.0, 1.0, 2.0), r"CreepSeries\.amplitudes: must be a sequence"),
-        (lambda: CreepSeries(1.0, [1.0], [1.0], -0.1), r"CreepSeries\.fluidity"),
+        (lambda: CreepSeries(1.0, 1.0, 2.0), r"CreepSeries: amplitudes must be a sequence"),
+        (lambda: CreepSeries(1.0, [1.0], [1.0], -0.1), r"CreepSeries: fluidity"),
         (lambda: CreepSeries(0.0, [0.0], [1.0]), "CreepSeries: .*all 0"),
-        (lambda: RelaxationSeries(np.inf, [1.0], [1.0]), r"RelaxationSeries\.equilibrium"),
-        (lambda: RelaxationSeries(0.0, [-1.0], [1.0]), r"RelaxationSeries\.moduli\[0\]"),
+        (lambda: RelaxationSeries(np.inf, [1.0], [1.0]), r"RelaxationSeries: equilibrium"),
+        (lambda: RelaxationSeries(0.0, [-1.0], [1.0]), r"RelaxationSeries: moduli\[0\]"),
         (lambda: RelaxationSeries(0.0, [0.0], [1.0]), "RelaxationSeries: .*all 0"),
         (lambda: RelaxationSeries(0.0, [], []), "RelaxationSeries: .*all 0"),
         (lambda: Elastic.from_uniaxial(1.0), "exactly one of poisson_ratio and bulk_modulus"),

@@ -207,11 +207,11 @@ def test_tensile_and_rheometer_tables_are_converted_by_the_row():
 
 
 BAD_TIMES = [
-    (([1.0, np.nan, 3.0],), r"times, row 1: must be finite, got nan s"),
+    (([1.0, np.nan, 3.0],), r"times, row 1: must be a finite number in s, got nan"),
     (([1.0, 3.0, 2.0],), r"times, row 2: must be after row 1, got 2\.0 s after 3\.0 s"),
     (([1.0, 1.0, 2.0],), r"times, row 1: must be after row 0"),
     (([-1.0, 1.0, 2.0],), r"times, row 0: must be >= 0 s, got -1\.0 s"),
-    (([1.0, "2", 3.0],), r"times, row 1: must be one number in s"),
+    (([1.0, "2", 3.0],), r"times, row 1: must be a finite number in s"),
     (([[1.0], [2.0], [3.0]],), r"times: must be a sequence of numbers"),
     (([1.0, 2.0],), r"times and .* equal lengths, got 2 times and 3 values"),
 ]
@@ -237,11 +237,11 @@ def test_bad_times_are_refused_with_row_and_column(kind, times, message):
             lambda t: TabulatedCreep(t, [1, -1, 2]),
             r"compliance, row 1: must be positive, got -1\.0",
         ),
-        (lambda t: TabulatedCreep(t, [1, 2, np.inf]), r"compliance, row 2: must be finite"),
+        (lambda t: TabulatedCreep(t, [1, 2, np.inf]), r"compliance, row 2: must be a finite"),
         (lambda t: TabulatedCreep([1], [1]), "at least 2 rows at times above 0 s"),
         (lambda t: TabulatedCreep([0, 1], [1, 2]), "at least 2 rows at times above 0 s"),
-        (lambda t: TabulatedCreep(t, [1, 2, 3], before="x"), "before: must be one of 'first', 's"),
-        (lambda t: TabulatedCreep(t, [1, 2, 3], beyond="x"), "beyond: must be one of 'slope', 'l"),
+        (lambda t: TabulatedCreep(t, [1, 2, 3], before="x"), "before must be one of 'first', 's"),
+        (lambda t: TabulatedCreep(t, [1, 2, 3], beyond="x"), "beyond must be one of 'slope', 'l"),
         (lambda t: TabulatedRelaxation(t, [1, 2, 1]), r"modulus, row 1: must not grow"),
         (lambda t: TabulatedRelaxation(t, [2, 1, 0]), r"modulus, row 2: must be positive, got 0"),
         (lambda t: TabulatedRelaxation(t, [2, 1, -1]), r"modulus, row 2: must be positive, got -1"),

@@ -68,10 +68,10 @@ def test_a_table_gives_its_own_factors_exactly_and_their_geometric_mean_between(
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: WLF(0.0, 17.0, 50.0), r"WLF\.reference_temperature: .*got 0\.0 K"),
-        (lambda: WLF(300.0, -17.0, 50.0), r"WLF\.c1: .*got -17\.0"),
-        (lambda: WLF(300.0, 17.0, np.nan), r"WLF\.c2"),
-        (lambda: Arrhenius(300.0, 0.0), r"Arrhenius\.activation_energy: .*J/mol"),
+        (lambda: WLF(0.0, 17.0, 50.0), r"WLF: reference_temperature .*got 0 K"),
+        (lambda: WLF(300.0, -17.0, 50.0), r"WLF: c1 .*got -17"),
+        (lambda: WLF(300.0, 17.0, np.nan), r"WLF: c2"),
+        (lambda: Arrhenius(300.0, 0.0), r"Arrhenius: activation_energy .*J/mol"),
         (lambda: WLF(300.0, 17.0, 50.0).factor(250.0), r"above T_r - C_2 = 250 K.*got 250 K"),
         (lambda: WLF(300.0, 17.0, 50.0).factor(-20.0), r"above 0 K, got -20 K.*293\.15"),
         (lambda: WLF(300.0, 17.0, 50.0).factor([300.0, np.nan]), "got nan K"),
@@ -80,7 +80,7 @@ def test_a_table_gives_its_own_factors_exactly_and_their_geometric_mean_between(
         (lambda: TabulatedShift([300.0, 310.0], [1.0]), "got 2 temperatures and 1 factors"),
         (lambda: TabulatedShift([310.0, 300.0], [1.0, 0.1]), r"temperatures\[1\].*got 300\.0"),
         (lambda: TabulatedShift([300.0, 310.0], [1.0, 2.0]), r"factors\[1\].*got 2\.0"),
-        (lambda: TabulatedShift([300.0, 310.0], [1.0, -2.0]), r"factors\[1\].*got -2\.0"),
+        (lambda: TabulatedShift([300.0, 310.0], [1.0, -2.0]), r"factors\[1\].*got -2"),
         (
             lambda: TabulatedShift([300.0, 310.0], [1.0, 0.1]).factor(311.0),
             "between 300 and 310 K, got 311 K",

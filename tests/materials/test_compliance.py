@@ -84,7 +84,7 @@ def test_data_end_where_they_end():
     assert Material(TABLE, 0.3, measured_until=50.0).known_until == 50.0
     assert Material(ZENER, 0.3).known_until == math.inf
     assert Material(ZENER, 0.3, measured_until=50.0).known_until == 50.0
-    with pytest.raises(ValueError, match=r"Material\.measured_until: must be a positive"):
+    with pytest.raises(ValueError, match=r"Material: measured_until must be a positive"):
         Material(ZENER, 0.3, measured_until=0.0)
 
 

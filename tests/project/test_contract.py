@@ -615,7 +615,7 @@ def test_law_without_instant_compliance_is_accepted_and_refused_only_where_the_l
             for count in (3, 64.5, math.nan, math.inf, "64", None, True, [64], 10**400)
         ),
         *(
-            ((64, 64), (1, extent), "ly must be a positive length")
+            ((64, 64), (1, extent), "ly must be a positive finite number")
             for extent in (0, -1, math.nan, math.inf, "1", None, True, [1], 10**400)
         ),
     ],

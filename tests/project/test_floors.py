@@ -21,8 +21,8 @@ PACKAGE = Path(viscontact.__file__).parent
 
 # The floors from the ground up. Rooms on one floor do not import each other.
 FLOORS = (
-    ("errors", "display", "fourier", "units", "examples", "reference"),
-    ("grid", "indenters", "laws", "loads", "tables"),
+    ("errors", "display", "fourier", "units", "examples"),
+    ("reference", "grid", "indenters", "laws", "loads", "tables"),
     ("materials", "halfspace", "surfaces", "state"),
     ("contact", "time_integration", "identification"),
     ("checks", "meshing", "results", "case"),

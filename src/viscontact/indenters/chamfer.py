@@ -9,9 +9,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.indenters.arc import arc_drop
-from viscontact.indenters.arguments import acute_angle, length_or_zero, positive_length
+from viscontact.indenters.arguments import acute_angle
 from viscontact.indenters.profile import Profile
 from viscontact.units.formatting import format_quantity
+from viscontact.units.numbers import check_fields, non_negative
 
 
 @dataclass(frozen=True)
@@ -52,10 +53,9 @@ class Chamfer(Profile):
     corner_radius: float = field(default=0.0, metadata={"unit": "m"})
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "length", positive_length("Chamfer: length", self.length))
-        corner = length_or_zero("Chamfer: corner_radius", self.corner_radius)
-        object.__setattr__(self, "corner_radius", corner)
-        object.__setattr__(self, "angle", acute_angle("Chamfer: angle", self.angle))
+        check_fields(self, "length")
+        check_fields(self, "corner_radius", check=non_negative)
+        check_fields(self, "angle", check=acute_angle)
         if self._tangent * math.cos(self.angle) > self.length:
             largest = self.length / math.cos(self.angle) / math.tan(self.angle / 2)
             raise ValueError(

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.indenters.arc import arc_drop
-from viscontact.indenters.arguments import positive_length
 from viscontact.indenters.profile import Profile
 from viscontact.units.formatting import format_quantity
+from viscontact.units.numbers import check_fields
 
 
 @dataclass(frozen=True)
@@ -60,8 +60,7 @@ class FullCrown(Profile):
     crown_radius: float = field(metadata={"unit": "m"})
 
     def __post_init__(self) -> None:
-        radius = positive_length("FullCrown: crown_radius", self.crown_radius)
-        object.__setattr__(self, "crown_radius", radius)
+        check_fields(self, "crown_radius")
 
     def drop(self, x: ArrayLike, half_length: float) -> NDArray[np.float64]:
         """Return the drop of the arc; see `Profile.drop`."""
@@ -111,9 +110,7 @@ class PartialCrown(Profile):
     end_length: float | None = field(default=None, metadata={"unit": "m"})
 
     def __post_init__(self) -> None:
-        _set_lengths(self, "crown_radius")
-        if self.end_length is not None:
-            _set_lengths(self, "end_length")
+        check_fields(self, "crown_radius", "end_length")
 
     def drop(self, x: ArrayLike, half_length: float) -> NDArray[np.float64]:
         """Return the drop of the arc beyond the straight part; see `Profile.drop`."""
@@ -173,15 +170,13 @@ class TwoRadiiCrown(Profile):
     end_length: float | None = field(default=None, metadata={"unit": "m"})
 
     def __post_init__(self) -> None:
-        _set_lengths(self, "crown_radius", "crown_length", "end_radius")
+        check_fields(self, "crown_radius", "crown_length", "end_radius", "end_length")
         if self.crown_length >= self.crown_radius:
             raise ValueError(
                 "TwoRadiiCrown: crown_length must be smaller than crown_radius, where the arc "
                 f"ends, got {format_quantity(self.crown_length, 'm', 9)} and "
                 f"{format_quantity(self.crown_radius, 'm', 9)}"
             )
-        if self.end_length is not None:
-            _set_lengths(self, "end_length")
 
     def drop(self, x: ArrayLike, half_length: float) -> NDArray[np.float64]:
         """Return the sum of the arcs' drops; see `Profile.drop`."""
@@ -204,12 +199,6 @@ class TwoRadiiCrown(Profile):
     def require_fit(self, half_length: float) -> None:
         """Raise ValueError if the roller would end on its straight part."""
         _require_beyond("TwoRadiiCrown", "end_length", self.end_length, half_length)
-
-
-def _set_lengths(noun: Profile, *names: str) -> None:
-    for name in names:
-        length = positive_length(f"{type(noun).__name__}: {name}", getattr(noun, name))
-        object.__setattr__(noun, name, length)
 
 
 def _require_beyond(noun: str, name: str, end: float | None, half_length: float) -> None:

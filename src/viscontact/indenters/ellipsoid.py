@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.indenters.arc import arc_drop
-from viscontact.indenters.arguments import positions, positive_length
+from viscontact.indenters.arguments import positions
 from viscontact.indenters.indenter import Indenter
+from viscontact.units.numbers import check_fields
 
 
 @dataclass(frozen=True)
@@ -43,9 +44,7 @@ class Ellipsoid(Indenter):
     semi_axis_z: float = field(metadata={"unit": "m"})
 
     def __post_init__(self) -> None:
-        for name in ("semi_axis_x", "semi_axis_y", "semi_axis_z"):
-            length = positive_length(f"Ellipsoid: {name}", getattr(self, name))
-            object.__setattr__(self, name, length)
+        check_fields(self, "semi_axis_x", "semi_axis_y", "semi_axis_z")
 
     def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
         """Return c (1 - sqrt(1 - ρ²)), +inf for ρ > 1; see `Indenter.gap`."""

@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from viscontact.indenters.arguments import acute_angle, positions, positive_length
+from viscontact.indenters.arguments import acute_angle, positions
 from viscontact.indenters.indenter import Indenter
-from viscontact.units.numbers import as_real
+from viscontact.units.numbers import as_real, check_fields
 
 
 @dataclass(frozen=True)
@@ -40,10 +40,8 @@ class Wedge(Indenter):
     half_length: float | None = field(default=None, metadata={"unit": "m"})
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "half_angle", acute_angle("Wedge: half_angle", self.half_angle))
-        if self.half_length is not None:
-            length = positive_length("Wedge: half_length", self.half_length)
-            object.__setattr__(self, "half_length", length)
+        check_fields(self, "half_angle", check=acute_angle)
+        check_fields(self, "half_length")
 
     def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
         """Return |y| / tan(half_angle), +inf beyond the edge's ends; see `Indenter.gap`."""
@@ -83,7 +81,7 @@ class Pyramid(Indenter):
     faces: int = field(metadata={"unit": "1"})
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "half_angle", acute_angle("Pyramid: half_angle", self.half_angle))
+        check_fields(self, "half_angle", check=acute_angle)
         number = as_real(self.faces)
         if number is None or not 3 <= number <= 1000 or number != int(number):
             raise ValueError(

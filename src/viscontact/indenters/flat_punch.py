@@ -7,8 +7,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from viscontact.indenters.arguments import positions, positive_length
+from viscontact.indenters.arguments import positions
 from viscontact.indenters.indenter import Indenter
+from viscontact.units.numbers import check_fields
 
 
 @dataclass(frozen=True)
@@ -50,9 +51,7 @@ class FlatPunch(Indenter):
                 f"half_width= (a rectangular one), got radius={self.radius!r}, "
                 f"half_length={self.half_length!r}, half_width={self.half_width!r}"
             )
-        for name in ("radius",) if is_round else ("half_length", "half_width"):
-            length = positive_length(f"FlatPunch: {name}", getattr(self, name))
-            object.__setattr__(self, name, length)
+        check_fields(self, "radius", "half_length", "half_width")
 
     def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
         """Return zero on the punch, edge included, and +inf outside; see `Indenter.gap`."""

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.display import Displayable
-from viscontact.indenters.arguments import positions, real_number
+from viscontact.indenters.arguments import positions
+from viscontact.units.numbers import check_fields, finite
 
 
 class Indenter(Displayable, ABC):
@@ -193,11 +194,7 @@ class PlacedIndenter(Indenter):
     def __post_init__(self) -> None:
         if not isinstance(self.body, Indenter):
             raise ValueError(f"PlacedIndenter: body must be an indenter, got {self.body!r}")
-        for name, unit in (("angle", "rad"), ("x", "m"), ("y", "m")):
-            number = real_number(f"PlacedIndenter: {name}", getattr(self, name), unit)
-            if not math.isfinite(number):
-                raise ValueError(f"PlacedIndenter: {name} must be finite, got {number!r} {unit}")
-            object.__setattr__(self, name, number)
+        check_fields(self, "angle", "x", "y", check=finite)
 
     @property
     def _turn(self) -> tuple[float, float]:

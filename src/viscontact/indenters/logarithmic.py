@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from viscontact.indenters.arguments import positive_length, real_number
 from viscontact.indenters.profile import Profile
 from viscontact.units.formatting import format_quantity
+from viscontact.units.numbers import check_fields, positive, real
 
 #: ISO/TS 16281's profile: its amplitude over the roller's diameter on short rollers and on long
 #: ones, those beyond so many diameters, whose crowns take half of that at either end.
@@ -63,18 +63,13 @@ class LogarithmicProfile(Profile):
     end_drop: float | None = field(default=None, metadata={"unit": "m"})
 
     def __post_init__(self) -> None:
-        amplitude = positive_length("LogarithmicProfile: amplitude", self.amplitude)
-        object.__setattr__(self, "amplitude", amplitude)
-        ratio = real_number("LogarithmicProfile: crown_ratio", self.crown_ratio, "1")
-        if not 0 < ratio <= 1:
+        check_fields(self, "amplitude", "end_drop")
+        check_fields(self, "crown_ratio", check=real)
+        if not 0 < self.crown_ratio <= 1:
             raise ValueError(
                 "LogarithmicProfile: crown_ratio must be above 0 and at most 1, the part of the "
                 f"half length that the crown takes, got {self.crown_ratio!r}"
             )
-        object.__setattr__(self, "crown_ratio", ratio)
-        if self.end_drop is not None:
-            end_drop = positive_length("LogarithmicProfile: end_drop", self.end_drop)
-            object.__setattr__(self, "end_drop", end_drop)
 
     @classmethod
     def lundberg(
@@ -152,7 +147,7 @@ class LogarithmicProfile(Profile):
         11.76
         """
         amplitude = _design_amplitude(half_length, force, effective_modulus)
-        radius = positive_length("LogarithmicProfile: radius", radius)
+        radius = _positive("radius", radius, "m")
         half_width = 2 * math.sqrt(radius * amplitude)
         if half_width >= half_length:
             raise ValueError(
@@ -248,8 +243,8 @@ class LogarithmicProfile(Profile):
         >>> LogarithmicProfile.iso_16281(radius=5e-3, half_length=6e-3).amplitude * 1e6
         3.5
         """
-        radius = positive_length("LogarithmicProfile: radius", radius)
-        half_length = positive_length("LogarithmicProfile: half_length", half_length)
+        radius = _positive("radius", radius, "m")
+        half_length = _positive("half_length", half_length, "m")
         longest = ISO_LONGEST_SHORT * radius
         if half_length <= longest:
             return cls(2 * radius * ISO_SHORT)
@@ -286,16 +281,11 @@ class LogarithmicProfile(Profile):
 
 def _design_amplitude(half_length: object, force: object, effective_modulus: object) -> float:
     """A = w / (π E*) under the design load's mean over the length [m]."""
-    half_length = positive_length("LogarithmicProfile: half_length", half_length)
+    half_length = _positive("half_length", half_length, "m")
     force = _positive("force", force, "N")
     modulus = _positive("effective_modulus", effective_modulus, "Pa")
     return force / (2 * math.pi * half_length * modulus)
 
 
 def _positive(name: str, value: object, unit: str) -> float:
-    number = real_number(f"LogarithmicProfile: {name}", value, unit)
-    if not (math.isfinite(number) and number > 0):
-        raise ValueError(
-            f"LogarithmicProfile: {name} must be positive and finite, in {unit}, got {value!r}"
-        )
-    return number
+    return positive(f"LogarithmicProfile: {name}", value, unit)

@@ -8,10 +8,11 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from viscontact.indenters.arguments import positions, positive_length
+from viscontact.indenters.arguments import positions
 from viscontact.indenters.indenter import Indenter
 from viscontact.indenters.point_line import TableLine, mirrored, numbers
 from viscontact.units.formatting import format_quantity
+from viscontact.units.numbers import positive
 
 
 @dataclass(frozen=True, init=False)
@@ -109,7 +110,7 @@ class Swept(Indenter):
         # Written out, so that arrays are welcome and numbers that compare are kept.
         object.__setattr__(self, "y", numbers("Swept: y", y))
         object.__setattr__(self, "drops", numbers("Swept: drops", drops))
-        length = None if half_length is None else positive_length("Swept: half_length", half_length)
+        length = None if half_length is None else positive("Swept: half_length", half_length, "m")
         object.__setattr__(self, "half_length", length)
         object.__setattr__(self, "interpolation", interpolation)
         if self.y and self.y[0] > 0:

@@ -9,11 +9,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.indenters.arc import arc_drop
-from viscontact.indenters.arguments import positions, positive_length
+from viscontact.indenters.arguments import positions
 from viscontact.indenters.crowns import CylindricalProfile, PartialCrown
 from viscontact.indenters.indenter import Indenter
 from viscontact.indenters.named_profiles import named_profile, profile_from_table
 from viscontact.indenters.profile import Profile
+from viscontact.units.numbers import positive
 
 CROSS_SECTIONS = ("circle", "parabola")
 
@@ -86,11 +87,11 @@ class Roller(Indenter):
     ) -> None:
         # Written out, so that a profile may be named, with arguments of its own.
         values: dict[str, Any] = {
-            "radius": positive_length("Roller: radius", radius),
-            "half_length": positive_length("Roller: half_length", half_length),
+            "radius": positive("Roller: radius", radius, "m"),
+            "half_length": positive("Roller: half_length", half_length, "m"),
             "crown_radius": crown_radius
             if crown_radius is None
-            else positive_length("Roller: crown_radius", crown_radius),
+            else positive("Roller: crown_radius", crown_radius, "m"),
         }
         made = _profile(profile, values, arguments)
         if made is not None:

@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.indenters.arc import arc_drop
-from viscontact.indenters.arguments import positions, positive_length, real_number
+from viscontact.indenters.arguments import acute_angle, positions
 from viscontact.indenters.indenter import Indenter
+from viscontact.units.numbers import check_fields
 
 
 @dataclass(frozen=True)
@@ -39,7 +40,7 @@ class Sphere(Indenter):
     radius: float = field(metadata={"unit": "m"})
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "radius", positive_length("Sphere: radius", self.radius))
+        check_fields(self, "radius")
 
     def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
         """Return R - sqrt(R² - r²), +inf for r > R; see `Indenter.gap`."""
@@ -75,9 +76,7 @@ class Paraboloid(Indenter):
     radius_y: float = field(metadata={"unit": "m"})
 
     def __post_init__(self) -> None:
-        for name in ("radius_x", "radius_y"):
-            radius = positive_length(f"Paraboloid: {name}", getattr(self, name))
-            object.__setattr__(self, name, radius)
+        check_fields(self, "radius_x", "radius_y")
 
     def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
         """Return x²/(2 R_x) + y²/(2 R_y); see `Indenter.gap`."""
@@ -114,13 +113,7 @@ class Cone(Indenter):
     half_angle: float = field(metadata={"unit": "rad"})
 
     def __post_init__(self) -> None:
-        half_angle = real_number("Cone: half_angle", self.half_angle, "rad")
-        if not 0 < half_angle < math.pi / 2:
-            raise ValueError(
-                "Cone: half_angle, from axis to flank, must lie between 0 and π/2 rad, "
-                f"got {self.half_angle!r}; for degrees use math.radians(...)"
-            )
-        object.__setattr__(self, "half_angle", half_angle)
+        check_fields(self, "half_angle", check=acute_angle)
 
     def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
         """Return r / tan(half_angle); see `Indenter.gap`."""

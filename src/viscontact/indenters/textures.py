@@ -8,9 +8,10 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from viscontact.indenters.arguments import positions, positive_length, real_number
+from viscontact.indenters.arguments import positions
 from viscontact.indenters.indenter import Indenter
 from viscontact.units.formatting import format_quantity
+from viscontact.units.numbers import check_fields, finite
 
 PATTERNS = ("square", "hexagonal")
 
@@ -60,23 +61,15 @@ class Waviness(Indenter):
     phase_y: float = field(default=0.0, metadata={"unit": "rad"})
 
     def __post_init__(self) -> None:
-        amplitude = positive_length("Waviness: amplitude", self.amplitude)
-        object.__setattr__(self, "amplitude", amplitude)
+        check_fields(self, "amplitude", "wavelength_x", "wavelength_y")
+        check_fields(self, "phase_x", "phase_y", check=finite)
         for axis in ("x", "y"):
-            self._set_axis(f"wavelength_{axis}", f"phase_{axis}")
+            if getattr(self, f"phase_{axis}") and getattr(self, f"wavelength_{axis}") is None:
+                raise ValueError(
+                    f"Waviness: phase_{axis} goes with wavelength_{axis}, which is not given"
+                )
         if self.wavelength_x is None and self.wavelength_y is None:
             raise ValueError("Waviness: give wavelength_x, wavelength_y or both, got neither")
-
-    def _set_axis(self, wavelength: str, phase: str) -> None:
-        length = getattr(self, wavelength)
-        if length is not None:
-            object.__setattr__(self, wavelength, positive_length(f"Waviness: {wavelength}", length))
-        angle = real_number(f"Waviness: {phase}", getattr(self, phase), "rad")
-        if not math.isfinite(angle):
-            raise ValueError(f"Waviness: {phase} must be finite, in rad, got {angle!r}")
-        if angle != 0 and length is None:
-            raise ValueError(f"Waviness: {phase} goes with {wavelength}, which is not given")
-        object.__setattr__(self, phase, angle)
 
     def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
         """Return the depth below the crests; see `Indenter.gap`."""
@@ -132,9 +125,7 @@ class Dimples(Indenter):
     pattern: str = "square"
 
     def __post_init__(self) -> None:
-        for name in ("depth", "radius", "spacing"):
-            length = positive_length(f"Dimples: {name}", getattr(self, name))
-            object.__setattr__(self, name, length)
+        check_fields(self, "depth", "radius", "spacing")
         if self.depth > self.radius:
             raise ValueError(
                 "Dimples: depth must be at most the radius "

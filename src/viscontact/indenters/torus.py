@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.indenters.arc import arc_drop
-from viscontact.indenters.arguments import positions, positive_length
+from viscontact.indenters.arguments import positions
 from viscontact.indenters.indenter import Indenter
+from viscontact.units.numbers import check_fields
 
 
 @dataclass(frozen=True)
@@ -42,9 +43,7 @@ class Torus(Indenter):
     tube_radius: float = field(metadata={"unit": "m"})
 
     def __post_init__(self) -> None:
-        for name in ("ring_radius", "tube_radius"):
-            length = positive_length(f"Torus: {name}", getattr(self, name))
-            object.__setattr__(self, name, length)
+        check_fields(self, "ring_radius", "tube_radius")
 
     def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
         """Return the drop of the section's arc, +inf beside the ring; see `Indenter.gap`."""

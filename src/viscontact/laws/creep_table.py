@@ -11,7 +11,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.laws.arguments import one_of, store
+from viscontact.laws.arguments import one_of
 from viscontact.laws.interconversion.cached_inverse import Inverse
 from viscontact.laws.interconversion.curve_transform import oscillating
 from viscontact.laws.interconversion.log_curve import LogCurve
@@ -20,6 +20,7 @@ from viscontact.laws.interconversion.volterra import first_node
 from viscontact.laws.law import Law, slowing
 from viscontact.laws.table_columns import check_left, measured
 from viscontact.laws.uniaxial import uniaxial
+from viscontact.units.numbers import store
 
 Floats = NDArray[np.float64]
 
@@ -71,8 +72,8 @@ class TabulatedCreep(Law):
         times, compliance = measured(
             "TabulatedCreep", "compliance", self.times, self.compliance, "1/Pa", 1
         )
-        one_of("TabulatedCreep.before", self.before, ("first", "slope"))
-        one_of("TabulatedCreep.beyond", self.beyond, ("slope", "last"))
+        one_of("TabulatedCreep: before", self.before, ("first", "slope"))
+        one_of("TabulatedCreep: beyond", self.beyond, ("slope", "last"))
         store(self, times=times, compliance=compliance)
 
     @classmethod

@@ -19,6 +19,7 @@ from viscontact.laws.interconversion.mittag_leffler import mittag_leffler
 from viscontact.laws.interconversion.oscillation import half_inverse
 from viscontact.laws.law import Law, slowing
 from viscontact.laws.uniaxial import uniaxial
+from viscontact.units import numbers
 
 Floats = NDArray[np.float64]
 
@@ -65,15 +66,15 @@ class FractionalMaxwell(Law):
 
     def __post_init__(self) -> None:
         owner = type(self).__name__
-        arguments.make_positive(self, "shear_modulus", "time")
-        late = arguments.exponent(f"{owner}.exponent", self.exponent)
-        early = arguments.non_negative(f"{owner}.second_exponent", self.second_exponent, "")
+        numbers.check_fields(self, "shear_modulus", "time")
+        late = arguments.exponent(f"{owner}: exponent", self.exponent)
+        early = numbers.non_negative(f"{owner}: second_exponent", self.second_exponent, "")
         if not early < late:
             raise ValueError(
-                f"{owner}.second_exponent: must be below exponent {late!r}, got {early!r}; "
+                f"{owner}: second_exponent must be below exponent {late!r}, got {early!r}; "
                 "a law with one exponent alone is PowerLaw"
             )
-        arguments.store(self, exponent=late, second_exponent=early)
+        numbers.store(self, exponent=late, second_exponent=early)
 
     @classmethod
     def from_shear(

@@ -13,6 +13,7 @@ from viscontact.laws.interconversion.log_curve import narrow_mean
 from viscontact.laws.interconversion.mittag_leffler import mittag_leffler
 from viscontact.laws.law import Law, slowing
 from viscontact.laws.uniaxial import uniaxial
+from viscontact.units import numbers
 
 Floats = NDArray[np.float64]
 
@@ -60,17 +61,15 @@ class FractionalZener(Law):
 
     def __post_init__(self) -> None:
         owner = type(self).__name__
-        arguments.make_positive(self, "shear_modulus", "time")
-        rest = arguments.non_negative(
-            f"{owner}.equilibrium_modulus", self.equilibrium_modulus, "Pa"
-        )
+        numbers.check_fields(self, "shear_modulus", "time")
+        rest = numbers.non_negative(f"{owner}: equilibrium_modulus", self.equilibrium_modulus, "Pa")
         if not rest < self.shear_modulus:
             raise ValueError(
-                f"{owner}.equilibrium_modulus: must be below shear_modulus {self.shear_modulus!r} "
+                f"{owner}: equilibrium_modulus must be below shear_modulus {self.shear_modulus!r} "
                 f"Pa, got {rest!r} Pa; the first is the modulus at once, the second what is left"
             )
-        power = arguments.exponent(f"{owner}.exponent", self.exponent)
-        arguments.store(self, equilibrium_modulus=rest, exponent=power)
+        power = arguments.exponent(f"{owner}: exponent", self.exponent)
+        numbers.store(self, equilibrium_modulus=rest, exponent=power)
 
     @classmethod
     def from_shear(

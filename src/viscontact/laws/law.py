@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.display import Displayable
-from viscontact.laws.arguments import positive
+from viscontact.units.numbers import positive
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -114,7 +114,7 @@ class Law(Displayable, ABC):
         wrong = ~(np.isfinite(omega) & (omega > 0))
         if wrong.any():
             raise ValueError(
-                "angular_frequency: must be positive and finite, got "
+                "angular_frequency must be positive and finite, got "
                 f"{float(omega[wrong][0])!r} rad/s; the modulus at rest is relaxation(t) at late t"
             )
         values = self._complex_modulus(omega)
@@ -206,7 +206,7 @@ def _as_times(name: str, given: ArrayLike) -> NDArray[np.float64]:
     try:
         return np.asarray(given, dtype=np.float64)
     except (TypeError, ValueError, OverflowError) as error:
-        raise ValueError(f"{name}: must be times in s: {error}") from None
+        raise ValueError(f"{name} must be times in s: {error}") from None
 
 
 def over_times(
@@ -243,4 +243,4 @@ def over_intervals(
 
 def slowing(factor: float) -> float:
     """Return the factor of `Law.slowed` as a float; ValueError unless positive and finite."""
-    return positive("slowed: factor", factor, "(a ratio of times)")
+    return positive("slowed: factor", factor)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
-from viscontact.laws.arguments import make_positive
 from viscontact.laws.law import slowing
 from viscontact.laws.series import CreepSeries, SeriesLaw
 from viscontact.laws.uniaxial import uniaxial
+from viscontact.units.numbers import check_fields
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class Elastic(SeriesLaw):
     shear_modulus: float = field(metadata={"unit": "Pa"})
 
     def __post_init__(self) -> None:
-        make_positive(self, "shear_modulus")
+        check_fields(self, "shear_modulus")
 
     @classmethod
     def from_shear(cls, shear_modulus: float) -> Elastic:
@@ -132,7 +132,7 @@ class Maxwell(SeriesLaw):
     viscosity: float = field(metadata={"unit": "Pa s"})
 
     def __post_init__(self) -> None:
-        make_positive(self, "shear_modulus", "viscosity")
+        check_fields(self, "shear_modulus", "viscosity")
 
     @classmethod
     def from_shear(cls, shear_modulus: float, viscosity: float) -> Maxwell:

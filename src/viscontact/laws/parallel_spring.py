@@ -9,11 +9,11 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.laws.arguments import make_positive
 from viscontact.laws.interconversion.cached_inverse import Inverse
 from viscontact.laws.interconversion.product_integration import Floats, Load
 from viscontact.laws.interconversion.volterra import onset
 from viscontact.laws.law import Law, slowing
+from viscontact.units.numbers import check_fields
 
 # The march begins this far ahead of the first creep that counts, to have settled by then.
 _AHEAD = 1e-3
@@ -63,8 +63,8 @@ class BesideSpring(Law):
 
     def __post_init__(self) -> None:
         if not isinstance(self.law, Law):
-            raise ValueError(f"BesideSpring.law: must be a law such as PowerLaw, got {self.law!r}")
-        make_positive(self, "shear_modulus")
+            raise ValueError(f"BesideSpring: law must be a law such as PowerLaw, got {self.law!r}")
+        check_fields(self, "shear_modulus")
 
     def slowed(self, factor: float) -> BesideSpring:
         """Return the law with every time multiplied by a factor > 0."""

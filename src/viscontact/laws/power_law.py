@@ -15,6 +15,7 @@ from viscontact.laws.interconversion.mittag_leffler import mittag_leffler
 from viscontact.laws.interconversion.oscillation import half_inverse
 from viscontact.laws.law import Law, slowing
 from viscontact.laws.uniaxial import uniaxial
+from viscontact.units import numbers
 
 Floats = NDArray[np.float64]
 
@@ -66,11 +67,11 @@ class PowerLaw(Law):
     instant: float = field(default=0.0, metadata={"unit": "1/Pa"})
 
     def __post_init__(self) -> None:
-        arguments.make_positive(self, "compliance", "reference_time")
-        arguments.store(
+        numbers.check_fields(self, "compliance", "reference_time")
+        numbers.store(
             self,
-            exponent=arguments.exponent("PowerLaw.exponent", self.exponent),
-            instant=arguments.non_negative("PowerLaw.instant", self.instant, "1/Pa"),
+            exponent=arguments.exponent("PowerLaw: exponent", self.exponent),
+            instant=numbers.non_negative("PowerLaw: instant", self.instant, "1/Pa"),
         )
 
     @classmethod
@@ -135,7 +136,7 @@ class PowerLaw(Law):
         >>> round(PowerLaw.from_uniaxial(2e-3, 0.5, 1.0, poisson_ratio=0.5).compliance, 9)
         0.003
         """
-        owner = "PowerLaw.from_uniaxial"
+        owner = "PowerLaw: from_uniaxial"
         convert = uniaxial(owner, poisson_ratio, bulk_modulus)
         given = cls(compliance, exponent, reference_time, instant)
         return replace(

@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.laws.arguments import one_of, store
+from viscontact.laws.arguments import one_of
 from viscontact.laws.interconversion.cached_inverse import Inverse
 from viscontact.laws.interconversion.curve_transform import oscillating
 from viscontact.laws.interconversion.log_curve import LogCurve
@@ -18,6 +18,7 @@ from viscontact.laws.interconversion.volterra import first_node
 from viscontact.laws.law import Law, slowing
 from viscontact.laws.table_columns import measured
 from viscontact.laws.uniaxial import uniaxial
+from viscontact.units.numbers import store
 
 Floats = NDArray[np.float64]
 
@@ -70,8 +71,8 @@ class TabulatedRelaxation(Law):
         times, modulus = measured(
             "TabulatedRelaxation", "modulus", self.times, self.modulus, "Pa", -1
         )
-        one_of("TabulatedRelaxation.before", self.before, ("first", "slope"))
-        one_of("TabulatedRelaxation.beyond", self.beyond, ("slope", "last"))
+        one_of("TabulatedRelaxation: before", self.before, ("first", "slope"))
+        one_of("TabulatedRelaxation: beyond", self.beyond, ("slope", "last"))
         store(self, times=times, modulus=modulus)
 
     @classmethod

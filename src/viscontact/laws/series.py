@@ -25,6 +25,7 @@ from viscontact.laws.interconversion.series import (
 )
 from viscontact.laws.law import Law, slowing
 from viscontact.laws.uniaxial import uniaxial
+from viscontact.units import numbers
 
 
 class SeriesLaw(Law):
@@ -102,19 +103,17 @@ class CreepSeries(SeriesLaw):
     fluidity: float = field(default=0.0, metadata={"unit": "1/(Pa s)"})
 
     def __post_init__(self) -> None:
-        instant = arguments.non_negative("CreepSeries.instant", self.instant, "1/Pa")
+        instant = numbers.non_negative("CreepSeries: instant", self.instant, "1/Pa")
         amplitudes, times = arguments.series(
             "CreepSeries", "amplitudes", self.amplitudes, self.times, "1/Pa"
         )
-        fluidity = arguments.non_negative("CreepSeries.fluidity", self.fluidity, "1/(Pa s)")
+        fluidity = numbers.non_negative("CreepSeries: fluidity", self.fluidity, "1/(Pa s)")
         if not (instant > 0 or fluidity > 0 or any(a > 0 for a in amplitudes)):
             raise ValueError(
                 "CreepSeries: instant, amplitudes and fluidity are all 0, which is a rigid body; "
                 "give at least one positive compliance"
             )
-        arguments.store(
-            self, instant=instant, amplitudes=amplitudes, times=times, fluidity=fluidity
-        )
+        numbers.store(self, instant=instant, amplitudes=amplitudes, times=times, fluidity=fluidity)
 
     @classmethod
     def from_shear(
@@ -182,10 +181,10 @@ class CreepSeries(SeriesLaw):
         >>> round(law.instant * 1e9, 6), round(law.amplitudes[0] * 1e9, 6)
         (3.0, 6.0)
         """
-        convert = uniaxial("CreepSeries.from_uniaxial", poisson_ratio, bulk_modulus)
+        convert = uniaxial("CreepSeries: from_uniaxial", poisson_ratio, bulk_modulus)
         given = cls(instant, amplitudes, times, fluidity)
         return given._scaled(
-            convert.factor, convert.instant("CreepSeries.from_uniaxial", given.instant)
+            convert.factor, convert.instant("CreepSeries: from_uniaxial", given.instant)
         )
 
     def creep_series(self) -> CreepSeries:
@@ -256,7 +255,7 @@ class RelaxationSeries(SeriesLaw):
     times: Sequence[float] = field(metadata={"unit": "s"})
 
     def __post_init__(self) -> None:
-        equilibrium = arguments.non_negative("RelaxationSeries.equilibrium", self.equilibrium, "Pa")
+        equilibrium = numbers.non_negative("RelaxationSeries: equilibrium", self.equilibrium, "Pa")
         moduli, times = arguments.series(
             "RelaxationSeries", "moduli", self.moduli, self.times, "Pa"
         )
@@ -265,7 +264,7 @@ class RelaxationSeries(SeriesLaw):
                 "RelaxationSeries: equilibrium and moduli are all 0, which resists nothing; "
                 "give at least one positive modulus"
             )
-        arguments.store(self, equilibrium=equilibrium, moduli=moduli, times=times)
+        numbers.store(self, equilibrium=equilibrium, moduli=moduli, times=times)
 
     @classmethod
     def from_shear(
@@ -327,7 +326,7 @@ class RelaxationSeries(SeriesLaw):
         >>> RelaxationSeries.from_uniaxial(3e9, [6e9], [1.0], poisson_ratio=0.5).moduli
         (2000000000.0,)
         """
-        owner = "RelaxationSeries.from_uniaxial"
+        owner = "RelaxationSeries: from_uniaxial"
         convert = uniaxial(owner, poisson_ratio, bulk_modulus)
         given = cls(equilibrium, moduli, times)
         if convert.volumetric == 0:

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from viscontact.laws import arguments
 from viscontact.units.formatting import format_quantity
+from viscontact.units.numbers import finite
 
 
 def measured(
@@ -58,11 +58,7 @@ def _column(name: str, values: Sequence[float], unit: str) -> tuple[float, ...]:
     array = np.asarray(values, dtype=object)
     if array.ndim != 1:
         raise ValueError(f"{name}: must be a sequence of numbers, got {values!r}")
-    numbers = tuple(arguments.one_number(f"{name}, row {i}", v, unit) for i, v in enumerate(array))
-    for row, number in enumerate(numbers):
-        if not math.isfinite(number):
-            raise ValueError(f"{name}, row {row}: must be finite, got {number!r} {unit}")
-    return numbers
+    return tuple(finite(f"{name}, row {i}:", value, unit) for i, value in enumerate(array))
 
 
 def _check_times(owner: str, t: tuple[float, ...]) -> None:

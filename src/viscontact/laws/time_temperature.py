@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.display import Displayable
-from viscontact.laws import arguments
+from viscontact.units import numbers
 
 #: Molar gas constant, exact since 2019 [J/(mol K)].
 GAS_CONSTANT = 8.31446261815324
@@ -55,7 +55,7 @@ class Shift(Displayable, ABC):
         wrong = ~(np.isfinite(T) & (T > 0))
         if wrong.any():
             raise ValueError(
-                f"temperature: must be a finite number above 0 K, got {T[wrong].flat[0]:.6g} K; "
+                f"temperature must be a finite number above 0 K, got {T[wrong].flat[0]:.6g} K; "
                 "temperatures are absolute: 20 °C is 293.15 K"
             )
         with np.errstate(over="ignore", under="ignore"):
@@ -114,7 +114,7 @@ class WLF(Shift):
     c2: float = field(metadata={"unit": "K"})
 
     def __post_init__(self) -> None:
-        arguments.make_positive(self, "reference_temperature", "c1", "c2")
+        numbers.check_fields(self, "reference_temperature", "c1", "c2")
 
     def _log_factor(self, temperature: NDArray[np.float64]) -> NDArray[np.float64]:
         above = temperature - self.reference_temperature
@@ -159,7 +159,7 @@ class Arrhenius(Shift):
     activation_energy: float = field(metadata={"unit": "J/mol"})
 
     def __post_init__(self) -> None:
-        arguments.make_positive(self, "reference_temperature", "activation_energy")
+        numbers.check_fields(self, "reference_temperature", "activation_energy")
 
     def _log_factor(self, temperature: NDArray[np.float64]) -> NDArray[np.float64]:
         scale = self.activation_energy / GAS_CONSTANT
@@ -199,8 +199,8 @@ class TabulatedShift(Shift):
     _OWNER: ClassVar[str] = "TabulatedShift"
 
     def __post_init__(self) -> None:
-        temperatures = self._column("temperatures", self.temperatures, "K")
-        factors = self._column("factors", self.factors, "(a_T)")
+        temperatures = self._column("temperatures", self.temperatures)
+        factors = self._column("factors", self.factors)
         if len(temperatures) != len(factors) or len(temperatures) < 2:
             raise ValueError(
                 f"{self._OWNER}: temperatures and factors must have equal lengths of at least 2, "
@@ -208,11 +208,12 @@ class TabulatedShift(Shift):
             )
         for i in range(1, len(temperatures)):
             self._require_order(i, temperatures, factors)
-        arguments.store(self, temperatures=temperatures, factors=factors)
+        numbers.store(self, temperatures=temperatures, factors=factors)
 
-    def _column(self, name: str, values: Sequence[float], unit: str) -> tuple[float, ...]:
+    def _column(self, name: str, values: Sequence[float]) -> tuple[float, ...]:
+        unit = numbers.unit_of(type(self), name) or "1"
         return tuple(
-            arguments.positive(f"{self._OWNER}.{name}[{i}]", value, unit)
+            numbers.positive(f"{self._OWNER}: {name}[{i}]", value, unit)
             for i, value in enumerate(values)
         )
 
@@ -221,12 +222,12 @@ class TabulatedShift(Shift):
     ) -> None:
         if not temperatures[i] > temperatures[i - 1]:
             raise ValueError(
-                f"{self._OWNER}.temperatures[{i}]: must be above the one before, "
+                f"{self._OWNER}: temperatures[{i}] must be above the one before, "
                 f"{temperatures[i - 1]!r} K, got {temperatures[i]!r} K"
             )
         if factors[i] > factors[i - 1]:
             raise ValueError(
-                f"{self._OWNER}.factors[{i}]: must not be above the one before, "
+                f"{self._OWNER}: factors[{i}] must not be above the one before, "
                 f"{factors[i - 1]!r}, got {factors[i]!r}; a_T falls where it gets warmer "
                 "(are these 1/a_T, or logarithms?)"
             )

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from viscontact.laws.arguments import compressibility, positive
+from viscontact.laws.arguments import compressibility
 from viscontact.units.formatting import format_quantity
+from viscontact.units.numbers import positive
 
 
 class Uniaxial(NamedTuple):
@@ -33,7 +34,7 @@ class Uniaxial(NamedTuple):
 
     def spring(self, owner: str, name: str, modulus: float) -> float:
         """Return the shear modulus [Pa] of the instant spring from its tensile one [Pa]."""
-        compliance = self.instant(owner, 1.0 / positive(f"{owner}.{name}", modulus, "Pa"))
+        compliance = self.instant(owner, 1.0 / positive(f"{owner}: {name}", modulus, "Pa"))
         if compliance == 0:
             raise ValueError(
                 f"{owner}: bulk_modulus leaves no instant shear compliance: it must be above "
@@ -43,7 +44,7 @@ class Uniaxial(NamedTuple):
 
     def delayed(self, owner: str, name: str, value: float, unit: str = "Pa") -> float:
         """Return a shear modulus [Pa] or viscosity [Pa s] from its tensile one."""
-        return positive(f"{owner}.{name}", value, unit) / (2 * self.factor)
+        return positive(f"{owner}: {name}", value, unit) / (2 * self.factor)
 
 
 def uniaxial(owner: str, poisson_ratio: float | None, bulk_modulus: float | None) -> Uniaxial:

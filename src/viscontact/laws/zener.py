@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
-from viscontact.laws.arguments import make_positive
 from viscontact.laws.law import slowing
 from viscontact.laws.series import CreepSeries, SeriesLaw
 from viscontact.laws.uniaxial import uniaxial
+from viscontact.units.numbers import check_fields
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ class Zener(SeriesLaw):
     viscosity: float = field(metadata={"unit": "Pa s"})
 
     def __post_init__(self) -> None:
-        make_positive(self, "shear_modulus", "delayed_modulus", "viscosity")
+        check_fields(self, "shear_modulus", "delayed_modulus", "viscosity")
 
     @classmethod
     def from_shear(cls, shear_modulus: float, delayed_modulus: float, viscosity: float) -> Zener:
@@ -162,7 +162,7 @@ class Burgers(SeriesLaw):
     delayed_viscosity: float = field(metadata={"unit": "Pa s"})
 
     def __post_init__(self) -> None:
-        make_positive(self, "shear_modulus", "viscosity", "delayed_modulus", "delayed_viscosity")
+        check_fields(self, "shear_modulus", "viscosity", "delayed_modulus", "delayed_viscosity")
 
     @classmethod
     def from_shear(

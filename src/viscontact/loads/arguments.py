@@ -2,45 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from viscontact.units.numbers import as_real, unit_of
+from viscontact.units.numbers import unit_of
 
 #: What histories prescribe besides force or approach.
 TILTS = ("tilt_x", "tilt_y")
 TAIL = ("eccentricity_x", "eccentricity_y", *TILTS)
-
-
-def finite_number(name: str, value: object, unit: str) -> float:
-    """Return `value` as a float if it is a finite number.
-
-    Parameters
-    ----------
-    name : str
-        What the value is, for the message: "ramp: duration".
-    value : object
-        What the user gave.
-    unit : str
-        The unit the number is taken in.
-
-    Raises
-    ------
-    ValueError
-        If the value is a boolean, a text, None, NaN, infinite or anything else.
-
-    Examples
-    --------
-    >>> finite_number("time", 1, "s")
-    1.0
-    """
-    number = as_real(value)
-    if number is None or not math.isfinite(number):
-        raise ValueError(f"{name} must be a finite number in {unit}, got {value!r}")
-    return number
 
 
 def side_of_jump(side: str) -> Literal["left", "right"]:

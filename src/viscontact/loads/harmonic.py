@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact.loads import arguments
 from viscontact.loads.force import NEGLIGIBLE
 from viscontact.loads.history import Control, Cycle, LoadHistory, LoadPoint
+from viscontact.units.numbers import finite
 
 #: Steps of a cycle when nothing finer is asked for. A line through a 128th of a sine misses it by
 #: 2e-4 of the amplitude in the mean, and the loss of a cycle under it comes out to some 6e-4.
@@ -63,7 +64,7 @@ class HarmonicHistory(LoadHistory):
 
     def at(self, time: float, *, side: str = "right") -> LoadPoint:
         """Return what is prescribed at an instant [s], after a jump or before it ("left")."""
-        level = float(self.level_at(arguments.finite_number("time", time, "s"), side=side))
+        level = float(self.level_at(finite("time", time, "s"), side=side))
         return LoadPoint(
             force=level if self.control == "force" else None,
             eccentricity_x=self.eccentricity_x,

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from viscontact.loads import arguments
 from viscontact.loads.history import Cycle, LoadHistory, LoadInstant
+from viscontact.units.numbers import finite
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -22,7 +23,7 @@ class PiecewiseHistory(LoadHistory):
 
     def _tail_at(self, time: float, side: str) -> dict[str, Any]:
         """Eccentricities and tilts at an instant."""
-        instant = np.asarray(arguments.finite_number("time", time, "s"))
+        instant = np.asarray(finite("time", time, "s"))
         tail = {name: getattr(self, name) for name in arguments.TAIL}
         return {
             name: None if of is None else float(self._interpolate(of, instant, side))
@@ -30,7 +31,7 @@ class PiecewiseHistory(LoadHistory):
         }
 
     def _level_of(self, time: float, side: str) -> float:
-        return float(self.level_at(arguments.finite_number("time", time, "s"), side=side))
+        return float(self.level_at(finite("time", time, "s"), side=side))
 
     @cached_property
     def kinks(self) -> NDArray[np.float64]:

@@ -7,12 +7,11 @@ from typing import Any
 
 from viscontact.loads import arguments
 from viscontact.loads.approach import ApproachHistory
-from viscontact.loads.arguments import finite_number
 from viscontact.loads.force import ForceHistory
 from viscontact.loads.harmonic import HarmonicHistory
 from viscontact.loads.history import Control
 from viscontact.units.formatting import format_quantity
-from viscontact.units.numbers import unit_of
+from viscontact.units.numbers import finite, unit_of, whole
 
 #: A harmonic load of more cycles than this is a mistake: each takes dozens of steps.
 MOST_CYCLES = 100_000
@@ -211,18 +210,14 @@ def harmonic(
             f"{format_quantity(middle - swing, 'N', 9)} and "
             f"{format_quantity(middle + swing, 'N', 9)}; give a mean of at least the amplitude"
         )
-    turns = finite_number("harmonic: cycles", cycles, "whole cycles")
-    if not (turns.is_integer() and 1 <= turns <= MOST_CYCLES):
-        raise ValueError(
-            f"harmonic: cycles must be a whole number from 1 to {MOST_CYCLES}, got {cycles!r}"
-        )
+    turns = whole("harmonic: cycles", cycles, 1, MOST_CYCLES)
     tail = _scalar_tail(control, eccentricity_x, eccentricity_y, tilt_x, tilt_y)
     return HarmonicHistory(
         control=control,
         mean=middle,
         amplitude=swing,
         period=_positive_duration("harmonic: period", period),
-        cycles=int(turns),
+        cycles=turns,
         phase=_number("phase", phase),
         **tail,
     )
@@ -266,7 +261,7 @@ def _scalar_tail(
 def _number(name: str, value: object, control: Control = "force") -> float:
     """Return field `name` of a harmonic load as a float, or refuse it."""
     unit = unit_of(HarmonicHistory, name, control) or ""
-    return finite_number(f"harmonic: {name}", value, unit)
+    return finite(f"harmonic: {name}", value, unit)
 
 
 def _refuse_eccentric_approach(eccentricity_x: float, eccentricity_y: float) -> None:
@@ -288,12 +283,12 @@ def _control(
             "one of them"
         )
     if approach is not None:
-        return "approach", finite_number(f"{history}: approach", approach, "m")
-    return "force", finite_number(f"{history}: {force_is}", force, "N")
+        return "approach", finite(f"{history}: approach", approach, "m")
+    return "force", finite(f"{history}: {force_is}", force, "N")
 
 
 def _positive_duration(name: str, value: float | None) -> float:
-    duration = finite_number(name, value, "s")
+    duration = finite(name, value, "s")
     if duration <= 0:
         raise ValueError(
             f"{name} must be a positive time in s, got {value!r}; for a jump use step(...) or "

@@ -9,7 +9,7 @@ import numpy as np
 
 from viscontact.display import Displayable
 from viscontact.laws import BesideSpring, Law, SeriesLaw, TabulatedCreep, TabulatedRelaxation
-from viscontact.laws.arguments import compressibility, positive, store
+from viscontact.laws.arguments import compressibility
 from viscontact.laws.interconversion.series import relaxation_from_creep
 from viscontact.materials.compliance import (
     ContactCompliance,
@@ -17,6 +17,7 @@ from viscontact.materials.compliance import (
     SeriesCompliance,
     SummedCompliance,
 )
+from viscontact.units.numbers import check_fields, store
 
 
 @dataclass(frozen=True)
@@ -62,15 +63,11 @@ class Material(Displayable):
     def __post_init__(self) -> None:
         if not isinstance(self.law, Law):
             raise ValueError(
-                f"Material.law: must be a creep law such as Zener or CreepSeries, got {self.law!r}"
+                f"Material: law must be a creep law such as Zener or CreepSeries, got {self.law!r}"
             )
         ratio, bulk = compressibility("Material", self.poisson_ratio, self.bulk_modulus)
         store(self, poisson_ratio=ratio, bulk_modulus=bulk)
-        if self.measured_until is not None:
-            until = positive("Material.measured_until", self.measured_until, "s")
-            store(self, measured_until=until)
-        if self.thickness is not None:
-            store(self, thickness=positive("Material.thickness", self.thickness, "m"))
+        check_fields(self, "measured_until", "thickness")
 
     @property
     def known_until(self) -> float:

@@ -1,25 +1,19 @@
-"""Argument checks of the exact solutions."""
+"""Argument checks and types of the exact solutions."""
 
 from __future__ import annotations
 
-import math
 from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
+
+from viscontact.units.numbers import positive
 
 Values: TypeAlias = np.float64 | NDArray[np.float64]
 """Values at points: a scalar for scalar arguments, else an array of their broadcast shape."""
 
 
 def require_positive(unit: str, **arguments: float) -> None:
-    """Refuse arguments that are not positive and finite.
-
-    >>> require_positive("m", radius=-0.01)
-    Traceback (most recent call last):
-    ...
-    ValueError: radius: wanted a positive, finite number [m], got -0.01
-    """
+    """Raise ValueError for an argument in `unit` that is not positive and finite."""
     for name, value in arguments.items():
-        if not (math.isfinite(value) and value > 0):
-            raise ValueError(f"{name}: wanted a positive, finite number [{unit}], got {value!r}")
+        positive(name, value, unit)

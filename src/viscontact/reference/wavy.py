@@ -186,7 +186,7 @@ def full_contact_pressure(
     require_positive("Pa", contact_modulus=contact_modulus)
     for name, length in (("wavelength_x", wavelength_x), ("wavelength_y", wavelength_y)):
         if not length > 0:
-            raise ValueError(f"{name}: wanted a positive number [m], got {length!r}")
+            raise ValueError(f"{name} must be a positive number in m, got {length!r}")
     waves = math.hypot(1 / wavelength_x, 1 / wavelength_y)
     if waves == 0:
         raise ValueError("wavelength_x, wavelength_y: one of them must be finite [m]")

@@ -37,6 +37,7 @@ _PREFIXES = (
     *((1.0, ""), (1e3, "k"), (1e6, "M"), (1e9, "G")),
 )
 _LONG_TIMES = ((1e4, 3600.0, "h"), (2.6e5, 86400.0, "d"))
+_WITHOUT_PREFIX = ("K", "1/(Pa s)")
 _SYMBOLS = {"m2": "m²", "m^2": "m²", "m**2": "m²", "1": ""}
 
 
@@ -71,7 +72,7 @@ def readable_unit(unit: str, *values: ArrayLike) -> ReadableUnit:
 
 def _unit_of(size: float, unit: str) -> ReadableUnit:
     symbol = _SYMBOLS.get(unit, unit)
-    if not symbol or not math.isfinite(size) or size == 0.0:
+    if not symbol or symbol in _WITHOUT_PREFIX or not math.isfinite(size) or size == 0.0:
         return ReadableUnit(symbol, 1.0)
     if symbol == "1/Pa":
         # The largest prefix that leaves the compliance below a thousand.

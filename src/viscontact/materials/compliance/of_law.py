@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.laws import Law
-from viscontact.laws.arguments import store
 from viscontact.materials.compliance.base import ContactCompliance
 from viscontact.materials.compliance.sum import SummedCompliance
+from viscontact.units.numbers import store
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.laws.arguments import non_negative, series, store
+from viscontact.laws.arguments import series
 from viscontact.laws.interconversion.series import (
     RelaxationTerms,
     SeriesTerms,
@@ -20,6 +20,7 @@ from viscontact.laws.interconversion.series import (
 )
 from viscontact.materials.compliance.base import ContactCompliance
 from viscontact.materials.compliance.sum import SummedCompliance
+from viscontact.units.numbers import non_negative, store
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.laws.arguments import store
 from viscontact.laws.interconversion.volterra import invert
 from viscontact.materials.compliance.base import ContactCompliance
+from viscontact.units.numbers import store
 
 
 @dataclass(frozen=True, eq=False)
