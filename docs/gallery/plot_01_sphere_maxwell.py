@@ -1,17 +1,18 @@
 """
-Sphere on a body that flows
-===========================
+Sphere on a Maxwell half-space
+==============================
 
-A ball of 10 mm radius is put on a Maxwell body, a spring and a dashpot in series, and left there:
-Fig. 6 of Spinu & Cerlinca (2018). The contact grows without end. The pressure begins as Hertz's
-dome, and is lowest in the middle in the end, for the rim is always new and the middle has relaxed.
+A ball of 10 mm radius is loaded on a Maxwell body (a spring and a dashpot in series), and the load
+is held: Fig. 6 of Spinu & Cerlinca (2018). The contact grows without limit. The initial pressure is
+that of Hertz. Later it becomes lowest in the middle, because the material there has relaxed, while
+material at the contact edge has just come into contact.
 """
 
 # %%
 # The case
 # --------
 #
-# Everything is in SI units. Hertz, Lee & Radok and the paper take the ball for a paraboloid.
+# All values are in SI units. Hertz, Lee & Radok and the paper approximate the ball by a paraboloid.
 
 import math
 
@@ -32,11 +33,11 @@ ds = vc.simulate(
 )
 
 # %%
-# The picture
-# -----------
+# The figure
+# ----------
 #
-# Markers are computed cells, lines are the hereditary integral of Lee & Radok (1960). Below is
-# what they differ by.
+# Markers are computed cells; lines are the solution of Lee & Radok (1960). The lower panel shows
+# the differences.
 
 figure = plot.pressure_radial(ds)
 

@@ -1,18 +1,18 @@
 """
-Sphere on a body that creeps and comes to rest
-==============================================
+Sphere on a Zener half-space
+============================
 
-The same ball on a Zener body, a spring in series with a Kelvin unit: Fig. 7 of Spinu & Cerlinca
-(2018). Creep ends when the delayed spring carries its share, and the contact goes from one dome
-of Hertz to a flatter one.
+The same ball on a Zener body (a spring in series with a Kelvin unit): Fig. 7 of Spinu & Cerlinca
+(2018). Creep ends when the delayed spring is fully deformed. The pressure changes from one Hertz
+distribution to another with a lower peak.
 """
 
 # %%
 # The case
 # --------
 #
-# Both springs are equal, so the compliance doubles in the end. It comes to rest within seconds:
-# the delayed spring answers with a time of viscosity/delayed modulus = 1 s.
+# Both springs are equal, so the compliance finally doubles. The retardation time is
+# viscosity/delayed modulus = 1 s, so creep ends within seconds.
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -33,18 +33,18 @@ ds = vc.simulate(
 )
 
 # %%
-# The picture
-# -----------
+# The figure
+# ----------
 #
-# The pressure along x, with the domes of Hertz for the compliance at the start and in the end
-# (dashed), and the peak over time, with a band for its error that the line hides.
+# Left: the pressure along x, and the Hertz pressure for the initial and the final compliance
+# (dashed). Right: the peak pressure over time, with an error band that is thinner than the line.
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(7.2, 3.0), layout="constrained")
 middle = len(ds.y) // 2
 for time, colour in zip([0.0, 1.0, 8.0], ["#440154", "#21918c", "#d98c00"], strict=True):
     pressure = ds.pressure.sel(field_time=time)[:, middle]
     left.plot(ds.x * 1e3, pressure / 1e6, color=colour, label=f"{time:g} s")
-for modulus, label in ((10e6, "Hertz"), (5e6, None)):  # of both springs in series in the end
+for modulus, label in ((10e6, "Hertz"), (5e6, None)):  # finally both springs in series
     hertz = reference.hertz_sphere(force, radius, contact_modulus=2 * modulus / 0.5)
     x = np.linspace(-1.3e-3, 1.3e-3, 400)
     left.plot(x * 1e3, hertz.pressure(x) / 1e6, "k--", linewidth=0.8, label=label)
@@ -60,7 +60,7 @@ right.set(xlabel="time [s]", ylabel="peak pressure [MPa]")
 # The check
 # ---------
 #
-# In the end the body is elastic again with half of the modulus: Hertz's p₀ = 3 F / (2 π a²).
+# At the end the body is elastic with half of the initial modulus: Hertz's p₀ = 3 F / (2 π a²).
 
 final = (3 * force * radius / (4 * 4 * 5e6)) ** (1 / 3)
 hertz_peak = 3 * force / (2 * np.pi * final**2)

@@ -2,19 +2,19 @@
 The paper's rollers, on and off centre
 ======================================
 
-A steel roller with rounded ends lies on PMMA under 10 kN, with the load in the middle, halfway to
-the end of its straight part, and at that end. Shape, load and creep law are those of Spinu &
-Cerlinca (2018), but for the crown: its radius is 75 mm here, as their figures suggest, in place of
-the printed 7500 mm.
+A steel roller with rounded ends is pressed on PMMA with 10 kN. The load acts in the middle, halfway
+to the end of the straight part, and at this end. Shape, load and creep law are those of Spinu &
+Cerlinca (2018), except for the crown: its radius is 75 mm here, as their figures suggest, instead
+of the printed 7500 mm.
 """
 
 # %%
 # Three runs
 # ----------
 #
-# The creep law is the paper's eq. 15; ``viscontact material pmma-paper`` says what it rests on.
-# The grids here are coarser than those of the shipped cases (``viscontact example
-# roller-dogbone``), to be done in a second each.
+# The creep law is eq. 15 of the paper; ``viscontact material pmma-paper`` gives its source. The
+# grids are coarser than those of the shipped cases (``viscontact example roller-dogbone``), so that
+# each run takes about a second.
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -36,11 +36,11 @@ runs = {
 }
 
 # %%
-# The pictures
-# ------------
+# The figures
+# -----------
 #
-# First the pressure on the middle line, at once and after 1000 s. It rises where the crown begins;
-# off centre the near riser grows and the far one fades.
+# The pressure on the middle line, just after loading and after 1000 s. It has peaks where the crown
+# begins. With an eccentric load, the peak near the load is higher and the other one is lower.
 
 figure, panels = plt.subplots(1, 3, figsize=(7.2, 2.6), sharey=True, layout="constrained")
 middle = len(grid.y) // 2
@@ -53,7 +53,7 @@ panels[0].set_ylabel("pressure [MPa]")
 panels[0].legend(frameon=False, loc="upper left")
 
 # %%
-# The contact halfway off centre, as contours of pressure: an unequal dog bone.
+# Contours of pressure for the load halfway off centre: an asymmetric dog-bone shape.
 
 figure = plot.pressure_map(runs["e/L = 0.5"])
 
@@ -61,23 +61,23 @@ figure = plot.pressure_map(runs["e/L = 0.5"])
 # The check
 # ---------
 #
-# While a contact grows under a held force, a creeping body answers like an elastic one of the
-# compliance that it has by then (Lee & Radok 1960). So one elastic step must give the approach
-# and the tilt that the march over 24 steps has come to. Φ(1000 s) is eq. 15 of the paper.
+# While a contact grows under a constant force, approach and tilt of a creeping body are those of an
+# elastic body with the current creep compliance (Lee & Radok 1960). So one elastic step must give
+# the approach and the tilt of the run with 24 steps. Φ(1000 s) is eq. 15 of the paper.
 
 phi = 7e-10 - 6.17e-11 * np.exp(-0.1 * 1000) - 8.38e-11 * np.exp(-7.47e-3 * 1000)
 elastic = vc.Material(vc.Elastic(1 / (2 * phi)), poisson_ratio=0.38)
 load = vc.step(10e3, eccentricity_x=straight)
-twin = vc.simulate(roller, elastic, load, grid, [0.0], fields="none", errors=False)
+elastic_ds = vc.simulate(roller, elastic, load, grid, [0.0], fields="none", errors=False)
 
 crept = runs["e/L = 1"]
 for name in ("approach", "tilt_x"):
-    ours, theirs = float(crept[name][-1]), float(twin[name][0])
+    ours, theirs = float(crept[name][-1]), float(elastic_ds[name][0])
     unit = crept[name].attrs["units"]
-    print(f"{name} after 1000 s: {ours:.6g} {unit}, of the elastic twin {theirs:.6g} {unit}")
+    print(f"{name} after 1000 s: {ours:.6g} {unit}, elastic body {theirs:.6g} {unit}")
     assert abs(ours / theirs - 1) < 1e-4
 
-# The paper: the tilt grows and the approach falls with the eccentricity.
+# As in the paper, the tilt increases and the approach decreases with the eccentricity.
 assert np.all(np.diff([float(ds.tilt_x[-1]) for ds in runs.values()]) > 0)
 assert np.all(np.diff([float(ds.approach[-1]) for ds in runs.values()]) < 0)
 # sphinx_gallery_thumbnail_number = 2

@@ -2,9 +2,10 @@
 Which profile should a roller have?
 ===================================
 
-A straight roller presses hardest at its ends, a round crown in its middle. A logarithmic profile
-evens the pressure out, for one load and one modulus (Lundberg 1939). On a body that creeps the
-modulus falls, so one has to say for when: here the profile is designed for 1000 s.
+The pressure of a cylindrical roller is highest at its ends, that of a crowned roller in the middle.
+A logarithmic profile makes the pressure uniform, for one load and one modulus (Lundberg 1939). On a
+creeping body the modulus decreases, so the profile must be designed for a given time: here for 1000
+s.
 """
 
 # %%
@@ -30,7 +31,7 @@ profiles = {
     "logarithmic": vc.LogarithmicProfile(line_load / (math.pi * modulus), end_drop=30e-6),
 }
 grid = vc.Grid((192, 40), (20e-3, 1.1e-3))
-# Contact at the ends is what is studied here; a run warns of it.
+# Contact at the ends is the subject of this example; the warning about it is switched off.
 warnings.simplefilter("ignore", vc.AccuracyWarning)
 runs = {
     name: vc.simulate(
@@ -45,12 +46,12 @@ runs = {
 }
 
 # %%
-# The picture
-# -----------
+# The figure
+# ----------
 #
-# The pressure on the middle line. At the ends of the cylinder it has no limit: what is drawn there
-# is a mean over a cell, and grows with finer ones. The dashed line is Hertz's for a cylinder
-# without ends.
+# The pressure on the middle line. At the ends of the cylinder the pressure is infinite: the drawn
+# values are means over a cell, which grow as the cells become smaller. The dashed line is the Hertz
+# pressure of an infinite cylinder.
 
 figure, panels = plt.subplots(1, 2, figsize=(7.2, 3.0), sharey=True, layout="constrained")
 middle = len(grid.y) // 2
@@ -70,8 +71,8 @@ panels[1].legend(frameon=False, loc="upper left", bbox_to_anchor=(1, 1))
 # The check
 # ---------
 #
-# Lundberg's amplitude F′/(π E*), for a force F′ per length, is made so that every section bears the
-# same: the middle then has Hertz's pressure of a line contact, p₀ = sqrt(F′ E*/(π R)).
+# With Lundberg's amplitude F′/(π E*), for a force F′ per length, every section carries the same
+# load. The pressure in the middle is then that of a Hertz line contact, p₀ = sqrt(F′ E*/(π R)).
 
 exact = (line_load * modulus / (math.pi * radius)) ** 0.5
 crept = runs["logarithmic"].pressure.sel(field_time=1000.0)[:, middle]

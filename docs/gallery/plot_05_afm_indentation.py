@@ -1,18 +1,19 @@
 """
-A probe pushed into a gel and pulled out
-========================================
+AFM indentation of a gel
+========================
 
-The piezo of an atomic force microscope drives a bead of 5 µm radius into a soft gel, 400 nm deep in
-a second, and pulls it out as fast. The gel is slower than the bead: on the way back contact is lost
-before the bead has left the dent. There is no adhesion here, so nothing pulls.
+The piezo of an atomic force microscope presses a bead of 5 µm radius 400 nm into a soft gel within
+a second, and withdraws it at the same speed. The gel recovers more slowly than the bead moves:
+during withdrawal the contact is lost before the bead has left the indentation. There is no
+adhesion, so the force is never tensile.
 """
 
 # %%
 # The case
 # --------
 #
-# The approach is prescribed and the force follows. Steps are left to the run. As a case file:
-# ``viscontact example afm-indentation``.
+# The approach is prescribed, and the force is computed. The time steps are adaptive. The
+# corresponding case file is ``viscontact example afm-indentation``.
 
 import viscontact as vc
 from viscontact import plot, reference
@@ -34,16 +35,16 @@ ds = vc.simulate(
 )
 
 # %%
-# The pictures
-# ------------
+# The figures
+# -----------
 #
-# Force against approach; the arrows go with time, and the area of the loop is lost as heat. The
-# error bar would be a band, but is thinner than the line.
+# Force against approach. The arrows show the direction of time; the area of the loop is lost as
+# heat. The error band is thinner than the line.
 
 figure = plot.hysteresis(ds)
 
 # %%
-# The pressure on the way in and on the way out: the rim lets go first.
+# The pressure during indentation and withdrawal: the contact edge loses contact first.
 
 figure = plot.pressure_profile(ds)
 
@@ -51,7 +52,8 @@ figure = plot.pressure_profile(ds)
 # The check
 # ---------
 #
-# Ting (1966) gives force and loss of contact in closed form, for M(t) = 2 G(t)/(1 - ν) = 4 G(t).
+# Ting (1966) gives the force and the time of contact loss in closed form, for M(t) = 2 G(t)/(1 -
+# ν) = 4 G(t).
 
 exact = reference.ting_triangle(
     reference.SphereProfile(5e-6), 400e-9, 1.0, 2000.0, [1200.0, 800.0], [0.1, 1.0]
@@ -59,7 +61,7 @@ exact = reference.ting_triangle(
 ours, theirs = float(ds.force.sel(time=1.2)), float(exact.force(1.2))
 touching = ds.time.values[ds.force.values > 0]
 
-print(f"force on the way back, 1.2 s: {ours * 1e12:.2f} pN, Ting {theirs * 1e12:.2f} pN")
+print(f"force during withdrawal, 1.2 s: {ours * 1e12:.2f} pN, Ting {theirs * 1e12:.2f} pN")
 print(f"contact is lost after {touching[-1]:.3f} s, Ting {exact.lost:.3f} s")
 assert abs(ours - theirs) < 3e-3 * float(exact.force(1.0))
 assert abs(touching[-1] - exact.lost) < 0.03

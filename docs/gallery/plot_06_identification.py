@@ -2,17 +2,17 @@
 A creep law from an indentation record
 ======================================
 
-The way back: an instrument has written down approach and force, and the law is wanted. Here the
-record is made up, so that the truth is known: an exact solution for a known gel, with 1 % of
-scatter added.
+The inverse problem: an instrument has recorded approach and force, and the creep law is unknown.
+Here the record is synthetic, so that the true law is known: it is an exact solution for a known
+gel, with 1 % noise added.
 """
 
 # %%
 # The record
 # ----------
 #
-# A sphere of 5 µm radius is pressed in within a second, held for three, and drawn back. One's own
-# would come from a CSV, ``viscontact fit record.csv --indenter "sphere 5 um"``.
+# A sphere of 5 µm radius is pressed in within one second, held for three seconds, and withdrawn.
+# For your own record, use ``viscontact fit record.csv --indenter "sphere 5 um"``.
 
 import numpy as np
 
@@ -36,8 +36,8 @@ record = vc.IndentationRecord(vc.Sphere(5e-6), times, approach, exact.force + sc
 # The fit
 # -------
 #
-# It gives the parameters with their confidence intervals, and a material that can be computed
-# with at once.
+# The fit gives the parameters with their confidence intervals, and a material that can be used in a
+# simulation.
 
 fit = vc.fit_indentation(record, "zener", poisson_ratio=0.5)
 for name, value in fit.parameters.items():
@@ -50,8 +50,9 @@ figure = plot.fitted_indentation(fit)
 # The check
 # ---------
 #
-# The intervals are made to hold the truth 95 times of 100; with this scatter they do.
+# The confidence intervals contain the true values with a probability of 95 %; for this noise they
+# do.
 
 for name, (low, high) in fit.intervals.items():
     assert low < getattr(truth, name) < high, name
-assert abs(fit.residual / 0.01 - 1) < 0.15  # what is left over is the scatter that was put in
+assert abs(fit.residual / 0.01 - 1) < 0.15  # the residual is the noise that was added

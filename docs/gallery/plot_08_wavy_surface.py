@@ -1,17 +1,17 @@
 """
-Waves pressed flat
-==================
+Periodic contact of a wavy surface
+==================================
 
-A wavy surface without end lies on a rubber that creeps. One wave is computed, and the contact may
-cross the border of the grid, for the next wave is the same. Each crest touches along a strip,
-which widens until the waves are nearly flat.
+An infinite wavy surface is pressed on a creeping rubber. The grid is one wavelength, and the
+contact may cross the border of the grid, because the next wave is the same. Each crest touches
+along a strip, which widens until the waves are nearly flat.
 """
 
 # %%
 # One period
 # ----------
 #
-# ``periodic=True`` makes the grid one period. What presses is a mean pressure, the force over the
+# ``periodic=True`` makes the grid one period. The load is a mean pressure: the force divided by the
 # area of the period.
 
 import matplotlib.pyplot as plt
@@ -35,11 +35,11 @@ ds = vc.simulate(
 )
 
 # %%
-# The picture
-# -----------
+# The figure
+# ----------
 #
-# Left the pressure on one wave; right the width of the strip, and Westergaard's solution (1939)
-# for an elastic body of the compliance of each instant.
+# Left: the pressure on one wave. Right: the width of the strip, and Westergaard's solution (1939)
+# for an elastic body with the compliance at each instant.
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(7.2, 3.0), layout="constrained")
 colours = ["#440154", "#31688e", "#21918c", "#d98c00"]
@@ -66,8 +66,8 @@ right.legend(frameon=False)
 # The check
 # ---------
 #
-# Full contact needs the mean pressure p* = π E* Δ/λ, with Δ the amplitude; under less, p, the strip
-# is 2 a wide with sin²(π a/λ) = p/p*.
+# Full contact needs the mean pressure p* = π E* Δ/λ, with Δ the amplitude. Under a smaller mean
+# pressure p, the width of the strip is 2 a with sin²(π a/λ) = p/p*.
 
 full = np.pi * moduli[-1] * amplitude / wavelength
 width = 2 * wavelength / np.pi * np.arcsin(np.sqrt(mean_pressure / full))

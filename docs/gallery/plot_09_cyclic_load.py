@@ -1,17 +1,18 @@
 """
-A force that swings, and what it costs
-======================================
+Hysteresis under a cyclic force
+===============================
 
-A flat punch stands on a rubber under a force that swings about its mean. The rubber lags behind,
-so force against approach is a loop, and its area is what each cycle costs: heat.
+A flat punch is pressed on rubber by a force that oscillates about a mean value. The approach lags
+behind the force, so force against approach is a loop. Its area is the energy that is lost as heat
+in each cycle.
 """
 
 # %%
 # Three frequencies
 # -----------------
 #
-# The punch keeps its contact, which makes the whole as linear as the law. The loss is largest where
-# the angular frequency times the delayed spring's 0.5 s is 1, at a period of 3.1 s.
+# The contact area of the punch does not change, so the problem is linear. The loss is largest where
+# the angular frequency times the retardation time of 0.5 s is 1, at a period of 3.1 s.
 
 import warnings
 
@@ -24,7 +25,7 @@ radius, mean, amplitude = 2e-3, 20.0, 10.0
 law = vc.Zener(shear_modulus=10e6, delayed_modulus=10e6, viscosity=5e6)  # 0.5 s
 rubber = vc.Material(law, poisson_ratio=0.5)
 grid = vc.Grid((48, 48), (4.4e-3, 4.4e-3))
-# The edge makes the pressure singular, of which a run warns. The approach is not concerned.
+# The pressure is singular at the edge. The warning is switched off: the approach is not affected.
 warnings.simplefilter("ignore", vc.AccuracyWarning)
 
 runs = {
@@ -41,10 +42,10 @@ runs = {
 }
 
 # %%
-# The picture
-# -----------
+# The figure
+# ----------
 #
-# The last cycle of each, against the approach less its mean.
+# The last cycle of each run: force against the approach minus its mean.
 
 figure, axes = plt.subplots(figsize=(4.8, 3.4), layout="constrained")
 for (period, ds), colour in zip(runs.items(), ["#0072B2", "#D55E00", "#009E73"], strict=True):
@@ -63,9 +64,9 @@ axes.legend(frameon=False, title="period: loss per cycle")
 # The check
 # ---------
 #
-# The approach of a punch is F J/(2 a), so each cycle costs π F₁² J″/(2 a), with the complex
-# compliance J* = J′ - i J″ at the frequency (Ferry 1980). The cells make a punch that is not quite
-# round; its own 1/(2 a) is what the first instant shows.
+# The approach of a punch is F J/(2 a), so the loss per cycle is π F₁² J″/(2 a), with the complex
+# compliance J* = J′ - i J″ at the frequency (Ferry 1980). The cells approximate the round punch by
+# a slightly different shape; its value of 1/(2 a) follows from the first instant.
 
 period = 2.0
 complex_compliance = 0.5 / (2 * complex(law.complex_modulus(2 * np.pi / period)))
@@ -74,4 +75,4 @@ exact = np.pi * amplitude**2 * -complex_compliance.imag * per_compliance
 ours = float(runs[period].loss_per_cycle[-1])
 
 print(f"loss per cycle: {ours * 1e6:.3f} µJ, from the complex compliance {exact * 1e6:.3f} µJ")
-assert abs(ours / exact - 1) < 3e-3  # 64 steps a cycle: (2 π/64)²/6 = 1.6e-3
+assert abs(ours / exact - 1) < 3e-3  # 64 steps per cycle: (2 π/64)²/6 = 1.6e-3

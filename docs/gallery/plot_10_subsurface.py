@@ -1,17 +1,17 @@
 """
-Where a body yields first
-=========================
+Von Mises stress below the surface
+==================================
 
-Below a ball the pressure is highest at the surface, and what makes a body yield, the von Mises
-stress, is highest inside. As the body creeps, the place moves down with the growing contact, and
-the stress falls.
+The von Mises stress determines where a body yields first. Under a ball, its maximum is below the
+surface. As the body creeps and the contact grows, the maximum moves deeper and decreases.
 """
 
 # %%
 # The run
 # -------
 #
-# A steel ball of 10 mm radius on a glassy polymer that creeps to three times its compliance.
+# A steel ball of 10 mm radius on a glassy polymer whose compliance grows to three times its initial
+# value.
 
 import matplotlib.pyplot as plt
 
@@ -31,15 +31,15 @@ ds = vc.simulate(
 )
 
 # %%
-# The picture
+# The figures
 # -----------
 #
-# Contours of the von Mises stress on a section through the axis; crosses mark the largest one.
+# Contours of the von Mises stress on a section through the axis; crosses mark the maximum.
 
 figure = plot.stress_section(ds)
 
 # %%
-# The stress on the axis below the contact, with labels: ``section_stresses`` gives a dataset.
+# The stress on the axis below the contact: ``section_stresses`` returns a labelled dataset.
 
 inside = vc.section_stresses(ds)
 axis = inside.von_mises.sel(x=0.0, method="nearest")
@@ -56,7 +56,7 @@ axes.legend(frameon=False)
 # The check
 # ---------
 #
-# Below a dome of Hertz, at ν = 0.3, the largest von Mises stress is 0.62 p₀ at a depth of 0.48 a
+# For Hertz pressure and ν = 0.3, the largest von Mises stress is 0.62 p₀ at a depth of 0.48 a
 # (Johnson 1985, section 4.2).
 
 first = axis.sel(time=0.0)

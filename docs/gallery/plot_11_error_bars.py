@@ -2,14 +2,14 @@
 How sure is this number?
 ========================
 
-Every number of a result has its error beside it, and a run without a grid looks for one that
-is good enough. Here a ball on PMMA is run three times, asking for 5 %, 1 % and 0.2 %, and the
-error bars are held against the exact solution.
+Every number of a result has an error bar, and a run without a given grid chooses one for a given
+tolerance. Here a ball on PMMA is computed with tolerances of 5 %, 1 % and 0.2 %, and the error bars
+are compared with the exact solution.
 """
 
 # %%
-# Asking for an accuracy
-# ----------------------
+# Three tolerances
+# ----------------
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -33,18 +33,18 @@ runs = {
 }
 
 # %%
-# The picture
-# -----------
+# The figure
+# ----------
 #
-# What the approach is off by, from the exact a²/R with a³ = (3/4) R F J(t), in the bands of error
-# that the runs state: zero, the truth, lies in each of them.
+# The error of the approach relative to the exact a²/R with a³ = (3/4) R F J(t), with the error
+# bands of the runs. Zero, the exact value, lies in each band.
 
 exact = (0.75 * radius * force * pmma.contact_compliance()(times)) ** (2 / 3) / radius
 
 figure, axes = plt.subplots(figsize=(5.4, 3.2), layout="constrained")
 for (wish, ds), colour in zip(runs.items(), ["#0072B2", "#D55E00", "#009E73"], strict=True):
     off, bar = ds.approach / exact - 1, ds.approach_error / exact
-    label = f"asked for {wish:.1%}: {int(ds.cells_across[-1])} cells across"
+    label = f"tolerance {wish:.1%}: {int(ds.cells_across[-1])} cells across"
     axes.plot(times[1:], off[1:] * 100, color=colour, label=label)
     axes.fill_between(
         times[1:],
@@ -55,22 +55,21 @@ for (wish, ds), colour in zip(runs.items(), ["#0072B2", "#D55E00", "#009E73"], s
         linewidth=0,
     )
 axes.axhline(0, color="k", linewidth=0.6)
-axes.set(
-    xscale="log", xlabel="time [s]", ylabel="approach less the exact one [%]", ylim=(-0.12, 0.04)
-)
+axes.set(xscale="log", xlabel="time [s]", ylabel="error of the approach [%]", ylim=(-0.12, 0.04))
 axes.legend(frameon=False, fontsize=8, loc="lower left")
 
 # %%
 # The check
 # ---------
 #
-# The exact approach lies within the bars at every instant, and the runs are as close as was asked.
+# The exact approach lies within the error bars at every instant, and the errors are below the
+# tolerances.
 
 for wish, ds in runs.items():
     off = np.abs(ds.approach.values - exact)
     print(
-        f"{wish:.1%} wanted: off by {np.max(off / exact):.2e}, "
-        f"bar {float(np.max(ds.approach_error / exact)):.2e}"
+        f"tolerance {wish:.1%}: error {np.max(off / exact):.2e}, "
+        f"error bar {float(np.max(ds.approach_error / exact)):.2e}"
     )
     assert np.all(off <= ds.approach_error.values)
     assert np.max(off / exact) < wish

@@ -1,16 +1,16 @@
 """
-When both bodies creep
-======================
+Two creeping bodies
+===================
 
-A plastic ball on a plastic plate: both creep, each by its own law. Their compliances add, and what
-each does to the other is computed with no more effort than one.
+A plastic ball on a plastic plate: both bodies creep, each with its own law. Their contact
+compliances add, so two creeping bodies cost no more than one.
 """
 
 # %%
 # Ball and plate
 # --------------
 #
-# The ball comes to rest, the plate flows. The second run has a rigid ball, for comparison.
+# The creep of the ball ends, the plate flows. The second run has a rigid ball, for comparison.
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -30,11 +30,11 @@ both = vc.simulate(shape, plate, load, grid, times, indenter_material=ball, fiel
 rigid = vc.simulate(shape, plate, load, grid, times, fields="none")
 
 # %%
-# The picture
-# -----------
+# The figure
+# ----------
 #
-# The approach of both runs, and what the sum of the two compliances makes of it (dots): Lee &
-# Radok (1960), a²/R with a³ = (3/4) R F (J₁ + J₂), where J = (1 - ν) Φ of each body.
+# The approach of both runs, and the exact solution with the sum of the two compliances (dots): Lee
+# & Radok (1960), a²/R with a³ = (3/4) R F (J₁ + J₂), where J = (1 - ν) Φ of each body.
 
 figure, axes = plt.subplots(figsize=(4.8, 3.2), layout="constrained")
 compliances = plate.contact_compliance()(times), ball.contact_compliance()(times)
@@ -52,7 +52,7 @@ axes.legend(frameon=False)
 # The check
 # ---------
 #
-# The same at the end, by the formulas of the two laws.
+# The same comparison at the last instant, with the formulas of the two laws.
 
 t = 400.0
 flowing = (1 - 0.4) * (1 / 400e6 + t / 80e9) / 2

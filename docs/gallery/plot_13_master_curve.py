@@ -1,19 +1,19 @@
 """
-One law from tests at several temperatures
-==========================================
+Master curve from tests at several temperatures
+===============================================
 
-A rheometer sees four decades of frequency; a part is loaded for years. Tests at several
-temperatures, shifted along the axis of time, give one curve that is long enough (time-temperature
-superposition), and a series fitted to it is a law to compute with.
+A rheometer covers four decades of frequency, but a component may be loaded for years. Tests at
+several temperatures, shifted along the time axis, give one curve over a long enough range
+(time-temperature superposition). A Prony series fitted to this curve is a law for simulations.
 """
 
 # %%
 # The tests
 # ---------
 #
-# Storage and loss modulus at nine temperatures, 1 % of scatter. They are made up, from a law with a
-# wide glass transition and a WLF rule, so that the truth is known. One's own come from a CSV with
-# a column of temperatures: ``viscontact fit dma.csv``.
+# Storage and loss modulus at nine temperatures, with 1 % noise. The data are synthetic, from a law
+# with a wide glass transition and a WLF rule, so that the true values are known. For your own data,
+# use a CSV file with a temperature column: ``viscontact fit dma.csv``.
 
 import numpy as np
 
@@ -50,16 +50,15 @@ figure = plot.master_curve(curve, fit=fit, rules=[wlf])
 # The check
 # ---------
 #
-# The shift factors that the tests were made with are found again, to a twentieth of a decade over
-# six decades.
+# The identified shift factors agree with the true ones to a twentieth of a decade over six decades.
 
 found, true = np.log10(curve.factors), np.log10(rule.factor(temperatures))
 worst = float(np.abs(found - true).max())
-print(f"shift factors over {np.ptp(true):.1f} decades, the worst off by {worst:.3f}")
+print(f"shift factors over {np.ptp(true):.1f} decades, largest error {worst:.3f} decades")
 assert worst < 0.05
 
-# And the law holds where it was fitted.
+# The fitted law is accurate over the fitted range.
 check = np.geomspace(1e-3, 1e3, 13)
 off = float(np.abs(fit.law.relaxation(check) / truth.relaxation(check) - 1).max())
-print(f"relaxation modulus between 1 ms and 1000 s, the worst off by {off:.1%}")
+print(f"relaxation modulus between 1 ms and 1000 s, largest error {off:.1%}")
 assert off < 0.01

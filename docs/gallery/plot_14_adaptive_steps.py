@@ -1,10 +1,10 @@
 """
-Steps that choose themselves
-============================
+Adaptive time steps
+===================
 
-A ball is pressed for a second, let go within another, and the dent recovers. Short steps are
-needed where the force turns and where contact is lost, long ones do afterwards. With
-``adaptive_times`` the run chooses them, by the error that they may cause.
+A ball is loaded within one second and unloaded within another, and the surface then recovers. Short
+steps are needed at the force maximum and when the contact is lost; long steps are sufficient
+afterwards. With ``adaptive_times`` the run chooses its steps from an estimate of their error.
 """
 
 # %%
@@ -31,11 +31,11 @@ ds = vc.simulate(
 )
 
 # %%
-# The picture
-# -----------
+# The figure
+# ----------
 #
-# Above the approach, each step a dot; the dent is left when the force is gone, and recovers. Below
-# the steps that were taken.
+# Above: the approach, with a dot for each step. An indentation remains after unloading and
+# recovers. Below: the step sizes.
 
 figure, (above, below) = plt.subplots(
     2, 1, figsize=(5.4, 4.2), sharex=True, layout="constrained", height_ratios=(3, 2)
@@ -51,12 +51,12 @@ print(f"{steps.size} steps, from {steps.min() * 1e3:.1f} ms to {steps.max():.1f}
 # The check
 # ---------
 #
-# Until the force turns, the approach is a²/R with a³ = (3/4) R ∫ J(t - t′) dF(t′) (Lee & Radok
+# While the force increases, the approach is a²/R with a³ = (3/4) R ∫ J(t - t′) dF(t′) (Lee & Radok
 # 1960).
 
 mean_compliance = 0.5 / (2 * 10e6) * (2 - (1 - np.exp(-1.0)))
 exact = (0.75 * force * mean_compliance / np.sqrt(radius)) ** (2 / 3)
 ours = float(ds.approach.sel(time=1.0))
 
-print(f"approach when the force turns: {ours * 1e6:.3f} µm, exactly {exact * 1e6:.3f} µm")
+print(f"approach at the force maximum: {ours * 1e6:.3f} µm, exactly {exact * 1e6:.3f} µm")
 assert abs(ours / exact - 1) < 1e-3

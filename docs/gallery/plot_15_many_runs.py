@@ -1,17 +1,17 @@
 """
-Many runs at once
-=================
+Many runs in parallel
+=====================
 
-A study is many runs that do not know each other. ``simulate_many`` shares them out among the cores;
-each result is the same to the last bit as if it had been computed alone.
+A parameter study consists of many independent runs. ``simulate_many`` distributes them to the
+cores; each result is bit-identical to that of a single run.
 """
 
 # %%
 # Five forces
 # -----------
 #
-# Each run is a mapping of what ``simulate`` takes. New processes begin by importing the script, so
-# the call stands behind ``if __name__ == "__main__"``; a notebook needs no such line.
+# Each run is a mapping of the arguments of ``simulate``. Each new process first imports the script,
+# so the call must be inside ``if __name__ == "__main__"``; a notebook does not need this line.
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -39,7 +39,7 @@ if __name__ == "__main__":
     for index, label, colour in ((0, "at once", "#440154"), (-1, "after 200 s", "#d98c00")):
         approach = np.array([float(ds.approach[index]) for ds in runs])
         axes.loglog(forces, approach * 1e3, "o", color=colour, label=label)
-        # A line of the slope 2/3 through the first one.
+        # A line of slope 2/3 through the first point.
         line = approach[0] * (np.array(forces) / forces[0]) ** (2 / 3)
         axes.loglog(forces, line * 1e3, "-", color=colour, linewidth=0.8)
     axes.set(xlabel="force [N]", ylabel="approach [mm]")
@@ -48,8 +48,8 @@ if __name__ == "__main__":
     axes.minorticks_off()
     axes.legend(frameon=False)
 
-    # The check: the approach of a ball grows with the power 2/3 of the force (Hertz), at every
-    # instant.
+    # The check: at every instant, the approach of a ball is proportional to the force to the power
+    # of 2/3 (Hertz).
     approach = [float(ds.approach[-1]) for ds in runs]
     exponent = np.polyfit(np.log(forces), np.log(approach), 1)[0]
     print(f"exponent after 200 s: {exponent:.4f}, Hertz 0.6667")
