@@ -74,7 +74,7 @@ figure = plot.pressure_map(ds, times=times[1:])
 # the whole run. The ramp takes one second, so the compliance is a mean over the last second.
 
 lags = np.linspace(999.0, 1000.0, 11)
-compliance = np.trapezoid(pmma.contact_compliance()(lags), lags)
+compliance = float(np.trapezoid(pmma.contact_compliance()(lags), lags))
 elastic = vc.Material(vc.Elastic((1 - 0.3) / (2 * compliance)), poisson_ratio=0.3)
 elastic_ds = vc.simulate(ball, elastic, vc.step(60e-3), grid, [0.0], fields="none", errors=False)
 

@@ -50,7 +50,7 @@ if __name__ == "__main__":
 
     # The check: at every instant, the approach of a ball is proportional to the force to the power
     # of 2/3 (Hertz).
-    approach = [float(ds.approach[-1]) for ds in runs]
-    exponent = np.polyfit(np.log(forces), np.log(approach), 1)[0]
+    last = [float(ds.approach[-1]) for ds in runs]
+    exponent = np.polyfit(np.log(forces), np.log(last), 1)[0]
     print(f"exponent after 200 s: {exponent:.4f}, Hertz 0.6667")
     assert abs(exponent - 2 / 3) < 2e-3

@@ -1,94 +1,12 @@
 """Contact of creeping bodies: viscoelastic half-space contact mechanics, over time.
 
-Names are loaded when first used, so that ``import viscontact`` stays fast.
+Names are loaded when first used, so that ``import viscontact`` stays fast. The stub
+``__init__.pyi`` lists them, both for this module and for type checkers and editors.
 """
 
 import lazy_loader as _lazy
 
 __version__ = "0.1.0"
 
-__getattr__, __dir__, __all__ = _lazy.attach(
-    __name__,
-    submodules=["notebook", "plot", "reference", "surfaces", "verify"],
-    submod_attrs={
-        "errors": ["AccuracyWarning", "ConvergenceError", "DomainError"],
-        "grid": ["AutomaticGrid", "Grid"],
-        "indenters": [
-            "Chamfer",
-            "Cone",
-            "CylindricalProfile",
-            "Dimples",
-            "Ellipsoid",
-            "FlatPunch",
-            "FullCrown",
-            "HeightMap",
-            "Indenter",
-            "LogarithmicProfile",
-            "Paraboloid",
-            "PartialCrown",
-            "Profile",
-            "Pyramid",
-            "Revolved",
-            "Roller",
-            "Sphere",
-            "Swept",
-            "TabulatedProfile",
-            "Torus",
-            "TwoRadiiCrown",
-            "Waviness",
-            "Wedge",
-        ],
-        "laws": [
-            "WLF",
-            "Arrhenius",
-            "TabulatedShift",
-            "BesideSpring",
-            "Burgers",
-            "CreepSeries",
-            "Elastic",
-            "FractionalMaxwell",
-            "FractionalZener",
-            "Law",
-            "Maxwell",
-            "PowerLaw",
-            "RelaxationSeries",
-            "TabulatedCreep",
-            "TabulatedRelaxation",
-            "Zener",
-        ],
-        "materials.material": ["Material"],
-        "case": ["shipped_material"],
-        "tables": ["Table", "read_table"],
-        "surfaces": ["Surface", "read_surface"],
-        "materials.cards": ["Card", "read_abaqus", "read_ansys", "write_abaqus", "write_ansys"],
-        "identification": [
-            "IndentationRecord",
-            "Isotherm",
-            "build_master_curve",
-            "fit_creep",
-            "fit_dynamic",
-            "fit_indentation",
-            "fit_master_curve",
-            "fit_relaxation",
-        ],
-        "loads": [
-            "ApproachHistory",
-            "ForceHistory",
-            "LoadHistory",
-            "harmonic",
-            "ramp",
-            "step",
-            "triangle",
-        ],
-        "time_integration.requested_times": ["adaptive_times", "log_times", "uniform_times"],
-        "simulation.automatic_grid": ["auto_grid"],
-        "state": ["ContactState", "Outcome"],
-        "simulation.state_generator": ["march"],
-        "runs.single": ["simulate"],
-        "runs.many": ["simulate_many"],
-        "results.netcdf": ["open_results", "save"],
-        "report": ["write_report"],
-        "results.stresses": ["section_stresses"],
-    },
-)
+__getattr__, __dir__, __all__ = _lazy.attach_stub(__name__, __file__)
 __all__ += ["__version__"]

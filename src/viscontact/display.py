@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import viscontact
+if TYPE_CHECKING:
+    viscontact: Any  # type checkers see no cycle: most public classes derive from `Displayable`
+else:
+    import viscontact
 
 
 class Displayable:

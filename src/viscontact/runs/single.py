@@ -5,6 +5,7 @@ from __future__ import annotations
 import time as clock
 import warnings
 from collections.abc import Sequence
+from typing import Literal
 
 import xarray as xr
 from numpy.typing import ArrayLike
@@ -35,7 +36,7 @@ def simulate(
     *,
     indenter_material: Material | None = None,
     tolerance: float = 1e-6,
-    fields: str | Sequence[float] = "all",
+    fields: Literal["all", "none"] | Sequence[float] = "all",
     threads: int = 1,
     progress: Progress | None = None,
     errors: bool = True,

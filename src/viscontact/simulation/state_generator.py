@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Iterator, Sequence
+from typing import Literal
 
 from numpy.typing import ArrayLike
 
@@ -31,7 +32,7 @@ def march(
     *,
     indenter_material: Material | None = None,
     tolerance: float = 1e-6,
-    fields: str | Sequence[float] = "all",
+    fields: Literal["all", "none"] | Sequence[float] = "all",
     threads: int = 1,
     progress: Progress | None = None,
 ) -> Iterator[ContactState]:
