@@ -1,79 +1,65 @@
-"""One contact, estimated: a coarse elastic solve on a grid that is fitted to it."""
+"""Elastic contact on one grid, and coarse estimates of a contact's size by it."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from enum import Enum
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.contact.domain import ContactDomain
 from viscontact.contact.equilibrium import solve_contact
-from viscontact.contact.problem import ContactProblem
+from viscontact.contact.problem import ContactProblem, Guess
 from viscontact.contact.rigid_balance import Constraints
 from viscontact.contact.rim import Rim, trace_rim
 from viscontact.grid import Grid
 from viscontact.indenters import Indenter
 from viscontact.loads import LoadPoint
 
-#: Cells of a coarse solve along each axis, and how far it has to converge.
-COARSE_CELLS, COARSE_TOLERANCE = 48, 1e-4
+#: Cells of a coarse solve along each axis; on a periodic grid, which may hold many waves, at most.
+COARSE_CELLS, MAX_PERIOD_CELLS = 48, 128
 
-#: The coarse grid fits when the contact's reach is this part of its half size.
-TIGHTEST, LOOSEST = 0.85, 0.5
+#: Relative error of gap and balances in a coarse solve.
+COARSE_TOLERANCE = 1e-4
 
+#: The coarse grid fits if the contact reaches to between these parts of its half size.
+MIN_REACH, MAX_REACH = 0.5, 0.85
+
+#: Part of the half size that the next grid aims at.
+TARGET_REACH = 0.68
+
+#: Grids that are tried before the estimate is given up.
 MAX_TRIES = 60
-
-
-class _Misfit(Enum):
-    """What to multiply the grid's size with, along x and y, where a contact does not fit on it."""
-
-    BOTH = (2.0, 2.0)
-    ALONG = (2.0, 1.0)
-    ACROSS = (1.0, 2.0)
-    FINER_ALONG = (0.5, 1.0)
-    FINER_ACROSS = (1.0, 0.5)
 
 
 @dataclass(frozen=True, eq=False)
 class ContactEstimate:
-    """A coarse elastic answer.
+    """Solution of an elastic contact, with its fields on the whole grid."""
 
-    Attributes
-    ----------
-    length, width : float
-        Extents of the contact along x and y [m].
-    approach : float
-        Approach [m].
-    peak_pressure : float
-        Largest pressure [Pa].
-    peak_place : tuple of float
-        Where it is [m].
-    centre_x, centre_y : float
-        Middle of the contact [m].
-    force : float
-        Integral of the pressure [N].
-    rim : Rim
-        The contact on the coarse grid that was fitted to it.
-    open_gap : ndarray
-        Initial gap on that grid [m].
-    motion : ndarray, shape (3,)
-        Approach [m] and tilts [rad].
-    """
+    grid: Grid
+    open_gap: NDArray[np.float64]  # initial gap, +inf outside the body [m]
+    pressure: NDArray[np.float64]  # [Pa]
+    gap: NDArray[np.float64]  # gap under load [m]
+    largest_displacement: float  # of the surface [m]
+    motion: NDArray[np.float64]  # approach [m] and tilts along x and y [rad]
+    converged: bool
 
-    length: float
-    width: float
-    approach: float
-    peak_pressure: float
-    peak_place: tuple[float, float]
-    centre_x: float
-    centre_y: float
-    force: float
-    rim: Rim
-    open_gap: NDArray[np.float64]
-    motion: NDArray[np.float64]
+    @cached_property
+    def rim(self) -> Rim:
+        """Rim of the contact between the cell centres."""
+        return trace_rim(self.grid, self.pressure > 0, self.gap)
+
+    @property
+    def length(self) -> float:
+        """Extent of the contact along x, at least one cell [m]."""
+        return max(self.rim.length, self.grid.cell_size[0])
+
+    @property
+    def width(self) -> float:
+        """Extent of the contact along y, at least one cell [m]."""
+        return max(self.rim.width, self.grid.cell_size[1])
 
     @property
     def extents(self) -> tuple[float, float]:
@@ -81,34 +67,97 @@ class ContactEstimate:
         return self.length, self.width
 
     @property
+    def approach(self) -> float:
+        """Approach of the bodies [m]."""
+        return float(self.motion[0])
+
+    @property
+    def peak_pressure(self) -> float:
+        """Largest pressure [Pa]."""
+        return float(self.pressure.max())
+
+    @property
+    def peak_place(self) -> tuple[float, float]:
+        """Position of the largest pressure [m]."""
+        return self.grid.largest_at(self.pressure)
+
+    @property
+    def force(self) -> float:
+        """Integral of the pressure [N]."""
+        return float(self.pressure.sum()) * self.grid.cell_area
+
+    @cached_property
+    def centre(self) -> tuple[float, float]:
+        """Middle of the contact [m]; 0 along an axis on which it fills the period."""
+        if self.grid.periodic:
+            x, y = self.grid.x[self.rim.rows], self.grid.y[self.rim.columns]
+            return (
+                float(np.median(x)) if self.rim.length < self.grid.size[0] else 0.0,
+                float(np.median(y)) if self.rim.width < self.grid.size[1] else 0.0,
+            )
+        contact = self.pressure > 0
+        rows, columns = np.flatnonzero(contact.any(axis=1)), np.flatnonzero(contact.any(axis=0))
+        return (
+            float(self.grid.x[rows[[0, -1]]].mean()),
+            float(self.grid.y[columns[[0, -1]]].mean()),
+        )
+
+    @property
+    def centre_x(self) -> float:
+        """Middle of the contact along x [m]."""
+        return self.centre[0]
+
+    @property
+    def centre_y(self) -> float:
+        """Middle of the contact along y [m]."""
+        return self.centre[1]
+
+    @property
     def reach(self) -> tuple[float, float]:
         """Farthest distances of the contact from the origin along x and y [m]."""
-        return abs(self.centre_x) + self.length / 2, abs(self.centre_y) + self.width / 2
+        return abs(self.centre[0]) + self.length / 2, abs(self.centre[1]) + self.width / 2
+
+
+def elastic_contact(
+    open_gap: NDArray[np.float64],
+    compliance: float,
+    point: LoadPoint,
+    grid: Grid,
+    *,
+    tolerance: float = COARSE_TOLERANCE,
+    mirrored: tuple[bool, bool] = (False, False),
+    start: NDArray[np.float64] | None = None,
+) -> ContactEstimate:
+    """Solve an elastic contact on a grid; `compliance` [1/Pa], `start` a pressure or None [Pa]."""
+    domain = ContactDomain(grid, mirrored=mirrored)
+    problem = ContactProblem(
+        domain.reduce_by_symmetry(open_gap),
+        compliance,
+        domain.reduced_constraints(Constraints.of(point)),
+        1e-12 * max(grid.cell_size),
+    )
+    guess = None
+    if start is not None and start.any():
+        pressure = domain.reduce_by_symmetry(np.where(np.isfinite(open_gap), start, 0.0))
+        guess = Guess(pressure, domain.convolution.apply(pressure), np.zeros(3))
+    solution = solve_contact(problem, domain, guess, tolerance=tolerance)
+    return ContactEstimate(
+        grid,
+        open_gap,
+        domain.expand_by_symmetry(solution.found.pressure),
+        domain.expand_by_symmetry(solution.gap),
+        compliance * float(solution.found.unit_displacement.max()),
+        solution.motion,
+        solution.converged,
+    )
 
 
 def estimate_contact(
     indenter: Indenter, contact_compliance: float, point: LoadPoint
 ) -> ContactEstimate:
-    """Solve an elastic contact coarsely, on a grid that is fitted to it.
+    """Solve an elastic contact to a few per cent, on a coarse grid that is fitted to it.
 
-    Parameters
-    ----------
-    indenter : Indenter
-        Shape of the pressed body.
-    contact_compliance : float
-        J of an elastic body in its place [1/Pa].
-    point : LoadPoint
-        Force, eccentricities and prescribed tilts.
-
-    Returns
-    -------
-    ContactEstimate
-        To a few per cent.
-
-    Raises
-    ------
-    ValueError
-        If no grid can be fitted: the force acts outside what can touch, say.
+    Raises ValueError if no grid fits, for example because the force acts outside the body.
 
     Examples
     --------
@@ -121,15 +170,15 @@ def estimate_contact(
     size = np.full(2, _first_size(indenter, contact_compliance, point))
     for _ in range(MAX_TRIES):
         grid = Grid((COARSE_CELLS, COARSE_CELLS), (float(size[0]), float(size[1])))
-        found = _coarse_contact(indenter, contact_compliance, point, grid)
-        if isinstance(found, _Misfit):
-            size = size * found.value
+        open_gap = indenter.gap(grid.x[:, None], grid.y[None, :])
+        if not np.isfinite(open_gap).any():
+            size = 2.0 * size
             continue
-        part = np.array(found.reach) / (size / 2)
-        if ((part >= LOOSEST) & (part <= TIGHTEST)).all():
+        found = elastic_contact(open_gap, contact_compliance, point, grid)
+        factors = _size_factors(found)
+        if factors is None:
             return found
-        # A contact of a few cells says little about its size: do not trust it beyond a factor 4.
-        size = size * np.clip(part / 0.68, 0.25, 2.0)
+        size = size * factors
     raise ValueError(
         "grid: no fitting grid was found for this load; the force may be too large for so soft a "
         "material, or act outside what can touch, or the contact runs on without end. Press less, "
@@ -137,92 +186,10 @@ def estimate_contact(
     )
 
 
-def _first_size(indenter: Indenter, compliance: float, point: LoadPoint) -> float:
-    radius = indenter.radius_of_curvature
-    level, is_round = point.level, math.isfinite(radius) and radius > 0
-    if point.force is None:
-        scale = math.sqrt(radius * level) if is_round else level
-    else:
-        scale = math.sqrt(level * compliance)
-        if is_round:
-            scale = (0.75 * level * radius * compliance) ** (1 / 3)
-    return 4 * max(scale, abs(point.eccentricity_x), abs(point.eccentricity_y))
-
-
-def _between_points(open_gap: NDArray[np.float64]) -> _Misfit:
-    """Which way is too coarse where a body that is pressed in touches none of the points."""
-    i, j = divmod(int(open_gap.argmin()), open_gap.shape[1])
-    # The lowest point may be the last of its line; gaps are even enough for the one before it.
-    besides = (max(i - 1, 0), j), (i, max(j - 1, 0))
-    along, across = (float(open_gap[place]) for place in besides)
-    return _Misfit.FINER_ALONG if along > across else _Misfit.FINER_ACROSS
-
-
-def _coarse_contact(
-    indenter: Indenter, compliance: float, point: LoadPoint, grid: Grid
-) -> ContactEstimate | _Misfit:
-    """Contact on this grid, or why it does not fit on it."""
-    open_gap = indenter.gap(grid.x[:, None], grid.y[None, :])
-    if not np.isfinite(open_gap).any():
-        return _Misfit.BOTH
-    problem = ContactProblem(open_gap, compliance, Constraints.of(point), 1e-12 * max(grid.size))
-    solution = solve_contact(problem, ContactDomain(grid), tolerance=COARSE_TOLERANCE)
-    contact = solution.found.pressure > 0
-    if not contact.any():
-        return _between_points(open_gap)
-    along, across = contact[[0, -1]].any(), contact[:, [0, -1]].any()
-    if along and not across:
-        return _Misfit.ALONG
-    if across and not along:
-        return _Misfit.ACROSS
-    if along or not solution.converged:
-        return _Misfit.BOTH
-    rim = trace_rim(grid, contact, solution.gap)
-    rows, columns = np.flatnonzero(contact.any(axis=1)), np.flatnonzero(contact.any(axis=0))
-    return ContactEstimate(
-        max(rim.length, grid.cell_size[0]),
-        max(rim.width, grid.cell_size[1]),
-        float(solution.found.motion[0]),
-        float(solution.found.pressure.max()),
-        grid.largest_at(solution.found.pressure),
-        float(grid.x[rows[[0, -1]]].mean()),
-        float(grid.y[columns[[0, -1]]].mean()),
-        float(solution.found.pressure.sum()) * grid.cell_area,
-        rim,
-        open_gap,
-        solution.found.motion,
-    )
-
-
-#: Cells of the coarse solve along each axis, at most: a period may hold many waves.
-MAX_PERIOD_CELLS = 128
-
-
 def estimate_period(
     indenter: Indenter, contact_compliance: float, point: LoadPoint, grid: Grid
 ) -> ContactEstimate:
-    """Solve an elastic contact on a periodic grid coarsely.
-
-    Parameters
-    ----------
-    indenter : Indenter
-        Shape of the pressed body.
-    contact_compliance : float
-        J of an elastic body in its place [1/Pa].
-    point : LoadPoint
-        Force or approach.
-    grid : Grid
-        The period; a finer one is made coarser.
-
-    Returns
-    -------
-    ContactEstimate
-        To a few per cent.
-
-    Raises
-    ------
-    ValueError
-        If the solve does not converge.
+    """Solve an elastic contact to a few per cent on a periodic grid, coarsened where it is fine.
 
     Examples
     --------
@@ -237,25 +204,43 @@ def estimate_period(
     nx, ny = (min(count, MAX_PERIOD_CELLS) for count in grid.shape)
     coarse = Grid((nx, ny), grid.size, periodic=True)
     open_gap = indenter.gap(coarse.x[:, None], coarse.y[None, :])
-    half_space = ContactDomain(coarse)
-    constraints = half_space.reduced_constraints(Constraints.of(point))
-    problem = ContactProblem(open_gap, contact_compliance, constraints, 1e-12 * max(grid.size))
-    solution = solve_contact(problem, half_space, tolerance=COARSE_TOLERANCE)
-    if not solution.converged:
+    found = elastic_contact(open_gap, contact_compliance, point, coarse)
+    if not found.converged:
         raise ValueError("grid: the contact on this period could not be estimated; use more cells")
-    pressure = solution.found.pressure
-    rim = trace_rim(coarse, pressure > 0, solution.gap)
-    x, y = coarse.x[rim.rows], coarse.y[rim.columns]
-    return ContactEstimate(
-        length=max(rim.length, coarse.cell_size[0]),
-        width=max(rim.width, coarse.cell_size[1]),
-        approach=float(solution.found.motion[0]),
-        peak_pressure=float(pressure.max()),
-        peak_place=coarse.largest_at(pressure),
-        centre_x=float(np.median(x)) if rim.length < grid.size[0] else 0.0,
-        centre_y=float(np.median(y)) if rim.width < grid.size[1] else 0.0,
-        force=float(pressure.sum()) * coarse.cell_area,
-        rim=rim,
-        open_gap=open_gap,
-        motion=solution.found.motion,
-    )
+    return found
+
+
+def _first_size(indenter: Indenter, compliance: float, point: LoadPoint) -> float:
+    """Edge of the first grid: four times a length from Hertz's theory or from the load [m]."""
+    radius = indenter.radius_of_curvature
+    level, is_round = point.level, math.isfinite(radius) and radius > 0
+    if point.force is None:
+        scale = math.sqrt(radius * level) if is_round else level
+    else:
+        scale = math.sqrt(level * compliance)
+        if is_round:
+            scale = (0.75 * level * radius * compliance) ** (1 / 3)
+    return 4 * max(scale, abs(point.eccentricity_x), abs(point.eccentricity_y))
+
+
+def _size_factors(found: ContactEstimate) -> NDArray[np.float64] | None:
+    """Factors that make the grid fit the contact along x and y; None if it fits."""
+    contact = found.pressure > 0
+    if not contact.any():
+        return _refining_factors(found.open_gap)
+    at_edge = bool(contact[[0, -1]].any()), bool(contact[:, [0, -1]].any())
+    if any(at_edge) or not found.converged:
+        return np.where(at_edge if any(at_edge) else (True, True), 2.0, 1.0)
+    part = np.array(found.reach) / (np.array(found.grid.size) / 2)
+    if ((part >= MIN_REACH) & (part <= MAX_REACH)).all():
+        return None
+    # A contact of a few cells says little about its size: do not trust it beyond a factor of 4.
+    return np.asarray(np.clip(part / TARGET_REACH, 0.25, 2.0))
+
+
+def _refining_factors(open_gap: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Factors for a body that touches between the cell centres: finer along its steeper axis."""
+    i, j = divmod(int(open_gap.argmin()), open_gap.shape[1])
+    # The lowest point may be the last of its line, but its neighbour before it shows the slope.
+    along, across = float(open_gap[max(i - 1, 0), j]), float(open_gap[i, max(j - 1, 0)])
+    return np.array([0.5, 1.0] if along > across else [1.0, 0.5])

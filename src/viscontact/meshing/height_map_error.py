@@ -52,9 +52,7 @@ def facet_error(indenter: Indenter, found: ContactEstimate, compliance: float) -
         return 0.0
     x, y = (
         _lines(middle, extent, step)
-        for middle, extent, step in zip(
-            (found.centre_x, found.centre_y), found.extents, steps, strict=True
-        )
+        for middle, extent, step in zip(found.centre, found.extents, steps, strict=True)
     )
     gap = indenter.gap(x[:, None], y[None, :])
     motion = found.motion

@@ -9,14 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.contact.body_edge import trace_outline
-from viscontact.contact.domain import ContactDomain
-from viscontact.contact.equilibrium import solve_contact
-from viscontact.contact.problem import ContactProblem, Guess
-from viscontact.contact.rigid_balance import Constraints
 from viscontact.contact.rim import trace_rim
 from viscontact.grid import GRID_QUANTITIES, Grid, is_even
 from viscontact.indenters import Indenter
 from viscontact.loads import LoadPoint
+from viscontact.meshing.elastic_estimate import elastic_contact
 
 #: Where the rim crosses a row of cells is known to this part of a cell. The area's error goes to
 #: and fro by it with the place of the rim among the cells, so that two meshes may agree by chance;
@@ -118,7 +115,7 @@ def try_mesh(pressing: ElasticContact, shape: tuple[int, int], tolerance: float)
 
 @dataclass(frozen=True, eq=False)
 class _Found:
-    """What a solve found: values of `GRID_QUANTITIES`, and what their errors are relative to."""
+    """Solution on one mesh: values of `GRID_QUANTITIES`, and the scales of their errors."""
 
     pressure: NDArray[np.float64]
     values: NDArray[np.float64]
@@ -134,27 +131,21 @@ def _found(
 ) -> _Found:
     grid, indenter, point = Grid(shape, pressing.size), pressing.indenter, pressing.point
     open_gap = indenter.gap(grid.x[:, None], grid.y[None, :])
-    half_space = ContactDomain(grid, mirrored=_mirrored(open_gap, point))
-    problem = ContactProblem(
-        half_space.reduce_by_symmetry(open_gap),
+    found = elastic_contact(
+        open_gap,
         pressing.compliance,
-        half_space.reduced_constraints(Constraints.of(point)),
-        1e-12 * max(grid.cell_size),
+        point,
+        grid,
+        tolerance=tolerance,
+        mirrored=_mirrored(open_gap, point),
+        start=start,
     )
-    guess = None
-    if start is not None and start.any():
-        folded = half_space.reduce_by_symmetry(np.where(np.isfinite(open_gap), start, 0.0))
-        guess = Guess(folded, half_space.convolution.apply(folded), np.zeros(3))
-    solution = solve_contact(problem, half_space, guess, tolerance=tolerance)
-    pressure = half_space.expand_by_symmetry(solution.found.pressure)
-    contact = pressure > 0
-    outline = trace_outline(indenter, grid)
-    area = trace_rim(grid, contact, half_space.expand_by_symmetry(solution.gap), outline).area
-    values = np.array([pressure.max(), area, solution.found.motion[0]])
+    contact = found.pressure > 0
+    area = trace_rim(grid, contact, found.gap, trace_outline(indenter, grid)).area
+    values = np.array([found.peak_pressure, area, found.approach])
     # Where the body mostly turns, its approach is no measure of its motion.
-    sinks = pressing.compliance * float(solution.found.unit_displacement.max())
-    scales = np.maximum(values, [TINY, TINY, sinks])
-    return _Found(pressure, values, scales, _consecutive_cells(contact))
+    scales = np.maximum(values, [TINY, TINY, found.largest_displacement])
+    return _Found(found.pressure, values, scales, _consecutive_cells(contact))
 
 
 def _consecutive_cells(contact: NDArray[np.bool_]) -> NDArray[np.float64]:
