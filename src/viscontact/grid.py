@@ -233,6 +233,24 @@ def _centres(cells: int, extent: float) -> NDArray[np.float64]:
     return offsets * (extent / (2 * cells))
 
 
+def height_over_neighbours(gap: NDArray[np.float64], axis: int) -> NDArray[np.float64]:
+    """Half the height of each point over the mean of its two neighbours along an axis [m].
+
+    The gap falls where the surface rises; 0 at dips, at the ends of a line and beside holes (+inf).
+
+    Examples
+    --------
+    >>> height_over_neighbours(np.array([[3.0], [1.0], [3.0], [2.0]]), 0).ravel().tolist()
+    [0.0, 1.0, 0.0, 0.0]
+    """
+    height = np.zeros(gap.shape)
+    lines, out = np.moveaxis(gap, axis, 0), np.moveaxis(height, axis, 0)[1:-1]
+    known = np.isfinite(lines[:-2] + lines[1:-1] + lines[2:])
+    mean = (lines[:-2][known] + lines[2:][known]) / 2
+    out[known] = np.maximum(mean - lines[1:-1][known], 0.0) / 2
+    return height
+
+
 def is_even(field: NDArray[np.float64], axis: int) -> bool:
     """Whether a field's second half mirrors its first along an axis, to the bit.
 

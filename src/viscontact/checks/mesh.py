@@ -7,6 +7,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.contact.rim import mean_chords
+
 #: Fewer cells across the largest contact than this are doubtful, or refused.
 WARNING_CELLS, MIN_CELLS_ACROSS = 10, 4
 
@@ -55,24 +57,10 @@ def mesh_warnings(cells_across: int, across_spots: float = math.inf) -> dict[str
 
 
 def cells_across_spots(contact: NDArray[np.bool_], *, periodic: bool = False) -> float:
-    """Mean number of cells in a row within a contact, along the axis where it is smaller.
+    """Mean chord of a contact along the axis where it is smaller, in cells; 0 without contact.
 
-    Parameters
-    ----------
-    contact : ndarray of bool, shape (nx, ny)
-        Cells under pressure.
-    periodic : bool
-        Whether rows and columns go on where they began.
-
-    Returns
-    -------
-    float
-        Cells; 0 without contact, as many as a row or column has where no contact ends.
-
-    Notes
-    -----
-    The mean chord. It sees what the extents of a contact hide: a rough surface's spots, or a
-    strip that lies askew on the grid.
+    It shows what the extents of a contact hide: the spots of a rough surface, or a strip that lies
+    askew on the grid.
 
     Examples
     --------
@@ -81,11 +69,6 @@ def cells_across_spots(contact: NDArray[np.bool_], *, periodic: bool = False) ->
     >>> cells_across_spots(spots)
     2.0
     """
-    cells = int(np.count_nonzero(contact))
-    if not cells:
-        return 0.0
-    begun = []
-    for lines in (contact, contact.T):
-        before = lines[-1:] if periodic else np.zeros_like(lines[:1])
-        begun.append(int(np.count_nonzero(lines & ~np.concatenate([before, lines[:-1]]))))
-    return cells / max(begun) if any(begun) else float(max(contact.shape))
+    if periodic and contact.all():
+        return float(max(contact.shape))
+    return float(mean_chords(contact, periodic=periodic).min())

@@ -12,7 +12,7 @@ import scipy
 from numpy.typing import NDArray
 
 from viscontact.contact.rim import Rim
-from viscontact.grid import Grid
+from viscontact.grid import Grid, height_over_neighbours
 from viscontact.indenters import Indenter
 from viscontact.indenters.textures import CELLS_OF_A_WAVE
 from viscontact.units.formatting import format_quantity
@@ -87,7 +87,9 @@ class Sampling:
         As the amplitude of a wave of two cells; 0 for other bodies, whose tips and edges are meant.
         """
         x, y = self.indenter.sample_points
-        missed = self._jagged() if x.size else np.zeros(self.grid.shape)
+        missed = np.zeros(self.grid.shape)
+        if x.size:
+            missed = np.maximum(*(height_over_neighbours(self.open_gap, axis) for axis in (0, 1)))
         places = [
             (along - lines[0]) / cell
             for along, lines, cell in zip(
@@ -107,17 +109,6 @@ class Sampling:
     def sees_all(self) -> bool:
         """Whether nothing is missed anywhere."""
         return not self.missed.any()
-
-    def _jagged(self) -> NDArray[np.float64]:
-        """Half of how far each point stands out from the middle of its neighbours [m]."""
-        jagged = np.zeros(self.grid.shape)
-        for axis in (0, 1):
-            gap = np.moveaxis(self.open_gap, axis, 0)
-            inner = np.isfinite(gap[:-2] + gap[1:-1] + gap[2:])
-            out = np.moveaxis(jagged, axis, 0)[1:-1]
-            middle = (gap[:-2][inner] + gap[2:][inner]) / 2
-            out[inner] = np.maximum(out[inner], (middle - gap[1:-1][inner]) / 2)
-        return jagged
 
     def _sampled_points(self) -> Iterator[Points]:
         lx, ly = self.grid.size

@@ -10,7 +10,7 @@ from scipy import fft
 
 from viscontact.contact.rigid_balance import Constraints, RigidPlane
 from viscontact.fourier import Transforms, fastest_transforms, transforms_by
-from viscontact.grid import Grid
+from viscontact.grid import Grid, is_even
 from viscontact.halfspace.convolution import Convolution
 from viscontact.halfspace.influence import influence_table
 from viscontact.halfspace.preconditioner import Preconditioner
@@ -248,6 +248,12 @@ class ContactDomain:
             single=single,
             transforms=transforms,
         )
+
+
+def mirrored_axes(open_gap: NDArray[np.float64], even_load: tuple[bool, bool]) -> tuple[bool, bool]:
+    """Whether a problem is even across x = 0, and across y = 0: gap and load both are."""
+    along_x, along_y = (even_load[axis] and is_even(open_gap, axis) for axis in (0, 1))
+    return along_x, along_y
 
 
 def _span(occupied: NDArray[np.bool_] | np.bool_) -> slice:

@@ -88,6 +88,25 @@ class Rim:
         return field[rows, columns]
 
 
+def mean_chords(contact: NDArray[np.bool_], *, periodic: bool = False) -> NDArray[np.float64]:
+    """Mean numbers of consecutive cells in contact along x and along y.
+
+    On a periodic grid the last cell of a line is followed by the first.
+
+    Examples
+    --------
+    >>> spots = np.zeros((8, 8), dtype=bool)
+    >>> spots[1:3, 1:6] = spots[5:7, 1:6] = True
+    >>> mean_chords(spots).tolist()
+    [2.0, 5.0]
+    """
+    begun = []
+    for lines in (contact, contact.T):
+        before = lines[-1:] if periodic else np.zeros_like(lines[:1])
+        begun.append(int(np.count_nonzero(lines & ~np.concatenate([before, lines[:-1]]))))
+    return np.asarray(int(np.count_nonzero(contact)) / np.maximum(begun, 1))
+
+
 def trace_rim(
     grid: Grid,
     contact: NDArray[np.bool_],

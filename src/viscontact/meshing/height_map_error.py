@@ -7,6 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.grid import height_over_neighbours
 from viscontact.indenters import Indenter
 from viscontact.meshing.elastic_estimate import ContactEstimate
 
@@ -57,7 +58,7 @@ def facet_error(indenter: Indenter, found: ContactEstimate, compliance: float) -
     gap = indenter.gap(x[:, None], y[None, :])
     motion = found.motion
     pressed = gap < motion[0] + motion[1] * x[:, None] + motion[2] * y[None, :]
-    slopes = sum(_standing_out(gap, axis) / steps[axis] for axis in (0, 1))
+    slopes = sum(height_over_neighbours(gap, axis) / steps[axis] for axis in (0, 1))
     steepest = float(np.where(pressed, slopes, 0.0).max(initial=0.0))
     return math.pi / 2 * steepest / (compliance * found.peak_pressure)
 
@@ -65,13 +66,3 @@ def facet_error(indenter: Indenter, found: ContactEstimate, compliance: float) -
 def _lines(middle: float, extent: float, step: float) -> NDArray[np.float64]:
     count = math.ceil(extent / 2 / step) + 1
     return np.asarray(middle + step * np.arange(-count, count + 1))
-
-
-def _standing_out(gap: NDArray[np.float64], axis: int) -> NDArray[np.float64]:
-    """Half of how far each point stands out from the middle of its neighbours along an axis [m]."""
-    standing = np.zeros(gap.shape)
-    lines, out = np.moveaxis(gap, axis, 0), np.moveaxis(standing, axis, 0)[1:-1]
-    known = np.isfinite(lines[:-2]) & np.isfinite(lines[1:-1]) & np.isfinite(lines[2:])
-    middle = (lines[:-2][known] + lines[2:][known]) / 2
-    out[known] = np.maximum(middle - lines[1:-1][known], 0.0) / 2
-    return standing

@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.contact.body_edge import trace_outline
-from viscontact.contact.rim import trace_rim
-from viscontact.grid import GRID_QUANTITIES, Grid, is_even
+from viscontact.contact.domain import mirrored_axes
+from viscontact.contact.rim import mean_chords, trace_rim
+from viscontact.grid import GRID_QUANTITIES, Grid
 from viscontact.indenters import Indenter
 from viscontact.loads import LoadPoint
 from viscontact.meshing.elastic_estimate import elastic_contact
@@ -131,13 +132,17 @@ def _found(
 ) -> _Found:
     grid, indenter, point = Grid(shape, pressing.size), pressing.indenter, pressing.point
     open_gap = indenter.gap(grid.x[:, None], grid.y[None, :])
+    even = (
+        not (point.eccentricity_x or point.tilt_x),
+        not (point.eccentricity_y or point.tilt_y),
+    )
     found = elastic_contact(
         open_gap,
         pressing.compliance,
         point,
         grid,
         tolerance=tolerance,
-        mirrored=_mirrored(open_gap, point),
+        mirrored=mirrored_axes(open_gap, even),
         start=start,
     )
     contact = found.pressure > 0
@@ -145,18 +150,4 @@ def _found(
     values = np.array([found.peak_pressure, area, found.approach])
     # Where the body mostly turns, its approach is no measure of its motion.
     scales = np.maximum(values, [TINY, TINY, found.largest_displacement])
-    return _Found(found.pressure, values, scales, _consecutive_cells(contact))
-
-
-def _consecutive_cells(contact: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """Mean lengths of the rows of cells that a contact consists of, along x and along y."""
-    begun = [
-        int(line[0].sum()) + int((line[1:] & ~line[:-1]).sum()) for line in (contact, contact.T)
-    ]
-    return np.asarray(int(contact.sum()) / np.maximum(begun, 1))
-
-
-def _mirrored(open_gap: NDArray[np.float64], point: LoadPoint) -> tuple[bool, bool]:
-    uneven = (point.eccentricity_x or point.tilt_x, point.eccentricity_y or point.tilt_y)
-    along_x, along_y = (not uneven[axis] and is_even(open_gap, axis) for axis in (0, 1))
-    return along_x, along_y
+    return _Found(found.pressure, values, scales, mean_chords(contact))

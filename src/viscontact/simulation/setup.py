@@ -18,8 +18,9 @@ from viscontact.checks.arguments import (
     check_touch,
 )
 from viscontact.checks.periodicity import check_period
+from viscontact.contact.domain import mirrored_axes
 from viscontact.fourier import fastest_transforms
-from viscontact.grid import AutomaticGrid, Grid, is_even
+from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.loads import LoadHistory
 from viscontact.materials.compliance import ContactCompliance
@@ -226,8 +227,7 @@ def _gap_on(indenter: Indenter, grid: Grid) -> NDArray[np.float64]:
 def _mirrored(open_gap: NDArray[np.float64], load: LoadHistory, grid: Grid) -> tuple[bool, bool]:
     if grid.periodic:
         return False, False
-    along_x, along_y = (load.is_even(axis) and is_even(open_gap, axis) for axis in (0, 1))
-    return along_x, along_y
+    return mirrored_axes(open_gap, (load.is_even(0), load.is_even(1)))
 
 
 def _hereditary_plan(
