@@ -187,9 +187,9 @@ class PlacedIndenter(Indenter):
     """
 
     body: Indenter
-    angle: float = field(default=0.0, metadata={"unit": "rad"})
-    x: float = field(default=0.0, metadata={"unit": "m"})
-    y: float = field(default=0.0, metadata={"unit": "m"})
+    angle: float = field(default=0.0, metadata={"unit": "rad", "name": "turned by"})
+    x: float = field(default=0.0, metadata={"unit": "m", "name": "moved along x by"})
+    y: float = field(default=0.0, metadata={"unit": "m", "name": "moved along y by"})
 
     def __post_init__(self) -> None:
         if not isinstance(self.body, Indenter):

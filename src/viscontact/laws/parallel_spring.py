@@ -59,7 +59,7 @@ class BesideSpring(Law):
     """
 
     law: Law
-    shear_modulus: float = field(metadata={"unit": "Pa"})
+    shear_modulus: float = field(metadata={"unit": "Pa", "name": "modulus of the spring beside"})
 
     def __post_init__(self) -> None:
         if not isinstance(self.law, Law):

@@ -64,7 +64,7 @@ class PowerLaw(Law):
     compliance: float = field(metadata={"unit": "1/Pa"})
     exponent: float = field(metadata={"unit": "1"})
     reference_time: float = field(metadata={"unit": "s"})
-    instant: float = field(default=0.0, metadata={"unit": "1/Pa"})
+    instant: float = field(default=0.0, metadata={"unit": "1/Pa", "name": "instant compliance"})
 
     def __post_init__(self) -> None:
         numbers.check_fields(self, "compliance", "reference_time")

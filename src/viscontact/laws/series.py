@@ -97,9 +97,9 @@ class CreepSeries(SeriesLaw):
     (1e-09, 2.264241, 500000000)
     """
 
-    instant: float = field(metadata={"unit": "1/Pa"})
-    amplitudes: Sequence[float] = field(metadata={"unit": "1/Pa"})
-    times: Sequence[float] = field(metadata={"unit": "s"})
+    instant: float = field(metadata={"unit": "1/Pa", "name": "instant compliance"})
+    amplitudes: Sequence[float] = field(metadata={"unit": "1/Pa", "name": "delayed compliances"})
+    times: Sequence[float] = field(metadata={"unit": "s", "name": "retardation times"})
     fluidity: float = field(default=0.0, metadata={"unit": "1/(Pa s)"})
 
     def __post_init__(self) -> None:
@@ -252,7 +252,7 @@ class RelaxationSeries(SeriesLaw):
 
     equilibrium: float = field(metadata={"unit": "Pa"})
     moduli: Sequence[float] = field(metadata={"unit": "Pa"})
-    times: Sequence[float] = field(metadata={"unit": "s"})
+    times: Sequence[float] = field(metadata={"unit": "s", "name": "relaxation times"})
 
     def __post_init__(self) -> None:
         equilibrium = numbers.non_negative("RelaxationSeries: equilibrium", self.equilibrium, "Pa")

@@ -56,7 +56,7 @@ class ApproachHistory(PiecewiseHistory):
     eccentricity_x: ClassVar[float] = 0.0  # no force is prescribed that could act off centre
     eccentricity_y: ClassVar[float] = 0.0
 
-    times: NDArray[np.float64] = field(metadata={"unit": "s"})
+    times: NDArray[np.float64] = field(metadata={"unit": "s", "name": "at times"})
     approach: NDArray[np.float64] = field(metadata={"unit": "m"})
     tilt_x: float | NDArray[np.float64] | None = field(metadata={"unit": "rad"})
     tilt_y: float | NDArray[np.float64] | None = field(metadata={"unit": "rad"})

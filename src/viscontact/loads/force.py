@@ -54,7 +54,7 @@ class ForceHistory(PiecewiseHistory):
     10.0
     """
 
-    times: NDArray[np.float64] = field(metadata={"unit": "s"})
+    times: NDArray[np.float64] = field(metadata={"unit": "s", "name": "at times"})
     force: NDArray[np.float64] = field(metadata={"unit": "N"})
     eccentricity_x: float | NDArray[np.float64] = field(metadata={"unit": "m"})
     eccentricity_y: float | NDArray[np.float64] = field(metadata={"unit": "m"})

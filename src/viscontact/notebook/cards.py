@@ -27,7 +27,7 @@ from viscontact.notebook.result_card import result_card
 from viscontact.notebook.shapes import grid_drawings, indenter_drawings
 from viscontact.notebook.surface_map import surface_card
 from viscontact.results.accessor import ResultAccessor
-from viscontact.results.argument_table import in_plain_words, particulars
+from viscontact.results.argument_table import argument_rows, in_plain_words
 from viscontact.results.provenance import describe
 from viscontact.surfaces import Surface
 from viscontact.units.formatting import format_quantity
@@ -130,7 +130,7 @@ def _sentence_case(name: str) -> str:
 
 
 def _rows(noun: Displayable) -> list[tuple[str, ...]]:
-    told = list(particulars(describe(noun)))
+    told = list(argument_rows(describe(noun)))
     own = _name_of(noun)
     rows: list[tuple[str, ...]] = [row for row in told if row not in (("shape", own), ("law", own))]
     known = {value for _, value in told}

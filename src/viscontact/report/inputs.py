@@ -9,7 +9,7 @@ from typing import Any
 
 import xarray as xr
 
-from viscontact.results.argument_table import particulars
+from viscontact.results.argument_table import argument_rows
 from viscontact.results.netcdf import RESULT_NAME
 from viscontact.results.recorded_case import case_of
 from viscontact.units.formatting import format_quantity
@@ -59,7 +59,7 @@ def inputs(ds: xr.Dataset) -> list[Input]:
         Input(title, name, value)
         for key, title in _PARTS.items()
         if isinstance(case.get(key), dict)
-        for name, value in particulars(case[key])
+        for name, value in argument_rows(case[key])
     ]
     if case and case.get("indenter_material") is None and "indenter" in case:
         place = sum(each.part in ("Indenter", _PARTS["material"]) for each in found)

@@ -17,7 +17,7 @@ from viscontact.indenters import (
     Sphere,
 )
 from viscontact.indenters.cross_section import Section
-from viscontact.results.argument_table import in_plain_words, particulars
+from viscontact.results.argument_table import argument_rows, in_plain_words
 from viscontact.results.provenance import describe
 from viscontact.units.formatting import format_compact, readable_unit
 
@@ -109,7 +109,7 @@ def _names(indenter: Indenter, along: Section) -> Iterator[str]:
 
 def _with_sizes(indenter: Indenter) -> str:
     kind = in_plain_words(type(indenter).__name__).capitalize()
-    sizes = dict(list(particulars(describe(indenter)))[1:])
+    sizes = dict(list(argument_rows(describe(indenter)))[1:])
     if isinstance(indenter, Roller):
         kind += f", {in_plain_words(type(indenter.line).__name__)}"
         sizes.pop("profile", None)
