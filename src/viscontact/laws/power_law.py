@@ -136,7 +136,7 @@ class PowerLaw(Law):
         >>> round(PowerLaw.from_uniaxial(2e-3, 0.5, 1.0, poisson_ratio=0.5).compliance, 9)
         0.003
         """
-        owner = "PowerLaw: from_uniaxial"
+        owner = "PowerLaw.from_uniaxial"
         convert = uniaxial(owner, poisson_ratio, bulk_modulus)
         given = cls(compliance, exponent, reference_time, instant)
         return replace(

@@ -57,10 +57,10 @@ class SeriesLaw(Law):
     def _mean_creep(
         self, start: NDArray[np.float64], end: NDArray[np.float64]
     ) -> NDArray[np.float64]:
-        return creep_mean(self._series._terms, start, end)
+        return creep_mean(self._series.terms, start, end)
 
     def _complex_modulus(self, omega: NDArray[np.float64]) -> NDArray[np.complex128]:
-        return modulus_of_creep(self._series._terms, omega)
+        return modulus_of_creep(self._series.terms, omega)
 
 
 @dataclass(frozen=True)
@@ -181,10 +181,10 @@ class CreepSeries(SeriesLaw):
         >>> round(law.instant * 1e9, 6), round(law.amplitudes[0] * 1e9, 6)
         (3.0, 6.0)
         """
-        convert = uniaxial("CreepSeries: from_uniaxial", poisson_ratio, bulk_modulus)
+        convert = uniaxial("CreepSeries.from_uniaxial", poisson_ratio, bulk_modulus)
         given = cls(instant, amplitudes, times, fluidity)
         return given._scaled(
-            convert.factor, convert.instant("CreepSeries: from_uniaxial", given.instant)
+            convert.factor, convert.instant("CreepSeries.from_uniaxial", given.instant)
         )
 
     def creep_series(self) -> CreepSeries:
@@ -208,17 +208,18 @@ class CreepSeries(SeriesLaw):
         return CreepSeries(instant, amplitudes, self.times, factor * self.fluidity)
 
     @cached_property
-    def _terms(self) -> SeriesTerms:
+    def terms(self) -> SeriesTerms:
+        """The series as arrays, times ascending, equal times merged, zeros left out."""
         return SeriesTerms(self.instant, *merged(self.amplitudes, self.times), self.fluidity)
 
     @cached_property
     def _inverse(self) -> RelaxationTerms:
         # G is the inverse of 1/G = 2 Phi: the convention's factor 2 is put in here.
-        instant, amplitudes, times, fluidity = self._terms
+        instant, amplitudes, times, fluidity = self.terms
         return relaxation_from_creep(2 * instant, 2 * amplitudes, times, 2 * fluidity)
 
     def _creep(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
-        return creep_function(self._terms, t)
+        return creep_function(self.terms, t)
 
     def _relaxation(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
         return relaxation_function(self._inverse, t)
@@ -326,7 +327,7 @@ class RelaxationSeries(SeriesLaw):
         >>> RelaxationSeries.from_uniaxial(3e9, [6e9], [1.0], poisson_ratio=0.5).moduli
         (2000000000.0,)
         """
-        owner = "RelaxationSeries: from_uniaxial"
+        owner = "RelaxationSeries.from_uniaxial"
         convert = uniaxial(owner, poisson_ratio, bulk_modulus)
         given = cls(equilibrium, moduli, times)
         if convert.volumetric == 0:

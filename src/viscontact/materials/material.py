@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import KW_ONLY, dataclass, field
 
-import numpy as np
-
 from viscontact.display import Displayable
 from viscontact.laws import BesideSpring, Law, SeriesLaw, TabulatedCreep, TabulatedRelaxation
 from viscontact.laws.arguments import compressibility
@@ -120,10 +118,7 @@ class Material(Displayable):
         return SummedCompliance((LawCompliance(self.law, 0.5), LawCompliance(beside, 1.5)))
 
     def _of_series(self, law: SeriesLaw) -> ContactCompliance:
-        phi = law.creep_series()
-        creep = SeriesCompliance(
-            phi.instant, np.array(phi.amplitudes), np.array(phi.times), phi.fluidity
-        )
+        creep = SeriesCompliance(*law.creep_series().terms)
         if self.poisson_ratio is not None:
             return creep.scaled(1.0 - self.poisson_ratio)
         assert self.bulk_modulus is not None  # exactly one is given

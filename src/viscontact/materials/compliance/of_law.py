@@ -64,5 +64,7 @@ class LawCompliance(ContactCompliance):
         # G is the inverse of 2 Phi.
         return 2.0 / self.factor * self.law.relaxation(t)
 
-    def _mean(self, start: NDArray[np.float64], end: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _mean_creep(
+        self, start: NDArray[np.float64], end: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
         return self.factor * self.law.mean_creep(start, end)

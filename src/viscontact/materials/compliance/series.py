@@ -106,7 +106,9 @@ class SeriesCompliance(ContactCompliance):
     def _relaxation(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
         return relaxation_function(self._inverse, t)
 
-    def _mean(self, start: NDArray[np.float64], end: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _mean_creep(
+        self, start: NDArray[np.float64], end: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
         return creep_mean(self._terms, start, end)
 
     @property

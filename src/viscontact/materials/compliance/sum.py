@@ -59,8 +59,10 @@ class SummedCompliance(ContactCompliance):
         return np.asarray(sum(part(t) for part in self.parts))
 
     def _relaxation(self, t: NDArray[np.float64]) -> NDArray[np.float64]:
-        values, _ = invert(self._creep, self._mean, t)
+        values, _ = invert(self._creep, self._mean_creep, t)
         return values
 
-    def _mean(self, start: NDArray[np.float64], end: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _mean_creep(
+        self, start: NDArray[np.float64], end: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
         return np.asarray(sum(part.mean(start, end) for part in self.parts))
