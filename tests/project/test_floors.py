@@ -21,7 +21,7 @@ PACKAGE = Path(viscontact.__file__).parent
 
 # The floors from the ground up. Rooms on one floor do not import each other.
 FLOORS = (
-    ("errors", "display", "fourier", "units", "examples"),
+    ("errors", "display", "fourier", "run_files", "units", "examples"),
     ("reference", "grid", "indenters", "laws", "loads", "tables"),
     ("materials", "halfspace", "surfaces", "state"),
     ("contact", "time_integration", "identification"),

@@ -18,11 +18,12 @@ from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.loads import LoadHistory
 from viscontact.materials.material import Material
+from viscontact.run_files import CASE_NAME, PROGRESS_NAME, RESULT_NAME, STATE_NAME
 from viscontact.time_integration.requested_times import AdaptiveTimes
 from viscontact.units.formatting import format_quantity
 
-# What a run writes beside its case; names that begin with a dot are its own, too.
-_RUN_NAMES = ("case.yaml", "result.nc", "progress.jsonl", "state.npz")
+#: Files of a run beside its case; names that begin with a dot are its own, too.
+_RUN_NAMES = (CASE_NAME, RESULT_NAME, PROGRESS_NAME, STATE_NAME)
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,6 +18,7 @@ from viscontact.notebook.html import element
 from viscontact.report import accuracy, citation, drawings, limits
 from viscontact.report.inputs import Input, case_file, inputs
 from viscontact.results.summary import LEGEND
+from viscontact.run_files import CASE_NAME
 from viscontact.units.formatting import format_quantity
 
 
@@ -36,7 +37,7 @@ def inputs_chapter(ds: xr.Dataset) -> Iterator[Element]:
         yield element("p", "This result does not tell what it was made from.", class_="faint")
     if text := case_file(ds):
         source = f"data:application/yaml;charset=utf-8,{quote(text)}"
-        link = element("a", "Download", class_="download", download="case.yaml", href=source)
+        link = element("a", "Download", class_="download", download=CASE_NAME, href=source)
         yield element(
             "details", element("summary", "The case as it was run"), link, element("pre", text)
         )

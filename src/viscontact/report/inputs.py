@@ -10,8 +10,8 @@ from typing import Any
 import xarray as xr
 
 from viscontact.results.argument_table import argument_rows
-from viscontact.results.netcdf import RESULT_NAME
 from viscontact.results.recorded_case import case_of
+from viscontact.run_files import CASE_NAME, RESULT_NAME
 from viscontact.units.formatting import format_quantity
 
 _PARTS = {
@@ -21,8 +21,6 @@ _PARTS = {
     "load": "Load",
     "grid": "Grid",
 }
-#: The case's name in a run directory.
-_CASE_NAME = "case.yaml"
 
 
 @dataclass(frozen=True)
@@ -70,7 +68,7 @@ def inputs(ds: xr.Dataset) -> list[Input]:
 def case_file(ds: xr.Dataset) -> str:
     """Return the case as it was written, if it lies beside the result."""
     source = Path(str(ds.encoding.get("source", "")))
-    beside = source.parent / _CASE_NAME
+    beside = source.parent / CASE_NAME
     if source.name != RESULT_NAME or not beside.is_file():
         return ""
     return beside.read_text(encoding="utf-8", errors="replace")

@@ -7,9 +7,7 @@ from pathlib import Path
 import xarray as xr
 
 from viscontact.results.accessor import ResultAccessor as ResultAccessor
-
-#: The result's name in a run directory.
-RESULT_NAME = "result.nc"
+from viscontact.run_files import RESULT_NAME
 
 
 def save(ds: xr.Dataset, path: str | Path) -> None:

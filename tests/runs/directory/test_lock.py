@@ -14,7 +14,8 @@ from pathlib import Path
 
 import pytest
 
-from viscontact.runs.directory.lock import LOCK_NAME, DirectoryInUse, locked
+from viscontact.run_files import LOCK_NAME
+from viscontact.runs.directory.lock import DirectoryInUse, locked
 
 HOLDER = """
 import sys

@@ -19,14 +19,10 @@ import xarray as xr
 import viscontact as vc
 from viscontact import fourier
 from viscontact.contact.equilibrium import ContactSolution
-from viscontact.runs.directory.checkpoint import (
-    STATE_NAME,
-    Checkpoint,
-    load_checkpoint,
-    save_checkpoint,
-)
+from viscontact.run_files import PROGRESS_NAME, STATE_NAME
+from viscontact.runs.directory.checkpoint import Checkpoint, load_checkpoint, save_checkpoint
 from viscontact.runs.directory.npz_archive import read_plain, write_plain
-from viscontact.runs.directory.recorded_run import PROGRESS_NAME, ChangedCaseError, Recorded
+from viscontact.runs.directory.recorded_run import ChangedCaseError, Recorded
 from viscontact.runs.directory.recorder import RunRecord
 from viscontact.simulation import stepper
 from viscontact.simulation.setup import RunSetup, prepare_run

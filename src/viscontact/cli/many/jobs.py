@@ -16,8 +16,9 @@ from viscontact.cli.many.variations import as_typed
 from viscontact.cli.run.attempt import attempted
 from viscontact.cli.terminal.interruption import Interruption
 from viscontact.cli.terminal.messages import refuse
+from viscontact.run_files import LOCK_NAME
 from viscontact.runs import resources
-from viscontact.runs.directory.lock import LOCK_NAME, DirectoryInUse, locked
+from viscontact.runs.directory.lock import DirectoryInUse, locked
 from viscontact.runs.free_memory import available_memory
 from viscontact.runs.processes.job import Job
 from viscontact.runs.processes.request import RunRequest

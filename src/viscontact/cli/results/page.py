@@ -7,7 +7,7 @@ from typing import Any
 
 from viscontact.cli.results.stored import early_end, opened
 from viscontact.cli.terminal.messages import refuse, say
-from viscontact.results.netcdf import RESULT_NAME
+from viscontact.run_files import RESULT_NAME
 
 #: The page's name in a run directory.
 PAGE_NAME = "report.html"

@@ -10,17 +10,14 @@ from pathlib import Path
 import xarray as xr
 
 from viscontact.cli.terminal.messages import refuse
-from viscontact.results.netcdf import RESULT_NAME, open_results
+from viscontact.results.netcdf import open_results
 from viscontact.results.recorded_case import case_of
 from viscontact.results.variables import SCALARS
-from viscontact.runs.directory.checkpoint import STATE_NAME
-from viscontact.runs.directory.lock import LOCK_NAME, DirectoryInUse, locked
+from viscontact.run_files import CASE_NAME, LOCK_NAME, RESULT_NAME, STATE_NAME
+from viscontact.runs.directory.lock import DirectoryInUse, locked
 from viscontact.runs.processes.request import RunRequest
 from viscontact.state import Outcome
 from viscontact.units.formatting import format_quantity
-
-#: The case as it is run, in its directory.
-CASE_NAME = "case.yaml"
 
 
 @contextmanager

@@ -6,14 +6,13 @@ import os
 from dataclasses import dataclass
 from pathlib import Path
 
-from viscontact.cli.results.stored import CASE_NAME, progress_made
+from viscontact.cli.results.stored import progress_made
 from viscontact.cli.run.preparation import prepare
 from viscontact.cli.run.resuming import standing
 from viscontact.cli.run.run_directory import chosen_directory
 from viscontact.cli.terminal.interruption import Interruption
 from viscontact.cli.terminal.messages import refuse, say
-from viscontact.results.netcdf import RESULT_NAME
-from viscontact.runs.directory.checkpoint import STATE_NAME
+from viscontact.run_files import CASE_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.recorded_run import Recorded
 from viscontact.runs.preparation import PreparedRun
 from viscontact.runs.processes.job import Standing

@@ -16,8 +16,7 @@ from viscontact.cli.terminal.messages import INTERRUPTED, refuse, say, stop
 from viscontact.cli.terminal.progress import shown_progress
 from viscontact.cli.terminal.streams import printing, unwritten
 from viscontact.errors import ConvergenceError, DomainError
-from viscontact.results.netcdf import RESULT_NAME
-from viscontact.runs.directory.checkpoint import STATE_NAME
+from viscontact.run_files import RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.lock import DirectoryInUse, locked
 from viscontact.runs.directory.recorded_run import ChangedCaseError, remove_traces
 from viscontact.runs.directory.recorder import RunRecord, Undisturbed

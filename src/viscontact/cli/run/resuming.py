@@ -7,12 +7,10 @@ from pathlib import Path
 from typing import NoReturn
 
 from viscontact.case import Case
-from viscontact.cli.results.stored import CASE_NAME
 from viscontact.cli.run.case_changes import case_changes
 from viscontact.cli.run.run_directory import is_of_a_run, refuse_no_directory, refuse_occupied
 from viscontact.cli.terminal.messages import refuse
-from viscontact.results.netcdf import RESULT_NAME
-from viscontact.runs.directory.checkpoint import STATE_NAME
+from viscontact.run_files import CASE_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.differences import Difference, differences
 from viscontact.runs.directory.recorded_run import Recorded
 from viscontact.runs.directory.stored_result import StoredRun, stored_run

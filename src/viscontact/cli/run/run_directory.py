@@ -11,14 +11,12 @@ from viscontact.case import Case, CaseError
 from viscontact.case.document import read_document
 from viscontact.case.reader import digest
 from viscontact.case.yaml_source import parse
-from viscontact.cli.results.stored import CASE_NAME
 from viscontact.cli.terminal.messages import refuse
-from viscontact.results.netcdf import RESULT_NAME
+from viscontact.run_files import CASE_NAME, PROGRESS_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.atomic_files import replace
-from viscontact.runs.directory.checkpoint import STATE_NAME, is_checkpoint
+from viscontact.runs.directory.checkpoint import is_checkpoint
 from viscontact.runs.directory.lock import DirectoryInUse, locked
 from viscontact.runs.directory.progress_log import is_course
-from viscontact.runs.directory.recorded_run import PROGRESS_NAME
 from viscontact.runs.directory.stored_result import stored_run
 
 #: What a run writes over without being asked, and what tells that a run has written it.

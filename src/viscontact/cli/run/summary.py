@@ -15,9 +15,9 @@ from rich.markup import escape
 from rich.table import Table
 
 from viscontact.cli.results.accuracy import accuracy_lines, knows_errors, mesh_lines, unknown_lines
-from viscontact.results.netcdf import RESULT_NAME, open_results
+from viscontact.results.netcdf import open_results
 from viscontact.results.summary import LEGEND, SummaryRow, summary_rows
-from viscontact.runs.directory.recorded_run import PROGRESS_NAME
+from viscontact.run_files import PROGRESS_NAME, RESULT_NAME
 from viscontact.units.formatting import format_quantity
 
 #: Blanks between columns.

@@ -12,9 +12,6 @@ from viscontact.runs.directory.npz_archive import outline_of, read_plain, write_
 from viscontact.runs.directory.result_validation import REMEDY
 from viscontact.time_integration.restart_data import RestartData
 
-#: The state's name in a run directory.
-STATE_NAME = "state.npz"
-
 
 @dataclass(frozen=True)
 class Checkpoint:

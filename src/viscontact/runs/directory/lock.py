@@ -10,8 +10,7 @@ from pathlib import Path
 
 from filelock import FileLock, Timeout
 
-#: The locked file.
-LOCK_NAME = ".lock"
+from viscontact.run_files import LOCK_NAME
 
 
 class DirectoryInUse(RuntimeError):  # noqa: N818 - a state of the directory, no fault

@@ -10,14 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from viscontact.fourier import transforms_by
-from viscontact.results.netcdf import RESULT_NAME
 from viscontact.results.provenance import describe
-from viscontact.runs.directory.checkpoint import (
-    STATE_NAME,
-    Checkpoint,
-    is_checkpoint,
-    load_checkpoint,
-)
+from viscontact.run_files import PROGRESS_NAME, RESULT_NAME, STATE_NAME
+from viscontact.runs.directory.checkpoint import Checkpoint, is_checkpoint, load_checkpoint
 from viscontact.runs.directory.differences import Difference, differences
 from viscontact.runs.directory.double_buffer import hidden_copies
 from viscontact.runs.directory.progress_log import ProgressLog
@@ -29,9 +24,6 @@ from viscontact.simulation.march import March
 from viscontact.simulation.provenance import describe_run, run_attributes
 from viscontact.simulation.setup import RunSetup
 from viscontact.time_integration.restart_data import RestartData
-
-#: The progress log's name in a run directory.
-PROGRESS_NAME = "progress.jsonl"
 
 
 class ChangedCaseError(ValueError):

@@ -8,7 +8,8 @@ from contextlib import AbstractContextManager, nullcontext, suppress
 from typing import NamedTuple, Self
 
 from viscontact.accuracy.error_bars import ErrorBars, error_bars
-from viscontact.runs.directory.checkpoint import STATE_NAME, Checkpoint, save_checkpoint
+from viscontact.run_files import STATE_NAME
+from viscontact.runs.directory.checkpoint import Checkpoint, save_checkpoint
 from viscontact.runs.directory.progress_log import ProgressLog
 from viscontact.runs.directory.recorded_run import (
     Recorded,

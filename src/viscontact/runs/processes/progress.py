@@ -8,7 +8,7 @@ from contextlib import suppress
 from os import stat_result
 from typing import Any
 
-from viscontact.runs.directory.recorded_run import PROGRESS_NAME
+from viscontact.run_files import PROGRESS_NAME
 from viscontact.runs.processes.job import Job, Standing
 
 

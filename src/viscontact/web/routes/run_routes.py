@@ -16,12 +16,11 @@ from viscontact.plot import COMPARISONS, FIGURES
 from viscontact.report import write_report
 from viscontact.report.run_data import run_data
 from viscontact.results.history_csv import write_history
-from viscontact.results.netcdf import RESULT_NAME
+from viscontact.run_files import CASE_NAME, RESULT_NAME
 from viscontact.web.guard import REPORT_POLICY
 from viscontact.web.routes.case_routes import CaseText, Ours
 from viscontact.web.runs.live_scalars import grown
 from viscontact.web.runs.run import Work
-from viscontact.web.workspace.folder import CASE_NAME
 from viscontact.web.workspace.naming import file_stem
 from viscontact.web.workspace.pictures import (
     MEDIA_TYPES,

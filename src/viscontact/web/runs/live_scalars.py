@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from viscontact.results.variables import Place, labels_in
-from viscontact.runs.directory.recorded_run import PROGRESS_NAME
+from viscontact.run_files import PROGRESS_NAME
 
 #: At most so much is read at once [bytes].
 _MOST = 1_000_000

@@ -6,9 +6,8 @@ import time as clock
 from contextlib import suppress
 from dataclasses import replace
 
-from viscontact.results.netcdf import RESULT_NAME
-from viscontact.runs.directory.checkpoint import STATE_NAME
-from viscontact.runs.directory.lock import LOCK_NAME, DirectoryInUse, locked
+from viscontact.run_files import LOCK_NAME, RESULT_NAME, STATE_NAME
+from viscontact.runs.directory.lock import DirectoryInUse, locked
 from viscontact.runs.processes.child import Child, Ended
 from viscontact.runs.processes.exit_codes import DONE, INTERRUPTED
 from viscontact.runs.processes.job import Job, Standing

@@ -14,9 +14,10 @@ import numpy as np
 import xarray as xr
 
 from viscontact.plot import FIGURES
-from viscontact.results.netcdf import RESULT_NAME, open_results
+from viscontact.results.netcdf import open_results
 from viscontact.results.summary import summary_rows
 from viscontact.results.variables import SCALARS
+from viscontact.run_files import RESULT_NAME
 from viscontact.units.formatting import format_quantity
 from viscontact.web.runs.run import Work
 from viscontact.web.workspace.pictures import DAMAGED

@@ -18,6 +18,7 @@ from typing import Any
 from pydantic import TypeAdapter
 
 from viscontact.case.data_file import is_plain_name
+from viscontact.run_files import CASE_NAME
 from viscontact.runs.directory.atomic_files import replace
 from viscontact.web.workspace.problems import RequestError
 from viscontact.web.workspace.request import Asked
@@ -25,8 +26,6 @@ from viscontact.web.workspace.request import Asked
 _FILES, _RUNS, _GIVEN, _RUN = "files", "runs", "given", "run"
 _ASKED, _FOUND = "asked.json", "found.json"
 
-#: What a case is called here; no file that it names may have this name.
-CASE_NAME = "case.yaml"
 
 #: Endings of shipped files that examples read.
 _SHIPPED = (".npz", ".csv")

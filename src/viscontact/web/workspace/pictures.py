@@ -14,7 +14,8 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from viscontact.plot.layout.saving import written
-from viscontact.results.netcdf import RESULT_NAME, open_results
+from viscontact.results.netcdf import open_results
+from viscontact.run_files import RESULT_NAME
 from viscontact.units.formatting import format_quantity
 from viscontact.units.parsing import parse_quantity
 from viscontact.web.workspace.problems import RequestError
