@@ -1,4 +1,4 @@
-"""Figures: what is drawn is what was computed, in the unit that the label says."""
+"""Figures draw the computed values in the unit of their labels."""
 
 from __future__ import annotations
 
@@ -116,7 +116,7 @@ def test_plotting_leaves_global_settings_and_pyplots_figures_alone() -> None:
 # --- which instants ---------------------------------------------------------------------------
 
 
-def test_legend_names_the_instant_drawn_not_the_one_asked_for(sphere: xr.Dataset) -> None:
+def test_legend_names_the_drawn_instant_not_the_requested_one(sphere: xr.Dataset) -> None:
     figure = FIGURES["pressure-profile"](sphere, times=[8.0])
     assert legend_texts(figure.axes[0]) == ["10 s"]
 
@@ -191,7 +191,7 @@ def test_map_levels_cover_the_peak_and_start_at_zero(sphere: xr.Dataset) -> None
     assert peak <= high <= 1.25 * peak
 
 
-def test_long_contact_is_stretched_and_says_so(long_contact: xr.Dataset) -> None:
+def test_long_contact_is_stretched_with_a_note(long_contact: xr.Dataset) -> None:
     axes = FIGURES["contact-outline"](long_contact).axes[0]
     assert axes.get_title(loc="right") == f"y stretched {axes.get_aspect():g}×"
     assert float(axes.get_aspect()) >= 10
@@ -323,7 +323,7 @@ def test_radial_figure_of_a_roller_is_refused(long_contact: xr.Dataset) -> None:
         FIGURES["pressure-radial"](long_contact)
 
 
-def test_figures_that_need_the_case_say_so(sphere: xr.Dataset) -> None:
+def test_figures_that_need_the_case_are_refused_without_it(sphere: xr.Dataset) -> None:
     bare = sphere.drop_attrs()
     for name in ("creep", "pressure-radial"):
         with pytest.raises(ValueError, match=rf"{name}: .*no attribute 'case'"):

@@ -1,4 +1,4 @@
-"""The figure of a sphere beside the exact solution draws that solution, or says there is none."""
+"""Figure of a sphere with the exact solution, and its refusals."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def legend(results: xr.Dataset) -> list[str]:
     return [text.get_text() for text in key.get_texts()]
 
 
-def test_elastic_sphere_is_drawn_beside_hertz_whatever_the_load() -> None:
+def test_elastic_sphere_is_compared_with_hertz_under_any_load() -> None:
     load = vc.triangle(FORCE, 100.0, 100.0)
     force = load.force_at(TIMES)
     radius = np.cbrt(3 * RADIUS * force / (4 * MODULUS))  # Johnson, eq. 4.22
@@ -58,7 +58,7 @@ def test_elastic_sphere_is_drawn_beside_hertz_whatever_the_load() -> None:
     assert legend(run)[0] == "paraboloid (Hertz)"
 
 
-def test_creeping_sphere_that_is_let_go_is_drawn_beside_ting() -> None:
+def test_unloaded_creeping_sphere_is_compared_with_ting() -> None:
     load = vc.triangle(FORCE, 80.0, 80.0)
     theory = reference.ting_force_triangle(FORCE, 80.0, RADIUS, MODULUS, TAU)
     run = computed(np.asarray(theory.contact_radius(np.array(TIMES))), load=load)
@@ -71,7 +71,7 @@ def test_creeping_sphere_that_is_let_go_is_drawn_beside_ting() -> None:
     assert legend(run)[0] == "paraboloid (Ting)"
 
 
-def test_difference_is_told_in_percent_of_the_largest() -> None:
+def test_difference_is_given_in_percent_of_the_largest() -> None:
     times = (0.0, 10.0, 100.0, 300.0)
     growth = np.cbrt(1 + np.array(times) / TAU)
     radius = np.cbrt(3 * RADIUS * FORCE / (4 * MODULUS)) * growth
@@ -94,7 +94,7 @@ def test_force_is_compared_where_the_approach_is_given() -> None:
     assert legend(run)[2] == "force"
 
 
-def test_what_has_no_exact_solution_is_refused_with_another_figure() -> None:
+def test_case_without_exact_solution_is_refused_with_another_figure() -> None:
     sphere = maxwell_sphere(cells=8)
     swing = vc.harmonic(10.0, 5.0, 10.0, 3)
     beside = vc.step(FORCE, eccentricity_x=1e-4)

@@ -1,4 +1,4 @@
-"""Every shipped example can be drawn: no figure warns, and what does not fit it says so."""
+"""Figures of all shipped examples: drawn without warnings, or refused by name."""
 
 from __future__ import annotations
 

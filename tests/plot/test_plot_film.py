@@ -1,4 +1,4 @@
-"""Films: what each frame shows, and what is in the files."""
+"""Animations: frames and files."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ def test_an_instant_without_contact_is_shown_empty(sphere: xr.Dataset) -> None:
         animation(lifted)
 
 
-def test_a_gif_has_the_length_asked_for_and_a_frame_for_each_instant(
+def test_a_gif_has_the_requested_length_and_a_frame_for_each_instant(
     sphere: xr.Dataset, tmp_path: Path
 ) -> None:
     seen: list[tuple[int, int]] = []
@@ -108,7 +108,7 @@ def test_a_gif_has_the_length_asked_for_and_a_frame_for_each_instant(
     assert [file.name for file in tmp_path.iterdir()] == ["film.gif"]
 
 
-def test_an_mp4_has_the_frames_asked_for(sphere: xr.Dataset, tmp_path: Path) -> None:
+def test_an_mp4_has_the_requested_frames(sphere: xr.Dataset, tmp_path: Path) -> None:
     path = tmp_path / "film.mp4"
     save_film(animation(sphere, seconds=2.0, fps=5.0, width=0.12), path)
     frames, seconds = imageio_ffmpeg.count_frames_and_secs(path)
@@ -144,7 +144,7 @@ def test_a_film_of_a_long_contact_holds_its_labels(tmp_path: Path) -> None:
         ({"times": [30.0, 31.0]}, "at least two steps"),
     ],
 )
-def test_what_makes_no_film_is_refused(
+def test_invalid_animation_is_refused(
     options: dict[str, float], message: str, sphere: xr.Dataset
 ) -> None:
     with pytest.raises(ValueError, match=rf"animation: .*{message}"):

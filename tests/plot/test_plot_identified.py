@@ -1,4 +1,4 @@
-"""Figures of what was identified show the numbers they are given."""
+"""Figures of fitted laws and master curves."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ def test_a_master_curve_shows_sets_factors_and_the_curve(tmp_path):
     save_figure(figure, tmp_path / "master.pdf")
 
 
-def test_a_master_curve_of_oscillations_says_which_markers_are_storage_and_loss():
+def test_a_master_curve_of_oscillations_explains_which_markers_are_storage_and_loss():
     omega = np.geomspace(0.1, 10.0, 5)
     sets = []
     for temperature, factor in ((290.0, 3.0), (300.0, 1.0)):

@@ -1,4 +1,4 @@
-"""The drawing of an indenter shows what the indenter is."""
+"""Drawings of indenters."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ def test_sections_run_through_the_deepest_point_and_show_the_gap(
         assert line[shown, 1].min() < 1e-3 * line[shown, 1].max()
 
 
-def test_ends_are_marked_where_the_profile_ends_and_told() -> None:
+def test_ends_of_the_profile_are_marked_and_noted() -> None:
     figure = draw_indenter(ROLLER, SIZE)
     dashed = [line[0, 0] for line in drawn_lines(figure, 0)[2:]]
     assert dashed == pytest.approx([-6.0, 6.0], rel=1e-12)
@@ -87,7 +87,7 @@ def test_ends_are_marked_where_the_profile_ends_and_told() -> None:
     assert "profile drop at the ends: 30 µm" in said
 
 
-def test_drop_is_told_as_far_as_a_crown_is_drawn_and_before_it_falls_without_end() -> None:
+def test_drop_is_noted_at_the_ends_of_the_drawing_or_before_it_is_unbounded() -> None:
     crowned = vc.Roller(5e-3, 9.565e-3, crown_radius=75e-3)
     drop = 75e-3 - math.sqrt(75e-3**2 - (20e-3 - 9.565e-3) ** 2)
     said = told(draw_indenter(crowned, (40e-3, 3e-3)))
@@ -119,22 +119,22 @@ def test_no_text_of_a_drawing_is_cut_off_or_runs_into_it(name: str, width: str |
 
 
 @pytest.mark.parametrize("body", [ROLLER, vc.Sphere(5e-3)])
-def test_exaggeration_that_is_told_is_the_one_that_is_drawn(body: vc.Indenter) -> None:
+def test_noted_exaggeration_is_the_drawn_one(body: vc.Indenter) -> None:
     """A metre up and a metre along, measured in dots."""
     figure = draw_indenter(body, SIZE)
     figure.draw_without_rendering()
     units = {"nm": 1e-9, "µm": 1e-6, "mm": 1e-3}
     for panel in (0, 1, 2):
         axes = figure.axes[panel]
-        told = float(re.findall(r"([\d.]+)×", axes.get_title(loc="right"))[0])
+        noted = float(re.findall(r"([\d.]+)×", axes.get_title(loc="right"))[0])
         x, y = (
             units[re.findall(r"\[(\w+)\]", label)[0]]
             for label in (axes.get_xlabel(), axes.get_ylabel())
         )
         corner, other = axes.transData.transform([(0, 0), (1e-3 / x, 1e-3 / y)])
         drawn = (other[1] - corner[1]) / (other[0] - corner[0])
-        # Told with one or two digits.
-        assert told == pytest.approx(drawn, rel=0.1 if drawn > 100 else 0.06)
+        # Noted with one or two digits.
+        assert noted == pytest.approx(drawn, rel=0.1 if drawn > 100 else 0.06)
 
 
 def test_plan_that_is_not_slender_is_drawn_in_its_true_shape() -> None:
@@ -184,7 +184,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def test_check_draws_beside_the_case_or_where_it_is_told(
+def test_check_draws_next_to_the_case_or_to_the_given_file(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["check", "case.yaml"]) == 0

@@ -170,7 +170,7 @@ def test_labels_lie_in_the_contact_and_apart(contact: str) -> None:
         assert np.all(np.abs(corners) < HALF)
 
 
-def test_full_contact_has_no_outline_and_says_so() -> None:
+def test_full_contact_has_no_outline_with_a_note() -> None:
     axes = FIGURES["contact-outline"](_result(*CONTACTS["waves, full"])).axes[0]
     legend = axes.get_legend()
     assert legend is not None

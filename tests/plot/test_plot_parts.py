@@ -1,4 +1,4 @@
-"""What figures are made of: instants, sections, outlines, units, files."""
+"""Parts of figures: instants, sections, outlines, units, files."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def test_default_instants_run_from_first_contact_to_last() -> None:
     assert times[-1] == pytest.approx(1000.0)
 
 
-def test_transverse_section_runs_through_the_asked_position(long_contact: xr.Dataset) -> None:
+def test_transverse_section_runs_through_the_requested_position(long_contact: xr.Dataset) -> None:
     at = float(long_contact["x"][20])
     snapshot = take_snapshots(long_contact, [0.0], "figure")[0]
     positions, pressure = snapshot.section("y", at)
@@ -168,7 +168,7 @@ def test_axes_get_the_unit_that_reads_best(unit: str, largest: float, symbol: st
     assert float(chosen(largest)) * chosen.factor == pytest.approx(largest)
 
 
-def test_time_labels_are_told_apart() -> None:
+def test_time_labels_are_distinct() -> None:
     assert time_labels([100.01, 100.02]) == ("100.01 s", "100.02 s")
 
 

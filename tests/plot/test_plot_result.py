@@ -1,4 +1,4 @@
-"""`ds.viscontact.plot`, and what a journal asks of figures: widths, fonts, formats."""
+"""`ds.viscontact.plot`, and requirements of journals: widths, fonts, formats."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Figures in space: their heights are the numbers of the dataset, their feet run along the rim."""
+"""Three-dimensional figures: heights, rims, indenters."""
 
 from __future__ import annotations
 
@@ -176,10 +176,10 @@ def test_numbers_at_the_short_side_of_a_slender_box_stay_apart():
     assert not any(a.overlaps(b) for a, b in itertools.combinations(boxes, 2))
 
 
-def test_stretch_of_heights_that_is_told_is_the_one_that_is_drawn():
+def test_noted_stretch_of_heights_is_the_drawn_one():
     results = with_dent(maxwell_sphere(cells=40))
     figure = FIGURES["surface-3d"](results, times=[0.0])
-    told = next(t.get_text() for t in figure.texts if "heights" in t.get_text())
+    noted = next(t.get_text() for t in figure.texts if "heights" in t.get_text())
     axes = figure.axes[0]
     # Looked at from the side, without perspective: lengths on paper are lengths in the box.
     axes.set_proj_type("ortho")
@@ -191,7 +191,7 @@ def test_stretch_of_heights_that_is_told_is_the_one_that_is_drawn():
     corner, along, up = (projection @ np.array(end) for end in ends)
     wide, tall = abs(along[0] - corner[0]), abs(up[1] - corner[1])
     drawn = (tall / (abs(z[1] - z[0]) * 1e-6)) / (wide / ((x[1] - x[0]) * unit))
-    assert float(re.search(r"heights ([\d.]+)×", told)[1]) == pytest.approx(drawn, rel=0.05)
+    assert float(re.search(r"heights ([\d.]+)×", noted)[1]) == pytest.approx(drawn, rel=0.05)
 
 
 @pytest.mark.parametrize("name", ["pressure-3d", "surface-3d"])

@@ -76,7 +76,7 @@ class Isotherm(Displayable):
 
     @property
     def oscillates(self) -> bool:
-        """Whether the points are angular frequencies."""
+        """True if the points are angular frequencies."""
         return "storage" in self.measured
 
     def curve(self) -> Curve:

@@ -27,7 +27,8 @@ from viscontact.plot.histories.hysteresis import compare_hysteresis, hysteresis
 from viscontact.plot.histories.von_mises import compare_von_mises, von_mises_history
 from viscontact.plot.layout.saving import FIGURE_SUFFIXES, require_suffix, save_figure
 from viscontact.plot.materials.creep import compare_creep, creep, creep_curve
-from viscontact.plot.materials.identified import fitted_indentation, fitted_series, master_curve
+from viscontact.plot.materials.fitted import fitted_indentation, fitted_series
+from viscontact.plot.materials.master_curve import master_curve
 from viscontact.plot.materials.material_curves import material_curves
 from viscontact.plot.pressure.contact_outline import compare_contact_outlines, contact_outline
 from viscontact.plot.pressure.deformed_surface import deformed_surface

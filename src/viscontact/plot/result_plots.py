@@ -1,4 +1,4 @@
-"""The figures of a result as methods that return axes: `ds.viscontact.plot`."""
+"""Figures of a result as methods that return axes: `ds.viscontact.plot`."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class ResultPlots:
     Parameters
     ----------
     result : xarray.Dataset
-        What `viscontact.simulate` or `viscontact.open_results` returned.
+        From `viscontact.simulate` or `viscontact.open_results`.
 
     Examples
     --------
@@ -63,11 +63,11 @@ class ResultPlots:
         return self._panels(pressure_map, how)
 
     def pressure_3d(self, **how: Any) -> Panels:
-        """Draw the pressure as a surface in space: `viscontact.plot.pressure_surface`."""
+        """Draw the pressure as a surface: `viscontact.plot.pressure_surface`."""
         return self._panels(pressure_surface, how)
 
     def surface_3d(self, **how: Any) -> Panels:
-        """Draw the surface under the indenter, in space: `viscontact.plot.deformed_surface`."""
+        """Draw the deformed surface under the indenter: `viscontact.plot.deformed_surface`."""
         return self._panels(deformed_surface, how)
 
     def pressure_profile(self, **how: Any) -> Panels:
@@ -99,7 +99,7 @@ class ResultPlots:
         return self._panels(creep, how)
 
     def exact(self, **how: Any) -> Panels:
-        """Draw the history of a sphere beside the exact one: `viscontact.plot.exact`."""
+        """Draw the history of a sphere with the exact solution: `viscontact.plot.exact`."""
         return self._panels(exact, how)
 
     def stress_section(self, **how: Any) -> Panels:
@@ -115,7 +115,7 @@ class ResultPlots:
         return self._panels(indenter, how)
 
     def animation(self, **how: Any) -> Film:
-        """Make a film: `viscontact.plot.animation`. `viscontact.plot.save_film` writes it."""
+        """Make an animation: `viscontact.plot.animation`; `viscontact.plot.save_film` saves it."""
         return animation(self.result, **how)
 
     def _panels(self, draw: Callable[..., Figure], how: dict[str, Any]) -> Panels:

@@ -1,1 +1,1 @@
-"""Animations: frames, layout of a frame, files."""
+"""Animations: frames, panels and files."""

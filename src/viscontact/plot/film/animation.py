@@ -1,4 +1,4 @@
-"""A run as a film: map, section and histories that move with time."""
+"""Animation of a run: pressure map, section and histories."""
 
 from __future__ import annotations
 
@@ -41,16 +41,16 @@ _MARKER = "#D55E00"
 
 @dataclass(frozen=True, eq=False)
 class Film:
-    """A figure that shows one instant after the other.
+    """Animation: a figure that shows one instant after the other.
 
     Parameters
     ----------
     figure : matplotlib.figure.Figure
-        As `show` has left it; the first instant when new.
+        The figure as drawn by `show`; initially the first instant.
     instants : ndarray
         The stored instant that each frame shows, shape (frames,) [s].
     frames_per_second : float
-        How many are shown in a second [1/s].
+        Frames per second [1/s].
     show : callable
         ``show(instant)`` draws a stored instant [s].
 
@@ -72,13 +72,13 @@ class Film:
 
     @property
     def seconds(self) -> float:
-        """How long the film lasts [s]."""
+        """Duration of the animation [s]."""
         return self.instants.size / self.frames_per_second
 
 
 @dataclass(frozen=True, eq=False)
 class _Scene:
-    """What is fixed while the film goes on."""
+    """Fixed parts of an animation: fields, limits and colours."""
 
     stored: Array
     read: Callable[[int], Snapshot]
@@ -89,7 +89,7 @@ class _Scene:
     note: str
 
     def at(self, instant: float) -> Snapshot:
-        """The fields at a stored instant."""
+        """Fields at a stored instant [s]."""
         return self.read(int(np.abs(self.stored - instant).argmin()))
 
 
@@ -101,12 +101,12 @@ def animation(
     fps: float = 15.0,
     width: Width | None = None,
 ) -> Film:
-    """Show a run as a film: pressure map, section and markers on the histories.
+    """Animate a run: pressure map, section and markers on the histories.
 
     Parameters
     ----------
     results : xarray.Dataset
-        What `viscontact.simulate` or `viscontact.open_results` returned, with fields stored; at
+        From `viscontact.simulate` or `viscontact.open_results`, with fields stored; at
         all instants for a film that runs smoothly.
     times : array_like, optional
         Show the span between the least and the largest of these instants [s]; by default all of
@@ -177,7 +177,7 @@ def _frames(seconds: float, fps: float) -> int:
 
 
 def _scene(results: xr.Dataset, stored: Array, shown: Array) -> _Scene:
-    """Look through all that will be shown, one instant at a time."""
+    """Find the limits of all instants to be shown."""
     note, read = peak_note([results], shown), snapshot_reader(results)
     part, boxes, highest = ORDINARY if note else 1.0, [], 0.0
     for index in np.flatnonzero(np.isin(stored, shown)):
@@ -199,27 +199,27 @@ def _scene(results: xr.Dataset, stored: Array, shown: Array) -> _Scene:
 
 
 def _histories(run: xr.Dataset, width: float) -> list[str]:
-    """As many key scalars as there is room for: the contact's response first, then the load."""
+    """Key scalars that fit on the page: the contact's response first, then the load."""
     worthwhile = drawn_scalars({"": run})
     names = [name for name in reversed(shown_in(Place.KEY)) if name in worthwhile]
     return names[: max(1, int(width / _HISTORY_WIDTH))]
 
 
 def _spread_evenly(shown: Array, run: xr.Dataset, count: int) -> Array:
-    """The stored instants nearest to equal steps along the time axis."""
+    """Stored instants nearest to equal steps along the time axis."""
     along = _place_on_axis(shown, run)
     wanted = np.linspace(along[0], along[-1], count)
     return np.asarray(shown[np.abs(along - wanted[:, None]).argmin(axis=1)])
 
 
 def _place_on_axis(instants: Array, run: xr.Dataset) -> Array:
-    """Where instants are along the time axis of histories, up to a constant factor."""
+    """Positions of instants along the time axis of histories, up to a constant factor."""
     if not suits_log_time(run):
         return instants
     times = run["time"].values
     first = float(times[times > 0][0])
     decades = np.log10(np.maximum(instants, first) / first)
-    # matplotlib's linear part is as long as so many decades of base 10 and what lies below 1.
+    # Length of matplotlib's linear part in decades of base 10, with the part below 1.
     before = BEFORE_FIRST * np.log10(times[-1] / first) / (1 - 1 / 10)
     return np.asarray(np.minimum(instants / first, 1.0) * before + decades)
 
@@ -227,12 +227,12 @@ def _place_on_axis(instants: Array, run: xr.Dataset) -> Array:
 def _stage(
     sheet: Sheet, scene: _Scene, run: xr.Dataset, names: list[str]
 ) -> Callable[[float], None]:
-    """Draw what stays, and return what draws the rest at an instant."""
+    """Draw the fixed parts; return a function that draws the rest at an instant."""
     curve = _set_up_fields(sheet, scene)
     time_unit, _ = draw_scalars(sheet.histories, names, {"": run})
     markers = []
     for axes in sheet.histories:
-        # The bar of time behind the curve, the dot on it.
+        # Time as a bar behind the curve and a dot on it.
         axes.axvline(0.0, color=_MARKER, linewidth=0.8, alpha=0.6, zorder=1)
         axes.plot([], [], "o", color=_MARKER, markersize=4.5, clip_on=False, zorder=5)
         markers.append(axes.get_lines()[-2:])
@@ -262,7 +262,7 @@ def _set_up_fields(sheet: Sheet, scene: _Scene) -> Line2D:
     window, unit = scene.window, scene.unit
     window.show(sheet.surface)
     sheet.surface.set_ylabel(window.unit.label("y"))
-    if sheet.is_long and scene.along == "x":  # the section below has the same axis
+    if sheet.is_long and scene.along == "x":  # the section below shares the axis
         sheet.surface.tick_params(labelbottom=False)
     else:
         sheet.surface.set_xlabel(window.unit.label("x"))
@@ -277,7 +277,7 @@ def _set_up_fields(sheet: Sheet, scene: _Scene) -> Line2D:
 
 
 def _section(snapshot: Snapshot, scene: _Scene) -> tuple[Array, Array]:
-    """The pressure along the middle line, as drawn."""
+    """Pressure along the middle line, as drawn."""
     wide = snapshot.with_border(1) if snapshot.periodic else snapshot
     positions, pressure = wide.section(scene.along)
     return scene.window.unit(positions), scene.unit(pressure)

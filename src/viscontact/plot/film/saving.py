@@ -1,4 +1,4 @@
-"""Films to files: GIF and MP4."""
+"""Writer of animations to GIF and MP4 files."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from PIL import Image
 
 try:
     from imageio_ffmpeg import write_frames
-except ModuleNotFoundError:  # all other figures, and GIF, do without it
+except ModuleNotFoundError:  # needed for MP4 only
     write_frames = None
 
 from viscontact.plot.film.animation import Film
@@ -25,12 +25,12 @@ from viscontact.plot.layout.saving import require_suffix
 #: Formats of films.
 FILM_SUFFIXES = (".gif", ".mp4")
 
-#: Dots an inch: a GIF is for mails and pages, its size grows with each dot.
+#: Dots per inch: fewer for GIF, to limit its size.
 _DOTS = {".gif": 100, ".mp4": 150}
 #: GIF counts time in hundredths of a second.
 _TICKS = 100
 _COLOURS = 128
-# From here on a colour is the page's.
+# Grey level from which on a colour is the background.
 _WHITE = 248
 
 #: Frames done, and how many there are.
@@ -41,16 +41,16 @@ Picture = NDArray[np.uint8]
 def save_film(
     film: Film, path: str | PathLike[str], progress: Progress = lambda done, total: None
 ) -> None:
-    """Write a film to a file.
+    """Write an animation to a file.
 
     Parameters
     ----------
     film : Film
         What `animation` returned.
     path : path-like
-        Where to; the suffix .gif or .mp4 says which format.
+        The file, in the format of its suffix: .gif or .mp4.
     progress : callable, optional
-        Called with (frames done, frames) as it goes on.
+        Called with (frames done, frames) after each frame.
 
     Raises
     ------
@@ -74,7 +74,7 @@ def save_film(
     """
     suffix = require_suffix(path, FILM_SUFFIXES)
     write = {".gif": _write_gif, ".mp4": _write_mp4}[suffix]
-    # Written aside: a film that is stopped half-way is no film.
+    # Written to another file first, so that an interrupted animation leaves none.
     aside = Path(path).with_name(f".{Path(path).stem}.part{suffix}")
     try:
         write(film, aside, _pictures(film, _DOTS[suffix], progress))
@@ -84,7 +84,7 @@ def save_film(
 
 
 def _pictures(film: Film, dots: int, progress: Progress) -> Iterator[tuple[Picture, int]]:
-    """Draw each picture once, with the number of frames that show it."""
+    """Draw each picture once, with the number of its frames."""
     film.figure.set_dpi(dots)
     canvas: Any = FigureCanvasAgg(film.figure)  # not typed by its authors
     done = 0
@@ -117,11 +117,11 @@ def _write_gif(film: Film, path: Path, pictures: Iterator[tuple[Picture, int]]) 
 
 
 def _palette(pictures: list[Picture]) -> Image.Image:
-    """Colours for all frames: with one palette, what stays the same is not stored again."""
+    """Common palette of all frames, so that unchanged areas are not stored again."""
     chosen = pictures[:: max(1, len(pictures) // 6)]
     palette = Image.fromarray(np.concatenate(chosen)).quantize(_COLOURS)
     colours = np.reshape(palette.getpalette() or [], (-1, 3))
-    # The page is white, not the mean of white and the rims of letters.
+    # The background is exactly white, not the mean of white and the edges of letters.
     colours[colours.min(axis=1) >= _WHITE] = 255
     palette.putpalette(colours.ravel().tolist())
     return palette
@@ -132,7 +132,7 @@ def _write_mp4(film: Film, path: Path, pictures: Iterator[tuple[Picture, int]]) 
         raise ValueError(
             "MP4 needs imageio-ffmpeg: pip install 'viscontact[plot]'; or name a file .gif"
         )
-    # The encoder would say it in many lines.
+    # The message of the encoder would be many lines long.
     if not path.parent.is_dir():
         raise FileNotFoundError(f"there is no directory {path.parent}")
     first, frames = next(pictures)
@@ -143,7 +143,7 @@ def _write_mp4(film: Film, path: Path, pictures: Iterator[tuple[Picture, int]]) 
         fps=film.frames_per_second,
         codec="libx264",
         quality=None,
-        # Of a quality at which thin lines stay clean, and readable before all of it has come.
+        # Quality for clean thin lines; playable while loading.
         output_params=["-crf", "20", "-movflags", "+faststart"],
         macro_block_size=2,
         ffmpeg_log_level="error",

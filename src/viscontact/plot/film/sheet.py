@@ -1,4 +1,4 @@
-"""Where the panels of a film are."""
+"""Panels of an animation."""
 
 from __future__ import annotations
 
@@ -11,27 +11,15 @@ from matplotlib.figure import Figure
 from viscontact.plot.layout import style
 from viscontact.plot.layout.window import Window
 
-#: Rooms [inch]: for a heading, labels at the left and below, a colour bar, panels of curves.
+#: Space [inch] for a heading, labels at the left and below, a colour bar, panels of curves.
 _HEAD, _LEFT, _BELOW, _BAR, _CURVES = 0.42, 0.68, 0.5, 0.95, 1.15
-#: Sizes are multiples of this: an encoder of films wants even numbers of pixels [inch].
+#: Sizes are multiples of this: video encoders need even numbers of pixels [inch].
 STEP = 0.04
 
 
 @dataclass(frozen=True, eq=False)
 class Sheet:
-    """The empty panels of a film, none of which moves when it is drawn into.
-
-    Parameters
-    ----------
-    figure : matplotlib.figure.Figure
-        All of them.
-    surface, bar, section : matplotlib.axes.Axes
-        For the map, its colour bar and the section.
-    histories : list of matplotlib.axes.Axes
-        For curves over time.
-    is_long : bool
-        The section stands below the map, as wide as it.
-    """
+    """Empty panels of an animation, fixed in place; with is_long the section is below the map."""
 
     figure: Figure
     surface: Axes
@@ -42,22 +30,7 @@ class Sheet:
 
 
 def new_sheet(window: Window, width: float, histories: int) -> Sheet:
-    """Lay out a film.
-
-    Parameters
-    ----------
-    window : Window
-        What the map shows.
-    width : float
-        Of the figure [inch].
-    histories : int
-        How many curves over time.
-
-    Returns
-    -------
-    Sheet
-        The section below a long map, beside another one; histories below both.
-    """
+    """Lay out the panels on a page of this width [inch]: map, section, and histories below."""
     is_long = window.height_to_width < 0.6
     width = STEP * round(width / STEP)
     room = width - _LEFT - _BAR - (0.0 if is_long else _LEFT + 0.1)

@@ -1,4 +1,4 @@
-"""A drawing of an indenter: sections along and across, and the plan."""
+"""Drawing of an indenter: sections along x and y, and the plan."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ from viscontact.units.formatting import ReadableUnit, format_compact, format_qua
 
 _PLAN_POINTS = 601
 _BODY, _BODY_EDGE = "#dfe5ea", style.INK
-# A plan so many times longer than wide, or less, is drawn as it is.
+# Largest aspect ratio of a plan that is drawn in true shape.
 _TRUE_SHAPE = 3.0
-# Heights of the contour lines over that which is shown.
+# Heights of the contour lines over the shown height.
 _LEVELS = (0.02, 0.1, 0.25, 0.5, 1.0)
-# Parts of the page that texts have, below the drawing and beside it, and a letter's width [inch].
+# Shares of the page for texts below and next to the drawing, and the width of a letter [inch].
 _WHOLE, _BESIDE, _LETTER = 0.8, 0.36, 0.065
 
 
@@ -50,16 +50,16 @@ def draw_indenter(
     contact : tuple of float, optional
         Middle and extents of an expected contact, x, y, length and width, which is shaded [m].
     title : str, optional
-        What stands above the facts.
+        Heading of the facts.
     shaded : str, optional
-        What the contact is called.
+        Name of the shaded contact.
     width : {"single", "double"} or float, optional
         One or two columns of a journal (89 and 183 mm), or a width [m].
 
     Returns
     -------
     matplotlib.figure.Figure
-        Three panels; how much heights are exaggerated stands above the sections.
+        Three panels; the exaggeration of heights is given above the sections.
 
     Raises
     ------
@@ -90,14 +90,14 @@ def draw_indenter(
     _draw_section(panels[0, 0], along, unit, "x", "y", through[1], contact)
     _draw_section(panels[0, 1], across, unit, "y", "x", through[0], contact)
     levels = _draw_plan(panels[1, 0], x, y, gap, unit, contact)
-    told = facts(indenter, (along, across), levels, contact, shaded)
-    _tell(panels[1, 1], chain([title] if title else [], told))
-    _tell_stretches(figure, panels, (along, across))
+    texts = facts(indenter, (along, across), levels, contact, shaded)
+    _add_facts(panels[1, 1], chain([title] if title else [], texts))
+    _add_stretch_notes(figure, panels, (along, across))
     return figure
 
 
 def _panels(width: float) -> tuple[Figure, NDArray[np.object_]]:
-    """Sections above, plan and facts below; all below one another on a narrow page."""
+    """Panels: sections above, plan and facts below; all in one column on a narrow page."""
     if width > NARROW:
         figure = style.new_figure(width, 4.8)
         return figure, figure.subplots(2, 2, width_ratios=(1.35, 1), height_ratios=(1, 1.1))
@@ -138,7 +138,7 @@ def _draw_section(
         ylabel=height.label("Gap"),
     )
     # The middle of an even mesh is zero but for a rounding.
-    # Three digits: the exaggeration has to find its place beside it.
+    # Three digits leave room for the exaggeration.
     where = length(place, digits=3) if abs(place) > 1e-6 * section.position[-1] else "0"
     style.add_heading(axes, f"along {along}, at {fixed} = {where}")
 
@@ -151,7 +151,7 @@ def _draw_plan(
     unit: ReadableUnit,
     contact: tuple[float, float, float, float] | None,
 ) -> list[float]:
-    """Draw the plan, and return the gaps that lines are drawn at [m]."""
+    """Draw the plan; return the gaps of its contour lines [m]."""
     style.dress(axes)
     levels = _draw_body(axes, unit(x), unit(y), gap)
     if contact is not None:
@@ -171,7 +171,7 @@ def _draw_plan(
 def _draw_body(
     axes: Axes, x: NDArray[np.float64], y: NDArray[np.float64], gap: NDArray[np.float64]
 ) -> list[float]:
-    """Fill where the body is, with lines of equal gap and, where it ends, its outline."""
+    """Fill the area of the body, with contour lines of the gap and the outline of its end."""
     solid = np.isfinite(gap)
     highest = float(np.quantile(gap[solid], SHOWN_PART))
     levels = [part * highest for part in _LEVELS] if highest > 0 else []
@@ -200,14 +200,14 @@ def _shade_contact(
     axes.add_patch(box)
 
 
-def _tell(axes: Axes, told: Iterator[str]) -> None:
-    """Write beside the drawing what it does not show in numbers."""
+def _add_facts(axes: Axes, texts: Iterator[str]) -> None:
+    """Write the facts next to the drawing."""
     axes.set_axis_off()
     figure = style.figure_of(axes)
     narrow = figure.get_figwidth() <= NARROW
     room = figure.get_figwidth() * (_WHOLE if narrow else _BESIDE)
     axes.text(
-        *(0.0, 1.0, in_lines(told, int(room / _LETTER))),
+        *(0.0, 1.0, in_lines(texts, int(room / _LETTER))),
         transform=axes.transAxes,
         verticalalignment="top",
         fontsize=style.TICK_SIZE,
@@ -216,10 +216,10 @@ def _tell(axes: Axes, told: Iterator[str]) -> None:
     )
 
 
-def _tell_stretches(
+def _add_stretch_notes(
     figure: Figure, panels: NDArray[np.object_], sections: tuple[Section, Section]
 ) -> None:
-    """Say how much heights are exaggerated, and y in the plan, once the layout is known."""
+    """Note the exaggeration of heights, and of y in the plan, once the layout is known."""
     figure.draw_without_rendering()
     for axes, section in zip(panels[0], sections, strict=True):
         box = axes.get_window_extent()

@@ -1,4 +1,4 @@
-"""What is written beside the drawing of an indenter."""
+"""Facts on an indenter, written next to its drawing."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from viscontact.results.argument_table import argument_rows, in_plain_words
 from viscontact.results.provenance import describe
 from viscontact.units.formatting import format_compact, readable_unit
 
-# A line that falls without end is told of so close to its end.
+# Position at which the drop of an unbounded profile is stated.
 _BEFORE_END = 0.9
 _KEPT = "\N{NO-BREAK SPACE}"
 
@@ -33,25 +33,10 @@ def facts(
     contact: tuple[float, float, float, float] | None,
     shaded: str,
 ) -> Iterator[str]:
-    """Yield what the drawing of an indenter does not show in numbers, one fact after the other.
+    """Yield the facts on an indenter that its drawing does not show, one per line.
 
-    Parameters
-    ----------
-    indenter : Indenter
-        The body.
-    sections : tuple of Section
-        The cuts along x and along y.
-    levels : sequence of float
-        Gaps of the contour lines in the plan [m].
-    contact : tuple of float or None
-        Middle and extents of what is shaded, x, y, length and width [m].
-    shaded : str
-        What that is.
-
-    Yields
-    ------
-    str
-        A line, however long.
+    `levels` are the gaps of the contour lines [m]; `contact` is the shaded box: centre and extents
+    [m].
     """
     yield from _names(indenter, sections[0])
     yield from _ends(sections)
@@ -68,24 +53,24 @@ def facts(
         yield f"shaded: extent of the {shaded}, {extents}"
 
 
-def in_lines(told: Iterator[str], characters: int) -> str:
-    """Break facts into lines of so many characters at most, the rest of each set in."""
+def in_lines(texts: Iterator[str], characters: int) -> str:
+    """Break facts into lines of limited length, continuation lines indented."""
     lines = []
-    for fact in told:
-        # A number and its unit stay together.
-        kept = re.sub(r"(?<=\d) (?=[^\d×])| (?==)|(?<==) ", _KEPT, fact)
+    for text in texts:
+        # No line break between a number and its unit.
+        kept = re.sub(r"(?<=\d) (?=[^\d×])| (?==)|(?<==) ", _KEPT, text)
         lines += wrap(kept, characters, subsequent_indent="   ")
     return "\n".join(lines).replace(_KEPT, " ")
 
 
 def length(value: float, digits: int = 4) -> str:
-    """Write a length in a readable unit, with a minus sign that is one."""
+    """Length in a readable unit, with a typographic minus sign."""
     unit = readable_unit("m", value)
     return _signed(f"{format_compact(float(unit(value)), digits)} {unit.symbol}")
 
 
 def _names(indenter: Indenter, along: Section) -> Iterator[str]:
-    """What a body is and how large, part by part."""
+    """Names and sizes of the parts of a body."""
     if isinstance(indenter, CombinedIndenter):
         yield from _names(indenter.parts[0], along)
         for part in indenter.parts[1:]:
@@ -104,7 +89,7 @@ def _names(indenter: Indenter, along: Section) -> Iterator[str]:
     else:
         yield _with_sizes(indenter)
         if isinstance(indenter, Roller):
-            yield _drop_told(indenter, float(along.position[-1]))
+            yield _drop_note(indenter, float(along.position[-1]))
 
 
 def _with_sizes(indenter: Indenter) -> str:
@@ -113,12 +98,12 @@ def _with_sizes(indenter: Indenter) -> str:
     if isinstance(indenter, Roller):
         kind += f", {in_plain_words(type(indenter.line).__name__)}"
         sizes.pop("profile", None)
-    told = (f"{name.removeprefix('profile ')} {value}" for name, value in sizes.items())
-    return ", ".join([kind, *told])
+    texts = (f"{name.removeprefix('profile ')} {value}" for name, value in sizes.items())
+    return ", ".join([kind, *texts])
 
 
-def _drop_told(roller: Roller, edge: float) -> str:
-    """How far the generating line has receded at its ends, or as far as it is drawn."""
+def _drop_note(roller: Roller, edge: float) -> str:
+    """Drop of the generating line at its ends, or at the ends of the drawing."""
     drop = float(roller.drop(min(roller.end * (1 - 1e-12), edge)))
     if drop == 0:
         return "straight along x"
@@ -127,12 +112,12 @@ def _drop_told(roller: Roller, edge: float) -> str:
     if float(roller.drop(roller.end)) < math.inf and drop < roller.radius:
         return f"profile drop at the ends: {length(drop, digits=3)}"
     near = _BEFORE_END * roller.end
-    told = length(float(roller.drop(near)), digits=3)
-    return f"profile drop at x = ±{length(near)}: {told}"
+    receded = length(float(roller.drop(near)), digits=3)
+    return f"profile drop at x = ±{length(near)}: {receded}"
 
 
 def _ends(sections: tuple[Section, Section]) -> Iterator[str]:
-    """Where the body ends, and which way it goes on beyond the drawing."""
+    """Ends of the body, and the directions in which it continues beyond the drawing."""
     cuts = dict(zip("xy", sections, strict=True))
     ends = [f"{axis} = {_places(cut)}" for axis, cut in cuts.items() if cut.ends]
     if ends:

@@ -1,4 +1,4 @@
-"""The indenter of a run: sections and plan, with the contact found."""
+"""Figure of the indenter of a run: sections and plan, with the computed contact."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def indenter(
     Parameters
     ----------
     results : xarray.Dataset
-        What `viscontact.simulate` or `viscontact.open_results` returned.
+        From `viscontact.simulate` or `viscontact.open_results`.
     times : array_like, optional
         An instant [s], the contact at which is shaded, if fields are stored; by default the last
         that is stored in contact.

@@ -1,4 +1,4 @@
-"""What is prescribed over time, before a run is made."""
+"""Drawing of a prescribed load history."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def draw_load(load: LoadHistory, end: float) -> Figure:
     """
     if not (np.isfinite(end) and end > 0):
         raise ValueError(f"end must be an instant after 0 s, got {end!r}")
-    times, levels = _course(load, end)
+    times, levels = _curve(load, end)
     unit, time_unit = readable_unit(load.unit, levels), readable_unit("s", times)
     figure = style.new_figure(style.ONE_COLUMN, 2.7)
     axes = figure.subplots()
@@ -55,10 +55,10 @@ def draw_load(load: LoadHistory, end: float) -> Figure:
     return figure
 
 
-def _course(load: LoadHistory, end: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Instants and levels of the curve: both sides of every jump are points of it."""
+def _curve(load: LoadHistory, end: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Times and levels of the curve, with both sides of every jump."""
     kinks = load.kinks[(load.kinks > 0) & (load.kinks < end)]
     instants = np.unique(np.concatenate([np.linspace(0.0, end, _POINTS), kinks]))
     both = [load.level_at(instants, side=side) for side in ("left", "right")]
-    both[0][0] = 0.0  # nothing is prescribed before the beginning
+    both[0][0] = 0.0  # zero load before the beginning
     return np.repeat(instants, 2), np.column_stack(both).ravel()

@@ -1,4 +1,4 @@
-"""The contact area over time: found between the cells, and by counting them."""
+"""Contact area over time: traced between the cells, and by counting cells."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from viscontact.plot.histories.span import within_span
 from viscontact.plot.histories.time_axis import scale_time
 from viscontact.plot.layout import style
-from viscontact.plot.layout.error_band import band_key, draw_band, keep_curves_in_sight
+from viscontact.plot.layout.error_band import band_key, draw_band, limit_axis_to_curves
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.results.snapshots import Snapshot, field_times, snapshot_reader
 from viscontact.results.stated_errors import stated_error
@@ -23,7 +23,7 @@ from viscontact.units.formatting import readable_unit
 
 _NAME = "contact-area"
 _COUNTED = "#D55E00"
-#: More dots than this touch one another.
+#: Largest number of separate dots.
 _APART = 60
 
 
@@ -34,17 +34,17 @@ def contact_area(
     axes: Axes | None = None,
     width: Width | None = None,
 ) -> Figure:
-    """Draw the contact area over time, and what counting cells in contact would give.
+    """Draw the contact area over time, compared with counted cells in contact.
 
     Parameters
     ----------
     results : xarray.Dataset
-        What `viscontact.simulate` or `viscontact.open_results` returned, with fields stored.
+        From `viscontact.simulate` or `viscontact.open_results`, with fields stored.
     times : array_like, optional
         Draw only the span between the least and the largest of these instants [s]; by
         default all of it.
     axes : matplotlib.axes.Axes, optional
-        Where to draw; by default in a new figure.
+        Axes to draw in; by default a new figure.
     width : {"single", "double"} or float, optional
         One or two columns of a journal (89 and 183 mm), or a width [m].
 
@@ -76,7 +76,7 @@ def contact_area(
     first, last = run["time"].values[[0, -1]]
     shown = np.flatnonzero((stored >= first) & (stored <= last))
     counted = [_counted(read(int(index))) for index in shown]
-    beside = axes is not None
+    shares_axes = axes is not None
     if axes is None:
         wide = page_width(width, style.ONE_COLUMN)
         axes = style.new_figure(wide, min(3.4, 0.85 * wide)).add_subplot()
@@ -85,22 +85,22 @@ def contact_area(
     unit, time_unit = readable_unit("m2", area, counted), readable_unit("s", run["time"].values)
     instants, error = time_unit(run["time"].values), stated_error(run, "contact_area")
     look: dict[str, Any] = {"color": style.LINE, "linewidth": style.LINE_WIDTH}
-    # Above the dots, which are many where all instants are stored.
+    # Above the dots, of which there may be many.
     smooth = axes.plot(instants, unit(area), zorder=3, **look)[0]
     dots = axes.plot(time_unit(stored[shown]), unit(counted), "o", color=_COUNTED)[0]
-    dots.set_clip_on(False)  # the first and the last lie on the frame
+    dots.set_clip_on(False)  # the first and last dot are on the frame
     dots.set(markersize=3.5 if len(counted) <= _APART else 2.0)
     bar = None if error is None else unit(error)
     band = draw_band(axes, instants, unit(area), bar, style.LINE)
     handles: list[Artist] = [smooth, dots]
     labels = ["between the cells", "cells counted"]
     if band is not None:
-        keep_curves_in_sight(axes, unit(area), unit(counted))
+        limit_axis_to_curves(axes, unit(area), unit(counted))
     axes.set_ylabel(unit.label("Contact area"))
     scale_time([axes], {"": run}, time_unit)
     for handle, words in band_key([band] if band else [], style.LINE):
         handles, labels = [*handles, handle], [*labels, words]
-    if beside:
+    if shares_axes:
         style.add_legend(axes, handles, labels, loc="best")
     else:
         figure = style.figure_of(axes)

@@ -1,4 +1,4 @@
-"""Contact radius, approach and peak pressure of a sphere, beside the exact solution."""
+"""History of a sphere compared with the exact solution."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.loads import ApproachHistory
-from viscontact.plot.histories.exact_history import ExactHistory, exact_history, what_is_exact
+from viscontact.plot.histories.exact_history import ExactHistory, exact_history, exact_label
 from viscontact.plot.histories.span import within_span
 from viscontact.plot.histories.time_axis import scale_time
 from viscontact.plot.layout import style
@@ -30,12 +30,12 @@ Array = NDArray[np.float64]
 def exact(
     results: xr.Dataset, *, times: ArrayLike | None = None, width: Width | None = None
 ) -> Figure:
-    """Draw what was computed of a sphere beside the exact solution, and the difference.
+    """Draw the computed history of a sphere, the exact solution and their difference.
 
     Parameters
     ----------
     results : xarray.Dataset
-        What `viscontact.simulate` or `viscontact.open_results` returned, of a sphere or round
+        From `viscontact.simulate` or `viscontact.open_results`, of a sphere or round
         paraboloid under a central load of straight pieces: steps, ramps, triangles, tables.
     times : array_like, optional
         Draw only the span between the least and the largest of these instants [s]; by
@@ -47,7 +47,7 @@ def exact(
     -------
     matplotlib.figure.Figure
         Contact radius, approach (force, where the approach is given) and peak pressure over
-        time: markers for what was computed, lines for Hertz's solution on an elastic
+        time: computed values as markers, lines for Hertz's solution on an elastic
         half-space, Lee and Radok's for a step or ramp that is held, Ting's otherwise. In a panel
         of its own the difference, in percent of the largest exact value drawn.
 
@@ -102,7 +102,7 @@ def exact(
 def _curves(
     results: xr.Dataset, run: xr.Dataset, theory: ExactHistory, within: NDArray[np.bool_]
 ) -> list[tuple[str, str, Array, Array]]:
-    """Label, unit, what was computed and what is exact, of each quantity that was not given."""
+    """Label, unit, computed and exact history of each quantity that was not prescribed."""
     radius = np.sqrt(run["contact_area"].values / np.pi)
     by_approach = isinstance(recorded_object(results, "load", _NAME), ApproachHistory)
     follows = (
@@ -135,9 +135,9 @@ def _add_key(
     results: xr.Dataset,
     theory: ExactHistory,
 ) -> None:
-    """Tell markers from lines, and the three differences by their markers."""
+    """Legend of markers and lines, and of the three differences."""
     handles = [panels[0].get_lines()[0], *below.get_lines()[: len(names)]]
-    labels = [what_is_exact(results, theory.solution, _NAME)]
+    labels = [exact_label(results, theory.solution, _NAME)]
     labels += [name.lower() for name in names]
     style.add_heading(panels[0], "markers: computed", aside=True)
     style.add_heading(below, "computed less exact", aside=True)

@@ -1,4 +1,4 @@
-"""The exact history of the case behind a result, if it has one: a sphere on a half-space."""
+"""Exact history of the recorded case of a result, for a sphere on a half-space."""
 
 from __future__ import annotations
 
@@ -24,21 +24,13 @@ from viscontact.results.recorded_case import recorded_grid, recorded_object
 
 Array = NDArray[np.float64]
 
-# Steps of the reference between corners of the load, and places where its pressure is looked at.
+# Steps of the reference between corners of the load, and points of its pressure.
 _STEPS, _PLACES = 60, 48
 
 
 @dataclass(frozen=True, eq=False)
 class ExactHistory:
-    """What theory says of a run, at its instants.
-
-    Parameters
-    ----------
-    solution : str
-        Whose it is.
-    contact_radius, approach, force, peak_pressure : ndarray
-        Over time [m], [m], [N], [Pa].
-    """
+    """Exact histories at a run's times: lengths [m], force [N], pressure [Pa]."""
 
     solution: str
     contact_radius: Array
@@ -48,27 +40,10 @@ class ExactHistory:
 
 
 def exact_history(results: xr.Dataset, figure: str) -> ExactHistory:
-    """Hertz's, Lee and Radok's or Ting's solution of the case behind a result.
+    """Hertz's, Lee and Radok's or Ting's solution of the case of a result.
 
-    Parameters
-    ----------
-    results : xarray.Dataset
-        What `viscontact.simulate` or `viscontact.open_results` returned.
-    figure : str
-        Name of the figure, for messages.
-
-    Returns
-    -------
-    ExactHistory
-        Lee and Radok's for a step or a ramp that is held, else, for any load of straight
-        pieces, Ting's equations in the reference's own discretisation, which for an elastic
-        half-space is Hertz's solution.
-
-    Raises
-    ------
-    ValueError
-        If the indenter is no sphere or round paraboloid on the axis, the load acts off it or is
-        not made of straight pieces, the surface is periodic, or the contact is not one circle.
+    Lee and Radok's for a step or a ramp that is held; for other piecewise linear loads Ting's
+    equations as solved by `viscontact.reference`, for an elastic half-space Hertz's solution.
     """
     indenter, load = (recorded_object(results, part, figure) for part in ("indenter", "load"))
     radius = sphere_radius(indenter)
@@ -85,8 +60,8 @@ def exact_history(results: xr.Dataset, figure: str) -> ExactHistory:
     return _of_marched(marched, instants, "Hertz" if is_elastic else "Ting")
 
 
-def what_is_exact(results: xr.Dataset, solution: str, figure: str) -> str:
-    """Name an exact solution in a legend: theory takes a sphere for its paraboloid."""
+def exact_label(results: xr.Dataset, solution: str, figure: str) -> str:
+    """Legend of an exact solution, which replaces a sphere by its paraboloid."""
     sphere = isinstance(recorded_object(results, "indenter", figure), Sphere)
     return f"{'paraboloid' if sphere else 'exact'} ({solution})"
 
@@ -117,7 +92,7 @@ def _require_known(
 
 
 def _compliance(results: xr.Dataset, figure: str) -> tuple[Any, bool]:
-    """The contact compliance of both bodies, and whether neither of them creeps."""
+    """Contact compliance of both bodies, and True if both are elastic."""
     bodies = [recorded_object(results, part, figure) for part in ("material", "indenter_material")]
     there = [body for body in bodies if body is not None]
     compliance = there[0].contact_compliance()
@@ -127,7 +102,7 @@ def _compliance(results: xr.Dataset, figure: str) -> tuple[Any, bool]:
 
 
 def _pressed(radius: float, load: Any, compliance: Any, instants: Array) -> AxisymmetricContact:
-    """March the reference through the load, with steps of its own between those of the run."""
+    """Reference solution under the load, with its own steps between those of the run."""
     corners = np.unique(np.concatenate([load.kinks, load.jumps, [0.0, instants[-1]]]))
     corners = corners[corners <= instants[-1]]
     placed = clustered_times(corners, _STEPS) if corners.size > 1 else corners
@@ -171,6 +146,6 @@ def _of_marched(contact: AxisymmetricContact, instants: Array, solution: str) ->
 
 
 def _places() -> Array:
-    # Towards the rim, where the largest pressure of a flowing body is, closer together.
+    # Denser towards the rim, where the pressure of a fluid is largest.
     places: Array = np.sin(np.linspace(0.0, np.pi / 2, _PLACES, endpoint=False))
     return places

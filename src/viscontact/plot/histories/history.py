@@ -18,7 +18,7 @@ from viscontact.plot.layout.error_band import (
     Band,
     band_key,
     draw_band,
-    keep_curves_in_sight,
+    limit_axis_to_curves,
     peak_note,
 )
 from viscontact.plot.layout.page import NARROW, Width, page_width
@@ -28,7 +28,7 @@ from viscontact.units.formatting import ReadableUnit, readable_unit
 
 _NAME = "history"
 
-#: What changes by less than this part, its error included, is rounding, not to fill an axis.
+#: Relative change, error included, below which a quantity is constant.
 _ROUNDING = 1e-6
 
 
@@ -40,7 +40,7 @@ def history(
     Parameters
     ----------
     results : xarray.Dataset
-        What `viscontact.simulate` or `viscontact.open_results` returned.
+        From `viscontact.simulate` or `viscontact.open_results`.
     times : array_like, optional
         Draw only the span between the least and the largest of these instants [s]; by
         default all of it.
@@ -125,7 +125,7 @@ def compare_histories(
 
 
 def drawn_scalars(runs: Mapping[str, xr.Dataset]) -> list[str]:
-    """Names of the scalars that are drawn of runs: not a constant force or an idle tilt."""
+    """Names of the scalars to draw: without a constant force or tilt."""
     return [name for name in shown_in(Place.FIGURE) if _worth_a_panel(name, runs.values())]
 
 
@@ -142,7 +142,7 @@ def draw_scalars(
 
 
 def needed_variables(run: xr.Dataset) -> list[str]:
-    """Names of the variables of a result that its histories are drawn from."""
+    """Names of the variables of a result that its histories need."""
     names = shown_in(Place.FIGURE)
     errors = [error_name(name) for name in names if error_name(name) in run]
     return [*names, *errors, "contact_length"]
@@ -166,8 +166,8 @@ def _panels(count: int, width: float) -> tuple[Figure, list[Axes]]:
         unused.remove()
     for axes in panels[:count]:
         style.dress(axes)
-    # The lowest panel of each column says what runs along it; all do where columns differ, or
-    # rows would be unevenly far apart.
+    # Only the lowest panel of each column has an axis label, or all of them where columns differ,
+    # for even spacing of the rows.
     first = max(count - columns, 0) if count % columns == 0 else 0
     for axes in panels[first:count]:
         axes.tick_params(labelbottom=True)
@@ -193,14 +193,14 @@ def _draw(
         axes.set_ylim(0.0, 1.15 * axes.dataLim.y1 or 1.0)
     drawn = [band for band in bands if band is not None]
     if drawn:
-        keep_curves_in_sight(axes, *(unit(run[scalar].values) for run in runs.values()))
+        limit_axis_to_curves(axes, *(unit(run[scalar].values) for run in runs.values()))
     if scalar == "peak_pressure":
         style.add_heading(axes, peak_note(runs.values()), aside=True)
     return drawn
 
 
 def _add_key(figure: Figure, panels: list[Axes], names: list[str], bands: list[Band]) -> None:
-    """Name the runs if there are several, and the bands if there are any."""
+    """Legend of several runs, and of error bands."""
     entries: list[tuple[Artist, str]] = []
     if len(names) > 1:
         entries += zip(panels[0].get_lines(), names, strict=True)

@@ -1,4 +1,4 @@
-"""Force against approach: what loading and unloading differ by is lost in the bodies."""
+"""Force over approach: the loop of loading and unloading."""
 
 from __future__ import annotations
 
@@ -22,19 +22,19 @@ from viscontact.units.formatting import format_quantity, readable_unit
 
 _NAME = "hysteresis"
 
-#: Where along the way arrows show its direction.
+#: Positions of the arrows along the loop.
 _ARROWS = (0.15, 0.4, 0.65, 0.9)
 
 
 def hysteresis(
     results: xr.Dataset, *, times: ArrayLike | None = None, width: Width | None = None
 ) -> Figure:
-    """Draw the force against the approach, with arrows that go with time.
+    """Draw force over approach, with arrows in the direction of time.
 
     Parameters
     ----------
     results : xarray.Dataset
-        What `viscontact.simulate` or `viscontact.open_results` returned.
+        From `viscontact.simulate` or `viscontact.open_results`.
     times : array_like, optional
         Draw only the span between the least and the largest of these instants [s]; by
         default all of it.
@@ -148,19 +148,19 @@ def _draw_bands(
     *,
     sideways: bool,
 ) -> list[Band]:
-    """A band for each way up and each way down: one that turns back would cut holes in itself."""
+    """Error band of each loading and unloading branch, separately."""
     bands = []
     along = y if sideways else x
     turns = np.flatnonzero(np.diff(np.sign(np.diff(along)))) + 1
     for part in np.split(np.arange(x.size), turns):
-        # Each part begins where the one before it ends.
+        # Each part begins at the end of the previous one.
         way = np.append(part, part[-1] + 1)[: x.size - int(part[0])]
         bands.append(draw_band(axes, x[way], y[way], error[way], colour, sideways=sideways))
     return [band for band in bands if band is not None]
 
 
 def _add_key(axes: Axes, names: list[str], bands: list[Band]) -> None:
-    """Name the runs if there are several, and the bands if there are any."""
+    """Legend of several runs, and of error bands."""
     entries: list[tuple[Artist, str]] = []
     if len(names) > 1:
         entries += zip(axes.get_lines(), names, strict=True)
@@ -173,13 +173,13 @@ def _add_key(axes: Axes, names: list[str], bands: list[Band]) -> None:
 def _add_arrows(
     axes: Axes, x: NDArray[np.float64], y: NDArray[np.float64], look: dict[str, Any]
 ) -> None:
-    """Arrows along the way, at parts of its length as it is seen."""
+    """Arrows along the loop, at fractions of its drawn length."""
     steps = [np.diff(values) / (np.ptp(values) or 1.0) for values in (x, y)]
     way = np.append(0.0, np.cumsum(np.hypot(*steps)))
     if way[-1] == 0:
         return
     for part in _ARROWS:
-        # From a bit before to the place itself; the head is at the latter.
+        # From slightly before the position to the position, where the head is.
         ends = [(np.interp(at * way[-1], way, x), np.interp(at * way[-1], way, y))
                 for at in (part - 0.004, part)]  # fmt: skip
         axes.annotate(
@@ -194,14 +194,14 @@ def _add_arrows(
 
 
 def _frame(axes: Axes) -> None:
-    """From zero where the force is steady: neither rounding nor its band is to fill the axis."""
+    """Axis from zero where the force is steady, so that rounding does not fill it."""
     low, high = axes.dataLim.y0, axes.dataLim.y1
     if high - low <= 1e-4 * abs(high):
         axes.set_ylim(0.0, 1.15 * high or 1.0)
 
 
 def _last_loss(results: xr.Dataset, times: ArrayLike | None) -> str:
-    """The loss of the last cycle that is over within the span, in words."""
+    """Loss of the last complete cycle within the span, in words."""
     if "loss_per_cycle" not in results:
         return ""
     losses = within_span(results, ("loss_per_cycle",), times, _NAME, "")["loss_per_cycle"].values

@@ -1,4 +1,4 @@
-"""The part of a run that is drawn."""
+"""Time span of a figure."""
 
 from __future__ import annotations
 
@@ -14,31 +14,8 @@ from viscontact.units.formatting import format_quantity
 def within_span(
     run: xr.Dataset, variables: Iterable[str], times: ArrayLike | None, figure: str, name: str
 ) -> xr.Dataset:
-    """Cut variables over time to a span.
+    """Cut variables over time to a span [s], with two instants or more; None for the whole run.
 
-    Parameters
-    ----------
-    run : xarray.Dataset
-        A result.
-    variables : iterable of str
-        What is drawn.
-    times : array_like or None
-        Instants whose least and largest bound the span [s]; None for all of the run.
-    figure, name : str
-        The figure and the run, for messages.
-
-    Returns
-    -------
-    xarray.Dataset
-        Two instants or more.
-
-    Raises
-    ------
-    ValueError
-        If fewer than two steps lie in the span, or it is no span.
-
-    Examples
-    --------
     >>> run = xr.Dataset({"force": ("time", [0.0, 1.0, 2.0])}, coords={"time": [0.0, 1.0, 2.0]})
     >>> within_span(run, ["force"], [0.0, 1.5], "history", "").force.values.tolist()
     [0.0, 1.0]

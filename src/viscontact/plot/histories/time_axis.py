@@ -1,4 +1,4 @@
-"""Time along an axis: linear, or logarithmic from the instant of loading on."""
+"""Time axis: linear, or logarithmic from the instant of loading."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 
 from viscontact.units.formatting import ReadableUnit
 
-#: A change by less than this part is rounding; a load that is held from this part of the time on
-#: leaves the rest to creep, which is even in log time.
+#: Relative change of a constant load, and share of the time from which on it is held: the rest is
+#: creep, which is even in log time.
 _STEADY, _SOON = 1e-5, 0.05
-#: An axis with less than one decade has no tick labels to speak of.
+#: Least ratio of a logarithmic axis: below a decade it has hardly any tick labels.
 _DECADE = 10.0
 #: Length of a logarithmic time axis before the first step, against the rest of it.
 BEFORE_FIRST = 0.2
@@ -28,19 +28,7 @@ def scale_time(
     time_unit: ReadableUnit,
     drawn: Iterable[NDArray[np.float64]] | None = None,
 ) -> None:
-    """Scale and name the time axes of panels, logarithmic where all runs suit that.
-
-    Parameters
-    ----------
-    panels : list of matplotlib.axes.Axes
-        To be scaled.
-    runs : mapping of str to xarray.Dataset
-        The runs, which choose the scale.
-    time_unit : ReadableUnit
-        Of the axes.
-    drawn : iterable of ndarray, optional
-        Instants that are drawn of each run, if they are not all of its own [s].
-    """
+    """Scale and label the time axes of panels, logarithmic where that suits all runs."""
     shown = [run["time"].values for run in runs.values()] if drawn is None else drawn
     instants = [time_unit(each) for each in shown]
     start = min(float(instant[0]) for instant in instants)
@@ -71,20 +59,8 @@ def _set_log_time(axes: Axes, first: float, end: float) -> None:
 
 
 def suits_log_time(run: xr.Dataset) -> bool:
-    """Tell whether a run reads best over logarithmic time.
+    """True for a run with steps over decades whose load is held nearly from the start.
 
-    Parameters
-    ----------
-    run : xarray.Dataset
-        A result.
-
-    Returns
-    -------
-    bool
-        Whether its steps are spread over decades and its load is held nearly from the start.
-
-    Examples
-    --------
     >>> times = [0.0, 1.0, 2.0, 4.0, 1000.0]
     >>> held = xr.Dataset({name: ("time", [1.0] * 5) for name in ("force", "approach")})
     >>> suits_log_time(held.assign_coords(time=times))
@@ -94,13 +70,13 @@ def suits_log_time(run: xr.Dataset) -> bool:
 
 
 def _steps_grow(instants: NDArray[np.float64]) -> bool:
-    """Whether the steps are spread over decades, as on a logarithmic axis."""
+    """True if the steps are spread over decades, as on a logarithmic axis."""
     positive = instants[instants > 0]
     return positive.size > 2 and float(np.median(positive)) < 0.1 * float(positive[-1])
 
 
 def _held_from(run: xr.Dataset) -> bool:
-    """Whether force or approach, the one that is prescribed, is held over most of the time."""
+    """True if the prescribed force or approach is held over most of the time."""
     times = run["time"].values
     held_from = []
     for name in ("force", "approach"):

@@ -1,4 +1,4 @@
-"""The largest von Mises stress below the contact, and its depth, over time."""
+"""Largest von Mises stress below the contact, and its depth, over time."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from viscontact.results.snapshots import field_times, take_snapshots
 from viscontact.units.formatting import readable_unit
 
 _NAME = "von-mises"
-#: More instants than this make a line of their markers.
+#: Largest number of separate markers.
 _MARKED = 40
 
 
@@ -33,7 +33,7 @@ def von_mises_history(
     Parameters
     ----------
     results : xarray.Dataset
-        What `viscontact.simulate` or `viscontact.open_results` returned, with fields stored.
+        From `viscontact.simulate` or `viscontact.open_results`, with fields stored.
     times : array_like, optional
         Instants [s]; by default all that are stored.
     width : {"single", "double"} or float, optional
@@ -102,35 +102,35 @@ def compare_von_mises(
     """
     if not runs:
         raise ValueError(f"{_NAME}: needs at least one run to compare, got none")
-    courses = [_course(run, times) for run in runs.values()]
+    stresses = [_curve(run, times) for run in runs.values()]
     figure = style.new_figure(page_width(width, style.ONE_COLUMN), 3.6)
     panels = list(figure.subplots(2, 1, sharex=True))
-    time = readable_unit("s", *(course.instants for course in courses))
+    time = readable_unit("s", *(history.instants for history in stresses))
     looks: list[dict[str, Any]] = style.run_styles(len(runs))
     for axes, (part, si_unit, name) in zip(panels, _DRAWN, strict=True):
-        curves = [getattr(course, part) for course in courses]
+        curves = [getattr(history, part) for history in stresses]
         unit = readable_unit(si_unit, *curves)
-        for course, curve, look in zip(courses, curves, looks, strict=True):
+        for history, curve, look in zip(stresses, curves, looks, strict=True):
             dots = {"marker": "o", "markersize": 3.5} if curve.size <= _MARKED else {}
-            axes.plot(time(course.instants), unit(curve), clip_on=False, zorder=3, **look, **dots)
+            axes.plot(time(history.instants), unit(curve), clip_on=False, zorder=3, **look, **dots)
         axes.set_ylabel(unit.label(name))
         axes.set_ylim(0.0, 1.1 * max(float(unit(curve.max())) for curve in curves) or 1.0)
         style.dress(axes)
     panels[-1].tick_params(labelbottom=True)
-    scale_time(panels, runs, time, [course.instants for course in courses])
+    scale_time(panels, runs, time, [history.instants for history in stresses])
     style.add_heading(panels[0], "largest below the contact")
     style.add_heading(panels[1], "where it is the largest")
-    shown = np.concatenate([course.instants for course in courses])
+    shown = np.concatenate([history.instants for history in stresses])
     style.add_heading(panels[0], peak_note(runs.values(), shown), aside=True)
     if len(runs) > 1:
         style.add_legend_below(figure, panels[0].get_lines(), list(runs), columns=2)
     figure.draw_without_rendering()
-    style.settle_headings(figure)
+    style.arrange_headings(figure)
     return figure
 
 
 @dataclass(frozen=True, eq=False)
-class _Course:
+class _StressHistory:
     """Largest stress [Pa] and its depth [m] over time [s]."""
 
     instants: NDArray[np.float64]
@@ -141,10 +141,10 @@ class _Course:
 _DRAWN = (("stress", "Pa", "Von Mises stress"), ("depth", "m", "Depth"))
 
 
-def _course(results: xr.Dataset, times: ArrayLike | None) -> _Course:
+def _curve(results: xr.Dataset, times: ArrayLike | None) -> _StressHistory:
     ratio = recorded_poisson_ratio(results)
     chosen = field_times(results, _NAME) if times is None else times
     snapshots = take_snapshots(results, chosen, _NAME)
     sections = stress_sections(snapshots, recorded_grid(results), ratio)
     stress, depth, _ = np.array([section.largest for section in sections]).T
-    return _Course(np.array([section.time for section in sections]), stress, depth)
+    return _StressHistory(np.array([section.time for section in sections]), stress, depth)

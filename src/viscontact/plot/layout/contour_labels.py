@@ -1,4 +1,4 @@
-"""Values written on contours, where there is room for them."""
+"""Labels of contours, where there is room for them."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from matplotlib.transforms import Bbox
 from numpy.typing import NDArray
 
 _LABEL_SIZE = 6.5
-# Room to be left between labels [pixels].
+# Space between labels [pixels].
 _APART = 4.0
 
 
@@ -23,19 +23,10 @@ def label_contours(
     texts: Mapping[float, str],
     fits: Callable[[NDArray[np.float64]], bool] = lambda corners: True,
 ) -> None:
-    """Write on contours what they are, once the figure is laid out.
+    """Label contours with texts by level, once the figure is laid out.
 
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-        Where they are drawn.
-    lines : matplotlib.contour.QuadContourSet
-        The contours.
-    texts : mapping of float to str
-        What to write, by level.
-    fits : callable, optional
-        Whether a label may stand there, by the corners of its box, shape (4, 2), in the units of
-        the axes. Besides, it must lie wholly in the axes and on no other label.
+    A label must lie wholly in the axes, on no other label, and within `fits`, if given: a test of
+    its corners, shape (4, 2), in the units of the axes.
     """
     if not texts:
         return
@@ -45,14 +36,14 @@ def label_contours(
     for text in tried:
         text.remove()
     if places:
-        # Lines are interrupted only for the labels that stay.
+        # Lines are interrupted only for the labels that are kept.
         axes.clabel(lines, list(texts), inline_spacing=2, manual=places, **how)
 
 
 def _places_with_room(
     axes: Axes, texts: Iterable[Text], fits: Callable[[NDArray[np.float64]], bool]
 ) -> list[tuple[float, float]]:
-    """Where those texts are that fit, lie wholly in the panel, and on no other."""
+    """Positions of the texts that fit, lie wholly in the panel, and on no other."""
     kept: list[Bbox] = []
     places = []
     for text in texts:

@@ -1,4 +1,4 @@
-"""Error bars as bands along a curve, and what is said of a peak that depends on the mesh."""
+"""Error bands along curves, and notes on peaks that depend on the mesh."""
 
 from __future__ import annotations
 
@@ -16,34 +16,22 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact.plot.layout import style
 from viscontact.results.stated_errors import MESH_DEPENDENT, mesh_dependent
 
-#: What a legend says of bands: all stand out, some do, none does.
+#: Legend texts: all bands are visible, some are, none is.
 BAND = "band: error estimate"
 BAND_IN_PARTS = "band: error estimate, where wider than the line"
 NO_BAND = "error estimate within the line's width"
 
 _OPACITY = 0.25
-#: An axis goes beyond its curve by so much of the curve's own span or, if that is more, of its
-#: largest value: one wild error is not to flatten what there is to see.
+#: Largest extension of an axis beyond its curve, over the curve's span or its largest value: one
+#: large error does not flatten the curve.
 _SPAN, _SIZE = 1.0, 0.5
-#: A band is seen where it stands out so far beyond its line, to either side [points].
+#: Least visible extension of a band beyond its line, to either side [points].
 _SEEN = 0.4
 
 
 @dataclass(frozen=True, eq=False)
 class Band:
-    """A curve's error, shaded.
-
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-        Where it is drawn.
-    x, y : ndarray
-        The curve, as drawn.
-    error : ndarray
-        Half width of the band, in the unit of the axis it goes along.
-    sideways : bool
-        Along x.
-    """
+    """Shaded error of a curve: half width along y, or along x if sideways."""
 
     axes: Axes
     x: NDArray[np.float64]
@@ -53,7 +41,7 @@ class Band:
 
     @property
     def seen(self) -> bool:
-        """Whether it stands out beside the line, as the figure is laid out at present."""
+        """True if the band is wider than the line in the current layout."""
         dots_per_point = style.figure_of(self.axes).dpi / 72
         to_points = self.axes.transData.transform
         curve = to_points(np.column_stack([self.x, self.y])) / dots_per_point
@@ -62,7 +50,7 @@ class Band:
         reach = reach / dots_per_point - curve
         along = np.gradient(curve, axis=0)
         length = np.hypot(*along.T)
-        # Across the curve: beside a steep one a high band is narrow.
+        # Normal to the curve: along a steep one a high band is narrow.
         across = np.abs(along[:, 0] * reach[:, 1] - along[:, 1] * reach[:, 0])
         with np.errstate(divide="ignore", invalid="ignore"):
             return bool(np.nanmax(across / length, initial=0.0) > style.LINE_WIDTH / 2 + _SEEN)
@@ -77,28 +65,8 @@ def draw_band(
     *,
     sideways: bool = False,
 ) -> Band | None:
-    """Shade a curve's error, where it is known and finite.
+    """Shade the error of a curve where it is known and finite; None for no band.
 
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-        Where the curve is drawn.
-    x, y : ndarray
-        The curve, as drawn.
-    error : ndarray or None
-        Half width of its error along y, in the unit of the axis; None for no band.
-    colour : str
-        The curve's.
-    sideways : bool, optional
-        The error is one along x.
-
-    Returns
-    -------
-    Band or None
-        None where nothing is to be shaded.
-
-    Examples
-    --------
     >>> axes = style.new_figure(4.0, 3.0).subplots()
     >>> draw_band(axes, np.arange(2.0), np.ones(2), np.array([0.1, 0.2]), "black").seen
     True
@@ -108,7 +76,7 @@ def draw_band(
     known = np.zeros(x.shape, dtype=np.bool_) if error is None else np.isfinite(error) & (error > 0)
     if error is None or not known.any():
         return None
-    # Zero errors between others keep the band together.
+    # Zero errors between others keep the band continuous.
     shown = np.isfinite(error)
     middle, along = (x, y) if sideways else (y, x)
     half_width = np.where(shown, error, 0.0)
@@ -119,22 +87,8 @@ def draw_band(
 
 
 def band_key(bands: Sequence[Band], colour: str) -> list[tuple[Artist, str]]:
-    """Say in a legend what bands are, or that they are too narrow to be seen.
+    """Legend entries of error bands, or of bands too narrow to be seen; empty without bands.
 
-    Parameters
-    ----------
-    bands : sequence of Band
-        All that are drawn in a figure.
-    colour : str
-        Of the curve, or of none if there are several.
-
-    Returns
-    -------
-    list of tuple
-        A handle and its label; nothing if there are no bands.
-
-    Examples
-    --------
     >>> axes = style.new_figure(4.0, 3.0).subplots()
     >>> wide, narrow = (
     ...     draw_band(axes, np.arange(2.0), np.arange(2.0), np.full(2, each), "black")
@@ -154,16 +108,8 @@ def band_key(bands: Sequence[Band], colour: str) -> list[tuple[Artist, str]]:
     return [(shade, BAND if everywhere else BAND_IN_PARTS)]
 
 
-def keep_curves_in_sight(axes: Axes, *curves: ArrayLike) -> None:
-    """Let no band stretch the vertical axis far beyond the curves.
-
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-        Where curves and bands are drawn.
-    *curves : array_like
-        Values of the curves, in the unit of the axis.
-    """
+def limit_axis_to_curves(axes: Axes, *curves: ArrayLike) -> None:
+    """Limit the vertical axis, so that no band extends far beyond the curves."""
     values = np.concatenate([np.ravel(np.asarray(curve, dtype=np.float64)) for curve in curves])
     values = values[np.isfinite(values)]
     if not values.size:
@@ -174,22 +120,8 @@ def keep_curves_in_sight(axes: Axes, *curves: ArrayLike) -> None:
 
 
 def peak_note(runs: Iterable[xr.Dataset], times: ArrayLike | None = None) -> str:
-    """Return what to say of peak pressures that depend on the mesh.
+    """Note on peak pressures that depend on the mesh at the drawn instants [s]; empty if none does.
 
-    Parameters
-    ----------
-    runs : iterable of xarray.Dataset
-        Results that are drawn together.
-    times : array_like, optional
-        The instants that are drawn [s]; of each run the nearest ones count. By default all.
-
-    Returns
-    -------
-    str
-        Empty where none depends on it.
-
-    Examples
-    --------
     >>> peak = ("time", [np.inf, 1.0])
     >>> run = xr.Dataset({"peak_pressure_error": peak}, coords={"time": [0.0, 1.0]})
     >>> peak_note([run]), peak_note([run], [0.9])

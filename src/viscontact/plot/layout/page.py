@@ -1,44 +1,25 @@
-"""How wide a figure is on the page it is made for."""
+"""Widths of figures on a page."""
 
 from __future__ import annotations
 
 import math
 from typing import Literal
 
-#: What every figure takes: a column of a journal, or a width [m].
+#: Width of a figure: a column of a journal, or a number [m].
 Width = Literal["single", "double"] | float
 
 _INCH = 25.4e-3
-#: Columns as most publishers set them [m].
+#: Column widths of most publishers [m].
 COLUMNS = {"single": 89e-3, "double": 183e-3}
-#: Below this labels have no room; above it no printer is left [m].
+#: Least width with room for labels, and largest printable width [m].
 _LEAST, _MOST = 60e-3, 1.2
-#: Up to this width a page takes one panel beside a legend, and no more [inch].
+#: Largest width of a page with room for one panel and a legend only [inch].
 NARROW = 4.3
 
 
 def page_width(width: Width | None, usual: float) -> float:
-    """Return a figure's width in inches, as matplotlib counts.
+    """Width of a figure [inch] from "single", "double" or a width [m]; `usual` [inch] if None.
 
-    Parameters
-    ----------
-    width : {"single", "double"} or float or None
-        One or two columns of a journal (89 and 183 mm), or a width [m].
-    usual : float
-        What None stands for [inch].
-
-    Returns
-    -------
-    float
-        [inch].
-
-    Raises
-    ------
-    ValueError
-        If it is no such word, or no width between 60 mm and 1.2 m.
-
-    Examples
-    --------
     >>> round(page_width("single", 7.2), 3)
     3.504
     """

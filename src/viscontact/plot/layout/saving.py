@@ -1,4 +1,4 @@
-"""Figures to files."""
+"""Writer of figures to files."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from matplotlib.figure import Figure
 
 #: Formats of figures.
 FIGURE_SUFFIXES = (".png", ".pdf", ".svg")
-# What journals ask of pictures in grey and colour.
+# Resolution that journals require for images.
 _DOTS_PER_INCH = 300
 
-# matplotlib knows how to embed fonts only as a global setting.
+# Embedding of fonts is a global setting of matplotlib.
 _SAVING = threading.Lock()
 
 
@@ -28,7 +28,7 @@ def save_figure(figure: Figure, path: str | PathLike[str]) -> None:
     figure : matplotlib.figure.Figure
         What one of the figures returned.
     path : path-like
-        Where to; the suffix .png, .pdf or .svg says which format.
+        The file, in the format of its suffix: .png, .pdf or .svg.
 
     Raises
     ------
@@ -52,7 +52,7 @@ def save_figure(figure: Figure, path: str | PathLike[str]) -> None:
 
 
 def require_suffix(path: str | PathLike[str], suffixes: Sequence[str]) -> str:
-    """Return the suffix of a file that says its format.
+    """Return the suffix of a file, which must be one of the given formats.
 
     Parameters
     ----------
@@ -86,20 +86,8 @@ def require_suffix(path: str | PathLike[str], suffixes: Sequence[str]) -> str:
 
 
 def as_svg(figure: Figure) -> bytes:
-    """Return a figure as a drawing that stands in other files.
+    """SVG of a figure for embedding, its texts as outlines.
 
-    Parameters
-    ----------
-    figure : matplotlib.figure.Figure
-        What one of the figures returned.
-
-    Returns
-    -------
-    bytes
-        SVG, its texts as outlines: it looks alike everywhere.
-
-    Examples
-    --------
     >>> as_svg(Figure())[:5]
     b'<?xml'
     """
@@ -107,22 +95,8 @@ def as_svg(figure: Figure) -> bytes:
 
 
 def written(figure: Figure, kind: str) -> bytes:
-    """Return what a file of a figure would hold.
+    """Content of a file of a figure: ``"png"``, ``"pdf"`` or ``"svg"``.
 
-    Parameters
-    ----------
-    figure : matplotlib.figure.Figure
-        What one of the figures returned.
-    kind : str
-        ``"png"``, ``"pdf"`` or ``"svg"``.
-
-    Returns
-    -------
-    bytes
-        The file's content.
-
-    Examples
-    --------
     >>> written(Figure(), "pdf")[:4]
     b'%PDF'
     """
@@ -134,6 +108,6 @@ def written(figure: Figure, kind: str) -> bytes:
 def _write(figure: Figure, where: str | PathLike[str] | io.BytesIO, kind: str) -> None:
     dated = {"pdf": "CreationDate", "svg": "Date"}
     metadata = {dated[kind]: None} if kind in dated else None
-    # Fonts embedded whole, as journals ask; equal figures give equal files.
+    # Complete embedded fonts, as journals require; equal figures give equal files.
     with _SAVING, rc_context({"pdf.fonttype": 42, "svg.hashsalt": "viscontact"}):
         figure.savefig(where, format=kind, dpi=_DOTS_PER_INCH, metadata=metadata)

@@ -1,4 +1,4 @@
-"""Axes in space: their place on the page, their box, a colour bar and words."""
+"""Three-dimensional axes: panels, box, colour bar and texts."""
 
 from __future__ import annotations
 
@@ -20,19 +20,19 @@ from viscontact.plot.layout.page import NARROW
 from viscontact.plot.layout.window import Window
 from viscontact.units.formatting import ReadableUnit
 
-#: From where a surface is seen: above the nearer corner of its long side [degrees].
+#: View direction: above the nearer corner of the long side [degrees].
 _ELEVATION, _AZIMUTH = 28.0, -58.0
 #: Height of the box against its longer side.
 _TALL = 0.5
 #: Height of a panel against its width.
 _DOWN = 0.78
-#: Ticks of x an inch; a short side with room for fewer than so many is a slender box.
+#: Ticks of x per inch; a box whose short side has room for fewer than this is slender.
 _TICKS, _NARROW_BOX = 1.6, 2.5
-#: Part of the longer side beside a slender box's corner where no tick is written.
+#: Part of the longer side at a slender box's corner without tick labels.
 _CORNER = 0.07
-#: Part of a panel's place that is filled.
+#: Filled part of a panel's place.
 _FILLED = 0.94
-#: Room at the right for a colour bar, above each panel for a heading and below for notes [inch].
+#: Space at the right for a colour bar, above each panel for a heading and below for notes [inch].
 _BAR, _HEAD, _FOOT = 0.85, 0.2, 0.32
 
 
@@ -43,27 +43,10 @@ _LETTER = 0.062
 def solid_panels(
     count: int, window: Window, heights: tuple[float, float], labels: Sequence[str], width: float
 ) -> tuple[Figure, list[Axes3D]]:
-    """Make a figure with axes in space, one panel an instant or run.
+    """Figure with three-dimensional panels and room for a colour bar; width [inch].
 
-    Parameters
-    ----------
-    count : int
-        How many panels.
-    window : Window
-        What they show of the plane, and how far y is stretched.
-    heights : tuple of float
-        Limits of the third axis, as drawn.
-    labels : sequence of str
-        Of x and y; the colour bar names the heights.
-    width : float
-        Of the figure [inch].
-
-    Returns
-    -------
-    figure : matplotlib.figure.Figure
-        With room for a colour bar at the right.
-    axes : list of Axes3D
-        Side by side, two in a row where the page is wide enough.
+    Two panels are side by side where the page is wide enough; `heights` are the limits of the third
+    axis, as drawn.
     """
     columns = 1 if width <= NARROW else min(count, 2)
     rows = -(-count // columns)
@@ -94,7 +77,7 @@ def _dress(
     across: float,
 ) -> None:
     x, y = window.unit(window.x), window.unit(window.y)
-    axes.patch.set_visible(False)  # panels overlap beside their boxes
+    axes.patch.set_visible(False)  # panels overlap outside their boxes
     axes.set(xlim=x, ylim=y, zlim=heights, xlabel=labels[0], ylabel=labels[1])
     longer = max(1.0, window.height_to_width)
     axes.set_box_aspect((1 / longer, window.height_to_width / longer, _TALL))
@@ -113,15 +96,15 @@ def _dress(
 
 
 def _thin_out(axes: Axes3D) -> None:
-    """Keep what is written at the short side of a slender box apart."""
-    # The outermost of y; of x none beside the corner where y begins.
+    """Separate the tick labels at the short side of a slender box."""
+    # The outermost of y; of x none at the corner where y begins.
     at_y, at_x = _ticks(axes.yaxis), _ticks(axes.xaxis)
     start, end = axes.get_xlim()
     axes.yaxis.set_major_locator(FixedLocator([at_y[0], at_y[-1]] if len(at_y) > 1 else at_y))
     axes.xaxis.set_major_locator(
         FixedLocator([at for at in at_x if at < end - _CORNER * (end - start)])
     )
-    # The name of y is moved along x, by a part of what is much longer here.
+    # The label of y is moved along x, which is much longer here.
     axes.yaxis.labelpad = -3.5
 
 
@@ -131,7 +114,7 @@ def _ticks(axis: Axis) -> list[float]:
 
 
 def _fill(axes: Axes3D, place: Bbox) -> None:
-    """Make a panel as large as its place on the figure takes, texts and all."""
+    """Enlarge a panel to its place on the figure, texts included."""
     place = place.expanded(_FILLED, _FILLED)
     for _ in range(3):  # texts keep their size when the box grows
         taken = _taken(axes)
@@ -148,9 +131,9 @@ def _fill(axes: Axes3D, place: Bbox) -> None:
 
 
 def _taken(axes: Axes3D) -> Bbox:
-    """What the box and its texts take of the figure."""
+    """Area of the figure covered by the box and its texts."""
     figure = axes.figure
-    figure.draw_without_rendering()  # else the texts have no size yet
+    figure.draw_without_rendering()  # gives the texts their size
     limits = (axes.get_xlim(), axes.get_ylim(), axes.get_zlim())
     corners = np.array(list(itertools.product(*limits))).T
     projected = proj3d.proj_transform(*corners, axes.get_proj())
@@ -161,22 +144,7 @@ def _taken(axes: Axes3D) -> Bbox:
 
 
 def stretch_of_heights(axes: Axes3D, window: Window, unit: ReadableUnit) -> float:
-    """Return how many times larger heights are drawn than lengths along x.
-
-    Parameters
-    ----------
-    axes : Axes3D
-        As `solid_panels` makes them.
-    window : Window
-        What they show of the plane.
-    unit : ReadableUnit
-        Of the heights, a length.
-
-    Returns
-    -------
-    float
-        [-].
-    """
+    """Ratio of the scale of heights to that of lengths along x [-]."""
     low, high = axes.get_zlim()
     along, _, tall = axes.get_box_aspect()
     return float(tall / (abs(high - low) * unit.factor) * (window.x[1] - window.x[0]) / along)
@@ -185,21 +153,7 @@ def stretch_of_heights(axes: Axes3D, window: Window, unit: ReadableUnit) -> floa
 def add_side_bar(
     figure: Figure, colours: Colormap, norm: Normalize, label: str, *, downwards: bool = False
 ) -> None:
-    """Add a colour bar at the right of a figure of `solid_panels`.
-
-    Parameters
-    ----------
-    figure : matplotlib.figure.Figure
-        Where to.
-    colours : Colormap
-        For the values.
-    norm : Normalize
-        From values to colours.
-    label : str
-        What the values are, with their unit.
-    downwards : bool, optional
-        They grow downwards, as depths do.
-    """
+    """Add a colour bar at the right; downwards for depths."""
     width = figure.get_figwidth()
     height = min(0.6, 2.4 / figure.get_figheight())
     place = ((width - 0.72) / width, 0.5 - height / 2, 0.12 / width, height)
@@ -214,7 +168,7 @@ def add_side_bar(
 
 
 def add_title(axes: Axes3D, text: str) -> None:
-    """Name a panel in space above its left corner."""
+    """Add a title above the left corner of a three-dimensional panel."""
     figure = axes.figure
     box = _taken(axes)
     figure.text(
@@ -226,7 +180,7 @@ def add_title(axes: Axes3D, text: str) -> None:
 
 
 def add_note(figure: Figure, *texts: str) -> None:
-    """Say something of all panels below them."""
+    """Add a note below all panels."""
     texts = tuple(filter(None, texts))
     fits = sum(map(len, texts)) * _LETTER < figure.get_figwidth()
     apart = "; " if fits else "\n"

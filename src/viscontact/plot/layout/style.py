@@ -1,7 +1,8 @@
-"""How every figure looks: sizes, fonts, colours, lines.
+"""Style of all figures: sizes, fonts, colours and lines.
 
-Nothing here touches matplotlib's global settings, so figures may be drawn in several
-threads and never change a user's own plots.
+matplotlib's global settings are not changed, so figures may be drawn in several threads and a
+user's own plots are not affected.
+
 """
 
 from __future__ import annotations
@@ -24,14 +25,14 @@ LABEL_SIZE = 9.0
 TICK_SIZE = 8.0
 LINE_WIDTH = 1.4
 THIN_LINE = 0.6
-# Widths of a letter of a legend in the mean, and of the key before its text [inch].
+# Mean width of a letter of a legend, and width of the key before its text [inch].
 _LETTER, _KEY = 0.062, 0.5
 INK = "#262626"
 FAINT = "#7a7a7a"
 LINE = "#0072B2"
 
-# Okabe and Ito's palette without its yellow, which fades on white: told apart by readers
-# with any common kind of colour blindness.
+# Okabe and Ito's palette without its yellow, which is too pale on white: distinguishable with any
+# common kind of colour blindness.
 _RUN_COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000")
 _RUN_DASHES: tuple[Any, ...] = ("-", (0, (5, 1.5)), (0, (5, 1.5, 1, 1.5)), (0, (1, 1.2)))
 
@@ -39,12 +40,12 @@ MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", ">")
 
 
 def new_figure(width: float, height: float, *, fixed_aspect: bool = False) -> Figure:
-    """An empty figure of this size [inch] that lays itself out."""
+    """Empty figure of this size [inch] with automatic layout."""
     return Figure(figsize=(width, height), layout="compressed" if fixed_aspect else "constrained")
 
 
 def dress(axes: Axes) -> None:
-    """Give axes thin frames, small outward ticks and the house's text sizes."""
+    """Apply thin frames, small outward ticks and the common text sizes to axes."""
     for name, spine in axes.spines.items():
         spine.set_linewidth(THIN_LINE)
         spine.set_color(INK)
@@ -56,7 +57,7 @@ def dress(axes: Axes) -> None:
 
 
 def add_legend(axes: Axes, handles: Sequence[Artist], labels: Sequence[str], **how: Any) -> None:
-    """Add a frameless legend in the house's text size, beside the axes unless told where."""
+    """Add a frameless legend, by default at the right of the axes."""
     place = how or {"loc": "upper left", "bbox_to_anchor": (1.0, 1.0)}
     legend = axes.legend(
         handles,
@@ -74,7 +75,7 @@ def add_legend(axes: Axes, handles: Sequence[Artist], labels: Sequence[str], **h
 def add_legend_below(
     figure: Figure, handles: Sequence[Artist], labels: Sequence[str], *, columns: int = 3
 ) -> None:
-    """Add the same legend below all panels, in so many columns at most as there is room for."""
+    """Add a legend below all panels, with at most `columns` columns."""
     figure.legend(
         handles,
         labels,
@@ -89,13 +90,13 @@ def add_legend_below(
 
 
 def columns_that_fit(figure: Figure, labels: Sequence[str], most: int) -> int:
-    """How many columns of a legend a page has room for, with the widest label in each."""
+    """Number of legend columns that fit on a page, with the widest label in each."""
     each = _KEY + _LETTER * max(map(len, labels))
     return max(1, min(most, len(labels), int(figure.get_figwidth() / each)))
 
 
 def add_heading(axes: Axes, text: str, *, aside: bool = False) -> None:
-    """Name a panel above its left corner, or say something aside above its right one."""
+    """Add a heading above the left corner of a panel, or a note above its right one."""
     axes.set_title(
         text,
         fontsize=TICK_SIZE,
@@ -105,22 +106,15 @@ def add_heading(axes: Axes, text: str, *, aside: bool = False) -> None:
     )
 
 
-def settle_headings(figure: Figure) -> None:
-    """Put what is said aside above a heading that leaves no room for it, once the layout is known.
+def arrange_headings(figure: Figure) -> None:
+    """Move notes above headings that leave no room for them, once the layout is known.
 
-    Parameters
-    ----------
-    figure : matplotlib.figure.Figure
-        Laid out, its headings made by `add_heading`.
-
-    Examples
-    --------
     >>> figure = new_figure(2.0, 2.0)
     >>> axes = figure.subplots()
     >>> add_heading(axes, "t = 1000 s")
     >>> add_heading(axes, "peak depends on the mesh", aside=True)
     >>> figure.draw_without_rendering()
-    >>> settle_headings(figure)
+    >>> arrange_headings(figure)
     >>> axes.get_title(loc="left").splitlines(), axes.get_title(loc="right")
     (['peak depends on the mesh', 't = 1000 s'], '')
     """
@@ -128,7 +122,7 @@ def settle_headings(figure: Figure) -> None:
         heading, aside = (axes.get_title(loc=side) for side in ("left", "right"))
         room = axes.get_window_extent().width / figure.dpi
         if heading and aside and _LETTER * (len(heading) + len(aside) + 2) > room:
-            # Not below it: there a neighbour's heading may stand.
+            # Not below it, where a neighbour's heading may be.
             add_heading(axes, f"{aside}\n{heading}")
             add_heading(axes, "", aside=True)
 
@@ -142,7 +136,7 @@ def figure_of(axes: Axes) -> Figure:
 
 
 def time_colours(count: int) -> list[str]:
-    """Choose colours for instants, from early (dark) to late (light)."""
+    """Colours of instants, from early (dark) to late (light)."""
     # Beyond 0.85 viridis turns to a yellow that is too pale for thin lines on white.
     return [to_hex(colour) for colour in colormaps["viridis"](np.linspace(0.0, 0.85, count))]
 
@@ -160,5 +154,5 @@ def run_styles(count: int) -> list[dict[str, Any]]:
 
 
 def pressure_colours(count: int) -> Colormap:
-    """A map of so many colours for pressure, pale enough for dark labels."""
+    """Colour map for pressure, pale enough for dark labels."""
     return ListedColormap(colormaps["YlGnBu"](np.linspace(0.0, 0.62, count)))

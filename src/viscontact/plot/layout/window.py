@@ -1,4 +1,4 @@
-"""Which part of the plane to show, and how far to stretch it."""
+"""Visible part of the surface, and the stretch of its axes."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from viscontact.results.snapshots import Snapshot
 from viscontact.units.formatting import ReadableUnit, readable_unit
 
 _MARGIN = 0.07
-# A contact up to three times as long as wide is shown as it is. One that is stretched is left
-# at least this much longer than wide, so that several panels fit on a page.
+# Largest aspect ratio in true shape, and least ratio of a stretched contact, so that several panels
+# fit on a page.
 _TRUE_ASPECT = 3.0
 _PANEL_SHAPE = 4.5
 _STRETCHES = (2, 3, 4, 5, 6, 8, *(10 * n for n in (1, 1.5, 2, 3, 4, 5, 6, 8)), 100, 200, 500)
@@ -24,15 +24,7 @@ Box = tuple[float, float, float, float]
 
 @dataclass(frozen=True)
 class Window:
-    """A part of the surface, as drawn.
-
-    Parameters
-    ----------
-    x, y : tuple of float
-        Limits [m].
-    stretch : float
-        How many times larger y is drawn than x; 1 for the true shape.
-    """
+    """Visible part of the surface [m]; stretch is the scale of y over that of x."""
 
     x: tuple[float, float]
     y: tuple[float, float]
@@ -40,7 +32,7 @@ class Window:
 
     @property
     def unit(self) -> ReadableUnit:
-        """The unit of both axes: the longer one decides."""
+        """Unit of both axes, chosen by the longer one."""
         return readable_unit("m", self.x, self.y)
 
     @property
@@ -50,7 +42,7 @@ class Window:
 
     @property
     def note(self) -> str:
-        """What to tell the reader about the stretch; empty for the true shape."""
+        """Note on the stretch; empty for the true shape."""
         if self.stretch == 1:
             return ""
         return (
@@ -65,20 +57,10 @@ class Window:
 
 
 def window_around(snapshots: Iterable[Snapshot], *, slender: float = _PANEL_SHAPE) -> Window:
-    """Find the window that holds the contact of all snapshots, with a margin.
+    """Window around the contact of all snapshots, with a margin, within a period.
 
-    Parameters
-    ----------
-    snapshots : iterable of Snapshot
-        At least one of them in contact.
-    slender : float, optional
-        Length against width that a contact is left with at least when it is stretched.
-
-    Returns
-    -------
-    Window
-        In true shape if the contact is at most three times longer than wide, else with its
-        shorter side stretched by a round factor. It ends at the border of a period.
+    The true shape is kept up to an aspect ratio of three; a longer contact is stretched by a round
+    factor, but remains `slender` times longer than wide.
     """
     snapshots = list(snapshots)
     boxes = [snapshot.extent() for snapshot in snapshots if snapshot.touching]
@@ -89,24 +71,8 @@ def window_around(snapshots: Iterable[Snapshot], *, slender: float = _PANEL_SHAP
 def window_over(
     boxes: Sequence[Box], borders: Box | None = None, *, slender: float = _PANEL_SHAPE
 ) -> Window:
-    """Find the window that holds boxes, with a margin.
+    """Window around boxes (x_min, x_max, y_min, y_max) [m], with a margin, within the borders [m].
 
-    Parameters
-    ----------
-    boxes : sequence of tuple
-        At least one (x_min, x_max, y_min, y_max) [m].
-    borders : tuple, optional
-        The period's, beyond which the window does not go [m].
-    slender : float, optional
-        Length against width that is left at least when the window is stretched.
-
-    Returns
-    -------
-    Window
-        As `window_around` says.
-
-    Examples
-    --------
     >>> window_over([(-1.0, 1.0, -0.5, 0.5), (-2.0, 0.0, -0.5, 0.5)]).x
     (-2.21, 1.21)
     """

@@ -1,4 +1,4 @@
-"""The law's curves: creep compliance and relaxation modulus (the paper's Fig. 5)."""
+"""Creep compliance and relaxation modulus of a law (the paper's Fig. 5)."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def creep(
     Parameters
     ----------
     results : xarray.Dataset
-        What `viscontact.simulate` or `viscontact.open_results` returned.
+        From `viscontact.simulate` or `viscontact.open_results`.
     times : array_like, optional
         Draw the span between the least and the largest of these instants [s]; by default
         the time simulated.
@@ -176,7 +176,7 @@ def _draw(
     times: NDArray[np.float64],
     curves: list[tuple[NDArray[np.float64], float]],
 ) -> None:
-    """Curves, each with its value at time 0."""
+    """Draw curves, each with its value at time 0."""
     everything = [each for values, at_once in curves for each in (values, at_once)]
     unit, time_unit = readable_unit(si_unit, *everything), readable_unit("s", times)
     looks = style.run_styles(len(curves))
@@ -190,7 +190,7 @@ def _draw(
 
 
 def _mark_beginning(axes: Axes, values: NDArray[np.float64], at_once: NDArray[np.float64]) -> None:
-    """The instant itself is not on a logarithmic axis."""
+    """Mark the value at time 0, which is not on a logarithmic axis."""
     level = float(at_once)
     axes.axhline(level, color=style.FAINT, linewidth=0.8, linestyle=(0, (4, 3)))
     rises = values[-1] > level

@@ -1,4 +1,4 @@
-"""A material's curves over all of time and frequency, and the points they rest on."""
+"""Curves of a material over time and frequency, and the points they are based on."""
 
 from __future__ import annotations
 
@@ -146,9 +146,9 @@ def _line(
     solid: tuple[float, float],
     **how: Any,
 ) -> Any:
-    """Draw a curve dashed, and again solid within the range; return the solid line."""
+    """Draw a curve dashed, and solid within its range; return the solid line."""
     inside = (at >= solid[0] * (1 - 1e-9)) & (at <= solid[1] * (1 + 1e-9))
-    shown = np.where(_goes_on(_worth_showing(values), inside), values, np.nan)
+    shown = np.where(_continuation(_worth_showing(values), inside), values, np.nan)
     axes.plot(at, shown, linewidth=style.LINE_WIDTH, linestyle=(0, (3, 2)), alpha=0.7, **how)
     return axes.plot(at[inside], shown[inside], linewidth=style.LINE_WIDTH, **how)[0]
 
@@ -175,8 +175,8 @@ def _worth_showing(values: NDArray[np.float64]) -> NDArray[np.bool_]:
     return np.asarray(values > _DEPTH * values.max(initial=0.0))
 
 
-def _goes_on(shown: NDArray[np.bool_], inside: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Where a curve goes on from its range: once it is nothing, what comes back is not of it."""
+def _continuation(shown: NDArray[np.bool_], inside: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Mask of the curve beyond its range, up to its first zero."""
     within = np.flatnonzero(inside)
     if not within.size:
         return shown
@@ -211,6 +211,6 @@ def _log_axes(axes: Axes, at: NDArray[np.float64]) -> None:
 
 
 def _middle_unit(si_unit: str, values: NDArray[np.float64]) -> ReadableUnit:
-    """Choose a unit in which the middle of a logarithmic axis reads best."""
+    """Unit in which the middle of a logarithmic axis is readable."""
     good = values[_worth_showing(values)]
     return readable_unit(si_unit, float(np.exp(np.log(good).mean())) if good.size else 0.0)

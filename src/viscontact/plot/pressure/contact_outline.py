@@ -34,12 +34,12 @@ def contact_outline(
     Parameters
     ----------
     results : xarray.Dataset
-        What `viscontact.simulate` or `viscontact.open_results` returned, with fields stored.
+        From `viscontact.simulate` or `viscontact.open_results`, with fields stored.
     times : array_like, optional
         Instants [s]; the nearest stored ones are drawn and named. By default five, from the
         first in contact to the last.
     axes : matplotlib.axes.Axes, optional
-        Where to draw; by default in a new figure.
+        Axes to draw in; by default a new figure.
     width : {"single", "double"} or float, optional
         One or two columns of a journal (89 and 183 mm), or a width [m].
 
@@ -148,7 +148,7 @@ def compare_contact_outlines(
 
 
 def _new_axes(window: Window, count: int, wanted: Width | None, *, below: bool = False) -> Axes:
-    """Axes of the window's shape, with room for a legend of so many, beside or below."""
+    """Axes of the window's shape, with room for a legend."""
     usual = style.TWO_COLUMNS if window.height_to_width < 0.6 else style.ONE_COLUMN
     width = page_width(wanted, usual)
     if below:

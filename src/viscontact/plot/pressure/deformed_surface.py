@@ -1,4 +1,4 @@
-"""The deformed surface of the half-space in space, and where the indenter is."""
+"""Deformed surface of the half-space and the indenter, in three dimensions."""
 
 from __future__ import annotations
 
@@ -32,9 +32,9 @@ from viscontact.units.formatting import ReadableUnit, format_compact, readable_u
 _NAME = "surface-3d"
 Array = NDArray[np.float64]
 
-#: What is shown beside the contact, and of the space above the surface for the indenter [-].
+#: Margin around the contact, and space above the surface for the indenter, relative [-].
 _BESIDE, _ABOVE = 0.35, 0.3
-#: A contact longer than this against its width is stretched, as for the pressure.
+#: Aspect ratio above which a contact is stretched, as for the pressure.
 _SLENDER = 2.2
 #: Points drawn along each axis at most.
 _MOST = 130
@@ -43,23 +43,15 @@ _BODY = "#D55E00"
 
 
 @dataclass(frozen=True, eq=False)
-class Dent:
-    """The surfaces of both bodies at an instant.
-
-    Parameters
-    ----------
-    snapshot : Snapshot
-        Pressure and gap.
-    displacement : ndarray
-        Of the half-space, shape (nx, ny), positive into it; NaN where it is not known [m].
-    """
+class DeformedContact:
+    """Surfaces of both bodies: gap, and displacement into the half-space [m], NaN if unknown."""
 
     snapshot: Snapshot
     displacement: Array
 
     @property
     def indenter(self) -> Array:
-        """Depth of the indenter's lower side, shape (nx, ny), NaN where there is none [m]."""
+        """Depth of the indenter's lower side [m], shape (nx, ny), NaN where there is none."""
         depth = self.displacement - self.snapshot.gap
         return np.where(np.isfinite(depth), depth, np.nan)
 
@@ -67,12 +59,12 @@ class Dent:
 def deformed_surface(
     results: xr.Dataset, *, times: ArrayLike | None = None, width: Width | None = None
 ) -> Figure:
-    """Draw the deformed surface of the half-space and the indenter on it, one panel an instant.
+    """Draw the deformed surface of the half-space and the indenter, one panel per instant.
 
     Parameters
     ----------
     results : xarray.Dataset
-        What `viscontact.simulate` or `viscontact.open_results` returned, with fields stored.
+        From `viscontact.simulate` or `viscontact.open_results`, with fields stored.
     times : array_like, optional
         Instants [s]; the nearest stored ones are drawn and named. By default the first in
         contact and the last.
@@ -84,7 +76,7 @@ def deformed_surface(
     matplotlib.figure.Figure
         Panels with common axes. Colour and depth are the displacement of the surface; the dark
         line on it is the rim of the contact, the orange ones are the lower side of the indenter on
-        its two middle lines, where it is. How far heights and y are stretched stands below.
+        its two middle lines, where it is. The stretch of heights and of y is given below.
 
     Raises
     ------
@@ -102,23 +94,26 @@ def deformed_surface(
     ('x [mm]', 'Displacement [µm]')
     """
     snapshots = take_snapshots(results, times, _NAME, count=2)
-    dents = [Dent(each, field_at(results, "displacement", each.time, _NAME)) for each in snapshots]
+    contacts = [
+        DeformedContact(each, field_at(results, "displacement", each.time, _NAME))
+        for each in snapshots
+    ]
     window = _window(snapshots)
-    unit, (low, high) = _depths(dents, window)
+    unit, (low, high) = _depths(contacts, window)
     norm = Normalize(low, high)
     figure, panels = solid_panels(
-        len(dents),
+        len(contacts),
         window,
         (high, low - _ABOVE * (high - low)),
         (window.unit.label("x"), window.unit.label("y")),
-        page_width(width, style.TWO_COLUMNS if len(dents) > 1 else style.ONE_COLUMN),
+        page_width(width, style.TWO_COLUMNS if len(contacts) > 1 else style.ONE_COLUMN),
     )
-    for axes, dent, label in zip(
-        panels, dents, time_labels(s.time for s in snapshots), strict=True
+    for axes, contact, label in zip(
+        panels, contacts, time_labels(s.time for s in snapshots), strict=True
     ):
-        draw_relief(axes, dent_relief(dent, window, unit), _COLOURS, norm)
-        _draw_rim(axes, dent, window, unit)
-        _draw_indenter(axes, dent, window, unit)
+        draw_relief(axes, displacement_relief(contact, window, unit), _COLOURS, norm)
+        _draw_rim(axes, contact, window, unit)
+        _draw_indenter(axes, contact, window, unit)
         add_title(axes, f"t = {label}")
     add_side_bar(figure, _COLOURS, norm, unit.label("Displacement"), downwards=True)
     heights = f"heights {format_compact(stretch_of_heights(panels[0], window, unit), 2)}×"
@@ -127,29 +122,13 @@ def deformed_surface(
     return figure
 
 
-def dent_relief(dent: Dent, window: Window, unit: ReadableUnit) -> Relief:
-    """Make a surface of the displacement.
-
-    Parameters
-    ----------
-    dent : Dent
-        Both bodies.
-    window : Window
-        The part that is drawn.
-    unit : ReadableUnit
-        Of the displacement.
-
-    Returns
-    -------
-    Relief
-        Corners at the centres of cells, some left out where there are very many, as deep as
-        their displacement.
-    """
+def displacement_relief(contact: DeformedContact, window: Window, unit: ReadableUnit) -> Relief:
+    """Relief of the displacement, with a limited number of points."""
     (x, i), (y, j) = (
         _points(at, limits)
-        for at, limits in ((dent.snapshot.x, window.x), (dent.snapshot.y, window.y))
+        for at, limits in ((contact.snapshot.x, window.x), (contact.snapshot.y, window.y))
     )
-    depth = unit(dent.displacement[np.ix_(i, j)])
+    depth = unit(contact.displacement[np.ix_(i, j)])
     mesh = np.meshgrid(window.unit(x), window.unit(y), indexing="ij")
     return relief(*mesh, depth, depth, np.isfinite(depth))
 
@@ -161,7 +140,7 @@ def _points(at: Array, limits: tuple[float, float]) -> tuple[Array, NDArray[np.i
 
 
 def _window(snapshots: list[Snapshot]) -> Window:
-    """The contact and the surface around it, as far as there is any."""
+    """Window of the contact and the surface around it."""
     near = window_around(snapshots, slender=_SLENDER)
     x_low, x_high, y_low, y_high = snapshots[0].borders()
     limits = []
@@ -171,9 +150,13 @@ def _window(snapshots: list[Snapshot]) -> Window:
     return Window(limits[0], limits[1], near.stretch)
 
 
-def _depths(dents: list[Dent], window: Window) -> tuple[ReadableUnit, tuple[float, float]]:
-    """The unit of the displacement, and what is shallowest and deepest in it."""
-    shown = [dent_relief(dent, window, ReadableUnit("m", 1.0)).values for dent in dents]
+def _depths(
+    contacts: list[DeformedContact], window: Window
+) -> tuple[ReadableUnit, tuple[float, float]]:
+    """Unit of the displacement, and its limits in that unit."""
+    shown = [
+        displacement_relief(contact, window, ReadableUnit("m", 1.0)).values for contact in contacts
+    ]
     low, high = min(map(np.min, shown)), max(map(np.max, shown))
     if high == low:
         high = low + 1e-3 * (window.x[1] - window.x[0])
@@ -181,25 +164,27 @@ def _depths(dents: list[Dent], window: Window) -> tuple[ReadableUnit, tuple[floa
     return unit, (float(unit(low)), float(unit(high)))
 
 
-def _draw_rim(axes: Axes3D, dent: Dent, window: Window, unit: ReadableUnit) -> None:
-    cells = (dent.snapshot.x, dent.snapshot.y)
-    # The bodies meet there: the indenter goes on smoothly, the surface falls beside a punch.
-    depth = RegularGridInterpolator(cells, _continued(dent.indenter), bounds_error=False)
-    for polygon in rim_curves(dent.snapshot):
+def _draw_rim(axes: Axes3D, contact: DeformedContact, window: Window, unit: ReadableUnit) -> None:
+    cells = (contact.snapshot.x, contact.snapshot.y)
+    # On the rim the bodies touch: the indenter is smooth there, the surface falls next to a punch.
+    depth = RegularGridInterpolator(cells, _continued(contact.indenter), bounds_error=False)
+    for polygon in rim_curves(contact.snapshot):
         x, y = window.unit(polygon).T
         axes.plot(x, y, unit(depth(polygon)), color=style.INK, linewidth=0.9, zorder=3)
 
 
 def _continued(depth: Array) -> Array:
-    """Values beyond a body's end: those of the nearest cell where it is."""
+    """Values continued beyond a body's end by those of its nearest cell."""
     nearest = distance_transform_edt(np.isnan(depth), return_distances=False, return_indices=True)
     return np.asarray(depth[tuple(nearest)])
 
 
-def _draw_indenter(axes: Axes3D, dent: Dent, window: Window, unit: ReadableUnit) -> None:
-    """The lower side of the indenter on its middle lines, below the top of the axes."""
+def _draw_indenter(
+    axes: Axes3D, contact: DeformedContact, window: Window, unit: ReadableUnit
+) -> None:
+    """Draw the lower side of the indenter on its middle lines, below the top of the axes."""
     _, top = axes.get_zlim()
-    snapshot, depth = dent.snapshot, unit(dent.indenter)
+    snapshot, depth = contact.snapshot, unit(contact.indenter)
     depth = np.where(depth >= top, depth, np.nan)
     i, j = (int(np.abs(at).argmin()) for at in (snapshot.x, snapshot.y))
     (x, chosen_x), (y, chosen_y) = _points(snapshot.x, window.x), _points(snapshot.y, window.y)

@@ -1,4 +1,4 @@
-"""The closed form that a run can be drawn against, if it has one."""
+"""Lee-Radok solution of the recorded case of a result."""
 
 from __future__ import annotations
 
@@ -13,20 +13,7 @@ from viscontact.results.recorded_case import recorded_object
 
 
 def exact_sphere(results: xr.Dataset, figure: str) -> LeeRadokContact | None:
-    """Lee and Radok's solution of the case behind a result.
-
-    Parameters
-    ----------
-    results : xarray.Dataset
-        What `viscontact.simulate` or `viscontact.open_results` returned.
-    figure : str
-        Name of the figure, for messages.
-
-    Returns
-    -------
-    LeeRadokContact or None
-        None unless a sphere or round paraboloid carries a step or a ramp held thereafter.
-    """
+    """Lee-Radok solution for a sphere or paraboloid under a step or held ramp; None otherwise."""
     indenter, load, material, other = (
         recorded_object(results, part, figure)
         for part in ("indenter", "load", "material", "indenter_material")

@@ -30,20 +30,20 @@ from viscontact.units.formatting import ReadableUnit, format_compact, readable_u
 _NAME = "pressure-map"
 # Percentiles of pressure over the contact between which contours have room for labels.
 _LABELLED = (20.0, 97.0)
-#: Where the largest pressure depends on the mesh, levels go up to what so much of the contact has;
-#: up to the edge's they would crowd there, and show little of the rest.
+#: Quantile of the pressure up to which levels go where the peak depends on the mesh: up to the peak
+#: they would concentrate at the edge.
 ORDINARY = 0.85
 
 
 def pressure_map(
     results: xr.Dataset, *, times: ArrayLike | None = None, width: Width | None = None
 ) -> Figure:
-    """Draw iso-contours of pressure, one panel an instant, with the outline of the contact.
+    """Draw iso-contours of pressure, one panel per instant, with the outline of the contact.
 
     Parameters
     ----------
     results : xarray.Dataset
-        What `viscontact.simulate` or `viscontact.open_results` returned, with fields stored.
+        From `viscontact.simulate` or `viscontact.open_results`, with fields stored.
     times : array_like, optional
         Instants [s]; the nearest stored ones are drawn and named. By default four, from the
         first in contact to the last.
@@ -54,8 +54,8 @@ def pressure_map(
     -------
     matplotlib.figure.Figure
         Panels with common axes and pressure levels. A long narrow contact is drawn with its
-        width stretched by the factor printed in the first panel. That also says where the peak
-        pressure depends on the mesh.
+        width stretched by the factor printed in the first panel. A note there
+        states where the peak pressure depends on the mesh.
 
     Raises
     ------
@@ -81,7 +81,7 @@ def pressure_map(
 def compare_pressure_maps(
     runs: Mapping[str, xr.Dataset], *, times: ArrayLike | None = None, width: Width | None = None
 ) -> Figure:
-    """Draw the pressure maps of several runs beside or below one another.
+    """Draw the pressure maps of several runs in one figure.
 
     Parameters
     ----------
@@ -135,8 +135,8 @@ def _draw(snapshots: list[Snapshot], headings: list[str], note: str, width: Widt
         style.add_heading(axes, heading)
     style.add_heading(panels[0], "; ".join(filter(None, (window.note, note))), aside=True)
     _add_colour_bar(figure, panels, levels, unit, "max" if note else "neither")
-    figure.draw_without_rendering()  # Only now the room for texts is known.
-    style.settle_headings(figure)
+    figure.draw_without_rendering()  # The layout gives the room for texts.
+    style.arrange_headings(figure)
     figure.draw_without_rendering()
     for axes, snapshot, contours in zip(panels, snapshots, lines, strict=True):
         if contours is not None:
@@ -145,22 +145,8 @@ def _draw(snapshots: list[Snapshot], headings: list[str], note: str, width: Widt
 
 
 def pressure_levels(highest: float) -> tuple[NDArray[np.float64], ReadableUnit]:
-    """Choose round levels of pressure.
+    """Round levels of pressure from 0 to beyond the highest [Pa], and their unit.
 
-    Parameters
-    ----------
-    highest : float
-        What they go beyond [Pa].
-
-    Returns
-    -------
-    levels : ndarray
-        From 0 [Pa].
-    unit : ReadableUnit
-        In which they are round.
-
-    Examples
-    --------
     >>> levels, unit = pressure_levels(152e6)
     >>> unit(levels).tolist()
     [0.0, 20.0, 40.0, 60.0, 80.0, 100.0, 120.0, 140.0, 160.0]
@@ -196,24 +182,7 @@ def _panels(count: int, window: Window, wanted: Width | None) -> tuple[Figure, l
 def draw_contours(
     axes: Axes, snapshot: Snapshot, levels: NDArray[np.float64], window: Window
 ) -> QuadContourSet | None:
-    """Draw contours of pressure, and the outline of the contact.
-
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-        Where to.
-    snapshot : Snapshot
-        Pressure and gap.
-    levels : ndarray
-        From 0, ascending [Pa].
-    window : Window
-        What the axes show.
-
-    Returns
-    -------
-    QuadContourSet or None
-        The lines between the levels; None without contact, where nothing is drawn.
-    """
+    """Draw contours at levels [Pa], and the outline; return the lines, None without contact."""
     if not snapshot.touching:
         return None
     outline = rim_path(window.unit(polygon) for polygon in rim_curves(snapshot))
@@ -235,7 +204,7 @@ def draw_contours(
 def _label_contours(
     axes: Axes, lines: QuadContourSet, snapshot: Snapshot, unit: ReadableUnit, window: Window
 ) -> None:
-    """Write the pressure on the contours where there is room for it."""
+    """Label the contours where there is room."""
     pressure = snapshot.pressure
     lowest, highest = np.percentile(pressure[pressure > 0], _LABELLED) ** 2
     texts = {
@@ -251,7 +220,7 @@ def _label_contours(
 
 
 def _pressed(snapshot: Snapshot, points: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Whether the cells with these points are in contact; points shape (n, 2) [m]."""
+    """Mask of points, shape (n, 2) [m], whose cells are in contact."""
     first = np.array([snapshot.x[0], snapshot.y[0]])
     i, j = np.rint((points - first) / snapshot.cell_size).astype(int).T
     i, j = np.clip(i, 0, snapshot.x.size - 1), np.clip(j, 0, snapshot.y.size - 1)
@@ -269,19 +238,7 @@ def _add_colour_bar(
 def fill_colour_bar(
     axes: Axes, levels: NDArray[np.float64], unit: ReadableUnit, extend: str
 ) -> None:
-    """Draw a colour bar for levels of pressure into axes of its own.
-
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-        To be filled.
-    levels : ndarray
-        From 0, ascending [Pa].
-    unit : ReadableUnit
-        Of its ticks.
-    extend : str
-        At which end pressures go beyond, as matplotlib says it.
-    """
+    """Draw a colour bar for levels of pressure [Pa] in separate axes."""
     figure = style.figure_of(axes)
     _dress_colour_bar(figure.colorbar(_level_colours(levels, unit), cax=axes, extend=extend), unit)
 

@@ -34,7 +34,7 @@ def pressure_profile(
     Parameters
     ----------
     results : xarray.Dataset
-        What `viscontact.simulate` or `viscontact.open_results` returned, with fields stored.
+        From `viscontact.simulate` or `viscontact.open_results`, with fields stored.
     times : array_like, optional
         Instants [s]; the nearest stored ones are drawn and named. By default five, from the
         first in contact to the last.
@@ -44,7 +44,7 @@ def pressure_profile(
         Where the line crosses the other axis [m]; between two rows of cells the pressure is
         interpolated.
     axes : matplotlib.axes.Axes, optional
-        Where to draw; by default in a new figure.
+        Axes to draw in; by default a new figure.
     width : {"single", "double"} or float, optional
         One or two columns of a journal (89 and 183 mm), or a width [m].
 
@@ -96,7 +96,7 @@ def compare_pressure_profiles(
     at: float = 0.0,
     width: Width | None = None,
 ) -> Figure:
-    """Overlay the pressure sections of several runs, one panel an instant.
+    """Overlay the pressure sections of several runs, one panel per instant.
 
     Parameters
     ----------
@@ -165,7 +165,7 @@ def compare_pressure_profiles(
 def _section(
     snapshot: Snapshot, along: Literal["x", "y"], at: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The pressure on the line, on a periodic grid up to the border and a little further."""
+    """Pressure on the line; on a periodic grid slightly beyond the border."""
     return (snapshot.with_border(1) if snapshot.periodic else snapshot).section(along, at)
 
 
@@ -182,7 +182,7 @@ def _units(
 
 
 def _limits(snapshots: list[Snapshot], along: Literal["x", "y"]) -> tuple[float, float]:
-    """Ends of the longest contact along the line, with a margin up to a period's border [m]."""
+    """Ends of the longest contact along the line [m], with a margin within a period."""
     side = 0 if along == "x" else 2
     ends = np.array([s.extent()[side : side + 2] for s in snapshots if s.touching])
     low, high = float(ends[:, 0].min()), float(ends[:, 1].max())
@@ -196,7 +196,7 @@ def _limits(snapshots: list[Snapshot], along: Literal["x", "y"]) -> tuple[float,
 def _in_contact(
     positions: NDArray[np.float64], pressure: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Leave out where nothing is pressed, but for the zeros at the contact's ends."""
+    """Mask of the pressed points and the zeros at the contact's ends."""
     pressed = pressure > 0
     near = pressed | np.append(pressed[1:], False) | np.append(False, pressed[:-1])
     return positions, np.where(near, pressure, np.nan)

@@ -1,4 +1,4 @@
-"""Pressure against distance from the axis, ours and the exact one (the paper's Figs. 6, 7)."""
+"""Pressure over distance from the axis, with the exact solution (the paper's Figs. 6, 7)."""
 
 from __future__ import annotations
 
@@ -31,12 +31,12 @@ _EXACT_POINTS = 160
 def pressure_radial(
     results: xr.Dataset, *, times: ArrayLike | None = None, width: Width | None = None
 ) -> Figure:
-    """Draw pressure against distance from the axis of a round contact.
+    """Draw pressure over distance from the axis of a round contact.
 
     Parameters
     ----------
     results : xarray.Dataset
-        What `viscontact.simulate` or `viscontact.open_results` returned, with fields stored, of an
+        From `viscontact.simulate` or `viscontact.open_results`, with fields stored, of an
         indenter that is a body of revolution under a central load.
     times : array_like, optional
         Instants [s]; the nearest stored ones are drawn and named. By default five, from the

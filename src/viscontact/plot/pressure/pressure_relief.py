@@ -1,4 +1,4 @@
-"""The pressure as a surface, smooth up to the rim of the contact."""
+"""Relief of the pressure, smooth up to the rim of the contact."""
 
 from __future__ import annotations
 
@@ -17,33 +17,17 @@ from viscontact.units.formatting import ReadableUnit
 
 Array = NDArray[np.float64]
 
-#: Cells drawn along each axis at most; of more, the largest of a few stands for all of them.
+#: Largest number of cells drawn along each axis; of more, blocks are drawn by their largest value.
 _MOST = 180
-# Between the cells the square of the pressure is linear: it is smooth up to the rim. So many points
-# are drawn along each axis, in so many parts of a cell at most.
+# The square of the pressure is interpolated linearly between the cells: it is smooth up to the rim.
+# Largest number of points along each axis, and of parts of a cell.
 _POINTS, _FINEST = 200, 4
-# A rim farther from a point than this is not seen from there [points].
+# Largest distance over which the rim is extrapolated from a point [points].
 _TRUSTED = 1.5
 
 
 def pressure_relief(snapshot: Snapshot, window: Window, unit: ReadableUnit) -> Relief:
-    """Make a surface of the pressure in contact.
-
-    Parameters
-    ----------
-    snapshot : Snapshot
-        Pressure and gap.
-    window : Window
-        Whose unit lengths are drawn in.
-    unit : ReadableUnit
-        Of the pressure.
-
-    Returns
-    -------
-    Relief
-        Corners at the centres of the cells in contact, as high as their pressure, some in between,
-        and those at the rim, of no height.
-    """
+    """Relief of the pressure in contact, with points between cells and at the rim."""
     thin = thinned(beyond_period(snapshot).with_border(1), _cells_in_one(snapshot))
     squared, x, y = _around_contact(_with_corners(squared_pressure(thin)), thin.x, thin.y)
     parts = max(1, min(_FINEST, _POINTS // max(squared.shape)))
@@ -56,7 +40,7 @@ def pressure_relief(snapshot: Snapshot, window: Window, unit: ReadableUnit) -> R
     points = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1)
     moved = points + _to_rim(squared) * (x[1] - x[0], y[1] - y[0])
     points = np.where(pressed[..., None], points, moved)
-    inside = pressed | _beside(pressed)
+    inside = pressed | _neighbouring(pressed)
     if snapshot.periodic:
         x_low, x_high, y_low, y_high = snapshot.borders()
         inside &= ((x_low <= x) & (x <= x_high))[:, None] & (y_low <= y) & (y <= y_high)
@@ -68,26 +52,26 @@ def pressure_relief(snapshot: Snapshot, window: Window, unit: ReadableUnit) -> R
 
 
 def _around_contact(squared: Array, x: Array, y: Array) -> tuple[Array, Array, Array]:
-    """The part with contact, and a cell more on each side."""
+    """Part with contact, and one cell more on each side."""
     i, j = (np.flatnonzero((squared > 0).any(axis=axis)) for axis in (1, 0))
     rows, columns = slice(max(i[0] - 1, 0), i[-1] + 2), slice(max(j[0] - 1, 0), j[-1] + 2)
     return squared[rows, columns], x[rows], y[columns]
 
 
 def _with_corners(squared: Array) -> Array:
-    """Continue the square linearly to the cells that share but a corner with the contact."""
+    """Continue the square linearly to cells that share only a corner with the contact."""
     total, count = np.zeros_like(squared), np.zeros_like(squared)
     for i, j in ((1, 1), (1, -1), (-1, 1), (-1, -1)):
         inner = np.roll(squared, (i, j), (0, 1))
-        beside = np.roll(squared, i, 0), np.roll(squared, j, 1)
-        known = (squared == 0) & (inner > 0) & (beside[0] < 0) & (beside[1] < 0)
-        total += np.where(known, beside[0] + beside[1] - inner, 0.0)
+        neighbours = np.roll(squared, i, 0), np.roll(squared, j, 1)
+        known = (squared == 0) & (inner > 0) & (neighbours[0] < 0) & (neighbours[1] < 0)
+        total += np.where(known, neighbours[0] + neighbours[1] - inner, 0.0)
         count += known
     return np.where(count > 0, total / np.maximum(count, 1), squared)
 
 
 def _refined(values: Array, parts: int) -> Array:
-    """Interpolate along the first axis, so many parts to each interval."""
+    """Interpolate along the first axis, with `parts` points per interval."""
     at = np.arange((len(values) - 1) * parts + 1) / parts
     lower = np.minimum(at.astype(int), len(values) - 2)
     share = (at - lower).reshape(-1, *[1] * (values.ndim - 1))
@@ -95,7 +79,7 @@ def _refined(values: Array, parts: int) -> Array:
 
 
 def _to_rim(squared: Array) -> Array:
-    """The way from each point to where the square is zero, as its slope tells, in points."""
+    """Distance from each point to the zero of the square by its slope [points]."""
     slope = np.stack([np.gradient(squared, axis=axis) for axis in (0, 1)], axis=-1)
     steepness = np.square(slope).sum(axis=-1, keepdims=True)
     way = -squared[..., None] * slope / np.where(steepness > 0, steepness, np.inf)
@@ -104,7 +88,7 @@ def _to_rim(squared: Array) -> Array:
 
 
 def _cells_in_one(snapshot: Snapshot) -> tuple[int, int]:
-    """How many cells a drawn one stands for, along x and y."""
+    """Number of cells in a drawn one, along x and y."""
     x_low, x_high, y_low, y_high = snapshot.extent()
     dx, dy = snapshot.cell_size
     along, across = (x_high - x_low) / dx, (y_high - y_low) / dy
@@ -112,22 +96,8 @@ def _cells_in_one(snapshot: Snapshot) -> tuple[int, int]:
 
 
 def thinned(snapshot: Snapshot, count: tuple[int, int]) -> Snapshot:
-    """Let the largest pressure and the least gap of so many cells stand for all of them.
+    """Snapshot of blocks of cells, with the largest pressure and the least gap of each.
 
-    Parameters
-    ----------
-    snapshot : Snapshot
-        Pressure and gap.
-    count : tuple of int
-        Along x and along y.
-
-    Returns
-    -------
-    Snapshot
-        Of blocks of cells; what is left over at the upper borders is left out.
-
-    Examples
-    --------
     >>> at = np.arange(5.0)
     >>> pressure = np.arange(25.0).reshape(5, 5)
     >>> thin = thinned(Snapshot(0.0, at, at, pressure, 0 * pressure), (2, 1))
@@ -145,6 +115,6 @@ def thinned(snapshot: Snapshot, count: tuple[int, int]) -> Snapshot:
     return Snapshot(snapshot.time, x, y, pressure.max((1, 3)), gap.min((1, 3)))
 
 
-def _beside(contact: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Which cells share an edge or a corner with one in contact."""
+def _neighbouring(contact: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Mask of the cells that share an edge or a corner with one in contact."""
     return np.asarray(binary_dilation(contact, np.ones((3, 3), dtype=np.bool_)), dtype=np.bool_)

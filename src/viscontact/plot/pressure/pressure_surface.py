@@ -1,4 +1,4 @@
-"""The pressure as a surface in space."""
+"""Pressure as a surface in three dimensions."""
 
 from __future__ import annotations
 
@@ -32,12 +32,12 @@ _COLOURS = ListedColormap(colormaps["YlGnBu"](np.linspace(0.12, 0.95, 256)))
 def pressure_surface(
     results: xr.Dataset, *, times: ArrayLike | None = None, width: Width | None = None
 ) -> Figure:
-    """Draw the pressure as a lit surface over the contact, one panel an instant.
+    """Draw the pressure as a lit surface over the contact, one panel per instant.
 
     Parameters
     ----------
     results : xarray.Dataset
-        What `viscontact.simulate` or `viscontact.open_results` returned, with fields stored.
+        From `viscontact.simulate` or `viscontact.open_results`, with fields stored.
     times : array_like, optional
         Instants [s]; the nearest stored ones are drawn and named. By default the first in
         contact and the last.
@@ -50,7 +50,7 @@ def pressure_surface(
         Panels with common axes; height and colour are the pressure in the cells. The foot of
         the surface runs along the rim of the contact. A long narrow contact is drawn with its
         width stretched by the factor printed. Of grids with more than 180 cells across the
-        contact the largest pressure of a few cells stands for all of them.
+        contact, blocks of cells are drawn by their largest pressure.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""A field over the plane as a lit surface in space."""
+"""Lit surface of a field over the plane."""
 
 from __future__ import annotations
 
@@ -19,39 +19,15 @@ _SHADE = 0.58
 
 @dataclass(frozen=True, eq=False)
 class Relief:
-    """A surface made of quadrilaterals.
-
-    Parameters
-    ----------
-    corners : ndarray
-        Corners of each, shape (n, 4, 3): x, y and height, as drawn.
-    values : ndarray
-        What colours each, shape (n,).
-    """
+    """Quadrilaterals: corners x, y, height, as drawn, shape (n, 4, 3), and values, shape (n,)."""
 
     corners: Array
     values: Array
 
 
 def relief(x: Array, y: Array, height: Array, values: Array, shown: NDArray[np.bool_]) -> Relief:
-    """Make a surface of the quadrilaterals between points of a mesh.
+    """Quadrilaterals between the shown points of a mesh, shape (nx, ny), coloured by mean values.
 
-    Parameters
-    ----------
-    x, y, height : ndarray
-        Of the points, shape (nx, ny), as drawn.
-    values : ndarray
-        What colours the surface, at the points, shape (nx, ny).
-    shown : ndarray of bool
-        Which points there are, shape (nx, ny).
-
-    Returns
-    -------
-    Relief
-        Of the quadrilaterals all of whose corners there are, coloured by their mean.
-
-    Examples
-    --------
     >>> x, y = np.meshgrid([0.0, 1.0, 2.0], [0.0, 1.0], indexing="ij")
     >>> there = np.array([[True, True], [True, True], [True, False]])
     >>> relief(x, y, x + y, x + y, there).values.tolist()
@@ -65,19 +41,7 @@ def relief(x: Array, y: Array, height: Array, values: Array, shown: NDArray[np.b
 
 
 def draw_relief(axes: Axes3D, surface: Relief, colours: Colormap, norm: Normalize) -> None:
-    """Draw a lit surface into axes whose limits and box are set.
-
-    Parameters
-    ----------
-    axes : Axes3D
-        As `viscontact.plot.layout.solid_axes.solid_panels` makes them.
-    surface : Relief
-        What to draw.
-    colours : Colormap
-        For its values.
-    norm : Normalize
-        From values to colours.
-    """
+    """Draw a lit surface into axes whose limits and box are set."""
     paint = colours(norm(surface.values))
     paint[:, :3] *= _brightness(axes, surface.corners)[:, None]
     # Edges of the same colour close the hairlines between neighbours.
@@ -94,7 +58,7 @@ def draw_relief(axes: Axes3D, surface: Relief, colours: Colormap, norm: Normaliz
 
 
 def _brightness(axes: Axes3D, corners: Array) -> Array:
-    """How much light each quadrilateral gets, in the proportions of the drawing."""
+    """Brightness of each quadrilateral, in the proportions of the drawing."""
     limits = np.array([axes.get_xlim(), axes.get_ylim(), axes.get_zlim()])
     scale = np.asarray(axes.get_box_aspect()) / (limits[:, 1] - limits[:, 0])
     placed = corners * scale

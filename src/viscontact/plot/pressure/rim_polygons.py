@@ -1,4 +1,4 @@
-"""The rim of the contact as smooth polygons."""
+"""Rim of the contact as smooth polygons."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from scipy.interpolate import splev, splprep
 from viscontact.contact.body_edge import Outline
 from viscontact.results.snapshots import Snapshot
 
-# Cells beyond the border of a period: a corner of the rim lies up to one and a half cells from
-# where it is traced, is found from the gap a cell around and smoothed with the next corners.
+# Cells beyond the border of a period: a corner of the rim is up to one and a half cells from its
+# traced position, depends on the gap one cell around, and is smoothed with the next corners.
 _BEYOND = 4
-# A rim passes for smooth if a curve that leaves corners aside by this in the mean [cells] does with
-# so few pieces, and so many a corner: Hertz's ellipses and contacts of rollers take 7 to 35, rough
-# contacts and pyramids three times as many as this.
+# Criterion of a smooth rim: mean distance of the curve from the corners [cells], and largest number
+# of its pieces, in total and per corner: Hertz's ellipses and contacts of rollers need 7 to 35,
+# rough contacts and pyramids three times the limit.
 _LOOSE, _PIECES = 0.05, (8, 0.1)
-# It is drawn so much closer, no corner further from it than that [cells], in so many pieces a
-# corner; fewer corners than these tell nothing.
+# Mean and largest distance of the drawn curve from the corners [cells], its pieces per corner, and
+# the least number of corners.
 _CLOSE, _STRAY, _FINER, _ENOUGH = 0.02, 0.2, 6, 16
 
 #: Points on the mesh of cells, shape (n, 2).
@@ -30,65 +30,26 @@ Corners: TypeAlias = NDArray[np.float64]
 
 
 def rim_polygons(snapshot: Snapshot) -> list[NDArray[np.float64]]:
-    """Trace the rim of the contact at one instant, between the cells.
+    """Closed polygons of the rim, shape (n, 2) [m]: one per spot, and per hole in a spot.
 
-    Parameters
-    ----------
-    snapshot : Snapshot
-        Pressure and gap.
-
-    Returns
-    -------
-    list of ndarray
-        One closed polygon for each spot, and each hole in a spot, shape (n, 2) [m]. Contact that
-        crosses the border of a period is followed some cells beyond it and closed there.
-
-    Notes
-    -----
-    Just outside a smooth rim the gap opens as distance^(3/2), whatever the law, so gap^(2/3)
-    is linear there and points back at the rim. Every open cell next to the contact gives one
-    corner: the foot of its steepest descent to zero. Following the gradient keeps the polygon
-    smooth where the rim runs almost along a grid line. Where the body ends, the corner is where
-    it does, or half-way between the cells if that is not known.
-
-    Examples
-    --------
-    A circular rim of radius 9.3, on cells of size 1:
-
-    >>> x = np.arange(-12.5, 13.0)
-    >>> outside = np.hypot(x[:, None], x) - 9.3
-    >>> gap = np.maximum(outside, 0.0) ** 1.5
-    >>> polygon, = rim_polygons(Snapshot(0.0, x, x, 1.0 * (outside < 0), gap))
-    >>> float(np.abs(np.hypot(*polygon.T) - 9.3).max().round(2))
-    0.04
+    Just outside a smooth rim the gap opens as distance^(3/2) for every law, so gap^(2/3) is linear
+    there and points to the rim. Every open cell next to the contact gives one corner: the foot of
+    its steepest descent to zero. Following the gradient keeps the polygon smooth where the rim runs
+    almost along a grid line. Where the body ends, the corner is its end, or half-way between the
+    cells if that is not known. Contact across the border of a period is followed some cells beyond
+    it.
     """
     return [first + cell * _closed(_spread(found)) for found, _, first, cell in _traced(snapshot)]
 
 
 def rim_curves(snapshot: Snapshot) -> list[NDArray[np.float64]]:
-    """Trace the rim of the contact as it is drawn: smooth where it is known to be.
+    """Closed curves of the rim, shape (n, 2) [m]: splines where it is smooth, else the polygons.
 
-    Parameters
-    ----------
-    snapshot : Snapshot
-        Pressure and gap.
-
-    Returns
-    -------
-    list of ndarray
-        Closed, one for each polygon of `rim_polygons`, shape (n, 2) [m]: a periodic cubic spline
-        past the corners that were found, where all of them were found from the gap and the spline
-        passes them as closely as they scatter; else the polygon.
-
-    Notes
-    -----
     Smoothing spline of FITPACK (Dierckx, *Curve and Surface Fitting with Splines*, 1993) with the
-    least number of knots that leaves a part of a cell in the mean square. The corners of Hertz's
-    ellipses are off by 0.02 to 0.05 cells, to both sides, while the polygon lies inside. A rim
-    with corners of its own, or a rough one, needs many knots: it stays a polygon.
+    least number of knots for a mean-square distance of part of a cell from the corners. The corners
+    of Hertz's ellipses are off by 0.02 to 0.05 cells, to both sides, while the polygon lies inside.
+    A rim with corners of its own, or a rough one, needs many knots: it remains a polygon.
 
-    Examples
-    --------
     >>> x = np.arange(-12.5, 13.0)
     >>> outside = np.hypot(x[:, None], x) - 9.3
     >>> gap = np.maximum(outside, 0.0) ** 1.5
@@ -103,8 +64,8 @@ def rim_curves(snapshot: Snapshot) -> list[NDArray[np.float64]]:
 
 
 def _traced(snapshot: Snapshot) -> Iterator[tuple[Corners, bool, Corners, Corners]]:
-    """Corners of each polygon [cells], whether the gap tells all, and the mesh's place [m]."""
-    # Open cells all around close every polygon, at the border of a grid that is not periodic.
+    """Corners of each polygon [cells], whether the gap gives all, and the mesh's place [m]."""
+    # A border of open cells closes every polygon of a grid that is not periodic.
     snapshot = beyond_period(snapshot).with_border(1)
     contact = snapshot.pressure > 0
     offsets = offsets_from_rim(contact, snapshot.gap)
@@ -119,36 +80,15 @@ def _traced(snapshot: Snapshot) -> Iterator[tuple[Corners, bool, Corners, Corner
 
 
 def beyond_period(snapshot: Snapshot) -> Snapshot:
-    """Continue periodic fields as far as the rim and contours at the border depend on.
-
-    Parameters
-    ----------
-    snapshot : Snapshot
-        Pressure and gap.
-
-    Returns
-    -------
-    Snapshot
-        With some cells of the next periods around; as given if it is not periodic.
-    """
+    """Periodic fields with the cells of the next periods that the rim depends on."""
     return snapshot.with_border(_BEYOND) if snapshot.periodic else snapshot
 
 
 def offsets_from_rim(contact: NDArray[np.bool_], gap: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Find the way to each open cell from the rim, as its gap and its neighbours' tell.
+    """Offset of each open cell's centre from the rim [cells], shape (nx, ny, 2).
 
-    Parameters
-    ----------
-    contact : ndarray of bool
-        Cells in contact, shape (nx, ny).
-    gap : ndarray
-        Distance between the bodies, shape (nx, ny) [m].
-
-    Returns
-    -------
-    ndarray
-        Shape (nx, ny, 2) [cells]: from where gap^(2/3), taken as linear around the cell, is
-        zero, to the cell's centre; NaN in contact and where the gap tells nothing.
+    The rim is where gap^(2/3), linear around the cell, is zero; NaN in contact and where that is
+    unknown.
     """
     usable = ~contact & np.isfinite(gap)
     opening = np.where(usable, np.cbrt(np.maximum(np.where(usable, gap, 0.0), 0.0)) ** 2, np.nan)
@@ -160,18 +100,7 @@ def offsets_from_rim(contact: NDArray[np.bool_], gap: NDArray[np.float64]) -> ND
 
 
 def rim_path(polygons: Iterable[NDArray[np.float64]]) -> Path:
-    """Make one closed path of all polygons of a rim.
-
-    Parameters
-    ----------
-    polygons : iterable of ndarray
-        What `rim_polygons` returned, in the axes' unit.
-
-    Returns
-    -------
-    matplotlib.path.Path
-        Spots, with the holes in them left out.
-    """
+    """Closed path of all polygons of a rim, without the holes in spots."""
     return Path.make_compound_path(*(Path(polygon, closed=True) for polygon in polygons))
 
 
@@ -191,12 +120,12 @@ def _moved(
     offsets: NDArray[np.float64],
     body_end: Outline | None,
 ) -> tuple[Corners, bool]:
-    """Corners half-way between cells moved onto the rim, once for each open cell [cells]."""
+    """Corners half-way between cells, moved onto the rim, once for each open cell [cells]."""
     before, after = np.floor(corners).astype(int), np.ceil(corners).astype(int)
     starts_inside = contact[tuple(before.T)][:, None]
     inner, outer = np.where(starts_inside, before, after), np.where(starts_inside, after, before)
     offset = offsets[tuple(outer.T)]
-    # More than a cell and a half away is no rim but a gap that does not open steadily.
+    # Beyond a cell and a half there is no rim, but a gap that does not open monotonically.
     trusted = np.linalg.norm(offset, axis=1) <= 1.5
     on_line = inner + _share_to_end(before, after, body_end)[:, None] * (outer - inner)
     moved = np.where(trusted[:, None], outer - offset, on_line)
@@ -205,7 +134,7 @@ def _moved(
 
 
 def _spread(polygon: Corners) -> Corners:
-    """Share what is left of the staircase, under a tenth of a cell, with the neighbours."""
+    """Smooth the remaining steps, below a tenth of a cell, over neighbouring corners."""
     smooth: Corners = (np.roll(polygon, 1, axis=0) + 2 * polygon + np.roll(polygon, -1, axis=0)) / 4
     return smooth
 
@@ -215,7 +144,7 @@ def _closed(polygon: Corners) -> Corners:
 
 
 def _spline(polygon: Corners) -> Corners:
-    """A smooth closed curve past the corners, or the polygon if there is none [cells]."""
+    """Smooth closed curve past the corners, or the polygon if there is none [cells]."""
     if len(polygon) >= _ENOUGH:
         corners = _closed(polygon)
         along = np.append(0.0, np.cumsum(np.hypot(*np.diff(corners, axis=0).T)))
@@ -229,7 +158,7 @@ def _spline(polygon: Corners) -> Corners:
 
 
 def _fitted(corners: Corners, along: NDArray[np.float64], scatter: float) -> Any:
-    """A periodic spline that leaves corners aside by so much in the mean square [cells]."""
+    """Periodic spline with a given mean-square distance from the corners [cells]."""
     left = len(corners) * scatter**2
     (spline, _), *_ = splprep(corners.T, u=along, per=1, s=left, full_output=1, quiet=2)
     return spline
@@ -238,7 +167,7 @@ def _fitted(corners: Corners, along: NDArray[np.float64], scatter: float) -> Any
 def _share_to_end(
     before: NDArray[np.int_], after: NDArray[np.int_], body_end: Outline | None
 ) -> NDArray[np.float64]:
-    """How far from the inner to the outer cell the body reaches, a half if not known."""
+    """Position of the end of the body between the inner and outer cell, 0.5 if unknown."""
     share = np.full(len(before), 0.5)
     if body_end is not None:
         along_x = after[:, 0] > before[:, 0]

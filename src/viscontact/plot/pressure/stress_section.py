@@ -25,49 +25,33 @@ from viscontact.units.formatting import ReadableUnit, format_quantity, readable_
 
 _NAME = "stress-section"
 
-#: The section is drawn to so many half widths of the contact, in depth and to each side.
+#: Depth of the section, and its extent to each side, in half widths of the contact.
 _DEEP, _ASIDE = 2.0, 2.0
 _DEPTHS = 61
-#: A section that is as deep as wide, because the grid ends beside the contact, is so high [inch].
+#: Height of a section that is as deep as wide, because the grid ends near the contact [inch].
 _HIGHEST = 2.2
-# Pressures within so much of each other are equal to what runs are solved to.
+# Relative difference of equal pressures, from the tolerance of runs.
 _EQUAL = 1e-5
 
 
 @dataclass(frozen=True)
 class Section:
-    """Von Mises stress on the plane across the contact through its largest pressure.
+    """Von Mises stress on the plane across the contact through its largest pressure."""
 
-    Parameters
-    ----------
-    time : float
-        The instant [s].
-    across : ndarray, shape (n,)
-        Positions across the contact, along its shorter extent [m].
-    depths : ndarray, shape (m,)
-        Depths below the surface [m].
-    stress : ndarray, shape (m, n)
-        Von Mises stress [Pa].
-    axis : {"x", "y"}
-        Which way `across` goes.
-    half_width : float
-        Of the largest contact shown, along that axis [m].
-    """
-
-    time: float
-    across: NDArray[np.float64]
-    depths: NDArray[np.float64]
-    stress: NDArray[np.float64]
-    axis: str
-    half_width: float
+    time: float  # [s]
+    across: NDArray[np.float64]  # positions along the shorter extent of the contact [m], shape (n,)
+    depths: NDArray[np.float64]  # [m], shape (m,)
+    stress: NDArray[np.float64]  # [Pa], shape (m, n)
+    axis: str  # of `across`, "x" or "y"
+    half_width: float  # of the largest shown contact along that axis [m]
 
     @property
     def largest(self) -> tuple[float, float, float]:
-        """Largest stress [Pa], and where: depth and position across [m]."""
+        """Largest stress [Pa], and its depth and position across [m]."""
         row, column = np.unravel_index(int(self.stress.argmax()), self.stress.shape)
         depth = float(self.depths[row])
         if 0 < row < len(self.depths) - 1:
-            # The vertex of a parabola: depths in steps would make steps over time.
+            # Vertex of a parabola: discrete depths would give steps over time.
             before, here, after = self.stress[row - 1 : row + 2, column]
             step = self.depths[1] - self.depths[0]
             depth += float(step * (before - after) / (2 * (before - 2 * here + after)))
@@ -77,12 +61,12 @@ class Section:
 def stress_section(
     results: xr.Dataset, *, times: ArrayLike | None = None, width: Width | None = None
 ) -> Figure:
-    """Draw contours of von Mises stress below the contact, one panel an instant.
+    """Draw contours of von Mises stress below the contact, one panel per instant.
 
     Parameters
     ----------
     results : xarray.Dataset
-        What `viscontact.simulate` or `viscontact.open_results` returned, with fields stored.
+        From `viscontact.simulate` or `viscontact.open_results`, with fields stored.
     times : array_like, optional
         Instants [s]; the nearest stored ones are drawn. By default the first in contact and the
         last.
@@ -116,7 +100,7 @@ def stress_section(
     stress = readable_unit("Pa", max(section.largest[0] for section in sections))
     levels = _levels(sections, stress)
     wide = page_width(width, style.ONE_COLUMN)
-    # Beside a colour bar, below a heading of two lines: one would not have the room.
+    # Next to a colour bar, below a heading of two lines: one line would be too long.
     shape = sections[0].depths[-1] / float(np.ptp(sections[0].across))
     height = 0.45 + (min(shape * (wide - 1.3), _HIGHEST) + 0.42) * len(sections)
     figure = style.new_figure(wide, height, fixed_aspect=True)
@@ -126,21 +110,21 @@ def stress_section(
         drawn, lines = _draw(axes, section, levels, length, stress)
         contours.append(lines)
         largest, depth, _ = section.largest
-        said = f"largest {format_quantity(largest, 'Pa', 3)}, {format_quantity(depth, 'm', 3)} deep"
-        # Below an infinite pressure the stress has no largest value either.
-        style.add_heading(axes, f"t = {label}\n{peak_note([results], [section.time]) or said}")
+        note = f"largest {format_quantity(largest, 'Pa', 3)}, {format_quantity(depth, 'm', 3)} deep"
+        # Below an infinite pressure the largest stress is infinite too.
+        style.add_heading(axes, f"t = {label}\n{peak_note([results], [section.time]) or note}")
     panels[-1].set_xlabel(length.label(sections[-1].axis))
     bar = figure.colorbar(drawn, ax=panels.tolist(), shrink=0.9, aspect=25, pad=0.02)
     bar.set_label(stress.label("Von Mises stress"), size=style.LABEL_SIZE, color=style.INK)
     bar.ax.tick_params(labelsize=style.TICK_SIZE, width=style.THIN_LINE, length=2.5)
-    figure.draw_without_rendering()  # Only now the room for labels is known.
+    figure.draw_without_rendering()  # The layout gives the room for labels.
     for axes, lines in zip(panels, contours, strict=True):
         label_contours(axes, lines, {level: f"{level:g}" for level in lines.levels})
     return figure
 
 
 def stress_sections(snapshots: list[Snapshot], grid: Grid, poisson_ratio: float) -> list[Section]:
-    """Return the sections at those of the instants at which the bodies touch."""
+    """Sections at the given instants with contact."""
     touching = [snapshot for snapshot in snapshots if snapshot.touching]
     half_width = max(_half_width(snapshot) for snapshot in touching)
     return [_section(snapshot, grid, half_width, poisson_ratio) for snapshot in touching]
@@ -151,13 +135,13 @@ def _half_width(snapshot: Snapshot) -> float:
     half_width = min(right - left, back - front) / 2
     if not snapshot.periodic:
         return half_width
-    # Contact across the border has no width: the section is drawn as wide as the period then.
+    # Contact across the border has no width: the section is as wide as the period.
     x_low, x_high, y_low, y_high = snapshot.borders()
     return min(half_width, min(x_high - x_low, y_high - y_low) / (2 * _ASIDE))
 
 
 def _section(snapshot: Snapshot, grid: Grid, half_width: float, poisson_ratio: float) -> Section:
-    """The section as deep as the largest contact of all that are shown asks for."""
+    """Section at one instant, as deep as the largest shown contact requires."""
     left, right, front, back = snapshot.extent()
     is_long = right - left >= back - front
     i, j = _place_of_peak(snapshot)
@@ -178,7 +162,7 @@ def _section(snapshot: Snapshot, grid: Grid, half_width: float, poisson_ratio: f
 
 
 def _place_of_peak(snapshot: Snapshot) -> tuple[int, int]:
-    """The cell of the largest pressure; of equal crests, but for rounding, the middle one."""
+    """Cell of the largest pressure; the middle one of equal peaks, up to rounding."""
     i, j = np.nonzero(snapshot.pressure >= (1 - _EQUAL) * snapshot.pressure.max())
     nearest = int(np.hypot(snapshot.x[i], snapshot.y[j]).argmin())
     return int(i[nearest]), int(j[nearest])
@@ -197,7 +181,7 @@ def _draw(
     length: ReadableUnit,
     stress: ReadableUnit,
 ) -> tuple[QuadContourSet, QuadContourSet]:
-    """The filled contours and their lines."""
+    """Draw filled contours and their lines."""
     across, depths = length(section.across), length(section.depths)
     colours = style.pressure_colours(len(levels) - 1)
     values = stress(section.stress)
