@@ -1,4 +1,4 @@
-"""The runs that the benchmarks time: the paper's rollers, and a creeping sphere."""
+"""Cases of the benchmarks: the paper's rollers."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ PMMA = vc.CreepSeries(5.545e-10, [6.17e-11, 8.38e-11], [10.0, 133.87])
 
 @dataclass(frozen=True)
 class Case:
-    """All that `vc.march` is asked, but the tolerance."""
+    """Arguments of `vc.march` except the tolerance."""
 
     indenter: vc.Indenter
     material: vc.Material

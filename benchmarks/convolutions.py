@@ -1,4 +1,4 @@
-"""One convolution of each kind, in CPU milliseconds: free, halved, quartered, single, by library.
+"""CPU time [ms] of one convolution: free, halved, quartered, in single precision, by library.
 
 python benchmarks/convolutions.py [--cells 128 256 512 1024]
 """
@@ -21,13 +21,13 @@ MIRRORED = ((False, False), (False, True), (True, True))
 
 
 def least(act: Callable[[], object]) -> float:
-    """CPU time [ms] of the fastest of many."""
+    """Minimum CPU time [ms] of many calls."""
     act()
     return 1e3 * min(seconds_of(act) for _ in range(REPEATS))
 
 
 def costs(cells: int, transforms: Transforms) -> list[float]:
-    """Of the free, the halved and the quartered one, double and single; of a preconditioner."""
+    """CPU times [ms]: free, halved, quartered, each in double and single; a preconditioner."""
     table = influence_table((cells, cells), (1.0, 1.0))
     found = []
     for mirrored in MIRRORED:

@@ -1,11 +1,10 @@
-"""Where the time of the roller's run goes: by part of the step, and counted.
+"""Time and memory traffic of the parts of the roller's run.
 
-The parts are timed exclusively (what a part calls is not its own), in CPU time, by clocks around
-functions of the package; the clocks themselves cost about 1 us a call. In a further run what each
-part reads and writes is counted (passes.py) in fields: all cells that are worked with, in double
-precision, so that an addition of two into a third moves 3; and how many arrays of at least an
-eighth of such a field are made. Page faults tell what of these the operating system had to hand out
-anew.
+The parts are timed exclusively (without the parts that they call), in CPU time, by timers around
+functions of the package; a timer costs about 1 us per call. A further run counts the memory
+traffic of each part (passes.py) in fields: one value in double precision on all computed cells, so
+an addition of two fields into a third moves 3. It also counts the new arrays of at least an eighth
+of such a field. Page faults give the part of this memory that the operating system newly provided.
 
     python benchmarks/cost_model.py [--tolerance 1e-5 1e-6 1e-8] [--cells 256 256] [--steps 120]
 """
@@ -39,28 +38,34 @@ from viscontact.simulation.setup import prepare_run
 from viscontact.simulation.state_generator import march_run
 from viscontact.time_integration.internal_variables import InternalVariables
 
-#: Part of a step, and the functions that make it up: where they are looked up, and their names.
+#: Parts of a step, and their functions: the module or class, and the name.
 PARTS: tuple[tuple[str, tuple[tuple[Any, str], ...]], ...] = (
-    ("operators: made", ((domain.ContactDomain, "__init__"), (domain.ContactDomain, "_patch"))),
+    ("operators: set-up", ((domain.ContactDomain, "__init__"), (domain.ContactDomain, "_patch"))),
     ("convolution", ((convolution.Convolution, "apply"),)),
     ("preconditioner", ((preconditioner.Preconditioner, "apply"),)),
     (
-        "measure: gap and error",
+        "residual: gap and error",
         ((conjugate_gradients, "contact_residual"), (equilibrium, "contact_residual")),
     ),
     ("directions: project, inner products", ((conjugate_gradients.BoundedCG, "_advance"),)),
     (
-        "step: move, cut, balance",
+        "step: move, truncate, equilibrium",
         ((conjugate_gradients.BoundedCG, "_step"), (conjugate_gradients.BoundedCG, "__init__")),
     ),
-    ("solve: embed, certify, balance", ((stepper, "solve_contact"),)),
-    ("cold start", ((equilibrium, "winkler_contact"), (winkler, "winkler_contact"))),
-    ("memory: ask", ((InternalVariables, "ramp"), (InternalVariables, "jump"))),
-    ("memory: accept", ((InternalVariables, "accept"),)),
-    ("prediction", ((stepper, "predict"), (stepper, "_guess"))),
-    ("twin and time error", ((stepper.Stepper, "_trial_step"), (stepper.Stepper, "accept"))),
+    ("solve: embed, verify, equilibrium", ((stepper, "solve_contact"),)),
+    ("first initial guess", ((equilibrium, "winkler_contact"), (winkler, "winkler_contact"))),
+    ("hereditary integral: evaluate", ((InternalVariables, "ramp"), (InternalVariables, "jump"))),
+    ("hereditary integral: update", ((InternalVariables, "accept"),)),
+    ("initial guess", ((stepper, "predict"), (stepper, "_guess"))),
+    (
+        "elastic reference and time error",
+        ((stepper.Stepper, "_trial_step"), (stepper.Stepper, "accept")),
+    ),
     ("state: unfold", ((stepper, "_on_full_grid"),)),
-    ("state: rim, area, work, warnings", ((Observer, "evaluate"), (Observer, "add_warnings"))),
+    (
+        "state: contact edge, area, work, warnings",
+        ((Observer, "evaluate"), (Observer, "add_warnings")),
+    ),
     ("preparation", ((vc.march.__globals__["prepare_run"].__globals__, "prepare_run"),)),
 )
 
@@ -74,7 +79,7 @@ class Clocks:
     moved: Counter[str] = field(default_factory=Counter)
     made: Counter[str] = field(default_factory=Counter)
     counts_from: float = np.inf
-    _running: list[str] = field(default_factory=lambda: ["the rest"])
+    _running: list[str] = field(default_factory=lambda: ["other"])
     _since: float = 0.0
 
     def start(self) -> None:
@@ -89,8 +94,8 @@ class Clocks:
         self._charge()
         self._running.pop()
 
-    def hear(self, moved: int, made: int) -> None:
-        """Bytes that were read or written now, and those of a new array."""
+    def count(self, moved: int, made: int) -> None:
+        """Count bytes that were read or written, and the bytes of a new array."""
         self.moved[self._running[-1]] += moved
         self.made[self._running[-1]] += made >= self.counts_from
 
@@ -120,7 +125,7 @@ def _precision(operator: Any) -> str:
 
 @contextmanager
 def clocks_around_parts(clocks: Clocks) -> Iterator[None]:
-    """Put the clocks in, and take them out again."""
+    """Install the timers, and remove them at the end."""
     before = []
     for part, functions in PARTS:
         for owner, name in functions:
@@ -138,7 +143,7 @@ def clocks_around_parts(clocks: Clocks) -> Iterator[None]:
 
 @dataclass(frozen=True)
 class Costs:
-    """What a run cost: seconds [s] and calls by part, iterations, new memory [bytes]."""
+    """Cost of a run: CPU time [s] and calls by part, iterations, new memory [bytes]."""
 
     seconds: Counter[str]
     calls: Counter[str]
@@ -166,19 +171,19 @@ def costs_of(case: Case, tolerance: float) -> Costs:
 
 @dataclass(frozen=True)
 class Counts:
-    """By part: fields of the cells that are worked with, moved, and arrays made; both a step."""
+    """Fields moved and arrays created per step, by part."""
 
     moved: dict[str, float]
     made: dict[str, float]
 
 
 def counts_of(case: Case, tolerance: float) -> Counts:
-    """Take the run again, and count what its parts do with memory."""
+    """Repeat the run, and count the memory traffic of its parts."""
     given = (case.indenter, case.material, case.load, case.grid, case.times)
     run = prepare_run(*given, tolerance=tolerance)
     cell_count = np.prod(case.grid.shape) / 2 ** sum(run.mirrored)
     clocks = Clocks(counts_from=cell_count)  # bytes: an eighth of a field of doubles
-    with clocks_around_parts(clocks), counted(clocks.hear):
+    with clocks_around_parts(clocks), counted(clocks.count):
         steps = sum(1 for _ in march_run(run))
     return Counts(
         {part: moved / (8 * cell_count * steps) for part, moved in clocks.moved.items()},
@@ -202,8 +207,8 @@ def table(costs: Costs, counts: Counts, case: Case, reference: float) -> str:
         f"{'all':44} {'':10} {costs.total * per_step:8.3f} {'':10}"
         f" {sum(counts.moved.values()):13.1f} {sum(counts.made.values()):12.1f}\n"
         f"{costs.total:.2f} s, {costs.total / reference:.0f} reference convolutions,"
-        f" {costs.iterations / costs.steps:.2f} iterations a step;"
-        f" new memory a step: {fields:.1f} fields of the whole grid"
+        f" {costs.iterations / costs.steps:.2f} iterations per step;"
+        f" new memory per step: {fields:.1f} fields of the whole grid"
     )
     return "\n".join(lines)
 

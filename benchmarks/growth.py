@@ -1,7 +1,7 @@
-"""How a run's cost grows: with cells, steps, exponentials of the law, rows of a measured table.
+"""Growth of the cost of a run with cells, steps, exponentials of the law, rows of a table.
 
 The paper's roller (crown 75 mm, e/L = 0.5) at tolerance 1e-6, from the preparation to the last
-state; CPU time, and reference convolutions for a step.
+state. Prints CPU time, and reference convolutions per step.
 
     python benchmarks/growth.py [cells steps terms rows]
 """
@@ -22,13 +22,13 @@ BASE_CELLS, BASE_STEPS = (128, 128), 120
 
 
 def series(terms: int) -> vc.Law:
-    """PMMA's creep, spread over as many exponentials between 1 s and 1000 s."""
+    """PMMA's creep, distributed over exponentials with times between 1 s and 1000 s."""
     amplitude = (6.17e-11 + 8.38e-11) / terms
     return vc.CreepSeries(5.545e-10, [amplitude] * terms, np.geomspace(1.0, 1000.0, terms))
 
 
 def measured(rows: int) -> vc.Law:
-    """PMMA's creep as a table of that many rows."""
+    """PMMA's creep as a table with the given number of rows."""
     times = np.concatenate([[0.0], np.geomspace(1e-2, 2000.0, rows - 1)])
     return vc.TabulatedCreep(times, PMMA(times))
 

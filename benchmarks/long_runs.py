@@ -1,8 +1,8 @@
-"""Cost of a step and memory in use, along a run of many steps of a law that is no series.
+"""Cost per step and memory during a run of many steps, for a law that is not a series.
 
-Such a law remembers by the sum over all earlier steps as long as these are few, and by a sum of
-exponentials, within a stated bound, beyond: neither the step's cost nor the memory may grow with
-the number of steps behind.
+For such a law the hereditary integral is a sum over all earlier steps if these are few, and a
+Prony series within a stated error bound otherwise. Neither the cost of a step nor the memory may
+grow with the number of previous steps.
 
     python benchmarks/long_runs.py [--cells 64] [--steps 10000]
 """
@@ -22,7 +22,7 @@ from viscontact.simulation.setup import prepare_run
 RADIUS, FORCE, PERIOD = 0.01, 10.0, 100.0
 LAW = vc.FractionalZener(1.5e9, 5e8, 100.0, 0.5)
 
-#: Steps behind at which figures are printed, and steps over which they are means.
+#: Numbers of steps at which results are printed, and number of steps for their means.
 REPORTS, MEAN_OVER = (100, 300, 1000, 2000, 5000, 10000), 100
 
 

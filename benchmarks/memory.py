@@ -1,8 +1,8 @@
-"""The largest memory of `viscontact run`, with all fields of all steps written as they come.
+"""Peak memory of `viscontact run` when all fields of all steps are written during the run.
 
-The paper's roller at e/L = 0.5, on grids and over steps of several sizes, each in a fresh process;
-what the bare program takes (a small grid, two steps) is taken off. Next to it: what the output
-takes on disk, which is not held in memory, and what `viscontact check` foretells.
+The paper's roller at e/L = 0.5, with several numbers of cells and steps, each in a new process.
+The memory of the program itself (a small grid, two steps) is subtracted. Also printed: the size
+of the output on disk, which is not kept in memory, and the memory that `viscontact check` predicts.
 
     python benchmarks/memory.py [--runs 512x512x120 2048x2048x50]
 """
@@ -19,7 +19,7 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-# No NumPy here: a child's largest memory counts from what its parent had when it was forked.
+# No NumPy here: the peak memory of a child includes the memory of its parent at the fork.
 
 CASE = "roller-dogbone-e05"
 LIMITS = {"512x512x120": 300e6, "2048x2048x50": 16e9}
@@ -36,14 +36,14 @@ class Memory:
 
 
 def settings(size: str) -> list[str]:
-    """The case's words for "512x512x120", cells along x and y and steps."""
+    """Options of the case for "512x512x120": cells along x and y, and steps."""
     nx, ny, steps = size.split("x")
     words = (f"grid.shape=[{nx}, {ny}]", f"time.steps={steps}", "output.fields=all")
     return [each for word in words for each in ("--set", word)]
 
 
 def measure(case: Path, size: str, directory: Path) -> Memory:
-    """Run it, and see what it took."""
+    """Run the case and measure memory, output and time."""
     target = directory / size
     words = ["-m", "viscontact", "run", str(case), *settings(size), "-q", "-o", str(target)]
     begun = time.perf_counter()
@@ -57,8 +57,8 @@ def measure(case: Path, size: str, directory: Path) -> Memory:
     return Memory(used.ru_maxrss * unit, output, time.perf_counter() - begun)
 
 
-def foretold(case: Path, size: str) -> str:
-    """What `check` says a run takes."""
+def predicted(case: Path, size: str) -> str:
+    """Memory that `check` predicts for a run."""
     words = ["-m", "viscontact", "check", str(case), *settings(size)]
     done = subprocess.run([sys.executable, *words], text=True, capture_output=True, check=True)
     found = re.search(r"([\d.]+ [MG]B)", done.stdout)
@@ -75,15 +75,15 @@ def main() -> None:
         example = [sys.executable, "-m", "viscontact", "example", CASE, "-o", str(case)]
         subprocess.run(example, check=True, capture_output=True)
         bare = measure(case, BARE, directory).peak
-        print(f"the bare program takes {bare / 1e6:.0f} MB; a run beyond that:")
+        print(f"the program itself takes {bare / 1e6:.0f} MB; additional memory of a run:")
         print(
-            f"{'cells and steps':18}{'MB':>7}{'limit':>8}{'foretold':>10}{'output MB':>11}{'s':>7}"
+            f"{'cells and steps':18}{'MB':>7}{'limit':>8}{'predicted':>10}{'output MB':>11}{'s':>7}"
         )
         for size in sizes:
             run = measure(case, size, directory)
             limit = f"{LIMITS[size] / 1e6:.0f}" if size in LIMITS else ""
             print(
-                f"{size:18}{(run.peak - bare) / 1e6:7.0f}{limit:>8}{foretold(case, size):>10}"
+                f"{size:18}{(run.peak - bare) / 1e6:7.0f}{limit:>8}{predicted(case, size):>10}"
                 f"{run.output / 1e6:11.0f}{run.seconds:7.0f}",
                 flush=True,
             )

@@ -1,9 +1,9 @@
-"""Passes over memory and arrays made, counted: by arrays that tell when they are read or written.
+"""Count passes over memory and new arrays, by instrumented NumPy arrays.
 
-While `counted` holds, arrays that NumPy makes for the package tell of every ufunc, NumPy function,
-assignment and copy that reads or writes them, and the transforms of what they are given. Bytes are
-those of the arrays named: what a function of NumPy takes in between, and what caches spare, is not
-seen. Views cost nothing, and what is broadcast counts once.
+Within the context `counted`, arrays that NumPy creates for the package report every ufunc, NumPy
+function, assignment and copy that reads or writes them; transforms report their arguments. The
+bytes are those of these arrays: temporary memory inside NumPy functions and the effect of caches
+are not included. Views cost nothing, and broadcast axes count once.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import numpy as np
 
 from viscontact.fourier import Transforms
 
-#: What makes arrays of nothing, or hands them back without their kind.
+#: Functions that create arrays, or return them without their subclass.
 MADE = ("zeros", "empty", "ones", "full", "array", "asarray", "ascontiguousarray", "empty_like")
 TRANSFORMS = (
     "real_forth",
@@ -28,20 +28,20 @@ TRANSFORMS = (
     "cosine_back",
 )
 
-#: Is told bytes that were moved, and the bytes of a new array (0: none).
-Tell = Callable[[int, int], None]
+#: Called with the bytes moved and the bytes of a new array (0: none).
+Report = Callable[[int, int], None]
 
 
 @dataclass
 class _Listener:
-    tell: Tell | None = None
+    report: Report | None = None
 
 
 _LISTENER = _Listener()
 
 
-class Told(np.ndarray):
-    """An array that tells of what is done with it."""
+class TracedArray(np.ndarray):
+    """Array that reports the operations on it."""
 
     def __array_ufunc__(
         self, ufunc: Any, method: str, *inputs: Any, out: Any = None, **options: Any
@@ -50,49 +50,49 @@ class Told(np.ndarray):
             options["out"] = tuple(map(plain, out))
         options = plain(options)
         result = getattr(ufunc, method)(*map(plain, inputs), **options)
-        tell([*inputs, options.get("where")], result, is_new=out is None)
-        return out[0] if out is not None and len(out) == 1 else told(result)
+        report([*inputs, options.get("where")], result, is_new=out is None)
+        return out[0] if out is not None and len(out) == 1 else traced(result)
 
     def __array_function__(self, function: Any, types: Any, args: Any, kwargs: Any) -> Any:
         arrays = list(arrays_in((args, kwargs)))
         result = function(*plain(args), **plain(kwargs))
         if not any(shares(result, each) for each in arrays):
-            tell(arrays, result, is_new=True)
-        return told(result)
+            report(arrays, result, is_new=True)
+        return traced(result)
 
     def __getitem__(self, index: Any) -> Any:
         result = plain(self)[plain(index)]
         if not shares(result, self):
-            tell([result], result, is_new=True)
-        return told(result)
+            report([result], result, is_new=True)
+        return traced(result)
 
     def __setitem__(self, index: Any, value: Any) -> None:
         index = plain(index)
         plain(self)[index] = plain(value)
-        tell([value], plain(self)[index], is_new=False)
+        report([value], plain(self)[index], is_new=False)
 
     def copy(self, order: str = "C") -> Any:
         result = plain(self).copy(order)
-        tell([self], result, is_new=True)
-        return told(result)
+        report([self], result, is_new=True)
+        return traced(result)
 
     def astype(self, kind: Any, **options: Any) -> Any:
         result = plain(self).astype(kind, **options)
-        tell([self], result, is_new=True)
-        return told(result)
+        report([self], result, is_new=True)
+        return traced(result)
 
 
 def is_array(value: Any) -> bool:
     return isinstance(value, np.ndarray) and value.ndim > 0
 
 
-def told(value: Any) -> Any:
-    return value.view(Told) if is_array(value) and value.dtype != object else value
+def traced(value: Any) -> Any:
+    return value.view(TracedArray) if is_array(value) and value.dtype != object else value
 
 
 def plain(value: Any) -> Any:
-    """The same without arrays that tell."""
-    if isinstance(value, Told):
+    """Return a value with plain arrays in place of instrumented ones."""
+    if isinstance(value, TracedArray):
         return value.view(np.ndarray)
     if type(value) in (tuple, list):
         return type(value)(map(plain, value))
@@ -113,23 +113,23 @@ def shares(result: Any, array: np.ndarray) -> bool:
     return is_array(result) and bool(np.may_share_memory(plain(result), plain(array)))
 
 
-def tell(read: list[Any], result: Any, *, is_new: bool, is_written: bool = True) -> None:
-    if _LISTENER.tell is None:
+def report(read: list[Any], result: Any, *, is_new: bool, is_written: bool = True) -> None:
+    if _LISTENER.report is None:
         return
     moved = [*read, result] if is_written else read
     new = size_of(result) if is_new and is_array(result) else 0
-    _LISTENER.tell(sum(size_of(each) for each in moved if is_array(each)), new)
+    _LISTENER.report(sum(size_of(each) for each in moved if is_array(each)), new)
 
 
 def size_of(array: np.ndarray) -> int:
-    """Bytes of an array, counted once along axes that it is broadcast over."""
+    """Bytes of an array; broadcast axes count once."""
     counts = (n for n, stride in zip(array.shape, array.strides, strict=True) if stride)
     return array.itemsize * int(np.prod(list(counts)))
 
 
 @contextmanager
-def counted(listener: Tell) -> Iterator[None]:
-    """Let the listener hear of all that is done with arrays that are made meanwhile."""
+def counted(listener: Report) -> Iterator[None]:
+    """Report all operations on arrays created within the context to the listener."""
     replaced: list[tuple[Any, str, Any]] = []
 
     def replace(owner: Any, name: str, by: Callable[..., Any]) -> None:
@@ -141,11 +141,11 @@ def counted(listener: Tell) -> Iterator[None]:
     for kind in Transforms.__subclasses__():
         for name in TRANSFORMS:
             replace(kind, name, _transforming(getattr(kind, name)))
-    _LISTENER.tell = listener
+    _LISTENER.report = listener
     try:
         yield
     finally:
-        _LISTENER.tell = None
+        _LISTENER.report = None
         for owner, name, original in reversed(replaced):
             setattr(owner, name, original)
 
@@ -155,10 +155,10 @@ def _making(make: Callable[..., Any]) -> Callable[..., Any]:
         result = make(*plain(args), **plain(kwargs))
         given = list(arrays_in(args))
         if make.__name__.startswith("empty"):
-            tell([], result, is_new=True, is_written=False)
+            report([], result, is_new=True, is_written=False)
         elif not any(shares(result, each) for each in given):
-            tell(given, result, is_new=True)
-        return told(result)
+            report(given, result, is_new=True)
+        return traced(result)
 
     return made
 
@@ -168,7 +168,7 @@ def _transforming(transform: Callable[..., Any]) -> Callable[..., Any]:
         result = transform(self, plain(field), *plain(rest), **plain(kwargs))
         known = [field, *arrays_in(rest)]
         is_new = not any(shares(result, each) for each in known)
-        tell([field], result, is_new=is_new)
-        return told(result)
+        report([field], result, is_new=is_new)
+        return traced(result)
 
     return transformed

@@ -1,17 +1,17 @@
-"""The published algorithm, as in the paper: what the package is measured against.
+"""The published algorithm, as in the paper: the baseline for the speed of the package.
 
-S. Spinu, D. Cerlinca (2018): in every step the contact is found by Polonsky and Keer's conjugate
-gradients, with the moments balanced along with the force; displacements are zero-padded discrete
-convolutions by FFT; pressure is constant over a step, so that the displacement owed to the past is
-a sum over all earlier steps (eq. 12), a convolution each. Nothing here is faster than it was
-published: the past is convolved anew in every step, every search starts from the last pressure,
-each of its iterations takes two convolutions, and nothing is preconditioned.
+S. Spinu, D. Cerlinca (2018): in every step the contact is computed by the conjugate gradient method
+of Polonsky and Keer, with equilibrium of the moments and the force. Displacements are zero-padded
+discrete convolutions by FFT. The pressure is constant over a step, so the displacement due to past
+pressures is a sum over all earlier steps (eq. 12), with one convolution each. The algorithm is
+implemented as published: in every step the past is convolved again, the iteration starts from the
+last pressure, each iteration needs two convolutions, and there is no preconditioner.
 
     python benchmarks/published.py [--steps 120] [--taken 3] [--cells 256 256]
 
-A whole run takes minutes to hours. Only the first steps are taken, and the rest is estimated: the
-convolutions of the past are as many as there are earlier steps, those of a search are taken from
-the last step that was taken.
+A whole run takes minutes to hours. Only the first steps are computed, and the rest is estimated:
+the convolutions of the past are equal to the number of earlier steps, and those of an iteration are
+taken as in the last computed step.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ MOST_ITERATIONS = 2000
 
 @dataclass
 class PlainConvolution:
-    """Displacement under a pressure per unit compliance, by one zero-padded FFT there and back."""
+    """Displacement per unit compliance due to a pressure, by a zero-padded FFT and its inverse."""
 
     shape: tuple[int, int]
     cell_size: tuple[float, float]
@@ -42,7 +42,7 @@ class PlainConvolution:
 
     def __post_init__(self) -> None:
         distances = [np.minimum(np.arange(2 * n), 2 * n - np.arange(2 * n)) for n in self.shape]
-        # Twice the block: the offset of a whole block is never read.
+        # The table is mirrored; the offset of a whole block is never read.
         near, across = (np.minimum(d, n - 1) for d, n in zip(distances, self.shape, strict=True))
         table = influence_table(self.shape, self.cell_size)
         self._spectrum = fft.rfft2(table[near[:, None], across[None, :]])
@@ -59,7 +59,7 @@ class PlainConvolution:
 
 @dataclass(frozen=True, eq=False)
 class Balance:
-    """Planes over the cells, and the force and moments [N, N m] that the pressure must have."""
+    """Planes over the cells, and the force [N] and moments [N m] of the pressure."""
 
     x: np.ndarray
     y: np.ndarray
@@ -68,7 +68,7 @@ class Balance:
     eccentricity: tuple[float, float]
 
     def planes(self) -> tuple[np.ndarray, np.ndarray]:
-        """1, x and y on each cell, of order one, and the sums of pressure with them."""
+        """Scaled 1, x and y on each cell, and the required sums of the pressure with them."""
         scale = np.array([1.0, np.abs(self.x).max(), np.abs(self.y).max()])
         fields = [
             np.ones((len(self.x), len(self.y))),
@@ -87,7 +87,7 @@ def solve(
     start: np.ndarray,
     tolerance: float,
 ) -> np.ndarray:
-    """Polonsky and Keer (1999), section 4, steps 1 to 8, with planes in place of the mean."""
+    """Polonsky and Keer (1999), section 4, steps 1 to 8, with planes instead of the mean."""
     planes, wanted = balance.planes()
     solid = np.isfinite(gap)
     shape = np.where(solid, gap, 0.0)
@@ -131,11 +131,11 @@ def march(
     times: np.ndarray,
     tolerance: float,
 ) -> Iterator[np.ndarray]:
-    """Pressure at each of evenly spaced instants from 0 on, under a load applied at 0.
+    """Pressure at uniformly spaced instants from 0 on, under a load applied at 0.
 
     Eq. 12: the displacement at instant k is the sum over n <= k of compliance(t_k - t_n) times the
-    convolution of what pressure n differs by from the one before. The last term is what the solver
-    finds; the others are convolved again in every step.
+    convolution of the difference between pressures n and n - 1. The solver computes the last term;
+    the others are convolved again in every step.
     """
     pressures: list[np.ndarray] = []
     for k, instant in enumerate(times):
@@ -152,13 +152,13 @@ def march(
 
 
 def convolutions_of_run(steps: int, of_first: int, of_search: int) -> int:
-    """Estimate for a whole run: all earlier instants in each step, and a search in each."""
+    """Estimate for a whole run: in each step all earlier instants and an iteration."""
     return of_first + sum(k + 1 + of_search for k in range(1, steps + 1))
 
 
 @dataclass(frozen=True)
 class Estimate:
-    """Convolutions of the first step, of a later search, of a whole run, and its CPU time [s]."""
+    """Convolutions of the first step, of a later step, of a whole run, and its CPU time [s]."""
 
     first: int
     search: int
@@ -167,7 +167,7 @@ class Estimate:
 
 
 def estimate(case: Case, tolerance: float, steps: int, taken: int = 3) -> Estimate:
-    """Take the first steps of a run, and estimate the whole."""
+    """Compute the first steps of a run, and estimate the whole run."""
     grid = case.grid
     convolve = PlainConvolution(grid.shape, grid.cell_size)
     load = case.load.at(0.0)
@@ -187,7 +187,7 @@ def estimate(case: Case, tolerance: float, steps: int, taken: int = 3) -> Estima
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--steps", type=int, default=120)
-    parser.add_argument("--taken", type=int, default=3, help="steps that are really taken")
+    parser.add_argument("--taken", type=int, default=3, help="number of computed steps")
     parser.add_argument("--cells", type=int, nargs=2, default=(256, 256))
     parser.add_argument("--tolerance", type=float, nargs="+", default=[1e-5, 1e-8])
     parser.add_argument("--crown", type=float, nargs="+", default=[75.0, 7500.0], help="mm")

@@ -1,14 +1,14 @@
-"""Cost of the whole roller run, in reference convolutions, and beside the published algorithm.
+"""Cost of the roller's run in reference convolutions, and compared with the published algorithm.
 
 A reference convolution is one plain zero-padded scipy.fft rfft2, multiply, irfft2 on the same
-grid. Runs are counted by it in two ways. *Alone*: runs and references take turns, each in a process
-of its own. *Between*: one is timed after every step of the run, so that both see the same machine
-in the same mood; but each empties the caches that the other has filled. Ratios travel from machine
-to machine; seconds do not.
+grid. It is timed in two ways. *Alone*: runs and references alternate, each in its own process.
+*Between*: one reference is timed after every step of the run, so both are measured under the same
+load of the machine, but they evict each other's data from the caches. Ratios can be compared
+between machines; seconds cannot.
 
-For the load at half the length, both libraries for transforms are compared with what is promised:
-convolutions at most, 2^18 cells against 2^16 in their own reference convolutions, and times as fast
-as the published algorithm, whose whole run is estimated from its first steps (published.py).
+For the load at half the length, both transform libraries are compared with the promised limits:
+number of convolutions, growth from 2^16 to 2^18 cells in their own reference convolutions, and
+ratio to the published algorithm, whose whole run is estimated from its first steps (published.py).
 
     python benchmarks/run.py [--tolerance 1e-5 1e-8] [--repeat 3] [--promised]
 """
@@ -36,8 +36,8 @@ CELLS, LARGE = (256, 256), (512, 512)
 STEPS = 120
 CROWNS = (75e-3, 7500e-3)
 
-#: Reference convolutions at most, by library and tolerance; their growth from 2^16 to 2^18 cells at
-#: most; and how many times as fast as the published algorithm, by ducc0, at least.
+#: Largest number of reference convolutions, by library and tolerance; its largest growth from 2^16
+#: to 2^18 cells; and the smallest ratio to the published algorithm, with ducc0.
 PROMISED = {
     ("ducc0", 1e-5): 100,
     ("ducc0", 1e-8): 200,
@@ -68,7 +68,7 @@ def seconds_of(act: Callable[[], object]) -> float:
 
 @dataclass(frozen=True)
 class Cost:
-    """What a run without output costs: CPU time [s], convolutions counted both ways, iterations."""
+    """Cost of a run without output: CPU time [s], convolutions in both ways, iterations."""
 
     run: float
     alone: float
@@ -77,14 +77,14 @@ class Cost:
 
 
 def run_alone(case: Case, tolerance: float, library: str) -> tuple[float, float]:
-    """CPU time [s] from the arguments to the last state; iterations a step."""
+    """CPU time [s] from the arguments to the last state; iterations per step."""
     begun = time.process_time()
     iterations = [state.iterations for state in march_run(prepared(case, tolerance, library))]
     return time.process_time() - begun, float(np.mean(iterations[1:]))
 
 
 def run_between(case: Case, tolerance: float, library: str) -> float:
-    """Reference convolutions, of which one is timed after each step, that the run comes to."""
+    """Cost of the run in reference convolutions, one of which is timed after each step."""
     convolve = reference_convolution(case.grid.shape)
     convolve()
     begun = time.process_time()
@@ -100,13 +100,13 @@ def prepared(case: Case, tolerance: float, library: str) -> RunSetup:
 
 
 def reference_alone(cells: tuple[int, int]) -> float:
-    """CPU time [s] of one of many references, in a process that does nothing else."""
+    """Median CPU time [s] of many references, in a process that does nothing else."""
     convolve = reference_convolution(cells)
     return float(np.median([seconds_of(convolve) for _ in range(60)]))
 
 
 def least(case: Case, tolerance: float, library: str, repeat: int) -> Cost:
-    """The least of several in turn."""
+    """Minimum cost of several alternating runs and references."""
     references, runs, between = [], [], []
     for _ in range(repeat):
         references.append(afresh(reference_alone, case.grid.shape))
@@ -117,17 +117,17 @@ def least(case: Case, tolerance: float, library: str, repeat: int) -> Cost:
 
 
 def afresh(measure: Callable[..., Any], *arguments: Any) -> Any:
-    """What a function returns in a process of its own.
+    """Call a function in a new process and return its result.
 
-    Once large arrays have been freed, the allocator keeps memory: the reference of a process that
-    has had more cells takes less than half the time.
+    After large arrays have been freed, the allocator keeps memory: in a process that has computed
+    larger grids, the reference takes less than half the time.
     """
     with ProcessPoolExecutor(1, get_context("spawn")) as one:
         return one.submit(measure, *arguments).result()
 
 
 def print_runs(tolerances: Sequence[float], repeat: int) -> None:
-    """All rollers of the paper, by the fastest library."""
+    """Print the cost of all rollers of the paper, with the fastest library."""
     library = fastest_transforms()
     print(f"{library}; {CELLS[0]} x {CELLS[1]} cells, {STEPS} steps, one thread; best of {repeat}")
     print("                                       reference convolutions")
@@ -146,7 +146,7 @@ def print_runs(tolerances: Sequence[float], repeat: int) -> None:
 
 
 def print_promised(tolerances: Sequence[float], repeat: int) -> None:
-    """What is promised of e/L = 0.5, and what it comes to."""
+    """Print promised and measured cost for e/L = 0.5."""
     print(
         f"\ne/L = 0.5, {STEPS} steps: reference convolutions, and the published algorithm\n"
         "                                        2^16           2^18           2^18/2^16\n"
@@ -178,7 +178,9 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--tolerance", type=float, nargs="+", default=[1e-5, 1e-8])
     parser.add_argument("--repeat", type=int, default=3)
-    parser.add_argument("--promised", action="store_true", help="only what is promised")
+    parser.add_argument(
+        "--promised", action="store_true", help="only the comparison with the promised limits"
+    )
     options = parser.parse_args()
     if not options.promised:
         print_runs(options.tolerance, options.repeat)

@@ -1,7 +1,7 @@
-"""How long it takes until something happens: the fastest of several fresh processes each.
+"""Start-up times: the fastest of several new processes for each command.
 
-Processor time besides the time on the clock: on a machine that has other work, only the first
-says what the program needs.
+Prints wall-clock time and CPU time: on a machine with other work, only the CPU time measures the
+program.
 
     ./go bench start-up [--repeat 10]
 """
@@ -28,7 +28,7 @@ READ = f"from viscontact.case import read_case; read_case({str(CASE)!r})"
 
 @dataclass(frozen=True)
 class Start:
-    """What is started, and how long it may take [s]."""
+    """Command to start, and the limit of its wall-clock time [s]."""
 
     name: str
     words: tuple[str, ...]
@@ -55,7 +55,7 @@ def processor_time() -> float:
 
 
 def seconds(words: tuple[str, ...]) -> tuple[float, float]:
-    """Time on the clock and of the processor of one fresh process [s]."""
+    """Wall-clock time and CPU time [s] of one new process."""
     before, started = processor_time(), time.perf_counter()
     subprocess.run([sys.executable, *words], check=True, capture_output=True)
     return time.perf_counter() - started, processor_time() - before

@@ -1,7 +1,7 @@
-"""Make an environment for each peer, in benchmarks/peers/environments (not kept by git).
+"""Create an environment for each other program, in benchmarks/peers/environments (not in git).
 
 ASPHER is built from source: it needs CMake, a C++17 compiler and Eigen (Debian: cmake g++
-libeigen3-dev). slippy does not install on Python 3.11 or later, and is left out.
+libeigen3-dev). slippy cannot be installed on Python 3.11 or later and is left out.
 
     python benchmarks/peers/build.py [NAME ...] [--anew]
 """
@@ -17,7 +17,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent / "environments"
 
-#: What each needs, at the versions that the drivers were written for.
+#: Packages of each program, with the versions for which the drivers were written.
 PACKAGES = {
     "aspher": ["aspher==0.1.3.post1"],
     "tamaas": ["tamaas==2.9.0"],
@@ -26,12 +26,12 @@ PACKAGES = {
 
 
 def python_of(name: str) -> Path:
-    """The environment's Python, whether it is there or not."""
+    """Path of the Python of an environment, which need not exist."""
     return HERE / name / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
 
 
 def build(name: str) -> str:
-    """Make one environment; what came of it, in a line."""
+    """Create one environment and return the outcome in one line."""
     shutil.rmtree(HERE / name, ignore_errors=True)
     commands = [
         [sys.executable, "-m", "venv", str(HERE / name)],
@@ -40,7 +40,7 @@ def build(name: str) -> str:
     for command in commands:
         done = subprocess.run(command, text=True, capture_output=True, check=False)
         if done.returncode:
-            # A half-made one would be taken for whole.
+            # An incomplete environment would be regarded as complete.
             shutil.rmtree(HERE / name, ignore_errors=True)
             said = (done.stderr or done.stdout).strip().splitlines()
             return f"{name}: not built: {said[-1] if said else 'no reason given'}"

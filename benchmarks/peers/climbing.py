@@ -1,7 +1,7 @@
-"""A program's climb over a ladder of tolerances, and what its time and error come to beside ours.
+"""Runs of a program at a ladder of tolerances, and comparison of their times with the package.
 
-Times are compared at equal measured error: at the error asked for where a program's ladder spans
-it, else at the nearest error that it reached.
+Times are compared at equal measured error: at the requested error if the results of a program
+include it, otherwise at the nearest error that it reached.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import numpy as np
 
 @dataclass(frozen=True, eq=False)
 class Climb:
-    """What a program reached: a pressure and CPU and wall time [s] for each tolerance."""
+    """Results of a program: pressure, CPU time and wall time [s] for each tolerance."""
 
     version: str
     tolerances: np.ndarray
@@ -23,10 +23,10 @@ class Climb:
     wall: np.ndarray
 
     def against(self, truth: np.ndarray) -> Rungs:
-        """CPU times and errors; the truth itself, which has none, is left out."""
+        """CPU times and errors, without the reference solution itself."""
         errors = np.array([distance(pressure, truth) for pressure in self.pressures])
         order = np.argsort(errors)[(errors == 0).sum() :]
-        # Where a looser tolerance took longer, its error was to be had for the least time beyond.
+        # If a looser tolerance took longer, use the smallest time of the tighter ones.
         cpu = np.minimum.accumulate(self.cpu[order])
         return Rungs(errors[order], cpu)
 
@@ -39,18 +39,18 @@ class Rungs:
     cpu: np.ndarray
 
     def nearest(self, error: float) -> float:
-        """The error asked for, or the end of the ladder that is nearest to it."""
+        """The requested error, limited to the range of the ladder."""
         return float(np.clip(error, self.errors[0], self.errors[-1]))
 
     def seconds(self, error: float) -> float:
-        """CPU time at an error or less, between the rungs (log-log)."""
+        """CPU time [s] at an error, by log-log interpolation between the tolerances."""
         logs = np.log(error), np.log(self.errors), np.log(self.cpu)
         return float(np.exp(np.interp(*logs)))
 
 
 @dataclass(frozen=True)
 class Reading:
-    """CPU time [s] at an error, and how many times ours at that error (or a smaller one) it is."""
+    """CPU time [s] at an error, and its ratio to that of the package at this error or below."""
 
     error: float
     seconds: float
@@ -63,7 +63,7 @@ def distance(pressure: np.ndarray, truth: np.ndarray) -> float:
 
 
 def readings(rungs: Rungs, ours: Rungs, targets: Sequence[float]) -> list[Reading]:
-    """What a program took at the errors asked for, beside what we took."""
+    """Times of a program at the requested errors, and their ratios to those of the package."""
     found = []
     for target in targets:
         error = rungs.nearest(target)
@@ -73,7 +73,7 @@ def readings(rungs: Rungs, ours: Rungs, targets: Sequence[float]) -> list[Readin
 
 
 def in_columns(found: Sequence[Reading], targets: Sequence[float]) -> str:
-    """Seconds and ratios, and the error where it is not the one of the column."""
+    """Seconds and ratios, with the error if it differs from that of the column."""
     cells = []
     for reading, target in zip(found, targets, strict=True):
         elsewhere = "" if np.isclose(reading.error, target) else f"at {reading.error:.0e}"
@@ -82,7 +82,7 @@ def in_columns(found: Sequence[Reading], targets: Sequence[float]) -> str:
 
 
 def verdict(ours: str, peers: dict[str, list[Reading]]) -> str:
-    """Whether ours is the fastest, and by how much at each error."""
+    """Sentence on whether the package is the fastest, with the ratio at each error."""
     if not peers:
         return ""
     columns = zip(*peers.values(), strict=True)

@@ -1,13 +1,13 @@
-"""The package beside its peers: the same problems, one thread each, at equal measured error.
+"""Comparison with other programs: the same problems, one thread each, at equal measured error.
 
-Each program climbs a ladder of tolerances in an environment of its own (see build.py). The error of
-a pressure is its relative L2 distance from the solution at tolerance 1e-12: this package's in free
-space, where all programs have the same influence coefficients (and agree to 1e-11), each program's
-own on a period, but for programs that would take hours for it. The CPU time at an error is read off
-the ladder between its rungs (log-log), and set beside the package's at the same error: the ratio
-says how many times as long a program takes. For creep the pressures at five of 120 instants are
-taken together; the distances from a run in 16 times as many steps and from Lee and Radok's exact
-solution are printed beside.
+Each program runs at a ladder of tolerances in its own environment (see build.py). The error of a
+pressure is its relative L2 distance from the solution at tolerance 1e-12. For free (non-periodic)
+problems this is the solution of the package, because all programs have the same influence
+coefficients (and agree to 1e-11). For periodic problems it is each program's own solution, except
+for programs that would need hours. The CPU time at an error is interpolated between the tolerances
+(log-log) and divided by that of the package at the same error. For creep, the pressures at five of
+120 instants are compared together; the distances from a run with 16 times as many steps and from
+the exact solution of Lee and Radok are also printed.
 
     python benchmarks/peers/compare.py [PROBLEM ...] [--programs NAME ...] [--points]
 """
@@ -32,12 +32,12 @@ import viscontact as vc
 HERE = Path(__file__).resolve().parent
 TARGETS = (1e-6, 1e-8)
 LADDER = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10)
-#: A rung more, for peers that are nearer to the solution than their tolerance asks for.
+#: One more tolerance, for programs whose error is smaller than their tolerance.
 OUR_LADDER = (*LADDER, 1e-11)
-#: Of programs that take minutes: what is between is interpolated. Where a rung takes minutes, one
-#: has to do, and the times are compared at its error.
+#: For slow programs: times between are interpolated. If one solution takes minutes, only one
+#: tolerance is used, and the times are compared at its error.
 SHORT_LADDER, ONE_RUNG = (1e-5, 1e-7, 1e-9), (1e-7,)
-#: Cells, times steps, from which that is so.
+#: Number of cells, times steps, above which one tolerance is used.
 MANY = 2**20
 TIGHTEST = 1e-12
 OURS = "viscontact"
@@ -52,13 +52,13 @@ FULL = (
     "zener512",
 )
 
-#: One thread each, whatever a program brings along.
+#: Limit all thread pools to one thread.
 ONE_THREAD = {f"{name}_NUM_THREADS": "1" for name in ("OMP", "OPENBLAS", "MKL", "NUMBA")}
 
 
 @dataclass(frozen=True)
 class Program:
-    """A program, in one of the ways of using it."""
+    """A program, with one way of using it."""
 
     name: str
     driver: str
@@ -68,17 +68,17 @@ class Program:
     ladder: tuple[float, ...] = LADDER
 
     def takes(self, problem: SharedProblem) -> str:
-        """Why it cannot take the problem; empty if it can."""
+        """Reason why it cannot solve the problem; empty if it can."""
         if self.creep is not None and problem.creeps != self.creep:
             return "-"
         if not self.any_cells and not problem.square_cells:
             return "only square grids of square cells"
         if self.name == OURS and problem.name.startswith("free rough"):
-            return "-"  # it refuses contact at the rim; its solver is in the row below
+            return "-"  # it refuses contact at the border; its solver is in the row below
         return ""
 
     def ladder_for(self, problem: SharedProblem) -> tuple[float, ...]:
-        """The tolerances that it is asked for."""
+        """Tolerances for this program and problem."""
         cells = problem.shape[0] * problem.shape[1] * (STEPS if problem.creeps else 1)
         return ONE_RUNG if self.ladder is SHORT_LADDER and cells >= MANY else self.ladder
 
@@ -100,7 +100,7 @@ PROGRAMS = (
 def climb(
     program: Program, name: str, problem: SharedProblem, tolerances: tuple[float, ...], limit: float
 ) -> Climb | str:
-    """Run a driver; why there is nothing, in words, if there is nothing."""
+    """Run a driver and return its results, or the reason for their absence."""
     with tempfile.TemporaryDirectory() as directory:
         given, found = Path(directory) / "problem.npz", Path(directory) / "result.npz"
         arrays = problem.arrays()
@@ -130,13 +130,13 @@ def climb(
 
 
 def _displacement(problem: SharedProblem) -> float:
-    """About the largest displacement [m], for a program that wants its tolerance as a length."""
+    """Approximate largest displacement [m], for a program whose tolerance is a length."""
     force, (along, across) = problem.force, problem.size
     return force / max(along, across)  # u = F/(pi E* r), a contact's width from the force
 
 
 def truth_of(name: str, problem: SharedProblem, limit: float) -> np.ndarray | None:
-    """This package's solution at the tightest tolerance."""
+    """Solution of the package at the tightest tolerance."""
     for program in PROGRAMS[:2]:
         if not program.takes(problem):
             found = climb(program, name, problem, (TIGHTEST,), limit)
@@ -146,7 +146,7 @@ def truth_of(name: str, problem: SharedProblem, limit: float) -> np.ndarray | No
 
 
 def in_more_steps(problem: SharedProblem, times: int = 16) -> np.ndarray:
-    """Pressures at the recorded instants by this package in more steps."""
+    """Pressures at the recorded instants, computed by the package in more steps."""
     load = vc.step(problem.force, tilt_x=0.0, tilt_y=0.0)
     instants = vc.uniform_times(float(STEPS), STEPS * times)
     grid = vc.Grid(problem.shape, problem.size)
@@ -168,13 +168,13 @@ def exact(problem: SharedProblem) -> np.ndarray:
     contact = vc.reference.lee_radok_step(problem.force, 1.0, compliance, modulus)
     x, y = problem.centres()
     r = np.hypot(x[:, None], y[None, :])
-    # Smooth in r² but for the rim: thousands of radii are as good as all cells.
+    # Smooth in r² except at the contact edge: thousands of radii are as accurate as all cells.
     radii = np.linspace(0.0, r.max(), 4001)
     return np.stack([np.interp(r, radii, contact.pressure(radii, float(t))) for t in RECORDED])
 
 
 def compare(name: str, programs: list[Program], limit: float, *, points: bool) -> str:
-    """Print a problem's table, line by line; what came of it, in a line."""
+    """Print the table of a problem, and return the outcome in one line."""
     problem = PROBLEMS[name]()
     print(f"\n{problem.name}", flush=True)
     truth = truth_of(name, problem, limit)
@@ -209,7 +209,7 @@ def compare(name: str, programs: list[Program], limit: float, *, points: bool) -
 def reached(
     program: Program, name: str, problem: SharedProblem, limit: float, *, own: bool
 ) -> Climb | str | None:
-    """What a program reached, or why it did not; None where it is not meant to be asked."""
+    """Results of a program, or the reason for their absence; None if it does not apply."""
     why = program.takes(problem)
     if why == "-":
         return None

@@ -1,8 +1,8 @@
-"""A loop over time around an elastic solver, as its user would write it; NumPy only.
+"""Time loop for creep around an elastic solver, as a user would write it; NumPy only.
 
-Pressure is linear in time within a step, and each exponential of the compliance is integrated
-exactly: the same rule as the package's, so that the error in time is the same and only the cost
-differs. Each solve is started from the pressure extrapolated through the last two steps.
+The pressure is linear in time within a step, and each exponential of the compliance is integrated
+exactly, as in the package, so the error in time is the same and only the cost differs. The initial
+guess of each solution is extrapolated from the last two steps.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ Elastic = Callable[[np.ndarray, np.ndarray | None], tuple[np.ndarray, np.ndarray
 
 
 def march(problem: Mapping[str, np.ndarray], solve: Elastic) -> np.ndarray:
-    """Pressures at the instants that the problem asks for, one after another [Pa]."""
+    """Pressures [Pa] at the recorded instants of the problem."""
     amplitudes, times = problem["amplitudes"], problem["times"]
     relaxation = problem["relaxation_times"]
     fields = np.zeros((len(amplitudes), *problem["gap"].shape))

@@ -1,4 +1,4 @@
-"""ASPHER at its best: nested grids and FFT operators; around it a loop for creep."""
+"""Driver for ASPHER: nested grids and FFT operators, with a time loop for creep."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""ContactMechanics: its constrained conjugate gradients (elastic problems only)."""
+"""Driver for ContactMechanics: constrained conjugate gradients (elastic problems only)."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def solve(problem: Problem, tolerance: float) -> np.ndarray:
     substrate = made(shape, 1 / float(problem["instant"]), size)
     periodic = bool(problem["periodic"])
     topography = Topography(-problem["gap"], physical_sizes=size, periodic=periodic)
-    # Its tolerance is a length: relative to the largest displacement, as those of the others are.
+    # Its tolerance is a length; the others are relative to the largest displacement.
     found = constrained_conjugate_gradients(
         substrate,
         topography,

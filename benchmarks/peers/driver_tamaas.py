@@ -1,6 +1,6 @@
-"""tamaas: Polonsky, Keer and Rey's solver; around it a loop for creep, and its own Maxwell solver.
+"""Driver for tamaas: the solver of Polonsky, Keer and Rey with a time loop, or its Maxwell solver.
 
-The first argument after the files, if it is `maxwell`, asks for the latter.
+The argument `maxwell` after the files selects the latter.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ MOST_ITERATIONS = 20000
 
 
 def made(problem: Problem, modulus: float, poisson_ratio: float = 0.0) -> tm.Model:
-    """A model of that Young's modulus, which without lateral contraction is E*."""
+    """Model with the given Young's modulus, which is E* for Poisson's ratio 0."""
     model = tm.ModelFactory.createModel(
         tm.model_type.basic_2d, problem["size"].tolist(), list(problem["gap"].shape)
     )
-    model.E, model.nu = modulus, poisson_ratio  # before operators are made, which keep them
+    model.E, model.nu = modulus, poisson_ratio  # before operators are created, which store them
     if not problem["periodic"]:
         tm.ModelFactory.registerNonPeriodic(model, "dcfft")
     return model
@@ -69,11 +69,11 @@ def creep(problem: Problem, tolerance: float) -> np.ndarray:
 
 
 def maxwell(problem: Problem, tolerance: float) -> np.ndarray:
-    """Its own generalized Maxwell body (relaxation), by backward Euler in equal steps.
+    """Solve with the generalized Maxwell body of tamaas, by backward Euler in equal steps.
 
-    In units of the equilibrium shear modulus, which it takes for 1 wherever it weighs displacements
-    (2.9.0: a surface held in full contact relaxes by E* exp(-t/tau) then, and not otherwise). The
-    first instant, at which all is elastic, is a step of next to no time.
+    The unit is the equilibrium shear modulus, which tamaas assumes to be 1 when it weights
+    displacements (2.9.0: only then does a surface held in full contact relax by E* exp(-t/tau)).
+    The first instant, at which the body is elastic, is a very short step.
     """
     unit = float(problem["equilibrium_modulus"]) / 4  # E* = 4 G of an incompressible body
     model = made(problem, 3.0, 0.5)
@@ -92,7 +92,7 @@ def maxwell(problem: Problem, tolerance: float) -> np.ndarray:
     for step, duration in enumerate([0.0, *steps.tolist()]):
         if step:
             solver.time_step = duration
-        solver.solve(mean_pressure(problem) / unit)  # takes the step into its memory, too
+        solver.solve(mean_pressure(problem) / unit)  # also updates its internal variables
         if step in problem["recorded"]:
             recorded.append(unit * np.array(model.traction))
     return np.stack(recorded)

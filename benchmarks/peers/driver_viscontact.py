@@ -1,4 +1,4 @@
-"""This package: its contact solver on the arrays that the others get, or its public run."""
+"""Driver for this package: its contact solver on the common arrays, or its public run."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from viscontact.contact.rigid_balance import Constraints
 
 
 def elastic(problem: Problem, tolerance: float) -> np.ndarray:
-    """The solver alone: arrays in, arrays out."""
+    """The contact solver alone."""
     shape = problem["gap"].shape
     half_space = ContactDomain(_grid(shape, problem))
     posed = ContactProblem(
@@ -33,7 +33,7 @@ def elastic(problem: Problem, tolerance: float) -> np.ndarray:
 
 
 def run(case: SharedProblem, tolerance: float) -> np.ndarray:
-    """The whole run, as its user calls it: checks, symmetry, areas and doubts with it."""
+    """The whole public run, with checks, symmetry, areas and warnings."""
     load = vc.step(case.force, tilt_x=0.0, tilt_y=0.0)
     times = vc.uniform_times(float(STEPS), STEPS) if case.creeps else [0.0]
     grid = _grid(case.shape, {"size": np.array(case.size), "periodic": case.periodic})

@@ -1,8 +1,9 @@
-"""What every driver does: a problem over a ladder of tolerances, timed; NumPy is all it needs.
+"""Common part of the drivers: solve a problem at a ladder of tolerances and measure the time.
 
-A driver runs in its program's own environment as `python DRIVER PROBLEM.npz RESULT.npz`. The
-problem is given in arrays; what comes back is a pressure for each tolerance, with the CPU and wall
-time of the best of some repeats, from the arrays to the pressure with all that is set up between.
+A driver runs in the environment of its program as `python DRIVER PROBLEM.npz RESULT.npz` and needs
+only NumPy. The problem is given as arrays. The result is a pressure for each tolerance, with the
+minimum CPU time and wall time of several repetitions, including the set-up after reading the
+arrays.
 """
 
 from __future__ import annotations
@@ -20,12 +21,12 @@ Solve = Callable[[Problem, float], np.ndarray]
 def climb(solve: Solve, version: str) -> None:
     """Solve the problem named on the command line at each of its tolerances."""
     problem = dict(np.load(sys.argv[1]))
-    solve(problem, 1e-3)  # what is paid once a process (imports, plans) is not the solver's
+    solve(problem, 1e-3)  # exclude costs that occur once per process (imports, plans)
     tolerances, pressures, cpu, wall = [], [], [], []
     for tolerance in problem["tolerances"].tolist():
         try:
             pressure, seconds = _best(solve, problem, tolerance)
-        except Exception as error:  # whatever a program says: the step is left out, and told
+        except Exception as error:  # any error of a program: print it and leave out this tolerance
             print(f"{tolerance:g}: {type(error).__name__}: {error}", file=sys.stderr)
             continue
         tolerances.append(tolerance)
@@ -43,7 +44,7 @@ def climb(solve: Solve, version: str) -> None:
 
 
 def _best(solve: Solve, problem: Problem, tolerance: float) -> tuple[np.ndarray, list[float]]:
-    """The pressure, and the least CPU and wall time [s] of repeats that fit the budget."""
+    """Pressure, and minimum CPU and wall time [s] of the repetitions within the time budget."""
     costs = []
     spent = 0.0
     while not costs or (len(costs) < problem["repeats"] and spent < problem["budget"]):

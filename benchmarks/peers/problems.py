@@ -1,7 +1,7 @@
-"""The problems that the package and its peers are given: in words for us, in arrays for all.
+"""Problems for the package and the other programs: as objects for the package, as arrays for all.
 
-Lengths and moduli are of order one or small against a radius of 1 m and E* = 1 Pa: a solver that
-is not free of scale would show it.
+Lengths and moduli are of order one, or small compared with a radius of 1 m and E* = 1 Pa, which
+shows whether a solver depends on the scale.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import viscontact as vc
 #: G = 1/4 and nu = 1/2: E* = 1, so the contact compliance is 1.
 UNIT = vc.Material(vc.Elastic(0.25), 0.5)
 
-#: Compliance 1 at first and 3 in the end; one relaxation time is 30 of 120 steps.
+#: Compliance 1 initially and 3 finally; one relaxation time is 30 of 120 steps.
 ZENER = vc.Material(vc.Zener(0.25, 0.125, 0.125 * 30.0), 0.5)
 STEPS = 120
 RECORDED = (1, 30, 60, 90, 120)
@@ -25,7 +25,7 @@ RECORDED = (1, 30, 60, 90, 120)
 
 @dataclass(frozen=True)
 class SharedProblem:
-    """A problem that all programs are given."""
+    """A problem for all programs."""
 
     name: str
     indenter: vc.Indenter
@@ -46,7 +46,7 @@ class SharedProblem:
         return grid.x, grid.y
 
     def arrays(self) -> dict[str, np.ndarray]:
-        """The problem as the drivers read it."""
+        """Arrays of the problem for the drivers."""
         x, y = self.centres()
         gap = np.broadcast_to(self.indenter.gap(x[:, None], y[None, :]), self.shape)
         law = self.material.contact_compliance()
@@ -77,7 +77,7 @@ class SharedProblem:
 
 
 def sphere(cells: int, *, creeps: bool = False) -> SharedProblem:
-    """A paraboloid of radius 1 m whose largest contact takes two thirds of the grid's width."""
+    """A paraboloid of radius 1 m whose largest contact has two thirds of the width of the grid."""
     final = 3.0 if creeps else 1.0
     radius = 0.01
     return SharedProblem(
@@ -92,12 +92,12 @@ def sphere(cells: int, *, creeps: bool = False) -> SharedProblem:
 
 
 def roller(nx: int = 1024, ny: int = 256) -> SharedProblem:
-    """A crowned roller under a centric force: the contact is long, and so are the cells."""
+    """A crowned roller under a centric force, with a long contact and long cells."""
     return SharedProblem(
         f"crowned roller {nx} x {ny}",
         vc.Roller(5e-3, 9.565e-3, 75e-3),
         UNIT,
-        1e4 * 3.58e-10,  # the paper's load over its E* at first: the same contact
+        1e4 * 3.58e-10,  # load of the paper divided by its initial E*: the same contact
         (nx, ny),
         (60e-3, 3e-3),
     )
@@ -111,7 +111,8 @@ def rough(cells: int, *, periodic: bool) -> SharedProblem:
         f"{'periodic' if periodic else 'free'} rough {cells}²",
         vc.HeightMap(x, y, height),
         UNIT,
-        0.05 * rms_slope(height),  # real over nominal area is about twice p/(E* h') (Persson)
+        0.05
+        * rms_slope(height),  # the ratio of real to nominal area is about twice p/(E* h') (Persson)
         (cells, cells),
         (1.0, 1.0),
         periodic=periodic,
@@ -119,9 +120,9 @@ def rough(cells: int, *, periodic: bool) -> SharedProblem:
 
 
 def rough_ball(cells: int) -> SharedProblem:
-    """The same roughness on a paraboloid, as far as its contact stays within the grid.
+    """The same roughness on a paraboloid, with the contact inside the grid.
 
-    Smooth, it would touch over 0.3 m, under the mean pressure of the plane above.
+    The smooth paraboloid would have a contact radius of 0.3 m under the mean pressure of the plane.
     """
     plane, radius = rough(cells, periodic=False), 0.3
     pressure = plane.force / (plane.size[0] * plane.size[1])
@@ -131,7 +132,7 @@ def rough_ball(cells: int) -> SharedProblem:
 
 
 def self_affine(cells: int, wavelengths: tuple[int, int], seed: int) -> np.ndarray:
-    """Heights of root mean square 1e-3 over a period of 1, between two wave numbers."""
+    """Heights with a root mean square of 1e-3 on a period of 1, between two wave numbers."""
     wave = np.fft.fftfreq(cells, 1 / cells)
     q = np.hypot(wave[:, None], wave[None, : cells // 2 + 1])
     amplitude = np.where((q >= wavelengths[0]) & (q <= wavelengths[1]), q, np.inf) ** -1.8
@@ -141,12 +142,12 @@ def self_affine(cells: int, wavelengths: tuple[int, int], seed: int) -> np.ndarr
 
 
 def rms_slope(height: np.ndarray) -> float:
-    """Of a period of length 1."""
+    """Root mean square slope on a period of length 1."""
     along = (np.roll(height, -1, axis=axis) - np.roll(height, 1, axis=axis) for axis in (0, 1))
     return float(np.sqrt(sum(((d * len(height) / 2) ** 2).mean() for d in along)))
 
 
-#: By the name they are called on the command line; made when they are asked for.
+#: Functions that create the problems, by their names on the command line.
 PROBLEMS: dict[str, Callable[[], SharedProblem]] = {
     "sphere512": partial(sphere, 512),
     "sphere1024": partial(sphere, 1024),
@@ -156,7 +157,7 @@ PROBLEMS: dict[str, Callable[[], SharedProblem]] = {
     "rough-periodic": partial(rough, 1024, periodic=True),
     "zener256": partial(sphere, 256, creeps=True),
     "zener512": partial(sphere, 512, creeps=True),
-    # small ones, to try the drivers on
+    # small problems to test the drivers
     "sphere128": partial(sphere, 128),
     "roller-small": partial(roller, 256, 64),
     "rough128": partial(rough, 128, periodic=False),
