@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Run a task of the project: `./go demo`, `./go test` (on Windows: `py go demo`).
 
-The first start makes `.venv` from `requirements.lock`, where every file is pinned by its hash:
-with uv when it is on the path, else with Python's own venv and pip. Later starts need no network.
-Standard library only, so that an empty machine with Python and git is enough.
+The first call creates `.venv` from `requirements.lock`, where every file is pinned by its hash:
+with uv if it is on the path, otherwise with Python's venv and pip. Later calls need no network.
+This script uses the standard library only, so Python and git are sufficient.
 """
 
 from __future__ import annotations
@@ -19,46 +19,46 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent
 LOCK = ROOT / "requirements.lock"
 VENV = ROOT / ".venv"
-STAMP = VENV / "go-stamp"  # written last: without it the environment is half made
+STAMP = VENV / "go-stamp"  # written last: without it the environment is incomplete
 LOG = VENV / "go-setup.log"
 PYTHON = VENV / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
 OLDEST = (3, 11)
-# Words by which pip and uv say that they could not reach anything.
+# Parts of the messages of pip and uv about missing network access.
 OFFLINE = ("dns error", "connection", "name resolution", "unreachable", "timed out", "retries")
 
 
 class TaskError(Exception):
-    """The task cannot go on; the message is one line for the user."""
+    """The task failed; the message is one line for the user."""
 
 
 # --- tasks ------------------------------------------------------------------------------------
 
 
 def demo(args: list[str]) -> int:
-    """Compute the shipped roller case and draw its pictures."""
+    """Compute the shipped roller case and draw its figures."""
     return run(["-m", "viscontact", "demo", *args])
 
 
 def test(args: list[str]) -> int:
-    """Run the tests on two processes; --slow adds the slow ones, the rest goes to pytest."""
+    """Run the tests in two processes; --slow adds the slow tests; other options go to pytest."""
     chosen = ["-m", ""] if "--slow" in args else []
     return run(["-m", "pytest", "-n", "2", *chosen, *(a for a in args if a != "--slow")])
 
 
 def lint(args: list[str]) -> int:
-    """Check style, format and types; `--fix` mends the first two."""
-    mend = "--fix" in args
-    style = ["ruff", "check", "--fix"] if mend else ["ruff", "check"]
-    layout = ["ruff", "format"] if mend else ["ruff", "format", "--check"]
+    """Check style, format and types; `--fix` corrects the first two."""
+    fix = "--fix" in args
+    style = ["ruff", "check", "--fix"] if fix else ["ruff", "check"]
+    layout = ["ruff", "format"] if fix else ["ruff", "format", "--check"]
     return max([run(["-m", *check]) for check in (style, layout, ["mypy"])])
 
 
 def docs(args: list[str]) -> int:
-    """Build the manual into build/docs/html; `-D plot_gallery=0` leaves out the gallery's runs."""
+    """Build the manual in build/docs/html; `-D plot_gallery=0` does not run the gallery."""
     folder, source = "build/docs", ROOT / "docs"
     examples = {path.stem for path in (source / "gallery").glob("*.py")}
     shown = {path.stem for path in (source / "examples").glob("plot_*.rst")}
-    # What an earlier build has made of sources that are gone would be taken for pages.
+    # Pages that an earlier build generated from deleted sources would become part of the manual.
     stale = [ROOT / folder / "html", source / "reference" / "generated"]
     for made in [*stale, source / "examples"] if shown - examples else stale:
         shutil.rmtree(made, ignore_errors=True)
@@ -70,7 +70,7 @@ def docs(args: list[str]) -> int:
 
 
 def bench(args: list[str]) -> int:
-    """Time the paper's rollers, or what is named first: published, peers, growth, ..."""
+    """Run a benchmark: the paper's rollers, or a named one: published, peers, growth, ..."""
     folder = ROOT / "benchmarks"
     if not folder.is_dir():
         raise TaskError("there are no benchmarks here")
@@ -83,13 +83,13 @@ def bench(args: list[str]) -> int:
 
 
 def build(args: list[str]) -> int:
-    """Make the wheel in dist/."""
+    """Build the wheel in dist/."""
     return run(["-m", "hatchling", "build", "-t", "wheel", *args])
 
 
 def lock(args: list[str]) -> int:
-    """Write requirements.lock anew from pyproject.toml (`--upgrade`: to the newest versions)."""
-    # No configuration of this machine may leak in: the lock names public files only.
+    """Update requirements.lock from pyproject.toml (`--upgrade`: to the newest versions)."""
+    # Ignore the configuration of this machine: the lock contains public files only.
     for name in [n for n in os.environ if n.startswith(("UV_INDEX", "UV_DEFAULT", "UV_FIND"))]:
         del os.environ[name]
     options = "--no-config --universal --generate-hashes --no-emit-index-url --no-annotate --quiet"
@@ -99,7 +99,7 @@ def lock(args: list[str]) -> int:
     return run([*uv, *options.split(), *wanted.split(), *written, *args])
 
 
-#: What `./go bench` takes as its first word.
+#: Scripts of `./go bench` by their names.
 BENCHMARKS = {
     "run": "run.py",
     "costs": "cost_model.py",
@@ -128,22 +128,22 @@ TASKS = {
 
 
 def fingerprint() -> str:
-    """Return what the environment depends on, as one hash: lock, project file and place."""
+    """Return a hash of the inputs of the environment: lock, project file and path of the clone."""
     contents = [LOCK.read_bytes(), (ROOT / "pyproject.toml").read_bytes(), str(ROOT).encode()]
     return hashlib.sha256(b"\0".join(contents)).hexdigest()
 
 
 def is_ready() -> bool:
-    """Tell whether the environment is whole and up to date."""
+    """Return whether the environment is complete and up to date."""
     return PYTHON.exists() and STAMP.exists() and STAMP.read_text() == fingerprint()
 
 
 def set_up() -> None:
-    """Make the environment, or bring it up to date; a half-made one is made from scratch."""
+    """Create the environment, or update it; an incomplete one is created again."""
     uv = shutil.which("uv")
     make = [uv, "venv", "--python", sys.executable] if uv else [sys.executable, "-m", "venv"]
     pip = [uv, "pip", "install", "--python", str(PYTHON)] if uv else venv_pip()
-    # An environment made by uv has no pip: without uv it cannot be brought up to date.
+    # An environment created by uv has no pip, so it cannot be updated without uv.
     updating = PYTHON.exists() and STAMP.exists() and (uv or any(PYTHON.parent.glob("pip*")))
     doing = "bringing .venv up to date" if updating else "setting up .venv, once, about a minute"
     print(f"go: {doing}", flush=True)
@@ -153,18 +153,18 @@ def set_up() -> None:
             shutil.rmtree(VENV)
         install(make, [str(VENV)])
     install(pip, ["--require-hashes", "-r", str(LOCK)])
-    # The build backend is in the lock: no isolated build, which would fetch another one.
+    # The build backend is in the lock; an isolated build would download another one.
     install(pip, ["--no-deps", "--no-build-isolation", "--editable", str(ROOT)])
     STAMP.write_text(fingerprint())
 
 
 def venv_pip() -> list[str]:
-    """Return the command of the environment's own pip; building would fetch unhashed files."""
+    """Return the pip command of the environment; building packages would use unhashed files."""
     return [str(PYTHON), "-m", "pip", "install", "--only-binary", ":all:"]
 
 
 def install(command: list[str], args: list[str]) -> None:
-    """Run a step of the set-up in silence; raise `TaskError` with its last word if it fails."""
+    """Run a step of the set-up without output; raise `TaskError` with its last line if it fails."""
     done = subprocess.run(
         [*command, *args], cwd=ROOT, env=clean(), text=True, capture_output=True, errors="replace"
     )
@@ -177,7 +177,7 @@ def install(command: list[str], args: list[str]) -> None:
 
 
 def cause(said: str) -> str:
-    """Return in one line why the set-up failed, from what the installer said."""
+    """Return the reason for a failed set-up in one line, from the output of the installer."""
     if "ensurepip" in said:
         return "this Python cannot make environments: install python3-venv, or uv"
     if any(word in said.lower() for word in OFFLINE):
@@ -187,15 +187,15 @@ def cause(said: str) -> str:
 
 
 def clean() -> dict[str, str]:
-    """Return the environment variables without those that would let other packages in."""
+    """Return the environment variables without those that would add other packages."""
     foreign = ("PYTHONPATH", "PYTHONHOME", "VIRTUAL_ENV", "PIP_USER", "PIP_TARGET", "PIP_PREFIX")
     return {name: value for name, value in os.environ.items() if name not in foreign}
 
 
 def run(args: list[str]) -> int:
-    """Run the environment's Python and return its exit status, as a shell counts it."""
+    """Run the Python of the environment and return its exit status as a shell does."""
     child = subprocess.Popen([str(PYTHON), *args], cwd=ROOT, env=clean())
-    # Ctrl-C reaches the child too, which finishes its step and saves: wait for it.
+    # The child receives Ctrl-C, too; it finishes its step and saves: wait for it.
     signal.signal(signal.SIGINT, lambda *_: None)
     for name in ("SIGTERM", "SIGHUP"):
         number = getattr(signal, name, None)
@@ -205,11 +205,11 @@ def run(args: list[str]) -> int:
     return status if status >= 0 else 128 - status
 
 
-# --- front door -------------------------------------------------------------------------------
+# --- command line -----------------------------------------------------------------------------
 
 
 def main(argv: list[str], version: tuple[int, int] = sys.version_info[:2]) -> int:
-    """Run the task named first, with the other arguments passed on to it."""
+    """Run the task named by the first argument, with the other arguments."""
     if not argv or argv[0] in ("-h", "--help"):
         print("usage: ./go TASK [ARGUMENTS]\n")
         print("\n".join(f"  {name:6} {task.__doc__}" for name, task in TASKS.items()))

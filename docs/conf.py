@@ -1,4 +1,4 @@
-"""How the manual is built: `./go docs`, or `sphinx-build -W -n docs build/docs/html`."""
+"""Sphinx configuration of the manual: `./go docs`, or `sphinx-build -W -n docs build/docs/html`."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from viscontact import identification
 
 project = "viscontact"
 author = "The viscontact developers"
-copyright = f"{author}, MIT licence"  # Sphinx asks for this name
+copyright = f"{author}, MIT licence"  # Sphinx requires this name
 version = release = viscontact.__version__
 
 extensions = [
@@ -33,11 +33,11 @@ extensions = [
 ]
 numfig = math_numfig = True  # (4.2) is the second equation of the fourth page of the theory
 numfig_secnum_depth = 1
-numfig_format = {"figure": "%.0s", "table": "%.0s", "code-block": "%.0s"}  # these have no numbers
+numfig_format = {"figure": "%.0s", "table": "%.0s", "code-block": "%.0s"}  # no numbers
 templates_path = ["_templates"]
 exclude_patterns = ["_ext", "_static", "_templates", "gallery", "generated/gallery/**/*.ipynb"]
 nitpicky = True
-suppress_warnings = ["config.cache"]  # of the gallery's scraper, which is a function
+suppress_warnings = ["config.cache"]  # due to the gallery's scraper, a function
 
 # --- pages in Markdown --------------------------------------------------------------------------
 
@@ -47,7 +47,7 @@ myst_dmath_double_inline = True
 
 # --- the API ------------------------------------------------------------------------------------
 
-default_role = "autolink"  # names in docstrings, linked where they are public
+default_role = "autolink"  # links names in docstrings if they are public
 nitpick_ignore_regex = [("py:obj", r"functools\..*")]  # the manual points to no other one
 autosummary_generate = True
 autodoc_preserve_defaults = True  # as they are written: some are long
@@ -75,7 +75,7 @@ sphinx_gallery_conf = {
     "doc_module": ("viscontact",),
     "filename_pattern": r"\.py$",
     "image_scrapers": ("gallery_figures.pictures",),
-    "reset_modules": ("gallery_figures.dressed",),
+    "reset_modules": ("gallery_figures.set_style",),
     "download_all_examples": False,
     "remove_config_comments": True,
     "show_memory": False,

@@ -1,4 +1,4 @@
-"""The reference of the keys of a case file, made of its JSON schema."""
+"""Reference of the keys of a case file, generated from its JSON schema."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 
 Schema = Mapping[str, Any]
 
-#: A key that so many kinds have alike is told once, above them.
+#: A key that at least this number of kinds have in common is described once, above them.
 ALIKE = 4
 
 _BOUNDS = (
@@ -41,15 +41,15 @@ def case_file_reference(schema: Schema) -> str:
     """
     keys = schema["properties"]
     lines = ["## The whole file", "", *_table(keys, schema["required"])]
-    told: dict[tuple[str, ...], str] = {}
+    described: dict[tuple[str, ...], str] = {}
     for name, value in keys.items():
         kinds = tuple(_references(value))
-        if kinds and kinds in told:  # the indenter's material is told as the material's
+        if kinds and kinds in described:  # the indenter's material is described with the material
             lines += ["", _target(name), f"## `{name}`", "", _sentence(value["description"])]
-            lines += [f"Written as [`{told[kinds]}`](#{_label(told[kinds])})."]
+            lines += [f"Same keys as [`{described[kinds]}`](#{_label(described[kinds])})."]
         else:
             lines += _section(schema["$defs"], name, value, depth=2)
-            told[kinds] = name
+            described[kinds] = name
     return "\n".join([*lines, *_units(schema.get("x-units", {}))])
 
 
@@ -63,12 +63,12 @@ def _units(units: Mapping[str, list[str]]) -> Iterator[str]:
 
 
 def _section(defs: Schema, path: str, value: Schema, depth: int) -> Iterator[str]:
-    """What a key may hold, if that has keys itself: of one kind, or of several."""
+    """Section of a key whose value has keys: of one kind, or of several."""
     names = list(dict.fromkeys(_references(value)))
     if not names:
         return
     yield from ("", _target(path), f"{'#' * depth} `{path}`", "")
-    # Of a single kind what it says of itself is enough.
+    # For a single kind, its own description is sufficient.
     if len(names) > 1 and "description" in value:
         yield from (_sentence(value["description"]), "")
     if len(names) == 1:
@@ -84,7 +84,7 @@ def _section(defs: Schema, path: str, value: Schema, depth: int) -> Iterator[str
         yield from (f"A name, one of {names}; or one of the kinds below.", "")
     alike = _alike(kinds)
     if alike:
-        yield from ("Of every kind:", "", *_table(alike, []))
+        yield from ("Keys of every kind:", "", *_table(alike, []))
     for kind in kinds.values():
         yield from _kind(path, kind, alike, depth + 1)
     nested = {key: each for kind in kinds.values() for key, each in kind["properties"].items()}
@@ -111,14 +111,14 @@ def _below(defs: Schema, path: str, properties: Schema, depth: int) -> Iterator[
 
 
 def _names_of_no_kind(value: Schema, kinds: Mapping[str, Schema]) -> list[str]:
-    """Names that may stand there and are not those of the kinds that are told below."""
+    """Allowed names that are not names of the kinds described below."""
     consts = {each.get("const") for kind in kinds.values() for each in kind["properties"].values()}
     options = value.get("anyOf", [])
     return [name for each in options for name in each.get("enum", []) if name not in consts]
 
 
 def _alike(kinds: Mapping[str, Schema]) -> dict[str, Any]:
-    """The keys that all kinds have alike."""
+    """Keys that all kinds have in common."""
     every = [kind["properties"] for kind in kinds.values()]
     if len(every) < ALIKE:
         return {}
@@ -138,10 +138,10 @@ def _table(properties: Schema, required: list[str]) -> Iterator[str]:
 
 def _meaning(value: Schema) -> str:
     said = str(value.get("description", ""))
-    # What a quantity says of itself stands in the next column.
+    # The next column describes the quantity.
     if said and not (said.endswith(tuple(_SIGNS)) and "with its unit" in said):
         return _cell(said)
-    # A key that may be left out hides what it says in the kind of value that it has then.
+    # The description of an optional key is in one of its alternatives.
     return next(filter(None, map(_meaning, value.get("anyOf", []))), "")
 
 
@@ -152,7 +152,7 @@ _WORDS = {
     "object": "keys of your own",
 }
 
-#: Bounds of quantities, in the schema's words.
+#: Bounds of quantities, by the words of the schema.
 _SIGNS = {"any": "", "zero or more": " ≥ 0", "more than zero": " > 0"}
 
 
@@ -168,7 +168,7 @@ def _default(value: Schema) -> str:
 
 
 def _value(value: Schema) -> str:
-    """What may stand there, in words."""
+    """Allowed values of a key, in words."""
     if "const" in value:
         return f"`{value['const']}`"
     if "enum" in value:
@@ -177,8 +177,8 @@ def _value(value: Schema) -> str:
     if options:
         if any(True for _ in _references(value)):
             return _link_below(value, options)
-        told = [_value(each) for each in options if each.get("type") != "null"]
-        joined = ", or ".join(dict.fromkeys(told)) + _bounds(value)
+        texts = [_value(each) for each in options if each.get("type") != "null"]
+        joined = ", or ".join(dict.fromkeys(texts)) + _bounds(value)
         return joined if "e.g." in joined else joined + _example(value)
     if "$ref" in value:
         return "its keys (below)"
@@ -186,7 +186,7 @@ def _value(value: Schema) -> str:
 
 
 def _link_below(value: Schema, options: list[Schema]) -> str:
-    """What is told in sections of their own."""
+    """Allowed values that are described in their own sections."""
     if len(set(_references(value))) == 1:
         return "its keys (below)"
     names = any("enum" in each for each in options)
@@ -228,7 +228,7 @@ def _example(value: Schema) -> str:
 
 
 def _references(value: Any) -> Iterator[str]:
-    """The definitions that a value may hold, in order."""
+    """Definitions that a value may refer to, in order."""
     if isinstance(value, Mapping):
         if "$ref" in value:
             yield str(value["$ref"]).rsplit("/", 1)[-1]

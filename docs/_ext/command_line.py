@@ -1,4 +1,4 @@
-"""The reference of the commands, made of the commands themselves."""
+"""Reference of the commands, generated from the commands."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ import typer
 
 from viscontact.cli.shell import app
 
-#: What is typed, in what is told: an option, or what stands in quotation marks.
+#: Input to type within a help text: an option, or text in quotation marks.
 _TYPED = re.compile(r"(?<!\S)(--[a-z][\w-]*)|(?<!\w)'([^']+)'(?!\w)")
 
 
 def command_line_reference() -> str:
-    """Return a section for each command: what it does, what it takes, an example.
+    """Return a section for each command: description, arguments and options, example.
 
     Returns
     -------
@@ -42,16 +42,16 @@ def _section(name: str, command: Any) -> Iterator[str]:
     if arguments or options:
         yield from ("", "| | |", "|---|---|")
     for each in arguments:
-        yield f"| `{_cell(_name(each))}` | {_told(each)} |"
+        yield f"| `{_cell(_name(each))}` | {_description(each)} |"
     for each in options:
-        yield f"| {_spelt(each)} | {_told(each)} |"
+        yield f"| {_spelt(each)} | {_description(each)} |"
     example = (command.epilog or "").removeprefix("Example:").strip()
     if example:
         yield from ("", "For example:", "", "```text", example, "```")
 
 
 def _prose(text: str) -> str:
-    """Help with its indented examples as what they are: lines to type."""
+    """Help text with its indented examples as code blocks."""
     paragraphs = []
     for paragraph in text.split("\n\n"):
         lead, separator, line = paragraph.partition(":  viscontact ")
@@ -78,14 +78,14 @@ def _spelt(option: Any) -> str:
     return f"{spelt}, {last}" if spelt else last
 
 
-def _told(parameter: Any) -> str:
+def _description(parameter: Any) -> str:
     said = _TYPED.sub(r"`\1\2`", _cell(parameter.help or ""))
     notes = []
     if getattr(parameter, "multiple", False) and "repeated" not in said:
         notes.append("May be given several times.")
     default = parameter.default
-    is_told = not (default is None or default is False or callable(default) or default == [])
-    if is_told and not getattr(parameter, "is_flag", False):
+    has_default = not (default is None or default is False or callable(default) or default == [])
+    if has_default and not getattr(parameter, "is_flag", False):
         notes.append(f"Default: `{default}`.")
     return " ".join([said, *notes])
 

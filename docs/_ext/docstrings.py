@@ -1,4 +1,4 @@
-"""Docstrings as pages: what is no reStructuredText, defaults by value, links to public names."""
+"""Docstrings as pages: escapes for reStructuredText, default values, links to public names."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ from sphinx.util.typing import ExtensionMetadata
 
 import viscontact
 
-#: At the beginning of a line, or of a reference, where "M. L. Williams" would be item 13 of a list.
+#: An initial at the beginning of a line or reference: "M. L. Williams" would be item 13 of a list.
 _INITIAL = re.compile(r"^(\s*(?:\.\. \[\d+\] )?)([A-Z]\. )")
 
 _CONSTANT = re.compile(r"(?<==)_?[A-Z_]{2,}\b")
-_SHOWN = 60  # characters of a default; what is longer keeps its name
+_SHOWN = 60  # characters of a default; a longer one is shown by its name
 _BACK = re.compile(r"(?<=/generated/)([\w.]+)\.html#([\w.]+)")
 
-#: Modules that have no page of their own, and the pages that tell what they do.
-TOLD_IN = {
+#: Modules without their own page, and the pages that describe them.
+MODULE_PAGES = {
     "viscontact.identification.overlap": "theory/identification",
     "viscontact.identification.spectrum": "theory/identification",
     "viscontact.plot": "reference/python/plotting",
@@ -33,7 +33,7 @@ TOLD_IN = {
 
 
 def as_written(lines: list[str]) -> list[str]:
-    r"""Return a docstring whose bars and first initials are escaped, but for those in examples.
+    r"""Return a docstring with escaped bars and first initials, except in examples.
 
     Parameters
     ----------
@@ -43,7 +43,7 @@ def as_written(lines: list[str]) -> list[str]:
     Returns
     -------
     list of str
-        As many lines.
+        The same number of lines.
 
     Examples
     --------
@@ -64,7 +64,7 @@ def _escape(
 
 
 def by_value(arguments: str, constants: Mapping[str, Any]) -> str:
-    """Return a signature with the values of defaults that the source gives by name.
+    """Return a signature with values in place of the names of constant defaults.
 
     Parameters
     ----------
@@ -76,7 +76,7 @@ def by_value(arguments: str, constants: Mapping[str, Any]) -> str:
     Returns
     -------
     str
-        The signature; a value that is long keeps its name.
+        The signature; long values are shown by their names.
 
     Examples
     --------
@@ -102,10 +102,10 @@ def _show_defaults(
 def _public(
     app: Sphinx, env: BuildEnvironment, node: pending_xref, shown: nodes.Element
 ) -> nodes.Element | None:
-    # A name that is public elsewhere than where the docstring stands, or a module.
+    # A name that is public in another module than that of the docstring, or a module.
     target = str(node["reftarget"])
-    if target in TOLD_IN:
-        return make_refnode(app.builder, node["refdoc"], TOLD_IN[target], "", shown)
+    if target in MODULE_PAGES:
+        return make_refnode(app.builder, node["refdoc"], MODULE_PAGES[target], "", shown)
     name = target.rpartition(".")[2]
     if node.get("refdomain") != "py" or name not in viscontact.__all__:
         return None
@@ -115,18 +115,18 @@ def _public(
 
 
 def linked_back(body: str) -> str:
-    """Return a source's page whose links point to where its names are documented.
+    """Return a source page whose links point to the documentation of its names.
 
     Parameters
     ----------
     body : str
-        The page, made from one module; Sphinx takes all its names for documented in the one
-        package that documents the first of them.
+        The page of one module. Sphinx assumes that all its names are documented in the package
+        that documents the first of them.
 
     Returns
     -------
     str
-        The page, each anchor in the package that its page is named after.
+        The page, with each anchor in the package of the page it is on.
 
     Examples
     --------
@@ -134,13 +134,13 @@ def linked_back(body: str) -> str:
     '../generated/viscontact.plot.Film.html#viscontact.plot.Film.seconds'
     """
 
-    def mended(found: re.Match[str]) -> str:
+    def relinked(found: re.Match[str]) -> str:
         page, anchor = found.groups()
         if anchor.startswith(page):
             return found[0]
         return f"{page}.html#{page}{anchor.partition(page.rpartition('.')[2])[2]}"
 
-    return _BACK.sub(mended, body)
+    return _BACK.sub(relinked, body)
 
 
 def _link_back(app: Sphinx, page: str, template: str, context: dict[str, Any], tree: Any) -> None:
@@ -149,7 +149,7 @@ def _link_back(app: Sphinx, page: str, template: str, context: dict[str, Any], t
 
 
 def setup(app: Sphinx) -> ExtensionMetadata:
-    """Escape before numpydoc takes docstrings apart, and link what Sphinx does not find."""
+    """Escape docstrings before numpydoc parses them, and resolve missing links."""
     app.connect("autodoc-process-docstring", _escape, priority=100)
     app.connect("autodoc-process-signature", _show_defaults)
     app.connect("missing-reference", _public)

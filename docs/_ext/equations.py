@@ -1,4 +1,4 @@
-"""Equations as MathML, which browsers draw themselves: no script, no font, no network."""
+"""Equations as MathML, which browsers render without scripts, fonts or network."""
 
 from __future__ import annotations
 
@@ -14,27 +14,26 @@ from sphinx.util.math import get_node_equation_number
 from sphinx.util.typing import ExtensionMetadata
 from sphinx.writers.html5 import HTML5Translator
 
-#: What LaTeX understands, and the converter draws as something else, silently: how to write it.
+#: LaTeX that the converter renders wrongly without an error, and its replacement.
 _MISREAD = {
     r"\\[td]?frac\s*[^{\s]|\\[td]frac": r"\frac{a}{b}",
     r"\\(?:d?dot|bar|hat|tilde|vec)\s*(?:\w|\\\w+|\{[^}]*\})\s*[_^]": r"{\bar a}_b",
     r"\\underbrace": "words",
 }
 
-#: A function's name stands a little apart from what it multiplies, and from what it is of, if
-#: that has no brackets.
+#: A function name needs a small space after a factor, and before an argument without brackets.
 _NAME = r"\\(?:ln|log|exp|sin|cos|cot|arctan|operatorname\{\w+\})"
 _MULTIPLIED = re.compile(rf"(?<=[\w}}*])\s*(?={_NAME}(?![a-z]))")
 _APPLIED = re.compile(rf"({_NAME}(?:[\^_](?:\w|\{{\w+\}}))?)\s+(?=[^\s({{,])")
 
-#: Signs as mathematics writes them.
+#: Symbols with mathematical typography.
 _SIGNS = {
     "<mo>'</mo>": '<mo lspace="0em" rspace="0em">′</mo>',
     "<mo>*</mo>": "<mo>∗</mo>",
     '<mo stretchy="false">/</mo>': '<mo stretchy="false" lspace="0.06em" rspace="0.06em">/</mo>',
 }
 
-#: Bars come in pairs, and browsers cannot tell which of them opens.
+#: Bars come in pairs; browsers do not know which one opens.
 _BAR = re.compile(r"<mo[^>]*>\|</mo>")
 
 
@@ -46,7 +45,7 @@ def mathml(tex: str, as_block: bool = False) -> str:
     tex : str
         The equation in LaTeX.
     as_block : bool
-        Whether it stands on a line of its own.
+        Whether it is a displayed equation.
 
     Returns
     -------
@@ -56,7 +55,7 @@ def mathml(tex: str, as_block: bool = False) -> str:
     Raises
     ------
     ExtensionError
-        If the equation uses what the converter does not know.
+        If the converter does not support a part of the equation.
 
     Examples
     --------
@@ -98,6 +97,6 @@ def _displayed(self: HTML5Translator, node: nodes.math_block) -> None:
 
 
 def setup(app: Sphinx) -> ExtensionMetadata:
-    """Enter the renderer, to be chosen by ``html_math_renderer = "mathml"``."""
+    """Register the renderer, selected by ``html_math_renderer = "mathml"``."""
     app.add_html_math_renderer("mathml", (_inline, None), (_displayed, None))
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,4 +1,4 @@
-"""Pictures for the gallery: figures are objects here, which matplotlib's own list does not know."""
+"""Figures of the gallery, found as objects because pyplot does not register them."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from sphinx_gallery.scrapers import figure_rst
 
 _shown: WeakSet[Figure] = WeakSet()
 
-#: Wider than this [inch] a figure has panels side by side, whose letters are too small on a phone.
+#: A figure wider than this [inch] has panels side by side, with text too small on a phone.
 WIDE = 6.5
 
-#: Drawings that examples make by themselves look like those of the package: open at the top and at
-#: the right, with thin lines and small letters.
-LOOKS = {
+#: Style of figures drawn by the examples, like that of the package: no axes lines at the top and
+#: right, thin lines and small text.
+STYLE = {
     "axes.labelsize": 9,
     "axes.linewidth": 0.6,
     "axes.spines.right": False,
@@ -35,30 +35,30 @@ LOOKS = {
 }
 
 
-def dressed(gallery_conf: dict[str, Any], script: str) -> None:
-    """Set the looks before each example.
+def set_style(gallery_conf: dict[str, Any], script: str) -> None:
+    """Set the style before each example.
 
     Parameters
     ----------
     gallery_conf, script
         As sphinx-gallery gives them.
     """
-    mpl.rcParams.update(LOOKS)
+    mpl.rcParams.update(STYLE)
 
 
 def pictures(block: Any, block_vars: dict[str, Any], gallery_conf: dict[str, Any]) -> str:
-    """Save each figure that a block of an example has made, and return how to show it.
+    """Save each figure created by a block of an example, and return its reStructuredText.
 
     Parameters
     ----------
     block, block_vars, gallery_conf
-        As sphinx-gallery gives them: ``block_vars`` holds the names of the example and the paths to
-        write to.
+        As sphinx-gallery gives them: ``block_vars`` contains the variables of the example and the
+        paths of the images.
 
     Returns
     -------
     str
-        The pictures in reStructuredText.
+        The images in reStructuredText.
     """
     paths, wide = [], False
     for figure in _figures(block_vars["example_globals"].values()):

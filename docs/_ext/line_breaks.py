@@ -1,8 +1,9 @@
-"""Where a line of a page may end, and where it may not.
+"""Line breaks in pages.
 
-Browsers break a line behind any hyphen and beside any box, and not within a name, however long.
-Here a number keeps its unit, an equation or what is typed the marks around it, and a command's word
-its hyphens; a long name may end a line behind its strokes and dots.
+Browsers break a line after any hyphen and next to any inline element, but not within a long name.
+This extension keeps a number and its unit together, an equation or inline code and the punctuation
+around it, and words with hyphens in commands. It allows breaks in a long name after underscores,
+slashes and dots.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ _UNIT = (
 )
 _QUANTITY = re.compile(rf"(?<=\d) (?=(?:{_UNIT})(?!\w))")
 
-_BLOCK = re.compile(  # an equation in a line, or what is typed, which are boxes to the browser
+_BLOCK = re.compile(  # inline equations and code, next to which browsers may break
     r"""(\(?)(?:<math\b(?![^>]*\bdisplay=)(?:(?!</math>).)*</math>|<code\b(?:(?!</code>).)*</code>)
         ([).,;:!?’]*)""",
     re.DOTALL | re.VERBOSE,
@@ -35,25 +36,25 @@ _LITERAL = re.compile(r"<code\b.*?</code>", re.DOTALL)
 _LONG_NAME = re.compile(r'(?<=<span class="pre">)[^<]{25,}(?=</span>)')
 _JOINT = re.compile(r"(::|[_/=]+|\.(?=\w{4}))(?=\w)")
 
-#: Where spaces are part of what is shown.
-_AS_THEY_STAND = (
+#: Nodes in which spaces must not change.
+_UNCHANGED = (
     *(nodes.literal, nodes.FixedTextElement, nodes.math, nodes.math_block, nodes.raw),
     addnodes.desc_signature,
 )
 
 
 def keeping_units(text: str) -> str:
-    r"""Return a text in which no line ends between a number and its unit, or within a number.
+    r"""Return a text without line breaks between a number and its unit, or within a number.
 
     Parameters
     ----------
     text : str
-        Words of a page.
+        Text of a page.
 
     Returns
     -------
     str
-        The same, with spaces that do not break.
+        The same text with no-break spaces.
 
     Examples
     --------
@@ -64,7 +65,7 @@ def keeping_units(text: str) -> str:
 
 
 def breaking_well(html: str) -> str:
-    """Return a page whose equations, commands and long names break where a reader would.
+    """Return a page with suitable line breaks in equations, commands and long names.
 
     Parameters
     ----------
@@ -74,7 +75,7 @@ def breaking_well(html: str) -> str:
     Returns
     -------
     str
-        The same, with spans of the class ``whole`` and places to break at.
+        The same page, with spans of the class ``whole`` and ``<wbr>`` elements.
 
     Examples
     --------
@@ -99,14 +100,14 @@ def _jointed(name: re.Match[str]) -> str:
 
 
 class _Units(SphinxPostTransform):
-    """Lets every number keep its unit, after the rest is done."""
+    """Joins numbers and units, after all other transforms."""
 
     default_priority = 900
 
     def run(self, **_: Any) -> None:
         for text in list(self.document.findall(nodes.Text)):
             above = text.parent
-            while above is not None and not isinstance(above, _AS_THEY_STAND):
+            while above is not None and not isinstance(above, _UNCHANGED):
                 above = above.parent
             kept = keeping_units(str(text))
             if above is None and kept != text:
@@ -121,7 +122,7 @@ def _page(
 
 
 def setup(app: Sphinx) -> ExtensionMetadata:
-    """Look after the lines of every page."""
+    """Connect the line-break rules to every page."""
     app.add_post_transform(_Units)
     app.connect("html-page-context", _page)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,6 +1,6 @@
-"""Parts of pages that are made when the manual is built, so that they cannot go stale.
+"""Generated parts of pages, so that they are always up to date.
 
-A line ``{{ made: NAME }}`` in a page is replaced by what `PARTS` makes of the name.
+A line ``{{ made: NAME }}`` in a page is replaced by the text that ``PARTS[NAME]`` returns.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ ROOT = Path(__file__).parents[2]
 
 def _changes() -> str:
     text = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
-    # Names of pages are links here.
+    # Page names become links.
     return re.sub(r"`docs/([\w/-]+)\.md`", r"{doc}`/\1`", text)
 
 
@@ -47,22 +47,22 @@ def _variables(kind: dict[str, Variable]) -> str:
 
 
 def _unit(variable: Variable) -> str:
-    """A unit as people write it, where CF has no raised figures."""
+    """Unit with superscripts, which CF units do not have."""
     return {"m2": "m²", "1": "–"}.get(variable.units, variable.units)
 
 
 def _library() -> str:
-    """Return a section for each shipped material: what it is, where it is from, what to write."""
+    """Return a section for each shipped material: description, source, case-file section."""
     return "\n\n".join("\n".join(_material(entry(name))) for name in names())
 
 
 def _material(shipped: Entry) -> Iterator[str]:
     yield from (f"(material-{shipped.name})=", f"## {shipped.name}", "", f"{shipped.title}.", "")
     first, last = (format_quantity(time, "s") for time in shipped.measured)
-    told = {
+    rows = {
         "family": shipped.family,
         "measured": f"{shipped.test}, temperature: {shipped.temperature}",
-        "rests on data": f"from {first} to {last}; a run that goes beyond warns",
+        "data range": f"{first} to {last}; a run outside this range issues a warning",
         "source": shipped.source,
         "constants": shipped.constants,
         "volume": shipped.volume,
@@ -70,7 +70,7 @@ def _material(shipped: Entry) -> Iterator[str]:
         "licence": shipped.licence,
     }
     yield from ("| | |", "|---|---|")
-    for name, text in told.items():
+    for name, text in rows.items():
         yield f"| {name} | {' '.join(text.split())} |".replace("*", r"\*")
     yield from ("", "```yaml", "material:")
     for key, value in shipped.material.items():
@@ -79,17 +79,17 @@ def _material(shipped: Entry) -> Iterator[str]:
     yield "```"
 
 
-def _in_a_notebook(noun: Any) -> str:
-    return f'```{{raw}} html\n<div class="in-a-notebook">{noun._repr_html_()}</div>\n```'
+def _in_a_notebook(displayed: Any) -> str:
+    return f'```{{raw}} html\n<div class="in-a-notebook">{displayed._repr_html_()}</div>\n```'
 
 
 def _roller() -> str:
-    """What the first cell on the page on notebooks shows."""
+    """Output of the first cell of the page on notebooks."""
     return _in_a_notebook(viscontact.Roller(radius=5e-3, half_length=9.565e-3, crown_radius=75e-3))
 
 
 def _result() -> str:
-    """What its second cell shows."""
+    """Output of the second cell of the page on notebooks."""
     rubber = viscontact.Material(viscontact.Zener(1e6, 1e6, 1e6), poisson_ratio=0.5)
     times = viscontact.uniform_times(5.0, 20)
     ds = viscontact.simulate(viscontact.Sphere(0.01), rubber, viscontact.step(0.1), times=times)
@@ -117,10 +117,10 @@ def _fill_in(app: Sphinx, page: str, source: list[str]) -> None:
     source[0] = _MARK.sub(lambda found: PARTS[found[1]](), source[0])
 
 
-def _always_anew(
+def _always_outdated(
     app: Sphinx, env: BuildEnvironment, added: set[str], changed: set[str], removed: set[str]
 ) -> Iterator[str]:
-    """Pages with a mark: what they are made of is not a file that Sphinx would look at."""
+    """Pages with a mark: their sources are not files that Sphinx watches."""
     for page in env.found_docs:
         path = Path(str(env.doc2path(page)))
         if path.suffix == ".md" and _MARK.search(path.read_text(encoding="utf-8")):
@@ -128,7 +128,7 @@ def _always_anew(
 
 
 def setup(app: Sphinx) -> ExtensionMetadata:
-    """Fill in the marks as pages are read."""
+    """Replace the marks when pages are read."""
     app.connect("source-read", _fill_in)
-    app.connect("env-get-outdated", _always_anew)
+    app.connect("env-get-outdated", _always_outdated)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,4 +1,4 @@
-"""The manual asks nobody for anything: what a page loads lies beside it."""
+"""Check that the manual makes no network requests."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from sphinx.application import Sphinx
 from sphinx.errors import ExtensionError
 from sphinx.util.typing import ExtensionMetadata
 
-#: What a browser fetches by itself: not links, which are followed by people.
+#: Resources that a browser loads automatically, in contrast to links.
 _LOADED = re.compile(
     r"""<(?:script|img|iframe|source|video|audio|embed|object)\b[^>]*?\b(?:src|data)=["']?
         (?:https?:)?//[^"'\s>]+
@@ -22,7 +22,7 @@ _LOADED = re.compile(
 
 
 def loaded_from_outside(text: str) -> list[str]:
-    """Return what a page or a style sheet would fetch from the network.
+    """Return the references by which a page or a style sheet loads from the network.
 
     Parameters
     ----------
@@ -32,7 +32,7 @@ def loaded_from_outside(text: str) -> list[str]:
     Returns
     -------
     list of str
-        The places, as they are written.
+        The references as in the text.
 
     Examples
     --------
@@ -58,6 +58,6 @@ def _findings(folder: Path) -> Iterator[str]:
 
 
 def setup(app: Sphinx) -> ExtensionMetadata:
-    """Look through all that was written."""
+    """Check all pages after the build."""
     app.connect("build-finished", _refuse)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

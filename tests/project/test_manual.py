@@ -81,15 +81,15 @@ def test_defaults_of_a_signature_are_shown_by_their_values_unless_these_are_long
 
 def test_a_source_links_back_to_the_package_that_documents_a_name() -> None:
     page = "../reference/generated/viscontact.identification.MasterCurve.html"
-    mended = extension("docstrings").linked_back(f"{page}#viscontact.MasterCurve.fit_wlf")
-    assert mended == f"{page}#viscontact.identification.MasterCurve.fit_wlf"
+    relinked = extension("docstrings").linked_back(f"{page}#viscontact.MasterCurve.fit_wlf")
+    assert relinked == f"{page}#viscontact.identification.MasterCurve.fit_wlf"
     name = "viscontact.accuracy.richardson.richardson"
     same = f"../generated/{name}.html#{name}"
     assert extension("docstrings").linked_back(same) == same
 
 
-def test_a_module_without_a_page_is_told_of_on_one_that_is_there() -> None:
-    for module, page in extension("docstrings").TOLD_IN.items():
+def test_a_module_without_a_page_links_to_a_page_that_exists() -> None:
+    for module, page in extension("docstrings").MODULE_PAGES.items():
         assert pydoc.locate(module) is not None, module
         assert list(DOCS.glob(f"{page}.*")), page
 
