@@ -56,6 +56,7 @@ vc.Sphere("5 mm")  # error: arg-type
 vc.simulate(ball, rubber, 0.1)  # error: arg-type
 vc.simulate(ball, rubber, vc.step(0.1), nonsense=3)  # error: call-arg
 vc.simulate(ball, rubber, vc.step(0.1), fields="al")  # error: arg-type
+vc.Revolved([0, 1e-3], [0, 1e-4], interpolation="cubic")  # error: arg-type
 law("1 s")  # error: arg-type
 """
 

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.indenters.arguments import positions
 from viscontact.indenters.indenter import Indenter
-from viscontact.indenters.point_line import TableLine, mirrored, numbers
+from viscontact.indenters.point_line import Interpolation, TableLine, mirrored, numbers
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import positive
 
@@ -43,9 +43,11 @@ class Revolved(Indenter):
 
     r: tuple[float, ...] = field(metadata={"unit": "m"})
     drops: tuple[float, ...] = field(metadata={"unit": "m"})
-    interpolation: str
+    interpolation: Interpolation
 
-    def __init__(self, r: ArrayLike, drops: ArrayLike, interpolation: str = "smooth") -> None:
+    def __init__(
+        self, r: ArrayLike, drops: ArrayLike, interpolation: Interpolation = "smooth"
+    ) -> None:
         # Written out, so that arrays are welcome and numbers that compare are kept.
         object.__setattr__(self, "r", numbers("Revolved: r", r))
         object.__setattr__(self, "drops", numbers("Revolved: drops", drops))
@@ -98,14 +100,14 @@ class Swept(Indenter):
     y: tuple[float, ...] = field(metadata={"unit": "m"})
     drops: tuple[float, ...] = field(metadata={"unit": "m"})
     half_length: float | None = field(metadata={"unit": "m"})
-    interpolation: str
+    interpolation: Interpolation
 
     def __init__(
         self,
         y: ArrayLike,
         drops: ArrayLike,
         half_length: float | None = None,
-        interpolation: str = "smooth",
+        interpolation: Interpolation = "smooth",
     ) -> None:
         # Written out, so that arrays are welcome and numbers that compare are kept.
         object.__setattr__(self, "y", numbers("Swept: y", y))

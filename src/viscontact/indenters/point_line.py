@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Literal, get_args
 
 import numpy as np
 import scipy
@@ -14,7 +15,8 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact.units.formatting import format_quantity
 
 #: How a line runs from point to point.
-INTERPOLATIONS = ("smooth", "linear")
+Interpolation = Literal["smooth", "linear"]
+INTERPOLATIONS: tuple[Interpolation, ...] = get_args(Interpolation)
 
 #: Drops and positions are lengths of bodies [m]: beyond it, it is a wrong unit.
 _LARGEST = 1e30
@@ -56,7 +58,7 @@ class TableLine:
     name: str
     position: tuple[float, ...]
     drop: tuple[float, ...]
-    interpolation: str
+    interpolation: Interpolation
 
     def __post_init__(self) -> None:
         if self.interpolation not in INTERPOLATIONS:

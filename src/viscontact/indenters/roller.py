@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,7 +16,8 @@ from viscontact.indenters.named_profiles import named_profile, profile_from_tabl
 from viscontact.indenters.profile import Profile
 from viscontact.units.numbers import positive
 
-CROSS_SECTIONS = ("circle", "parabola")
+CrossSection = Literal["circle", "parabola"]
+CROSS_SECTIONS: tuple[CrossSection, ...] = get_args(CrossSection)
 
 
 @dataclass(frozen=True, init=False)
@@ -73,7 +74,7 @@ class Roller(Indenter):
     half_length: float = field(metadata={"unit": "m"})
     crown_radius: float | None = field(metadata={"unit": "m"})
     profile: Profile | None
-    cross_section: str
+    cross_section: CrossSection
 
     def __init__(
         self,
@@ -82,7 +83,7 @@ class Roller(Indenter):
         crown_radius: float | None = None,
         profile: Profile | str | ArrayLike | None = None,
         *,
-        cross_section: str = "circle",
+        cross_section: CrossSection = "circle",
         **arguments: Any,
     ) -> None:
         # Written out, so that a profile may be named, with arguments of its own.

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from viscontact.indenters.point_line import TableLine, mirrored, numbers
+from viscontact.indenters.point_line import Interpolation, TableLine, mirrored, numbers
 from viscontact.indenters.profile import Profile
 from viscontact.units.formatting import format_quantity
 
@@ -44,9 +44,11 @@ class TabulatedProfile(Profile):
 
     x: tuple[float, ...] = field(metadata={"unit": "m"})
     drops: tuple[float, ...] = field(metadata={"unit": "m"})
-    interpolation: str = "smooth"
+    interpolation: Interpolation = "smooth"
 
-    def __init__(self, x: ArrayLike, drops: ArrayLike, interpolation: str = "smooth") -> None:
+    def __init__(
+        self, x: ArrayLike, drops: ArrayLike, interpolation: Interpolation = "smooth"
+    ) -> None:
         # Written out, so that arrays are welcome and numbers that compare are kept.
         object.__setattr__(self, "x", numbers("TabulatedProfile: x", x))
         object.__setattr__(self, "drops", numbers("TabulatedProfile: drops", drops))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,7 +14,8 @@ from viscontact.indenters.indenter import Indenter
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import check_fields, finite
 
-PATTERNS = ("square", "hexagonal")
+Pattern = Literal["square", "hexagonal"]
+PATTERNS: tuple[Pattern, ...] = get_args(Pattern)
 
 
 #: Cells that a wave or a dimple is to have: the points of a cosine then miss (pi/10)^2/2 = 5 % of
@@ -122,7 +124,7 @@ class Dimples(Indenter):
     depth: float = field(metadata={"unit": "m"})
     radius: float = field(metadata={"unit": "m"})
     spacing: float = field(metadata={"unit": "m"})
-    pattern: str = "square"
+    pattern: Pattern = "square"
 
     def __post_init__(self) -> None:
         check_fields(self, "depth", "radius", "spacing")
