@@ -1,4 +1,4 @@
-"""How a noun shows itself: a drawing and a table in a notebook, a table when it is printed."""
+"""Rich display in notebooks (`_repr_html_`) and terminals (`str`)."""
 
 from __future__ import annotations
 
@@ -12,18 +12,15 @@ else:
 
 
 class Displayable:
-    """A noun that can tell what it is, in readable units.
+    """Base class of objects with a display in readable units, in notebooks and when printed.
 
-    Notebooks ask for `_repr_html_`, ``print`` for ``str``; ``repr`` stays the dataclass's own,
-    which can be typed in again.
+    ``repr`` stays that of the dataclass, which can be typed in again.
 
     Notes
     -----
-    What is shown is made high up, where units and drawings are, and these nouns stand on the
-    ground. So the noun asks the front door, ``viscontact``, which loads by name, and late, what
-    lives on any floor: this is the one module below the shell that may. Writing the tables down
-    here would bring units to the ground floor; telling IPython of every type would serve IPython
-    alone, and not the other programs that call `_repr_html_`.
+    Drawings and tables are made by `viscontact.notebook`, on a higher floor than the classes that
+    derive from this one. It is reached through the package's lazy names, late, so that nothing is
+    imported before it is displayed; only this module may do so.
     """
 
     __slots__ = ()
@@ -36,20 +33,20 @@ class Displayable:
 
 
 def result_plots(result: object) -> Any:
-    """Return the figures of a result, `viscontact.plot.ResultPlots`, in the same late way."""
+    """Return the figures of a result, `viscontact.plot.ResultPlots`, imported late as above."""
     return viscontact.plot.ResultPlots(result)
 
 
 class DisplayableGroup(Displayable, ABC):
-    """A noun made of others, which are shown one below the other."""
+    """Group of objects that are displayed one below the other."""
 
     __slots__ = ()
 
     @property
     @abstractmethod
     def display_title(self) -> str:
-        """What stands above."""
+        """Title of the group."""
 
     @abstractmethod
     def display_parts(self) -> dict[str, Displayable | str]:
-        """Return the nouns it is made of, and what else is told of it in words, by their names."""
+        """Return the objects, and other facts as text, by name."""

@@ -1,4 +1,4 @@
-"""What is known at one instant."""
+"""State of a contact at one instant: fields, resultants, rigid motion."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from viscontact.grid import Grid
 
 
 class Outcome(IntEnum):
-    """How an instant ended.
+    """Outcome of the contact solver at an instant.
 
-    ``CONVERGED`` (0), ``NO_CONTACT`` (1) or ``NOT_CONVERGED`` (2): short of the tolerance.
+    ``CONVERGED`` (0), ``NO_CONTACT`` (1) or ``NOT_CONVERGED`` (2): tolerance not reached.
 
     Examples
     --------
@@ -42,8 +42,8 @@ class ContactState:
     displacement : ndarray, shape (nx, ny)
         Surface displacement, positive into the half-space [m].
     grid : Grid
-        The cells of these fields. A run that chooses its grid may have enlarged it since the state
-        before.
+        The cells of these fields. A run with an automatic grid may have enlarged it since the
+        previous state.
     force : float
         Integral of the pressure [N].
     eccentricity_x, eccentricity_y : float
@@ -64,9 +64,9 @@ class ContactState:
         Work of the load on the contact since the start; exact for an elastic body, across jumps
         and in the first instant, of second order in the step elsewhere [J].
     loss_per_cycle : float
-        Work that the last whole cycle of the load has cost; NaN before the first is over [J].
+        Work lost in the last complete cycle of the load; NaN before the first is complete [J].
     time_error : float
-        Estimated error of the pressure owed to the time steps so far, relative to the largest
+        Estimated error of the pressure caused by the time steps so far, relative to the largest
         deflection [-].
     iterations : int
         Search directions of the contact solver.
@@ -75,9 +75,9 @@ class ContactState:
     cells_across : int
         Cells across the contact along its shorter way, counted in cells.
     outcome : Outcome
-        How the instant ended.
+        Outcome of the solver.
     warnings : tuple of str
-        Doubts about accuracy met first at this instant.
+        Accuracy warnings that occur first at this instant.
 
     Examples
     --------

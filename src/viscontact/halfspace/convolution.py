@@ -1,4 +1,4 @@
-"""From pressure to displacement, on the whole grid at once: space without time."""
+"""Discrete convolution of pressure and influence coefficients by zero-padded transforms."""
 
 from __future__ import annotations
 
@@ -19,31 +19,20 @@ from viscontact.fourier import (
 
 
 class Convolution:
-    """The free half-space as an operator on cell pressures, by zero-padded transforms.
+    """Surface displacement of a half-space under cell pressures, by the DC-FFT algorithm.
 
-    Linear, not circular: the padding keeps the grid from seeing its own periodic images, so
-    the result is the direct sum over all pairs of cells, to rounding. Of a problem that is even
-    across x = 0 or y = 0 only the cells beyond are worked with: cosine transforms take the place
-    of Fourier transforms of twice the length there.
+    The convolution is linear: zero padding removes the periodic images, so the result is the
+    direct sum over all pairs of cells, to rounding [1]_. For a problem that is even across x = 0
+    or y = 0 (`mirrored`; an even number of cells there) only the cells with positive coordinates
+    are kept, and cosine transforms replace Fourier transforms of twice the length: a half-sample
+    even sequence convolved with an even kernel is its DCT-II times the kernel's discrete Fourier
+    transform [2]_. `coefficients` are those of the whole block, from `influence_table` [m];
+    `single` precision takes half the time.
 
-    Parameters
+    References
     ----------
-    coefficients : ndarray, shape (nx, ny)
-        Influence coefficients of the whole block of cells, from `influence_table` [m].
-    mirrored : tuple of bool
-        Whether the problem is even across x = 0, and across y = 0; the numbers of those cells are
-        even, and half as many are worked with.
-    single : bool
-        Whether to transform in single precision, in half the time.
-    transforms : Transforms, optional
-        Who transforms; the fastest that are installed when left out.
-
-    Notes
-    -----
-    A half-sample even sequence convolved with an even kernel is a product of its DCT-II with the
-    kernel's discrete Fourier transform (Martucci 1994, IEEE Trans. Signal Process. 42, 1038).
-    Lines without data are left out of the first transform forth and of the last one back, and the
-    arrays in between are kept from one time to the next.
+    .. [1] S. Liu, Q. Wang, G. Liu, Wear 243 (2000) 101.
+    .. [2] S. A. Martucci, IEEE Trans. Signal Process. 42 (1994) 1038.
 
     Examples
     --------
@@ -72,7 +61,7 @@ class Convolution:
         padded = [
             _padded(cells, even) for cells, even in zip(coefficients.shape, mirrored, strict=True)
         ]
-        # A real Fourier transform comes first, on few columns: what it leaves is complex.
+        # A real Fourier transform comes first, on the columns with data; the next one is complex.
         self._first = 0 if mirrored == (False, True) else 1
         self._second = 1 - self._first
         self._even = mirrored
@@ -85,27 +74,20 @@ class Convolution:
     def apply(
         self, pressure: NDArray[np.float64], into: NDArray[np.float64] | None = None
     ) -> NDArray[np.float64]:
-        """Displacement of every cell under a pressure, per unit contact compliance.
+        """Displacement over contact compliance [Pa m], positive into the half-space.
 
-        Parameters
-        ----------
-        pressure : ndarray, shape (nx, ny)
-            Pressure on the cells that are worked with [Pa], positive in compression.
-        into : ndarray, shape (nx, ny), optional
-            Where the displacement is put; a new array when left out.
-
-        Returns
-        -------
-        ndarray, shape (nx, ny)
-            Displacement over contact compliance [Pa m], positive into the half-space.
+        The pressure [Pa] is positive in compression; the result is written to `into` if given.
         """
         nx, ny = self.shape
+        # 1. Scale the pressure to order one and pad it with zeros.
         size = fill_of_order_one(self._block[:nx, :ny], pressure)
         _beyond(self._block, self.shape, self._first)[...] = 0
+        # 2. Transform, multiply by the symbol, transform back; 3. undo the scaling.
         moved = self._back(self._forth(self._block))
         return np.asarray(np.multiply(moved[:nx, :ny], size, out=into, dtype=np.float64))
 
     def _forth(self, block: NDArray[Any]) -> NDArray[Any]:
+        # First along the lines with data only, then along all lines of the padded block.
         transforms, spectrum, second = self._transforms, self._spectrum, self._second
         lines = _within(spectrum, self.shape, second)
         if self._even[self._first]:
@@ -131,7 +113,7 @@ class Convolution:
         fourier: Callable[[NDArray[Any], int], NDArray[Any]],
         spectrum: NDArray[Any],
     ) -> NDArray[Any]:
-        """Transform in place along the second axis; cosines take complex numbers for pairs."""
+        """Transform in place along the second axis; cosines act on real and imaginary parts."""
         if not self._even[self._second]:
             return fourier(spectrum, self._second)
         if self._even[self._first]:
@@ -145,7 +127,7 @@ def _halved(shape: tuple[int, ...], mirrored: tuple[bool, bool]) -> tuple[int, i
 
 
 def _padded(cells: int, even: bool) -> int:
-    """How many values are transformed for so many cells of the whole block."""
+    """Transform length for a number of cells of the whole block."""
     return int(fft.next_fast_len(cells if even else 2 * cells - 1, real=True))
 
 
@@ -155,7 +137,7 @@ def _symbol(
     mirrored: tuple[bool, bool],
     first: int,
 ) -> NDArray[np.float64]:
-    """The kernel's transform, which is real: the kernel is even along both axes."""
+    """Transform of the kernel: real, since the kernel is even along both axes."""
     index_x, index_y = (
         _distances(count, cells, even)
         for count, cells, even in zip(padded, coefficients.shape, mirrored, strict=True)
@@ -173,10 +155,9 @@ def _symbol(
 
 
 def _distances(padded: int, cells: int, even: bool) -> NDArray[np.intp]:
-    """Offsets in the order in which a transform wants a centred even kernel.
+    """Offsets of a centred even kernel in the order of the transform: 0, 1, 2, ... (2, 1).
 
-    0, 1, 2, ... for one half of it, 0, 1, 2, ..., 2, 1 for both. Those beyond the block stand in
-    the padding and are never read; any value will do.
+    Offsets beyond the block fall on padding, which is never read; they are clipped.
     """
     index = np.arange(padded + even)
     return np.minimum(index if even else np.minimum(index, padded - index), cells - 1)
@@ -187,10 +168,10 @@ def _put(shape: tuple[int, int], axis: int, count: int) -> tuple[int, int]:
 
 
 def _within(field: NDArray[Any], shape: tuple[int, int], axis: int) -> NDArray[Any]:
-    """The lines of a field that hold data, counted along an axis."""
+    """Lines of a field that hold data, counted along an axis."""
     return field[: shape[0]] if axis == 0 else field[:, : shape[1]]
 
 
 def _beyond(field: NDArray[Any], shape: tuple[int, int], axis: int) -> NDArray[Any]:
-    """The lines of a field that are padding, counted along an axis."""
+    """Lines of a field that are padding, counted along an axis."""
     return field[shape[0] :] if axis == 0 else field[:, shape[1] :]

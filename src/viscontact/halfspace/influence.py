@@ -1,7 +1,21 @@
-"""Influence coefficients: what a uniformly loaded cell does to the surface around it.
+"""Influence coefficients of a uniformly loaded rectangle (Love 1929).
 
-Geometry only. The displacement of a half-space of contact compliance J under a pressure p is
-u = (J/π) ∫ p/r, so a coefficient is (1/π) ∫ dA/r over the loaded cell, and u = J Σ K p.
+Under a pressure p (positive in compression) the surface of a half-space of contact compliance J
+is displaced into the body by u(x, y) = (J/π) ∫∫ p(x', y') / r dx' dy', with r the distance on the
+surface. For a unit pressure on a rectangle of edges 2a and 2b around the origin, and J = 1,
+
+    K(x, y) = (1/π) ∫∫ dx' dy' / r
+            = (1/π) [F(x+a, y+b) - F(x+a, y-b) - F(x-a, y+b) + F(x-a, y-b)] > 0   [m],
+    F(x, y) = x asinh(y/|x|) + y asinh(x/|y|),
+
+and u = J Σ K p over the cells. The integrand 1/r is singular inside the rectangle, K is not: F is
+continuous, with F = 0 on the axes, so K is finite at the centre, on the edges and at the corners.
+
+References
+----------
+A. E. H. Love, Phil. Trans. R. Soc. A 228 (1929) 377.
+K. L. Johnson, Contact Mechanics, Cambridge (1985), section 3.3, eq. 3.25, with logarithms of
+sums, which lose digits, in place of the inverse hyperbolic sines.
 """
 
 from __future__ import annotations
@@ -9,8 +23,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-#: Beyond this many cell edges the closed form has lost digits to cancellation (about
-#: (distance/edge)² of them) while a 4-point Gauss rule is exact to rounding.
+#: Beyond this many cell edges the difference of four corner terms cancels, by a factor of about
+#: (distance/edge)², while the 4 x 4 Gauss rule is exact to rounding.
 FAR = 20.0
 
 GAUSS_NODES, GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(4)
@@ -19,34 +33,12 @@ GAUSS_NODES, GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(4)
 def influence_coefficient(
     x: ArrayLike, y: ArrayLike, cell_size: tuple[float, float]
 ) -> NDArray[np.float64]:
-    """Displacement at a distance from a uniformly loaded rectangular cell.
+    """Displacement [m] at offsets x, y [m] from the centre of a cell, per unit p and unit J.
 
-    Parameters
-    ----------
-    x, y : array_like
-        Offsets from the cell's centre [m]; they broadcast against each other.
-    cell_size : tuple of float
-        Edge lengths (dx, dy) of the loaded cell [m].
+    Positive into the half-space; the shape is that of ``x + y``. Closed form near the cell, Gauss
+    quadrature of the same integral far from it.
 
-    Returns
-    -------
-    ndarray
-        Displacement into the half-space per unit pressure and unit contact compliance [m],
-        positive, shape of ``x + y``.
-
-    Notes
-    -----
-    Near the cell: Love (1929), as in Johnson (1985), eq. 3.25, with inverse hyperbolic sines
-    in place of logarithms of sums. Far away: the same integral by a 4 x 4 Gauss rule.
-
-    References
-    ----------
-    A. E. H. Love, Phil. Trans. R. Soc. A 228 (1929) 377.
-    K. L. Johnson, Contact Mechanics, Cambridge (1985), section 3.3.
-
-    Examples
-    --------
-    The centre of a loaded unit square sinks by 4 asinh(1)/π:
+    The centre of a loaded unit square is displaced by 4 asinh(1)/π:
 
     >>> round(float(influence_coefficient(0.0, 0.0, (1.0, 1.0))), 6)
     1.1222
@@ -54,29 +46,16 @@ def influence_coefficient(
     x, y = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
     far = np.hypot(x, y) > FAR * max(cell_size)
     result = np.empty(x.shape)
-    result[far] = _by_quadrature(x[far], y[far], cell_size)
-    result[~far] = _in_closed_form(x[~far], y[~far], cell_size)
+    result[far] = _gauss_quadrature(x[far], y[far], cell_size)
+    result[~far] = _closed_form(x[~far], y[~far], cell_size)
     return result / np.pi
 
 
 def influence_table(shape: tuple[int, int], cell_size: tuple[float, float]) -> NDArray[np.float64]:
-    """Influence coefficients of a cell at one corner of a block of cells.
+    """Influence coefficients [m] at offsets of i and j cells from a loaded cell, shape (nx, ny).
 
-    Parameters
-    ----------
-    shape : tuple of int
-        Cells of the block along x and y.
-    cell_size : tuple of float
-        Edge lengths (dx, dy) of a cell [m].
+    All other offsets follow by symmetry; the table of a smaller block is its leading part.
 
-    Returns
-    -------
-    ndarray, shape (nx, ny)
-        Entry [i, j] for an offset of i and j cells [m]. All offsets of a grid follow by symmetry,
-        and those of a smaller block are its leading part.
-
-    Examples
-    --------
     >>> influence_table((2, 2), (1.0, 1.0)).round(3).tolist()
     [[1.122, 0.33], [0.33, 0.231]]
     """
@@ -84,10 +63,11 @@ def influence_table(shape: tuple[int, int], cell_size: tuple[float, float]) -> N
     return influence_coefficient(x[:, None], y[None, :], cell_size)
 
 
-def _in_closed_form(
+def _closed_form(
     x: NDArray[np.float64], y: NDArray[np.float64], cell_size: tuple[float, float]
 ) -> NDArray[np.float64]:
     a, b = cell_size[0] / 2, cell_size[1] / 2
+    # The double integral is the double difference of its primitive over the corners.
     return (
         _corner(x + a, y + b)
         - _corner(x + a, y - b)
@@ -97,16 +77,17 @@ def _in_closed_form(
 
 
 def _corner(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The primitive x asinh(y/|x|) + y asinh(x/|y|) of 1/r in both directions; odd in both."""
-    # On an axis the term that would divide by zero vanishes with its factor.
+    """F(x, y) = x asinh(y/|x|) + y asinh(x/|y|): primitive of 1/r in x and y, odd in both."""
+    # On an axis (x = 0 or y = 0) the singular asinh is multiplied by 0: its limit is 0.
     along_y = np.arcsinh(np.divide(y, np.abs(x), out=np.zeros_like(y), where=x != 0))
     along_x = np.arcsinh(np.divide(x, np.abs(y), out=np.zeros_like(x), where=y != 0))
     return np.asarray(x * along_y + y * along_x)
 
 
-def _by_quadrature(
+def _gauss_quadrature(
     x: NDArray[np.float64], y: NDArray[np.float64], cell_size: tuple[float, float]
 ) -> NDArray[np.float64]:
+    # 4 x 4 Gauss-Legendre rule for ∫ dA/r over the cell; the weights of [-1, 1] sum to 2.
     dx, dy = cell_size
     total, distance = np.zeros_like(x), np.empty_like(x)
     for node_x, weight_x in zip(GAUSS_NODES, GAUSS_WEIGHTS, strict=True):

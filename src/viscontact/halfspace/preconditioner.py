@@ -5,28 +5,16 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.fourier import (
-    Transforms,
-)
+from viscontact.fourier import Transforms
 from viscontact.halfspace.spectral import Spectra
 
 
 class Preconditioner:
-    """A cheap rough inverse of the convolution: |q|/2, the half-space's exact inverse symbol.
+    """Approximate inverse of the convolution: |q|/2, the exact inverse symbol of the half-space.
 
-    It works on the unpadded block and in single precision. Neither spoils the solution, for a
-    preconditioner only shapes the search directions.
-
-    Parameters
-    ----------
-    shape : tuple of int
-        Cells (nx, ny).
-    cell_size : tuple of float
-        Edge lengths (dx, dy) of a cell [m].
-    mirrored : tuple of bool
-        Whether the block is one half of a problem that is even across x = 0, and across y = 0.
-    transforms : Transforms, optional
-        Who transforms; the fastest that are installed when left out.
+    It acts on the unpadded block in single precision. The solution does not depend on this
+    accuracy, only the search directions do. `mirrored`: the block is one half of a problem that is
+    even across x = 0, and across y = 0.
     """
 
     def __init__(
@@ -41,16 +29,5 @@ class Preconditioner:
         self._symbol = self._spectra.half_wave_numbers.astype(np.float32)
 
     def apply(self, displacement: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Pressure that would cause about this displacement, per unit contact compliance.
-
-        Parameters
-        ----------
-        displacement : ndarray, shape (nx, ny)
-            Displacement of the cells [m].
-
-        Returns
-        -------
-        ndarray, shape (nx, ny)
-            Pressure times contact compliance [-]; its mean is zero.
-        """
+        """Pressure times contact compliance [-] for about this displacement [m]; zero mean."""
         return self._spectra.filtered(displacement, self._symbol)

@@ -1,7 +1,6 @@
-"""Operators that know the half-space by its waves: exact for a period, a fair guess else.
+"""Spectral operators of the half-space: exact on a periodic grid, approximate elsewhere.
 
-A wavy pressure of wave number q displaces the surface by 2 p/q of the contact compliance's half:
-p/(q/2) per unit compliance.
+A pressure wave of wave number q displaces the surface by 2 p/|q| per unit contact compliance.
 
 References
 ----------
@@ -26,26 +25,13 @@ from viscontact.fourier import (
 
 
 class PeriodicConvolution:
-    """One period of a half-space whose load repeats itself without end, both ways.
+    """Surface displacement of a half-space whose load is periodic in x and y.
 
-    A circular convolution, by the exact symbol 2/|q| at the wave numbers that the cells carry.
-    A mean pressure sinks an endless half-space without end, so displacement is measured from the
-    surface's mean plane: its mean is zero, and so is the symbol's first entry.
+    A circular convolution with the exact symbol 2/|q| at the wave numbers of the cells. A mean
+    pressure would displace an infinite half-space without limit, so displacement is measured from
+    the mean plane of the surface: its mean is zero, and so is the symbol at q = 0.
 
-    Parameters
-    ----------
-    shape : tuple of int
-        Cells (nx, ny) of a period.
-    cell_size : tuple of float
-        Edge lengths (dx, dy) of a cell [m].
-    single : bool
-        Whether to transform in single precision, in half the time.
-    transforms : Transforms, optional
-        Who transforms; the fastest that are installed when left out.
-
-    Examples
-    --------
-    A pressure of cos(2π x/λ) over λ = 1 m moves the surface by 2 cos/q = cos/π:
+    A pressure of cos(2π x/λ) over λ = 1 m displaces the surface by 2 cos/q = cos/π:
 
     >>> import numpy as np
     >>> operator = PeriodicConvolution((4, 4), (0.25, 0.25))
@@ -66,32 +52,21 @@ class PeriodicConvolution:
         number = np.float32 if single else np.float64
         self._spectra = Spectra(shape, cell_size, (False, False), number, transforms)
         half = self._spectra.half_wave_numbers
-        half[0, 0] = np.inf
+        half[0, 0] = np.inf  # q = 0: the mean pressure leaves the mean plane where it is
         self._symbol = (1 / half).astype(number)
 
     def apply(
         self, pressure: NDArray[np.float64], into: NDArray[np.float64] | None = None
     ) -> NDArray[np.float64]:
-        """Displacement of every cell under a pressure, per unit contact compliance.
+        """Displacement over contact compliance [Pa m], positive into the half-space; zero mean.
 
-        Parameters
-        ----------
-        pressure : ndarray, shape (nx, ny)
-            Pressure on the cells [Pa], positive in compression.
-        into : ndarray, shape (nx, ny), optional
-            Where the displacement is put; a new array when left out.
-
-        Returns
-        -------
-        ndarray, shape (nx, ny)
-            Displacement over contact compliance [Pa m], positive into the half-space; its mean
-            is zero.
+        The pressure [Pa] is positive in compression; the result is written to `into` if given.
         """
         return self._spectra.filtered(pressure, self._symbol, into)
 
 
 class Spectra:
-    """Spectra of a block that repeats itself, or across whose first line it is even."""
+    """Transforms of a block that is periodic, or even across its first line (`mirrored`)."""
 
     def __init__(
         self,
@@ -103,10 +78,10 @@ class Spectra:
     ) -> None:
         self._transforms = transforms or transforms_by(fastest_transforms())
         self._even = [axis for axis in (0, 1) if mirrored[axis]]
-        # A real transform comes first, and keeps half of its spectrum; then a complex one.
+        # A real transform comes first, which keeps half of its spectrum; then a complex one.
         self._fourier = [axis for axis in (1, 0) if not mirrored[axis]]
         waves = [self._waves(axis, shape[axis], cell_size[axis]) for axis in (0, 1)]
-        #: |q|/2 of what a spectrum holds [1/m].
+        #: |q|/2 at each entry of a spectrum [1/m].
         self.half_wave_numbers = np.pi * np.hypot(waves[0][:, None], waves[1][None, :])
         self._block: NDArray[Any] = np.empty(shape, number)
         self._spectrum = np.empty(
@@ -119,7 +94,7 @@ class Spectra:
         symbol: NDArray[Any],
         into: NDArray[np.float64] | None = None,
     ) -> NDArray[np.float64]:
-        """The field whose spectrum is that of another one times a symbol."""
+        """Field whose spectrum is that of the given field times a symbol."""
         size = fill_of_order_one(self._block, field)
         spectrum = self._forth(self._block)
         spectrum *= symbol

@@ -1,8 +1,8 @@
-"""Stresses inside the half-space under a pressure on its surface.
+"""Subsurface stresses of the half-space under a pressure on its surface.
 
-With a constant Poisson's ratio a viscoelastic half-space that carries pressure alone has the
-stresses of the elastic one: they do not depend on the modulus, and so not on what it was before.
-The pressure of an instant is all it takes (Lee 1955, correspondence principle).
+With a constant Poisson's ratio the stresses of a viscoelastic half-space under pressure alone are
+the elastic ones: they do not depend on the modulus, hence on the current pressure only (Lee 1955,
+correspondence principle).
 """
 
 from __future__ import annotations
@@ -16,22 +16,15 @@ from scipy import fft
 from viscontact.grid import Grid
 from viscontact.halfspace.stress_influence import COMPONENTS, stress_coefficients
 
-#: The surface itself is taken at this part of a cell's edge below it: there, and there only, the
-#: stress jumps where the pressure does, from cell to cell, and half way between is right.
+#: Depth, as a part of a cell's edge, at which the surface is evaluated: only on the surface itself
+#: the stress jumps with the pressure from cell to cell; just below, it takes the mean value.
 SURFACE = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
 class Stress:
-    """Stress tensors over a field of points.
+    """Stress tensors at points: components xx, yy, zz, yz, xz, xy, tension positive [Pa].
 
-    Attributes
-    ----------
-    components : ndarray, shape (6, ...)
-        xx, yy, zz, yz, xz, xy; tension positive [Pa].
-
-    Examples
-    --------
     >>> simple_shear = Stress(np.array([0.0, 0.0, 0.0, 0.0, 1.0, 0.0]))
     >>> round(float(simple_shear.von_mises), 4), float(simple_shear.max_shear)
     (1.7321, 1.0)
@@ -53,7 +46,7 @@ class Stress:
 
     @property
     def principal(self) -> NDArray[np.float64]:
-        """Principal stresses [Pa], falling, shape (3, ...)."""
+        """Principal stresses in descending order [Pa], shape (3, ...)."""
         xx, yy, zz, yz, xz, xy = self.components
         rows = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
         tensors = np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
@@ -61,7 +54,7 @@ class Stress:
 
     @property
     def max_shear(self) -> NDArray[np.float64]:
-        """Largest shear stress over all planes [Pa]: half of what the principal ones span."""
+        """Largest shear stress over all planes, half the difference of principal stresses [Pa]."""
         principal = self.principal
         return np.asarray((principal[0] - principal[2]) / 2)
 
@@ -75,12 +68,12 @@ def stress_on_section(
     x: float | None = None,
     y: float | None = None,
 ) -> Stress:
-    """Stress on a plane across the half-space, below a line of the surface.
+    """Stress on a vertical plane of given x or y [m]; at y = 0 if neither is given.
 
     Parameters
     ----------
     pressure : ndarray, shape (nx, ny)
-        Pressure on the grid's cells [Pa], positive in compression.
+        Pressure on the surface, positive in compression [Pa].
     grid : Grid
         The cells.
     depths : array_like, shape (nz,)
@@ -88,8 +81,7 @@ def stress_on_section(
     poisson_ratio : float
         Of the half-space [-].
     x, y : float, optional
-        Where the plane lies: one of them, the other runs over the grid's cell centres [m]; y = 0
-        when both are left out.
+        Position of the plane [m]; the other coordinate runs over the grid's cell centres.
 
     Returns
     -------
@@ -104,11 +96,11 @@ def stress_on_section(
 
     Notes
     -----
-    Each line of cells acts on the section as a convolution along it with Love's closed form
-    (`stress_influence`), made by fast Fourier transforms, zero-padded; exact for pressure that is
-    constant within cells. On a periodic grid each wave of the pressure has stresses of its own
-    (Johnson 1985, Contact Mechanics, section 13.2, turned to its direction), and the mean pressure
-    is carried without strain along the surface: σxx = σyy = ν/(1 - ν) σzz.
+    Each line of cells acts on the section as a convolution with Love's closed form
+    (`stress_influence`), by zero-padded fast Fourier transforms; exact for pressure that is
+    constant within cells. On a periodic grid each wave of the pressure has its own stresses
+    (Johnson 1985, Contact Mechanics, section 13.2, turned to its direction), and the mean
+    pressure causes no strain along the surface: σxx = σyy = ν/(1 - ν) σzz.
 
     Examples
     --------
@@ -124,7 +116,7 @@ def stress_on_section(
     if x is not None:
         turned = Grid(grid.shape[::-1], grid.size[::-1], grid.periodic)
         stress = stress_on_section(pressure.T, turned, below, poisson_ratio, y=x)
-        # What runs along x on the turned grid runs along y.
+        # x and y are exchanged on the turned grid.
         return Stress(stress.components[[1, 0, 2, 4, 3, 5]])
     if grid.periodic:
         return _below_period(pressure, grid, below, poisson_ratio, y or 0.0)
@@ -143,7 +135,7 @@ def _along_x(
 ) -> Stress:
     cells, (dx, dy) = len(grid.x), grid.cell_size
     padded = fft.next_fast_len(2 * cells - 1, real=True)
-    spectrum = fft.rfft(pressure, padded, axis=0)
+    spectrum = fft.rfft(pressure, padded, axis=0)  # zero-padded: no periodic images
     # Offsets from a cell to the point, the negative ones wrapped to the end.
     offsets = np.arange(-cells + 1, cells) * dx
     x_edges = np.append(offsets, offsets[-1] + dx) - dx / 2
@@ -155,6 +147,7 @@ def _along_x(
         wrapped = np.zeros((6, padded, kernel.shape[2]))
         wrapped[:, :cells] = kernel[:, cells - 1 :]
         wrapped[:, padded - cells + 1 :] = kernel[:, : cells - 1]
+        # Multiply along x, sum over the loaded lines of cells along y.
         product = np.einsum("cky,ky->ck", fft.rfft(wrapped, axis=1), spectrum)
         found[:, index] = fft.irfft(product, padded, axis=1)[:, :cells]
     return Stress(found)
@@ -167,17 +160,18 @@ def _below_period(
     poisson_ratio: float,
     y: float,
 ) -> Stress:
-    """Wave by wave: those along the section are summed by a transform, those across it plainly."""
+    """Stress of each wave: waves along the section by a transform, waves across it by a sum."""
     along = 2 * np.pi * fft.fftfreq(grid.shape[0], grid.cell_size[0])[:, None]
     across = 2 * np.pi * fft.fftfreq(grid.shape[1], grid.cell_size[1])[None, :]
     q = np.hypot(along, across)
-    q[0, 0] = 1.0  # of the mean, which has no direction: put in below
+    q[0, 0] = 1.0  # the mean has no direction; it is set below
     east, north = along / q, across / q
     spectrum = fft.fft2(pressure) * np.exp(1j * across * (y - grid.y[0])) / grid.shape[1]
     mean = spectrum[0, 0]
     lateral = poisson_ratio / (1 - poisson_ratio)
     found = np.empty((6, len(depths), grid.shape[0]))
     for index, depth in enumerate(depths.tolist()):
+        # Johnson 1985, section 13.2: each wave decays as exp(-q z).
         waves, qz = spectrum * np.exp(-q * depth), q * depth
         ahead, aside = -(1 - qz) * waves, -2 * poisson_ratio * waves
         components = np.stack(

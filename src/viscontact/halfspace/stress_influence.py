@@ -1,7 +1,7 @@
-"""Stress influence coefficients: what a uniformly loaded cell does to the inside of the body.
+"""Stress influence coefficients of a uniformly loaded rectangle (Love 1929).
 
-Geometry and Poisson's ratio only: in a half-space loaded at its surface by pressure alone, the
-stresses do not depend on the modulus.
+They depend on geometry and Poisson's ratio only: in a half-space loaded at its surface by pressure
+alone, the stresses do not depend on the modulus.
 """
 
 from __future__ import annotations
@@ -19,32 +19,21 @@ def stress_coefficients(
     depth: float,
     poisson_ratio: float,
 ) -> NDArray[np.float64]:
-    """Stress at a point in a half-space under each cell of a block that carries unit pressure.
+    """Stress at a point per unit pressure on each cell of a block [-], tension positive.
 
-    Parameters
-    ----------
-    x_edges, y_edges : ndarray, shapes (nx + 1,) and (ny + 1,)
-        From the cells' edges to the point: its x less theirs, falling, and likewise y [m].
-    depth : float
-        Depth of the point below the surface, 0 or positive [m]; at 0 not on a cell's edge, where
-        the stress jumps.
-    poisson_ratio : float
-        Of the half-space [-].
-
-    Returns
-    -------
-    ndarray, shape (6, nx, ny)
-        Components xx, yy, zz, yz, xz, xy per unit pressure [-], tension positive.
+    Components xx, yy, zz, yz, xz, xy, shape (6, nx, ny). `x_edges` and `y_edges` are the point's
+    coordinates minus those of the cells' edges, descending [m]; `depth` >= 0 [m], and at 0 not on
+    a cell's edge, where the stress jumps.
 
     Notes
     -----
-    Love's (1929) potentials of a rectangle, V = ∫ dA/r and χ = ∫ ln(z + r) dA, in whose derivatives
-    each corner has a term: with λ and μ eliminated,
+    Love's potentials of a rectangle, V = ∫ dA/r and χ = ∫ ln(z + r) dA, in whose derivatives each
+    corner has a term: with λ and μ eliminated,
 
         σxx = (2ν V_z - (1 - 2ν) χ_xx - z V_xx)/2π,    σzz = (V_z - z V_zz)/2π,
         σxz = -z V_xz/2π,                              σxy = -((1 - 2ν) χ_xy + z V_xy)/2π,
 
-    and alike with y for x. The sums r + x and r + y are formed without cancellation.
+    and likewise with y for x. The sums r + x and r + y are formed without cancellation.
 
     References
     ----------
@@ -52,7 +41,7 @@ def stress_coefficients(
 
     Examples
     --------
-    Under the middle of a loaded square of edge 2, at the surface, all is pressure, and
+    In the middle of a loaded square, at the surface, all normal stresses are -p for ν = 0.5:
 
     >>> import numpy as np
     >>> edges = np.array([1.0, -1.0])
@@ -66,7 +55,7 @@ def stress_coefficients(
 def _corner_terms(
     x: NDArray[np.float64], y: NDArray[np.float64], z: float, poisson_ratio: float
 ) -> NDArray[np.float64]:
-    """The part that a corner at a distance has in each component; cells are double differences."""
+    """Corner terms of all components; a cell's stress is their double difference."""
     incompressible, rest = 2 * poisson_ratio, 1 - 2 * poisson_ratio
     r = np.sqrt(x * x + y * y + z * z)
     to_x, to_y = _sum_with_root(x, y, z, r), _sum_with_root(y, x, z, r)
@@ -89,10 +78,10 @@ def _corner_terms(
 def _sum_with_root(
     along: NDArray[np.float64], across: NDArray[np.float64], z: float, r: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """The sum r + along; where along < 0, by its product with r - along, across² + z²."""
+    """Sum r + along; where along < 0, as (across² + z²) / (r - along), without cancellation."""
     return np.where(along >= 0, r + along, (across * across + z * z) / (r + np.abs(along)))
 
 
 def _angle(opposite: NDArray[np.float64], adjacent: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The angle between -π/2 and π/2 of that tangent."""
+    """arctan(opposite/adjacent), between -π/2 and π/2."""
     return np.arctan2(opposite * np.sign(adjacent), np.abs(adjacent))
