@@ -253,7 +253,7 @@ def test_bad_material_is_refused_at_its_key(material: str, said: str, tmp_path: 
         ("# only a comment\n", "got only comments"),
         ("- a\n- b\n", "got a list"),
         ("5 mm\n", "a case file is a mapping"),
-        (SPHERE + "load: {}\n", "case.yaml:5: the key 'load' stands there twice"),
+        (SPHERE + "load: {}\n", "case.yaml:5: the key 'load' is given twice"),
         ("load: [1, 2\n", "not valid YAML: while parsing a flow sequence"),
         ("load:\n\tforce: 1 N\n", "case.yaml:2: not valid YAML"),
         ("load: " + "[" * 500 + "]" * 500, "nested too deeply"),

@@ -189,7 +189,7 @@ LINE = "case.yaml:3: "
         ({"kind": "history", "points": []}, "load.points: is empty"),
         (
             {"kind": "history", "points": [["0 s", "0 N"], ["1 s", "1 mm"]]},
-            "load.points[2]: a length stands there, a force in the first point",
+            "load.points[2]: it is a length, a force in the first point",
         ),
         (
             {"kind": "history", "points": [["0 s", "0 N"], ["1 s", "-1 N"]]},

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from pydantic_core import PydanticCustomError
 
 import viscontact as vc
-from viscontact.case.loads.grammar import CAN_BE_SAID
+from viscontact.case.loads.grammar import EXAMPLES
 from viscontact.case.loads.sentence_history import MOST_POINTS, Course, SentenceError, course_of
 from viscontact.case.loads.sentences import read_sentences, split_sentences
 
@@ -25,7 +25,7 @@ def points(*texts: str) -> list[tuple[float, float]]:
     return list(zip(times, levels, strict=True))
 
 
-# --- what can be said -------------------------------------------------------------------------
+# --- possible sentences ------------------------------------------------------------------------
 
 
 def test_the_promised_sentences_are_the_history_by_hand() -> None:
@@ -129,8 +129,8 @@ def test_times_and_levels_do_not_gather_rounding() -> None:
 
 
 def test_all_that_can_be_said_is_understood() -> None:
-    said = [form.split(" (")[0] for form in CAN_BE_SAID]
-    assert len(read_sentences(said)) == len(CAN_BE_SAID)
+    said = [form.split(" (")[0] for form in EXAMPLES]
+    assert len(read_sentences(said)) == len(EXAMPLES)
     # all but the repetitions are one history, too: 300 s, an unloading, ten cycles of 2 s
     told = course("ramp to 3 kN in 1 s", *said[2:5], "step to 2 kN", said[5])
     assert told.times[-1] == pytest.approx(300 + 0.1 + 20)
@@ -142,7 +142,10 @@ def test_all_that_can_be_said_is_understood() -> None:
 @pytest.mark.parametrize(
     ("said", "why"),
     [
-        ("dance", "sentence 1, 'dance': nothing of it was understood. What can be said: 'ramp to"),
+        (
+            "dance",
+            "sentence 1, 'dance': nothing of it was understood. Possible sentences: 'ramp to",
+        ),
         ("unlode in 3 s", "did you mean 'unload'?"),
         ("ramp to 10 kN", "understood 'ramp to 10 kN', then expected 'in' or 'at', but nothing"),
         ("ramp to 1 N in 1 s; hold it", "sentence 2, 'hold it': understood 'hold'"),
@@ -168,7 +171,7 @@ def test_sentence_that_is_not_understood_says_how_far_it_was(said: str, why: str
     with pytest.raises(PydanticCustomError) as refusal:
         read_sentences([said])
     assert why in refusal.value.message()
-    assert "What can be said: " in refusal.value.message()
+    assert "Possible sentences: " in refusal.value.message()
     assert "\n" not in refusal.value.message()
 
 

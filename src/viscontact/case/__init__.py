@@ -1,4 +1,4 @@
-"""Case files: a run described in words, read, checked and turned into nouns."""
+"""Case files: reading, checking, and conversion to the objects of a run."""
 
 from viscontact.case.case import Case
 from viscontact.case.errors import CaseError

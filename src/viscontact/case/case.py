@@ -1,4 +1,4 @@
-"""A case that has been understood: the run that it describes."""
+"""Case: the run that a case file describes."""
 
 from __future__ import annotations
 
@@ -22,18 +22,18 @@ from viscontact.run_files import CASE_NAME, PROGRESS_NAME, RESULT_NAME, STATE_NA
 from viscontact.time_integration.requested_times import AdaptiveTimes
 from viscontact.units.formatting import format_quantity
 
-#: Files of a run beside its case; names that begin with a dot are its own, too.
+#: Files of a run beside its case; names with a leading dot are reserved as well.
 _RUN_NAMES = (CASE_NAME, RESULT_NAME, PROGRESS_NAME, STATE_NAME)
 
 
 @dataclass(frozen=True, eq=False)
 class Case(DisplayableGroup):
-    """A run as a case file describes it, in nouns and SI numbers.
+    """Run that a case file describes, as objects and numbers in SI units.
 
     Parameters
     ----------
     title : str
-        What the user calls it.
+        Title of the run.
     indenter : Indenter
         The pressed body's shape.
     material : Material
@@ -43,9 +43,9 @@ class Case(DisplayableGroup):
     load : LoadHistory
         Force or approach, eccentricity and prescribed tilts over time.
     times : ndarray or AdaptiveTimes
-        Instants of the run, those of the fields among them [s], or the wish for adaptive ones.
+        Instants of the run, those of the fields among them [s], or the settings of adaptive ones.
     grid : Grid, AutomaticGrid or None
-        The grid, or what is asked of an automatic one; None if nothing is said of it.
+        The grid, or the settings of an automatic one; None where not given.
     fields : str or tuple of float
         ``"all"``, ``"none"``, or the instants whose fields are kept [s].
     errors : bool
@@ -57,9 +57,9 @@ class Case(DisplayableGroup):
     files : mapping of tuple to Path
         Every file that the case is read from, by the key that names it.
     digests : mapping of Path to bytes
-        What each of those files held when it was read, as `digest` tells it.
+        SHA-256 of each of those files when it was read.
     notes : tuple of str
-        What was found in those files, and what of it is not used.
+        Notes on contents of the files, and on those that are not used.
     document : Document
         The file it is from.
     """
@@ -82,11 +82,11 @@ class Case(DisplayableGroup):
 
     @property
     def display_title(self) -> str:
-        """What the user calls it."""
+        """Title of the case."""
         return self.title or "Case"
 
     def display_parts(self) -> dict[str, Displayable | str]:
-        """Return what a notebook shows of it."""
+        """Return the parts for display in notebooks."""
         return {
             "indenter": self.indenter,
             "material": self.material,
@@ -99,7 +99,7 @@ class Case(DisplayableGroup):
 
     @property
     def text(self) -> str:
-        """The case as YAML as it is run: with what was set, its files beside it."""
+        """YAML text of the case as run: with overrides, and with its files beside it."""
         if not self.files:
             return self.document.text
         names = self.file_names
@@ -109,7 +109,7 @@ class Case(DisplayableGroup):
 
     @property
     def file_names(self) -> dict[Path, str]:
-        """What each file is called beside the case as it is run: its own name if that is free."""
+        """Name of each file beside the case as run: its own name, if that is free."""
         names: dict[Path, str] = {}
         taken = {name.lower() for name in _RUN_NAMES}
         for key, path in self.files.items():
@@ -123,18 +123,7 @@ class Case(DisplayableGroup):
         return names
 
     def error(self, why: str) -> CaseError:
-        """Return what the run refused as an error at the key it speaks of.
-
-        Parameters
-        ----------
-        why : str
-            The refusal, as ``load.eccentricity_x: the force acts ...``.
-
-        Returns
-        -------
-        CaseError
-            The same with file, line and key in front.
-        """
+        """Return an error of the run as an error at the key that it names."""
         return CaseError(object_problem(self.document, (), why))
 
 

@@ -1,4 +1,4 @@
-"""Files that a case file names, found beside it."""
+"""Paths of files that a case file names."""
 
 from __future__ import annotations
 
@@ -8,41 +8,23 @@ from typing import Annotated
 
 from pydantic import AfterValidator, ValidationInfo
 
-#: What Windows takes for a device, whatever follows behind a point.
+#: Device names of Windows, with any suffix.
 _DEVICE = re.compile(r"(con|prn|aux|nul|com\d|lpt\d) *(\.|$)", re.IGNORECASE)
 
 
 def beside_the_case(name: str, info: ValidationInfo) -> str:
-    """Return the path of a file that a case names.
-
-    Parameters
-    ----------
-    name : str
-        As the case has it.
-    info : ValidationInfo
-        Its context says in which ``folder`` the case lies, and whether it is ``confined`` to it.
-
-    Raises
-    ------
-    ValueError
-        If a case that is confined to its folder names a file elsewhere.
-    """
+    """Return the path of a file that a case names; a confined case may use plain names only."""
     context = info.context or {}
     if context.get("confined") and not is_plain_name(name):
         raise ValueError(
             f"{name!r} is not the plain name of a file, such as 'pmma.csv'; here a case reads only "
-            "files that have been put beside it"
+            "files in its own folder"
         )
     return str(Path(context.get("folder", "."), name))
 
 
 def is_plain_name(name: str) -> bool:
-    """Whether a name leads nowhere but to a file in the same folder, on any system.
-
-    Parameters
-    ----------
-    name : str
-        The name.
+    """Whether a name is that of a file in the same folder, on any system.
 
     Examples
     --------
@@ -55,7 +37,7 @@ def is_plain_name(name: str) -> bool:
 
 
 def _is_special(name: str) -> bool:
-    """Whether Windows takes it for a device, or for another name."""
+    """Whether Windows reads the name as a device or as another name."""
     return name[-1:] in (".", " ") or bool(_DEVICE.match(name))
 
 

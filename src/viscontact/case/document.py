@@ -1,4 +1,4 @@
-"""The text of a case file as plain data, and on which line each key stands."""
+"""Text of a case file as plain data, with the line of each key."""
 
 from __future__ import annotations
 
@@ -10,29 +10,16 @@ from typing import Any
 from viscontact.case import toml_source, yaml_source
 from viscontact.case.errors import CaseError, KeyPath, SourceError, dotted
 
-# A case file is a page of text; histories of ten thousand points belong in a CSV. The parser
-# reads a megabyte in ten seconds.
+# Largest case file [bytes]; long histories belong in a CSV file. The parser needs ten seconds for
+# a megabyte.
 _LARGEST_FILE = 1_000_000
 
 
 @dataclass(frozen=True)
 class Document:
-    """A case file before anything in it has been understood.
+    """Content of a case file before it is validated.
 
-    Parameters
-    ----------
-    path : Path
-        The file, as the user named it.
-    text : str
-        Its text, as YAML.
-    data : dict
-        Its content: mappings, lists, texts, numbers.
-    lines : dict
-        Line number of each key and list entry, by its path.
-    overridden : frozenset
-        Paths of the keys that were given on the command line.
-    confined : bool
-        Whether it may name no files but those that lie in its folder.
+    `overridden` are keys given by ``--set``; a `confined` case may name files in its folder only.
     """
 
     path: Path
@@ -43,7 +30,7 @@ class Document:
     confined: bool = False
 
     def place(self, key: KeyPath) -> str:
-        """Say where a key stands: ``case.yaml:6:``, or ``--set`` if it came from there."""
+        """Return the place of a key: ``case.yaml:6:``, or ``--set`` if it was given there."""
         if any(key and _same_branch(key, path) for path in self.overridden):
             return "--set"
         for length in range(len(key), 0, -1):
@@ -52,7 +39,7 @@ class Document:
         return f"{self.path}:"
 
     def problem(self, key: KeyPath, why: str) -> str:
-        """Write one problem as one line: where, which key, and what is wrong with it."""
+        """Return a problem as one line: place, key and reason."""
         return " ".join(filter(None, (self.place(key), f"{dotted(key)}:" if key else "", why)))
 
 
@@ -61,48 +48,12 @@ def _same_branch(one: KeyPath, other: KeyPath) -> bool:
 
 
 def read_document(path: Path) -> Document:
-    """Read a case file, YAML or by its suffix TOML, without understanding it yet.
-
-    Parameters
-    ----------
-    path : Path
-        The file.
-
-    Returns
-    -------
-    Document
-        Its content and line numbers.
-
-    Raises
-    ------
-    CaseError
-        If there is no such file, or it is not text, empty, broken or not a mapping.
-    """
+    """Read a case file, YAML or by its suffix TOML, without validating it."""
     return document_of(_read_text(path), path)
 
 
 def document_of(text: str, path: Path, *, confined: bool = False) -> Document:
-    """Read the text of a case file, YAML or by the path's suffix TOML.
-
-    Parameters
-    ----------
-    text : str
-        The text.
-    path : Path
-        What messages call it; files that it names lie in the same folder.
-    confined : bool
-        Whether it may name no other files.
-
-    Returns
-    -------
-    Document
-        Its content and line numbers.
-
-    Raises
-    ------
-    CaseError
-        If it is too large, empty, broken or not a mapping.
-    """
+    """Read the text of a case file, YAML or by the path's suffix TOML."""
     try:
         if len(text.encode()) > _LARGEST_FILE:
             raise _too_large(path)

@@ -1,4 +1,4 @@
-"""From pydantic's findings to problems in words, each at its key."""
+"""Conversion of validation errors to messages, each at its key."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from viscontact.case.materials import material, shifts
 from viscontact.case.sections import CaseFile
 from viscontact.units.dimensions import DIMENSIONS
 
-# The sections by name; where a value of shape, law or kind says which, by that.
+# Sections by name, or by the value of shape, law or kind.
 _SECTIONS: dict[str | int, type[BaseModel]] = {
     **{
         "time": time_grid_output.Time,
@@ -27,7 +27,7 @@ _SECTIONS: dict[str | int, type[BaseModel]] = {
         "output": time_grid_output.Output,
     },
 }
-# Shifts, like loads, say in `kind` what they are.
+# Shifts, like loads, are identified by `kind`.
 _SHIFTS: dict[str | int, type[BaseModel]] = {
     **{"wlf": shifts.Wlf, "arrhenius": shifts.Arrhenius, "factors": shifts.Factors},
 }
@@ -39,10 +39,10 @@ _ALTERNATIVES: dict[str | int, type[BaseModel]] = {
     **{"harmonic": load.Harmonic, "history": load.History},
 }
 _NO_SHIFTS = {tag: model for tag, model in _ALTERNATIVES.items() if tag not in _SHIFTS}
-# What stands in these keys says what it is in `kind`, as a load does.
+# Values of these keys are identified by `kind`.
 _WITHIN: dict[str | int, dict[str | int, Any]] = {"shift": _SHIFTS, "profile": profiles.PROFILES}
 
-# What others call the same, where the spelling gives no hint.
+# Synonyms that are not similar in spelling.
 _OTHER_NAMES = {
     **{"cylinder": "roller", "ball": "sphere", "crowned": "partial", "straight": "cylindrical"},
     **{"ring": "torus", "o-ring": "torus", "wave": "waviness", "wheel": "roller"},
@@ -58,20 +58,7 @@ _OTHER_NAMES = {
 
 
 def problem(document: Document, error: ErrorDetails) -> str:
-    """Write one finding as a line.
-
-    Parameters
-    ----------
-    document : Document
-        The case file.
-    error : ErrorDetails
-        What pydantic found.
-
-    Returns
-    -------
-    str
-        Where, which key, why, and what to do.
-    """
+    """Return a validation error as one line: place, key, reason and remedy."""
     key = _key_path(document.data, error)
     model = _model_at(error["loc"])
     if error["type"] == "value_error":
@@ -83,21 +70,9 @@ def problem(document: Document, error: ErrorDetails) -> str:
 
 
 def corrected(data: dict[str, Any], errors: list[ErrorDetails]) -> dict[str, Any] | None:
-    """Return the data with misspelt shapes, laws and kinds set right.
+    """Return the data with misspelt shapes, laws and kinds corrected, None without any.
 
-    What else is wrong in a section can be told only when it is known what it describes.
-
-    Parameters
-    ----------
-    data : dict
-        Content of the case file.
-    errors : list of ErrorDetails
-        What pydantic found in it.
-
-    Returns
-    -------
-    dict or None
-        Content with the nearest names; None if nothing is misspelt.
+    Further errors in a section can be found only when its kind is known.
     """
     changed = None
     for error in errors:
@@ -107,7 +82,7 @@ def corrected(data: dict[str, Any], errors: list[ErrorDetails]) -> dict[str, Any
         if near is not None:
             changed = deepcopy(data) if changed is None else changed
             path = _key_path(data, error)
-            # A name alone may stand in the section's place.
+            # A name may stand in place of the section.
             if isinstance(_at(changed, path), dict):
                 path = (*path, _union_key(error))
             _at(changed, path[:-1])[path[-1]] = near
@@ -121,22 +96,7 @@ def _at(data: Any, path: KeyPath) -> Any:
 
 
 def object_problem(document: Document, section: KeyPath, why: str) -> str:
-    """Write what a noun or the run refused as a line, at the key that it speaks of.
-
-    Parameters
-    ----------
-    document : Document
-        The case file.
-    section : tuple
-        Where it was refused; empty for the run as a whole.
-    why : str
-        The refusal; it begins with, or mentions, the name of an argument.
-
-    Returns
-    -------
-    str
-        Where, which key, why, and what to do.
-    """
+    """Return an error of a constructor or of the run as one line, at the key that it names."""
     if missing := re.match(r"(\w+) (?=is missing)", why):
         return document.problem((*section, missing[1]), why[missing.end() :])
     key = _named_key(document.data, section, why)
@@ -150,7 +110,7 @@ def object_problem(document: Document, section: KeyPath, why: str) -> str:
 
 
 def _named_key(data: Any, section: KeyPath, why: str) -> KeyPath:
-    """The key that a message speaks of first, if it is one that stands in the file."""
+    """First key that a message names, if it is in the file."""
     lead = re.match(r"\w[\w.\[\]]*(?=:)", why)
     steps = re.findall(r"\[(\d+)\]|([^.\[\]]+)", lead[0]) if lead else []
     named = tuple(int(place) - 1 if place else name for place, name in steps)
@@ -172,7 +132,7 @@ def _holds(data: Any, path: KeyPath) -> bool:
 
 
 def _key_path(data: Any, error: ErrorDetails) -> KeyPath:
-    """Pydantic's location without what is not a key: names of alternatives, a list of one."""
+    """Location of a validation error with keys only, without names of alternatives."""
     path: list[str | int] = []
     for step in error["loc"]:
         if isinstance(data, dict) and step in data:
@@ -186,11 +146,11 @@ def _key_path(data: Any, error: ErrorDetails) -> KeyPath:
 
 
 def _model_at(loc: tuple[str | int, ...]) -> type[BaseModel]:
-    """The section in which the last key of a location stands, or should stand."""
-    # A section's name names it only at the top: `load.time` is a key of the load.
+    """Section to which the last key of a location belongs."""
+    # Section names count at the top level only: `load.time` is a key of the load.
     section = _SECTIONS.get(loc[0], CaseFile) if len(loc) > 1 else CaseFile
     within = reversed(loc[1:-1])
-    # A profile and a law may both be a table.
+    # Both a profile and a law can be a table.
     named = profiles.PROFILES if "profile" in loc[:-2] else _ALTERNATIVES
     return next((named[step] for step in within if step in named), section)
 
@@ -206,7 +166,7 @@ def _why(key: KeyPath, model: type[BaseModel], error: ErrorDetails) -> str:
     if kind == "missing":
         return f"is missing{_example(model, str(key[-1]))}"
     if kind == "union_tag_not_found":
-        return f"is missing; it says which: {', '.join(_choices(error))}"
+        return f"is missing; choose one of: {', '.join(_choices(error))}"
     if kind == "union_tag_invalid":
         return _unknown("value", context["tag"], _choices(error))
     if kind == "literal_error":
@@ -216,7 +176,7 @@ def _why(key: KeyPath, model: type[BaseModel], error: ErrorDetails) -> str:
 
 
 def _choices(error: ErrorDetails) -> list[str]:
-    """What the key may say that tells what a section is."""
+    """Allowed values of the key that identifies a section."""
     models = _WITHIN.get(error["loc"][-1], _NO_SHIFTS)
     fields = {tag: model.model_fields.get(_union_key(error)) for tag, model in models.items()}
     return [
@@ -232,7 +192,7 @@ def _unknown(what: str, given: object, allowed: list[str]) -> str:
 
 
 def _unknown_key(model: type[BaseModel], given: object) -> str:
-    """Say what is allowed, or which other kind, law or shape has the key."""
+    """Message with the allowed keys, or the other kinds, laws or shapes that have the key."""
     unknown = _unknown("key", given, sorted(model.model_fields))
     alike = next((each for each in _WITHIN.values() if model in each.values()), _NO_SHIFTS)
     for discriminator in ("kind", "law", "shape"):
@@ -256,7 +216,7 @@ def _nearest(given: object, allowed: list[str]) -> str | None:
 
 
 def _example(model: type[BaseModel], key: str) -> str:
-    """How the missing key is written, from what it takes."""
+    """Example for a missing key."""
     if key not in model.model_fields:
         return ""
     for annotation in model.model_fields[key].metadata:

@@ -1,15 +1,15 @@
-"""What is wrong with a case file, every problem on a line of its own."""
+"""Errors of a case file, one line for each problem."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 
-#: Where a value stands: keys, and positions in lists from 0.
+#: Path of a value: keys, and positions in lists from 0.
 KeyPath = tuple[str | int, ...]
 
 
 class CaseError(ValueError):
-    """A case that cannot be run as it stands.
+    """Case that is not valid.
 
     Parameters
     ----------
@@ -33,7 +33,7 @@ class CaseError(ValueError):
 
 
 class SourceError(Exception):
-    """Text that is not YAML or TOML, and the line where that shows."""
+    """Text that is not valid YAML or TOML, with the line of the error."""
 
     def __init__(self, why: str, line: int | None = None) -> None:
         super().__init__(why)
@@ -41,17 +41,7 @@ class SourceError(Exception):
 
 
 def dotted(path: Iterable[str | int]) -> str:
-    """Write a key path as a person does, positions in lists in brackets from 1.
-
-    Parameters
-    ----------
-    path : iterable of str and int
-        Keys, and positions in lists from 0.
-
-    Returns
-    -------
-    str
-        The path in words.
+    """Format a key path, with positions in lists in brackets from 1.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Values given on the command line, in place of those in the file."""
+"""Values of ``--set`` in place of those in the file."""
 
 from __future__ import annotations
 
@@ -16,25 +16,7 @@ _STEP = re.compile(r"\.?([^.\[\]=]+)|\[(\d+)\]")
 
 
 def override(document: Document, settings: Iterable[str]) -> Document:
-    """Put the values of ``--set`` into a document.
-
-    Parameters
-    ----------
-    document : Document
-        The case file.
-    settings : iterable of str
-        Such as ``load.force=20kN`` or ``indenter[2].radius=3 mm``.
-
-    Returns
-    -------
-    Document
-        With the new values, which remember where they are from.
-
-    Raises
-    ------
-    CaseError
-        If a setting is not of that form, or leads into something that has no keys.
-    """
+    """Put the values of ``--set`` into a document."""
     values = dict(_setting(text) for text in settings)
     if not values:
         return document
@@ -60,7 +42,7 @@ def _setting(text: str) -> tuple[KeyPath, Any]:
 
 
 def _put(data: Any, path: KeyPath, value: Any) -> str | None:
-    """Put the value in its place; return why that is impossible, if it is."""
+    """Set a value; return the reason if that is impossible."""
     for position, step in enumerate(path):
         if not (_takes_keys(data, step) or _has(data, step)):
             return f"--set {dotted(path)}: {_why_not(data, step, path[:position])}"

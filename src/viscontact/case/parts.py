@@ -1,4 +1,4 @@
-"""What of a case can be read although the rest cannot: each section by itself."""
+"""Valid sections of an incomplete case, each read on its own."""
 
 from __future__ import annotations
 
@@ -24,21 +24,21 @@ _MATERIAL: TypeAdapter[Any] = TypeAdapter(AnyMaterial)
 _LOAD: TypeAdapter[Any] = TypeAdapter(AnyLoad)
 _TIME: TypeAdapter[Any] = TypeAdapter(Time)
 
-_Noun = TypeVar("_Noun")
+_Object = TypeVar("_Object")
 
 
 @dataclass(frozen=True)
 class Parts:
-    """The sections of a case that can be read, each by itself.
+    """Valid sections of a case, each read on its own.
 
     Attributes
     ----------
     indenter : Indenter or None
-        The pressed body's shape; None, here and below, where it cannot be read.
+        The pressed body's shape; None, here and below, where it is not valid.
     material, indenter_material : Material or None
         The half-space's material, and the pressed body's.
     load : LoadHistory or None
-        Force or approach; none of a mean pressure, whose force takes a grid.
+        Force or approach; None for a mean pressure, whose force needs a grid.
     end : float or None
         The last instant [s].
     """
@@ -51,7 +51,7 @@ class Parts:
 
 
 def read_parts(text: str, path: str | PathLike[str]) -> Parts:
-    r"""Read what can be read of a case that somebody else sends and is still writing.
+    r"""Read the valid sections of an incomplete case from an untrusted source.
 
     Parameters
     ----------
@@ -63,12 +63,12 @@ def read_parts(text: str, path: str | PathLike[str]) -> Parts:
     Returns
     -------
     Parts
-        Its sections, whatever is wrong with the others.
+        The valid sections.
 
     Raises
     ------
     CaseError
-        If it is no YAML, or no mapping.
+        If it is not valid YAML, or not a mapping.
 
     Examples
     --------
@@ -80,9 +80,9 @@ def read_parts(text: str, path: str | PathLike[str]) -> Parts:
     data = document_of(text, Path(path), confined=True).data
     context = {"folder": str(Path(path).parent), "confined": True}
 
-    def part(key: str, kind: TypeAdapter[Any], noun: Callable[[Any], _Noun]) -> _Noun | None:
+    def part(key: str, kind: TypeAdapter[Any], build: Callable[[Any], _Object]) -> _Object | None:
         try:
-            return noun(kind.validate_python(data.get(key), context=context))
+            return build(kind.validate_python(data.get(key), context=context))
         except ValueError:
             return None
 

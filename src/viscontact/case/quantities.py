@@ -1,4 +1,4 @@
-"""The kinds of values that a case file holds, checked by pydantic, described in the schema."""
+"""Types of values in a case file, with their checks and their JSON schema."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ from viscontact.loads.standard import MOST_CYCLES
 from viscontact.units.dimensions import DIMENSIONS
 from viscontact.units.parsing import parse_quantity
 
-# Squares and products of these are still numbers.
+# Limits whose squares and products do not overflow.
 _SMALLEST, _LARGEST = 1e-100, 1e100
 
-# More cells along an axis than any machine holds, and more steps than anyone waits for: without
-# these bounds the arrays would be made before they could be refused.
+# Limits on cells along an axis and on steps: without them arrays would be allocated before they
+# are refused.
 _MOST_CELLS, _MOST_STEPS = 10**9, 10**5
 
 ANY, NOT_NEGATIVE, POSITIVE = "any", "zero or more", "more than zero"
@@ -33,14 +33,7 @@ ANY, NOT_NEGATIVE, POSITIVE = "any", "zero or more", "more than zero"
 
 @dataclass(frozen=True)
 class Quantity:
-    """Annotation of a float that is written with a unit and arrives in SI.
-
-    Parameters
-    ----------
-    dimension : str
-        A key of `viscontact.units.DIMENSIONS`.
-    sign : str
-        Which values make sense: `ANY`, `NOT_NEGATIVE` or `POSITIVE`.
+    """Annotation of a float that is written with a unit and converted to SI.
 
     Examples
     --------
@@ -52,23 +45,7 @@ class Quantity:
     sign: str = ANY
 
     def read(self, given: Any) -> float:
-        """Return the SI value of what stands in the file.
-
-        Parameters
-        ----------
-        given : object
-            Text such as ``"5 mm"``; anything else is refused with an example.
-
-        Returns
-        -------
-        float
-            The value in SI units.
-
-        Raises
-        ------
-        PydanticCustomError
-            If it cannot be read or has the wrong sign.
-        """
+        """Return the SI value of a value in the file."""
         wanted = DIMENSIONS[self.dimension]
         if not isinstance(given, str):
             given = _as_text(given, wanted.name, wanted.example)
@@ -94,7 +71,7 @@ class Quantity:
     def __get_pydantic_json_schema__(
         self, schema: CoreSchema, handler: GetJsonSchemaHandler
     ) -> JsonSchemaValue:
-        """Tell editors that a text with a number in front is wanted, and show one.
+        """Return the JSON schema: a text that begins with a number, with an example.
 
         `x-dimension` leads to the units to suggest, `x-sign` says which values make sense even
         where a key has a description of its own; editors skip what begins with x-.
@@ -111,7 +88,7 @@ class Quantity:
 
 
 def _as_text(given: Any, name: str, example: str) -> str:
-    """Text of a bare number, for the one message about missing units; the rest is refused."""
+    """Text of a bare number, for the message about missing units; other types are refused."""
     if isinstance(given, int | float) and not isinstance(given, bool):
         return f"{given}"
     shown = str(given) if len(str(given)) <= 40 else str(given)[:37] + "..."
@@ -119,7 +96,7 @@ def _as_text(given: Any, name: str, example: str) -> str:
 
 
 def _problem(why: str) -> PydanticCustomError:
-    # The text travels as context: braces in it are not placeholders.
+    # The text is passed as context, as braces in it are not placeholders.
     return PydanticCustomError("quantity", "{why}", {"why": why})
 
 
@@ -149,7 +126,7 @@ CycleCount = Annotated[int, Field(ge=1, le=MOST_CYCLES)]
 
 
 def _fraction(given: Any) -> Any:
-    """A number, or what a text such as ``"0.5 %"`` says."""
+    """Number, or the value of a text such as ``"0.5 %"``."""
     if not isinstance(given, str):
         return given
     number, percent, rest = given.partition("%")
@@ -170,6 +147,6 @@ GridTolerance = Annotated[
 
 
 class Section(BaseModel):
-    """A part of a case file: only its own keys, and no silent conversions."""
+    """Section of a case file: unknown keys and implicit conversions are refused."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)

@@ -1,4 +1,4 @@
-"""From a case file to nouns."""
+"""Reader of case files."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from viscontact.case.overrides import override
 from viscontact.case.sections import CaseFile
 from viscontact.case.time_grid_output import kept_fields, with_instants
 
-# Of so many problems each is told; who has more mends these first.
+# Largest number of problems that are reported.
 _MOST_PROBLEMS = 200
 
 
@@ -41,15 +41,14 @@ def read_case(path: str | PathLike[str], overrides: Iterable[str] = ()) -> Case:
     Raises
     ------
     CaseError
-        If anything in it cannot be understood or makes no sense; all problems at once, each
-        with its line and key.
+        If it is not valid; with all problems, each with its line and key.
     """
     document = override(read_document(Path(path)), overrides)
     return _case(document, _checked(document))
 
 
 def read_case_text(text: str, path: str | PathLike[str], overrides: Iterable[str] = ()) -> Case:
-    """Read and check a case that somebody else sends, and that may read no files of the user's.
+    """Read and check a case from an untrusted source, which may not read files elsewhere.
 
     Parameters
     ----------
@@ -84,18 +83,7 @@ def read_case_text(text: str, path: str | PathLike[str], overrides: Iterable[str
 
 
 def digest(path: Path) -> bytes:
-    """Tell what a file holds, so that a change is noticed; nothing if it cannot be read.
-
-    Parameters
-    ----------
-    path : Path
-        The file.
-
-    Returns
-    -------
-    bytes
-        Its SHA-256.
-    """
+    """Return the SHA-256 of a file, to detect changes; empty if it cannot be read."""
     try:
         with path.open("rb") as file:
             return hashlib.file_digest(file, "sha256").digest()

@@ -1,4 +1,4 @@
-"""The whole case file: which sections there are, and their JSON schema."""
+"""Sections of a case file, and its JSON schema."""
 
 from __future__ import annotations
 
@@ -17,18 +17,18 @@ from viscontact.units.dimensions import DIMENSIONS
 
 
 class CaseFile(Section):
-    """A viscontact case: what is pressed on what, how, for how long."""
+    """A viscontact case: indenter, material, load and time."""
 
-    title: str = Field(default="", description="what tables, figures and reports call the run")
+    title: str = Field(default="", description="title of the run in tables, figures and reports")
     indenter: Shapes
     material: AnyMaterial = Field(description="the half-space")
     indenter_material: AnyMaterial | None = Field(
         default=None, description="the pressed body's material; rigid when left out"
     )
-    load: AnyLoad = Field(description="what presses, over time")
-    time: Time = Field(description="the instants that are computed")
+    load: AnyLoad = Field(description="load over time")
+    time: Time = Field(description="instants of the run")
     grid: Cells | None = Field(default=None, description="an automatic grid when left out")
-    output: Output = Field(default=Output(), description="what is kept of them")
+    output: Output = Field(default=Output(), description="results to keep")
     tolerance: Annotated[float, Field(ge=1e-13, le=1e-2)] = Field(
         default=1e-6, description="relative error of pressure and balances at every step"
     )
@@ -54,9 +54,9 @@ def case_schema() -> dict[str, Any]:
     Returns
     -------
     dict
-        JSON Schema, draft 2020-12. Beyond the standard, `x-dimension` says what kind of quantity a
-        text is, or which kinds it may be, `x-sign` which values make sense, and `x-units` which
-        units each kind is often written in.
+        JSON Schema, draft 2020-12. Beyond the standard, `x-dimension` names the dimension of a
+        quantity, or the allowed ones, `x-sign` the allowed sign, and `x-units` common units of each
+        dimension.
 
     Examples
     --------

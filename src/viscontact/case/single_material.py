@@ -1,4 +1,4 @@
-"""One material alone: by its name in the library, or from the case file that it stands in."""
+"""Single materials: from the library, a case file or a section."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from viscontact.case.document import Document, read_document
 from viscontact.case.error_messages import problem
 from viscontact.case.errors import CaseError
 from viscontact.case.materials.base import Medium
-from viscontact.case.materials.library import MATERIALS
 from viscontact.case.materials.material import AnyMaterial
 from viscontact.case.quantities import Section
+from viscontact.materials import library
 from viscontact.materials.material import Material
 
 
 class _Alone(Section):
-    """The one section that is wanted; what stands beside it does not matter."""
+    """Case file of which only the material is read."""
 
     model_config = ConfigDict(extra="ignore", frozen=True, strict=True)
 
@@ -39,7 +39,7 @@ def shipped_material(name: str) -> Material:
     Returns
     -------
     Material
-        The material as a case file that gives its name has it.
+        The material, as for a case file that gives its name.
 
     Raises
     ------
@@ -51,17 +51,17 @@ def shipped_material(name: str) -> Material:
     >>> round(shipped_material("pmma-kumar-2004").law.relaxation(0.0) / 1e6, 2)
     653.42
     """
-    if name not in MATERIALS:
-        near = difflib.get_close_matches(str(name), MATERIALS, n=1)
+    if name not in library.names():
+        near = difflib.get_close_matches(str(name), library.names(), n=1)
         hint = f"; did you mean {near[0]!r}?" if near else "."
         raise ValueError(
-            f"no shipped material is called {name!r}{hint} There are {', '.join(MATERIALS)}"
+            f"no shipped material is called {name!r}{hint} There are {', '.join(library.names())}"
         )
     return _Alone.model_validate({"material": name}).material.build()
 
 
 def read_material(path: str | PathLike[str]) -> Material:
-    """Read the material of a case file, whatever else it holds.
+    """Read the material of a case file, and nothing else.
 
     Parameters
     ----------
@@ -77,8 +77,7 @@ def read_material(path: str | PathLike[str]) -> Material:
     Raises
     ------
     CaseError
-        If there is none, or it cannot be understood; all problems at once, each with its line
-        and key.
+        If there is none, or it is not valid; with all problems, each with its line and key.
     """
     document = _as_section(read_document(Path(path)))
     if "material" not in document.data:
@@ -89,7 +88,7 @@ def read_material(path: str | PathLike[str]) -> Material:
 
 
 def read_section(section: Mapping[str, Any], place: str | PathLike[str]) -> Medium:
-    """Read a `material` section that comes from no case file.
+    """Read a `material` section without a case file.
 
     Parameters
     ----------
@@ -97,17 +96,17 @@ def read_section(section: Mapping[str, Any], place: str | PathLike[str]) -> Medi
         Its keys, and texts, numbers and lists as a case file has them. Files are named from the
         working directory.
     place : path-like
-        What messages begin with.
+        First words of messages.
 
     Returns
     -------
     Medium
-        The section, checked; its ``noun()`` is the material.
+        The checked section; its ``build()`` returns the material.
 
     Raises
     ------
     CaseError
-        If it cannot be understood; all problems at once, each with its key.
+        If it is not valid; with all problems, each with its key.
 
     Examples
     --------
@@ -128,7 +127,7 @@ def _alone(document: Document, folder: Path) -> Medium:
 
 
 def _as_section(document: Document) -> Document:
-    """Put keys that stand alone under `material`."""
+    """Put keys of a material at the top level under `material`."""
     if "law" not in document.data or "material" in document.data:
         return document
     lines = {("material", *key): line for key, line in document.lines.items()}

@@ -1,4 +1,4 @@
-"""The `time`, `grid` and `output` of a case file."""
+"""Sections `time`, `grid` and `output` of a case file."""
 
 from __future__ import annotations
 
@@ -27,16 +27,16 @@ from viscontact.time_integration.requested_times import (
 )
 from viscontact.units.formatting import format_quantity
 
-#: Without `first`, steps in log time begin at this part of the end.
+#: Default of `first` for log spacing, as a part of the end.
 FIRST_OF_END = 1e-3
 
-#: Without `tolerance`, adaptive steps keep the error they cause below this.
+#: Default relative error of adaptive steps.
 ADAPTIVE_TOLERANCE = 1e-3
 
-#: Without `output`, so many instants keep their fields.
+#: Default number of instants with fields.
 DEFAULT_FIELDS = 10
 
-#: Without `tolerance`, the cells of an automatic grid keep the error they cause below this.
+#: Default relative error of an automatic grid.
 DEFAULT_TOLERANCE = 0.01
 
 
@@ -52,7 +52,8 @@ class Time(Section):
         description="adaptive: each step as long as the tolerance allows",
     )
     first: Duration | None = Field(
-        default=None, description="with log spacing: the first instant after 0; end/1000 if not"
+        default=None,
+        description="with log spacing: the first instant after 0; end/1000 when left out",
     )
     tolerance: TimeTolerance | None = Field(
         default=None,
@@ -61,7 +62,7 @@ class Time(Section):
     )
 
     def instants(self) -> NDArray[np.float64] | AdaptiveTimes:
-        """Return the instants, from 0 to the end [s], or the wish for adaptive ones."""
+        """Return the instants from 0 to the end [s], or the settings of adaptive steps."""
         if self.spacing == "adaptive":
             return adaptive_times(self.end, self.tolerance or ADAPTIVE_TOLERANCE)
         assert self.steps is not None  # refused otherwise
@@ -86,12 +87,12 @@ class Time(Section):
         return self
 
 
-#: Which keys say something about which spacing.
+#: Spacing that each key belongs to.
 _GOES_WITH = {"steps": ("uniform", "log"), "first": ("log",), "tolerance": ("adaptive",)}
 
 
 class Cells(Section):
-    """The grid of pressure cells, centred on the origin, or what is asked of an automatic one."""
+    """The grid of pressure cells, centred on the origin, or the settings of an automatic one."""
 
     shape: Annotated[tuple[CellCount, CellCount], Field(strict=False)] | None = Field(
         default=None, description="numbers of cells along x and y", examples=[[256, 128]]
@@ -101,7 +102,7 @@ class Cells(Section):
     )
     periodic: bool = Field(
         default=False,
-        description="whether it is one period of a surface that goes on without end, both ways",
+        description="whether the grid is one period of an infinite surface, in both directions",
     )
     tolerance: GridTolerance | None = Field(
         default=None,
@@ -110,11 +111,11 @@ class Cells(Section):
     )
     quantities: list[Literal["peak_pressure", "contact_area", "approach"]] | None = Field(
         default=None,
-        description="with an automatic grid: what has to be that exact; all of them if not",
+        description="with an automatic grid: quantities with this error; all when left out",
     )
 
     def build(self) -> grid.Grid | grid.AutomaticGrid:
-        """Return the grid, or the wish for one."""
+        """Return the grid, or the settings of an automatic one."""
         if self.shape and self.size:
             return grid.Grid(self.shape, self.size, self.periodic)
         quantities = grid.GRID_QUANTITIES if self.quantities is None else self.quantities
@@ -156,7 +157,7 @@ _Fields = Annotated[
 
 
 class Output(Section):
-    """What is kept besides the scalars of every step."""
+    """Results to keep besides the scalars of every step."""
 
     fields: _Fields | None = Field(
         default=None,
@@ -174,24 +175,6 @@ def kept_fields(
     output: Output, times: NDArray[np.float64] | AdaptiveTimes
 ) -> str | tuple[float, ...]:
     """Return the instants whose fields are kept.
-
-    Parameters
-    ----------
-    output : Output
-        What the case asks for.
-    times : ndarray or AdaptiveTimes
-        The run's instants [s], or the wish for adaptive ones.
-
-    Returns
-    -------
-    str or tuple of float
-        ``"all"``, ``"none"``, or instants [s]. When nothing is asked for, ten: evenly among the
-        run's steps, or, where these are adaptive, 0 and nine from end/1000 on in log time.
-
-    Raises
-    ------
-    ValueError
-        If an instant lies after the end.
 
     Examples
     --------
@@ -225,19 +208,7 @@ def _default_fields(times: NDArray[np.float64] | AdaptiveTimes) -> tuple[float, 
 def with_instants(
     times: NDArray[np.float64] | AdaptiveTimes, fields: str | tuple[float, ...]
 ) -> NDArray[np.float64] | AdaptiveTimes:
-    """Return the run's instants with those added whose fields are asked for.
-
-    Parameters
-    ----------
-    times : ndarray or AdaptiveTimes
-        The instants of the `time` section [s]; adaptive steps hit those of the fields anyway.
-    fields : str or tuple of float
-        From `kept_fields`.
-
-    Returns
-    -------
-    ndarray or AdaptiveTimes
-        All instants, strictly increasing [s].
+    """Return the instants of the run together with those of requested fields.
 
     Examples
     --------
@@ -246,8 +217,8 @@ def with_instants(
     """
     if isinstance(fields, str) or isinstance(times, AdaptiveTimes):
         return times
-    # A field asked for at 30 s is the field at 30 s, not that of a step nearby; it takes the
-    # place of a step that differs by rounding only.
+    # A field requested at 30 s is computed at 30 s, not at a step nearby; it replaces a step that
+    # differs by rounding only.
     asked = np.asarray(fields)
     doubled = np.isclose(times[:, None], asked[None, :], rtol=1e-6, atol=0.0).any(axis=1)
     return np.union1d(times[~doubled], asked)

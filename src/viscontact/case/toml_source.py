@@ -1,4 +1,4 @@
-"""TOML as plain data with line numbers, as far as they can be found."""
+"""TOML parser with line numbers, where they can be found."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ __all__ = ["SourceError", "parse"]
 _HEADER = re.compile(r"\s*\[(\[)?\s*([\w.-]+)\s*\]\]?")
 _KEY = re.compile(r"\s*([\w.-]+)\s*=")
 
-# The parser needs a time that grows with the square of a key's length.
+# The time of the parser grows with the square of a key's length.
 _MOST_PARTS = 64
 _ENDLESS_KEY = re.compile(
     rf"""(?<![\w-])(?:(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+){{{_MOST_PARTS}}}"""
@@ -23,23 +23,6 @@ _ENDLESS_KEY = re.compile(
 
 def parse(text: str) -> tuple[dict[str, Any], dict[KeyPath, int]]:
     r"""Read TOML.
-
-    Parameters
-    ----------
-    text : str
-        The text of the file.
-
-    Returns
-    -------
-    data : dict
-        Its content.
-    lines : dict
-        Line number, from 1, of each key that begins a line, by its path.
-
-    Raises
-    ------
-    SourceError
-        If it is not TOML.
 
     Examples
     --------
@@ -63,7 +46,7 @@ def parse(text: str) -> tuple[dict[str, Any], dict[KeyPath, int]]:
 
 
 def _lines(text: str) -> dict[KeyPath, int]:
-    # tomllib keeps no line numbers; the headers and keys at the beginning of lines are nearly all.
+    # tomllib has no line numbers; nearly all keys are in headers or at the beginning of a line.
     lines: dict[KeyPath, int] = {}
     table: KeyPath = ()
     entries: Counter[KeyPath] = Counter()

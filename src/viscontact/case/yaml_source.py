@@ -1,4 +1,4 @@
-"""YAML 1.2 as plain data with line numbers."""
+"""YAML 1.2 parser with line numbers, and writer that keeps comments."""
 
 from __future__ import annotations
 
@@ -16,37 +16,21 @@ from viscontact.case.errors import KeyPath, SourceError
 
 __all__ = ["SourceError", "parse", "parse_value", "with_overrides"]
 
-# Aliases can make a small file expand without end, and the parser needs 1.2 s for so many values,
-# a time that grows with the square of the depth.
+# Limits on values and depth: aliases can expand a small file without end, and the parser needs
+# 1.2 s for this many values and a time that grows with the square of the depth.
 _MOST_VALUES, _DEEPEST = 20_000, 12
 _MOST_BRACKETS = 200
-# Merging copies every key of a mapping; the time for a tag grows with the square of its length.
+# Limits on merges and tags: merging copies every key of a mapping, and the time for a tag grows
+# with the square of its length.
 _MOST_MERGED, _LONGEST_TAG = 50, 1000
-# Aliases times values bound how many keys are copied; so many take as long as the values above.
+# Limit on aliases times values, a bound of the number of copied keys.
 _MOST_COPIED = 100_000
-# Where one may stand; also within texts and comments, of which no case file has so many.
+# Possible places of aliases, those in texts and comments included.
 _ALIAS = re.compile(r"(?:^|[\s,:\[{])\*[^\s*]")
 
 
 def parse(text: str) -> tuple[Any, dict[KeyPath, int]]:
     r"""Read YAML.
-
-    Parameters
-    ----------
-    text : str
-        The text of the file.
-
-    Returns
-    -------
-    data : dict, list, str, int, float, bool or None
-        Its content, in plain Python types.
-    lines : dict
-        Line number, from 1, of each key and list entry, by its path.
-
-    Raises
-    ------
-    SourceError
-        If it is not YAML, has a key twice, or expands without end.
 
     Examples
     --------
@@ -58,17 +42,7 @@ def parse(text: str) -> tuple[Any, dict[KeyPath, int]]:
 
 
 def parse_value(text: str) -> Any:
-    """Read one value, as it would stand behind a key.
-
-    Parameters
-    ----------
-    text : str
-        Such as ``20 kN`` or ``[64, 64]``.
-
-    Raises
-    ------
-    SourceError
-        If it is not YAML.
+    """Read one value, as behind a key.
 
     Examples
     --------
@@ -80,18 +54,6 @@ def parse_value(text: str) -> Any:
 
 def with_overrides(text: str, values: dict[KeyPath, Any]) -> str:
     r"""Write values into the text of a YAML file, keeping its comments.
-
-    Parameters
-    ----------
-    text : str
-        The text of the file; it has been parsed before.
-    values : dict
-        New values by key path; the mappings on the way are there.
-
-    Returns
-    -------
-    str
-        The text with the values in it.
 
     Examples
     --------
@@ -112,19 +74,7 @@ def with_overrides(text: str, values: dict[KeyPath, Any]) -> str:
 
 
 def rewritten(text: str, data: dict[str, Any]) -> str:
-    r"""Write data as YAML in the manner of an earlier text: its order and its comments are kept.
-
-    Parameters
-    ----------
-    text : str
-        The text of a YAML file; if it cannot be read, nothing of it is kept.
-    data : dict
-        What is to stand there now.
-
-    Returns
-    -------
-    str
-        The text with the new values in it, and without the keys that are gone.
+    r"""Write data as YAML with the order and the comments of an earlier text.
 
     Examples
     --------
@@ -157,16 +107,6 @@ def _bring_up_to_date(old: CommentedMap, new: dict[str, Any]) -> None:
 def write(data: Any) -> str:
     r"""Write data as YAML.
 
-    Parameters
-    ----------
-    data : dict
-        Mappings, lists, texts and numbers.
-
-    Returns
-    -------
-    str
-        The text of a YAML file.
-
     Examples
     --------
     >>> write({"load": {"force": "20 kN"}})
@@ -188,12 +128,12 @@ def _load(text: str) -> Any:
     _refuse_endless(text)
     try:
         with warnings.catch_warnings():
-            # YAML lets an anchor be given anew.
+            # YAML allows an anchor to be redefined.
             warnings.simplefilter("ignore", ReusedAnchorWarning)
             return _yaml().load(text)
     except DuplicateKeyError as error:
         name = str(error.problem).split('"')[1]
-        raise SourceError(f"the key {name!r} stands there twice", _line(error)) from error
+        raise SourceError(f"the key {name!r} is given twice", _line(error)) from error
     except MarkedYAMLError as error:
         why = " ".join(str(part) for part in (error.context, error.problem) if part)
         hint = "; indent with spaces, not tabs" if "'\\t'" in why else ""
@@ -206,8 +146,8 @@ def _load(text: str) -> Any:
 
 
 def _refuse_endless(text: str) -> None:
-    """Refuse what would take minutes to parse, before it is tried."""
-    # Whatever stands in texts and comments counts too: no case file has so many there either.
+    """Refuse a text that would take minutes to parse."""
+    # Matches in texts and comments count as well; case files have few there.
     returns = text.count("\r") - text.count("\r\n")  # these end lines, too
     values = text.count(",") + text.count("\n") + returns
     if values > _MOST_VALUES:
@@ -216,7 +156,7 @@ def _refuse_endless(text: str) -> None:
         )
     if text.count("<<") > _MOST_MERGED:
         raise SourceError(f"merges more than {_MOST_MERGED} mappings with <<; write their keys out")
-    # A tag, too, makes a key one that merges.
+    # A tag can also make a key a merge key.
     if ("<<" in text or "!" in text) and values * len(_ALIAS.findall(text)) > _MOST_COPIED:
         raise SourceError("merges too many keys with <<; write out those that are needed")
     if re.search(rf"!\S{{{_LONGEST_TAG}}}", text):
@@ -234,7 +174,7 @@ def _line(error: MarkedYAMLError) -> int | None:
 
 
 def _plain(value: Any, path: KeyPath, lines: dict[KeyPath, int]) -> Any:
-    """Turn the parser's containers into plain ones, noting the lines on the way."""
+    """Convert the parser's containers to plain ones, and collect the lines."""
     if len(path) > _DEEPEST:
         raise SourceError("nested too deeply for a case file")
     if len(lines) > _MOST_VALUES:
@@ -251,7 +191,7 @@ def _plain(value: Any, path: KeyPath, lines: dict[KeyPath, int]) -> Any:
 def _entry(container: Any, key: Any, path: KeyPath, lines: dict[KeyPath, int]) -> Any:
     here = (*path, key if isinstance(container, CommentedSeq) else str(key))
     known = container.lc.data or {}
-    # A key merged from an anchor has no line of its own: its mapping's will do.
+    # A key merged from an anchor has no line; the line of its mapping is used.
     if key in known:
         lines[here] = known[key][0] + 1
     elif path in lines:
@@ -260,7 +200,7 @@ def _entry(container: Any, key: Any, path: KeyPath, lines: dict[KeyPath, int]) -
 
 
 def _plain_scalar(value: Any) -> Any:
-    # bool before int, of which it is a kind
+    # bool before int, its base class
     for kind in (bool, int, float):
         if isinstance(value, kind):
             return kind(value)
@@ -268,7 +208,7 @@ def _plain_scalar(value: Any) -> Any:
 
 
 def _text(value: str) -> str:
-    """Return a text as a plain one; escapes can make halves of characters, which no file holds."""
+    """Return a text as plain str; escapes can make lone surrogates, which cannot be written."""
     try:
         value.encode()
     except UnicodeEncodeError as error:

@@ -1,4 +1,4 @@
-"""What every shape of a case file offers: the noun, its place, what it is read from."""
+"""Common keys of shape sections: rotation, position, files."""
 
 from __future__ import annotations
 
@@ -11,45 +11,45 @@ from pydantic import Field, model_validator
 from viscontact import indenters
 from viscontact.case.quantities import Angle, Offset, Section
 
-#: Angles have their units in a case file.
+#: Remedy in messages of the constructors that does not apply to case files.
 _OF_PYTHON = "; for degrees use math.radians(...)"
 
 
 class Shape(Section):
-    """A shape that can be pressed, turned and moved."""
+    """Shape with a rotation and an offset."""
 
     rotation: Angle = Field(
         default=0.0, description="about the vertical, from +x towards +y", examples=["30 deg"]
     )
-    offset_x: Offset = Field(default=0.0, description="where its origin lies along x")
-    offset_y: Offset = Field(default=0.0, description="where its origin lies along y")
+    offset_x: Offset = Field(default=0.0, description="position of its origin along x")
+    offset_y: Offset = Field(default=0.0, description="position of its origin along y")
 
     @abstractmethod
     def build(self) -> indenters.Indenter:
-        """Return the indenter that is described, where it is drawn."""
+        """Return the indenter in its own coordinates."""
 
     def placed(self) -> indenters.Indenter:
-        """Return the indenter turned and then moved to its place."""
-        noun = self.build()
+        """Return the indenter, rotated and then moved."""
+        shape = self.build()
         if self.rotation:
-            noun = noun.rotated(self.rotation)
+            shape = shape.rotated(self.rotation)
         if self.offset_x or self.offset_y:
-            noun = noun.shifted(self.offset_x, self.offset_y)
-        return noun
+            shape = shape.shifted(self.offset_x, self.offset_y)
+        return shape
 
     @property
     def files(self) -> Mapping[tuple[str, ...], Path]:
-        """Files that it is read from, by the keys that name them."""
+        """Files of the section, by the keys that name them."""
         return {}
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What was found in those files, and what was done to it."""
+        """Notes on the contents of the files and their processing."""
         return ()
 
     @model_validator(mode="after")
     def _accepted(self) -> Shape:
-        # What the noun refuses belongs among the problems of the file.
+        # Errors of the constructor are reported among the problems of the file.
         try:
             self.build()
         except ValueError as error:

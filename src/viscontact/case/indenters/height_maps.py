@@ -1,4 +1,4 @@
-"""A measured surface as the `indenter` of a case file."""
+"""Section of a measured surface as the indenter."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def _as_pair(given: Any) -> Any:
 
 
 class _OneOrPair:
-    """Tells editors that one length may stand for both directions."""
+    """Schema annotation that allows one length for both directions."""
 
     def __get_pydantic_json_schema__(
         self, schema: CoreSchema, handler: GetJsonSchemaHandler
@@ -45,14 +45,14 @@ Range = Annotated[
 
 
 class Crop(Section):
-    """The part of a map that is pressed, by distances from its first corner."""
+    """The part of a map to use, by distances from its first corner."""
 
-    x: Range | None = Field(default=None, description="from where to where; all when left out")
-    y: Range | None = Field(default=None, description="from where to where; all when left out")
+    x: Range | None = Field(default=None, description="first and last position; all when left out")
+    y: Range | None = Field(default=None, description="first and last position; all when left out")
 
 
 def _period_note(surface: surfaces.Surface) -> tuple[str, ...]:
-    """How a periodic map is pressed without borders."""
+    """Treatment of the borders of a periodic map."""
     if not surface.periodic:
         return ()
     nx, ny = surface.shape
@@ -73,34 +73,37 @@ class HeightMap(Shape):
         examples=["ground.x3p"],
     )
     spacing: LengthPair | None = Field(
-        default=None, description="distance of the points, where the file does not tell"
+        default=None, description="distance of the points, where the file does not state it"
     )
     height_unit: str | None = Field(
-        default=None, description="of the heights, where the file does not tell", examples=["um"]
+        default=None,
+        description="unit of the heights, where the file does not state it",
+        examples=["um"],
     )
     height_factor: float = Field(
-        default=1.0, description="what the heights are multiplied by, to mend a unit"
+        default=1.0, description="factor on the heights, to correct a unit"
     )
     channel: str | None = Field(
-        default=None, description="which of several; the file's own choice when left out"
+        default=None, description="one of several channels; the file's default when left out"
     )
     width: Length | None = Field(
-        default=None, description="for a line scan: how wide it is swept, as a lay of ridges"
+        default=None,
+        description="for a line scan: the width over which it is extended, as parallel ridges",
     )
     flip: bool = Field(
-        default=False, description="turn a map over that was stored upside down, or of a replica"
+        default=False, description="invert a map that was stored upside down, or that of a replica"
     )
-    crop: Crop = Field(default=Crop(), description="the part that is pressed")
+    crop: Crop = Field(default=Crop(), description="the part to use")
     missing: Literal["refuse", "hole", "lowest", "smooth"] = Field(
         default="refuse",
-        description="what stands where nothing was measured: a hole that never touches, the lowest "
-        "height, or a smooth film over the neighbours",
+        description="value at points without a measurement: a hole that never touches, the lowest "
+        "height, or a smooth surface through the neighbours",
     )
     level: Literal["none", "mean", "plane", "quadratic"] = Field(
-        default="plane", description="what is taken off: the tilt; quadratic: the form, too"
+        default="plane", description="plane: remove the tilt; quadratic: remove the form as well"
     )
     resample: LengthPair | None = Field(
-        default=None, description="spacing of the mesh that the map is brought to"
+        default=None, description="spacing of the mesh to which the map is resampled"
     )
     filter: Literal["mean", "gaussian", "spline"] | None = Field(
         default=None,
@@ -119,10 +122,10 @@ class HeightMap(Shape):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """The map in numbers, what was taken off it, and what about it looks wrong."""
+        """Notes on the map: its statistics, the removed form, and implausible values."""
         surface = self.surface
-        told = (levelling_note(self._raw, self.level), described(surface))
-        return (*filter(None, told), *surfaces.surface_doubts(surface), *_period_note(surface))
+        notes = (levelling_note(self._raw, self.level), described(surface))
+        return (*filter(None, notes), *surfaces.surface_doubts(surface), *_period_note(surface))
 
     def build(self) -> indenters.HeightMap:
         """Return the map, read, repaired and levelled."""
@@ -130,7 +133,7 @@ class HeightMap(Shape):
 
     @cached_property
     def surface(self) -> surfaces.Surface:
-        """The surface as it is pressed."""
+        """The surface as used, after resampling."""
         if self.missing == "refuse":
             require_complete(self._raw)
         found = surfaces.levelled(self._raw, self.level)
@@ -139,7 +142,7 @@ class HeightMap(Shape):
         if self.resample is None:
             if self.filter is not None or self.cutoff is not None:
                 raise ValueError(
-                    "resample is missing: it says to which mesh the filter brings the map"
+                    "resample is missing: it is the mesh to which the filter resamples the map"
                 )
             return found
         if self.cutoff is not None and self.filter != "gaussian":
@@ -148,7 +151,7 @@ class HeightMap(Shape):
 
     @cached_property
     def _raw(self) -> surfaces.Surface:
-        """The part of the map that is used, as it was measured."""
+        """The cropped map as measured."""
         try:
             found = surfaces.read_surface(
                 self.file,
@@ -165,6 +168,6 @@ class HeightMap(Shape):
         return surfaces.cropped(found, self.crop.x, self.crop.y)
 
     def _at_key(self, why: str) -> str:
-        """Put the file's key in front of a refusal that speaks of no other."""
+        """Prefix an error with the key of the file, unless it names another one."""
         named = re.match(r"(\w+)(: | is missing)", why)
         return why if named and named[1] in type(self).model_fields else f"file: {why}"

@@ -1,4 +1,4 @@
-"""Shapes of case files beside the round ones: facets, rings, textures, bodies by points."""
+"""Sections of further shapes: ellipsoids, facets, rings, textures, bodies by points."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Wedge(Shape):
         description="from the plane of symmetry to a flank", examples=["70 deg"]
     )
     half_length: Length | None = Field(
-        default=None, description="half the edge; without end when left out"
+        default=None, description="half the edge; infinite when left out"
     )
 
     def build(self) -> indenters.Wedge:
@@ -52,7 +52,7 @@ class Pyramid(Shape):
 
     shape: Literal["pyramid"]
     half_angle: OpenAngle = Field(description="from the axis to a face", examples=["68 deg"])
-    faces: FaceCount = Field(description="how many")
+    faces: FaceCount = Field(description="number of faces")
 
     def build(self) -> indenters.Pyramid:
         """Return the pyramid."""
@@ -102,7 +102,7 @@ class Torus(Shape):
 
 
 class Waviness(Shape):
-    """Waves without end, to be laid over a shape in a list."""
+    """Infinite waves, to be added to a shape in a list."""
 
     shape: Literal["waviness"]
     amplitude: Length = Field(description="half the height of the waves", examples=["1 um"])
@@ -123,14 +123,14 @@ class Waviness(Shape):
 
 
 class Dimples(Shape):
-    """Round dimples in rows without end, to be laid over a shape in a list."""
+    """Infinite rows of round dimples, to be added to a shape in a list."""
 
     shape: Literal["dimples"]
     depth: Length = Field(description="in the middle of a dimple", examples=["2 um"])
     radius: Length = Field(description="of its mouth", examples=["50 um"])
     spacing: Length = Field(description="between neighbours' middles", examples=["0.2 mm"])
     pattern: Literal["square", "hexagonal"] = Field(
-        default="square", description="how dimples lie beside each other"
+        default="square", description="arrangement of the dimples"
     )
 
     def build(self) -> indenters.Dimples:
@@ -186,11 +186,11 @@ class Revolved(_Drawn):
 
 
 class Swept(_Drawn):
-    """A section across, by points, drawn along x."""
+    """A cross-section by points, extruded along x."""
 
     shape: Literal["swept"]
     half_length: Length | None = Field(
-        default=None, description="half its length; without end when left out"
+        default=None, description="half its length; infinite when left out"
     )
     file: DataFile | None = Field(
         default=None,

@@ -1,4 +1,4 @@
-"""The `profile` of a roller in a case file: its generating line."""
+"""Profile sections of a roller: its generating line."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Line(Section):
 
     @property
     def arguments(self) -> dict[str, Any]:
-        """What `viscontact.Roller` takes for this profile besides its name."""
+        """Arguments of `viscontact.Roller` for this profile, besides its name."""
         given = {name: getattr(self, name) for name in type(self).model_fields}
         return {
             name: value for name, value in given.items() if name != "kind" and value is not None
@@ -36,26 +36,13 @@ class Line(Section):
 
     @property
     def files(self) -> Mapping[tuple[str, ...], Path]:
-        """Files that it is read from, by the keys that name them."""
+        """Files of the section, by the keys that name them."""
         return {}
 
     def roller(
         self, radius: float, half_length: float, others: Mapping[str, Any]
     ) -> indenters.Roller:
-        """Return a roller with this profile.
-
-        Parameters
-        ----------
-        radius, half_length : float
-            Of the roller [m].
-        others : mapping
-            Its other arguments; what the profile says as well is the profile's.
-
-        Raises
-        ------
-        ValueError
-            If the profile makes no sense or does not fit; the message begins with the key.
-        """
+        """Return a roller with this profile."""
         try:
             arguments = {**others, **self.arguments}
             return indenters.Roller(radius, half_length, profile=self.kind, **arguments)
@@ -63,7 +50,7 @@ class Line(Section):
             raise ValueError(self._at_key(str(error))) from error
 
     def _at_key(self, why: str) -> str:
-        """Put the key in front that a refusal speaks of."""
+        """Prefix an error with the key that it names."""
         named = re.match(r"[A-Z]\w+: (\w+) ", why)
         if named and named[1] in type(self).model_fields:
             return f"profile.{named[1]}: {why[named.end() :]}"
@@ -81,7 +68,7 @@ class Full(Line):
 
     kind: Literal["full"]
     crown_radius: Length | None = Field(
-        default=None, description="radius of the arc; may stand with the roller's"
+        default=None, description="radius of the arc; may also be given with the roller"
     )
 
 
@@ -117,13 +104,13 @@ class Chamfer(Line):
 
 
 class Logarithmic(Line):
-    """A logarithmic crown, by its numbers."""
+    """A logarithmic crown, by its parameters."""
 
     kind: Literal["logarithmic"]
     amplitude: Length = Field(description="factor of the logarithm", examples=["0.5 um"])
     crown_ratio: Ratio = Field(default=1.0, description="part of the half length that it takes")
     end_drop: Length | None = Field(
-        default=None, description="drop at the end; without end if left out", examples=["20 um"]
+        default=None, description="drop at the end; unlimited when left out", examples=["20 um"]
     )
 
 
@@ -137,7 +124,7 @@ class _Designed(Line):
 
 
 class Lundberg(_Designed):
-    """The logarithmic crown that makes pressure even under the design load."""
+    """The logarithmic crown with uniform pressure under the design load."""
 
     kind: Literal["lundberg"]
 
@@ -174,7 +161,7 @@ class TabulatedLine(Line):
     )
     points: list[Annotated[tuple[Offset, Offset], Field(strict=False)]] | None = Field(
         default=None,
-        description="position from the middle and drop, in pairs; half of a mirrored line will do",
+        description="pairs of position from the middle and drop; half of a symmetric line suffices",
         examples=[[["0 mm", "0 um"], ["4 mm", "0 um"], ["5 mm", "8 um"]]],
     )
     interpolation: Interpolation = Field(
@@ -188,7 +175,7 @@ class TabulatedLine(Line):
 
     @property
     def arguments(self) -> dict[str, Any]:
-        """Positions and drops, read from where they stand."""
+        """Positions and drops, from the points or the file."""
         if (self.points is None) == (self.file is None):
             raise ValueError(
                 "profile: give file (e.g. 'profile.csv') or points (e.g. '[[0 mm, 0 um], "
@@ -212,7 +199,7 @@ class TabulatedLine(Line):
         return why if named == why else f"profile.{where}: {named}"
 
 
-#: The sections of a profile by their kind.
+#: Profile sections by their kind.
 PROFILES: dict[str | int, type[Line]] = {
     "cylindrical": Cylindrical,
     "full": Full,
@@ -233,7 +220,7 @@ def _of_name(given: Any) -> Any:
 
 
 class _OrName:
-    """Tells editors that a name alone may stand in the section's place."""
+    """Schema annotation that allows a name in place of the section."""
 
     def __get_pydantic_json_schema__(
         self, schema: CoreSchema, handler: GetJsonSchemaHandler

@@ -1,4 +1,4 @@
-"""The `indenter` of a case file."""
+"""Indenter section of a case file: round shapes, rollers, and sums of shapes."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ class Roller(Shape):
     """A roller lying along x, with a profile along it."""
 
     shape: Literal["roller"]
-    radius: Length = Field(description="where it is thickest")
+    radius: Length = Field(description="largest radius of the roller")
     half_length: Length = Field(
         description="half the length: of the straight part where a circular crown continues it, "
         "of the whole otherwise"
@@ -82,10 +82,11 @@ class Roller(Shape):
         default=None, description="radius of the crown that continues the straight part"
     )
     profile: AnyProfile | None = Field(
-        default=None, description="the generating line, where it is another"
+        default=None, description="generating line, if not the straight one with a crown"
     )
     cross_section: Literal["circle", "parabola"] = Field(
-        default="circle", description="across: the true circle, or the parabola of Hertz's theory"
+        default="circle",
+        description="cross-section: the true circle, or the parabola of Hertz's theory",
     )
 
     @property
@@ -104,7 +105,7 @@ class Roller(Shape):
         return self.profile.roller(self.radius, self.half_length, others)
 
 
-#: The sections of a shape by its name.
+#: Shape sections by their name.
 SHAPES: dict[str | int, type[Shape]] = {
     "sphere": Sphere,
     "paraboloid": Paraboloid,
@@ -148,7 +149,7 @@ AnyShape = Annotated[
 
 
 class _OneOrMany:
-    """Tells editors that one shape may stand without the list."""
+    """Schema annotation that allows a single shape in place of a list."""
 
     def __get_pydantic_json_schema__(
         self, schema: CoreSchema, handler: GetJsonSchemaHandler
@@ -171,16 +172,6 @@ Shapes = Annotated[
 
 def combined(shapes: Sequence[Shape]) -> indenters.Indenter:
     """Return the indenter that a list of shapes describes: their sum.
-
-    Parameters
-    ----------
-    shapes : list of Shape
-        One or more.
-
-    Returns
-    -------
-    Indenter
-        The only one's, or the sum, each in its place.
 
     Examples
     --------

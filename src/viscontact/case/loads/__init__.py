@@ -1,1 +1,1 @@
-"""The `load` section of a case file: histories, tables and sentences."""
+"""Load sections of a case file: histories, tables and sentences."""

@@ -1,6 +1,6 @@
-"""The grammar of sentences about a load: a few forms, each a row of words and slots.
+"""Grammar of sentences about a load: a few forms of words and slots.
 
-A form is written as it is said. ``in|within`` is any of these words, ``[at]`` one that may be left
+A form is a row of words. ``in|within`` is any of these words, ``[at]`` one that may be left
 out, and a word in capitals a slot: LEVEL (a force or a length), RATE (one per time), TIME, COUNT,
 TIMES (3 times, twice). Articles are passed over.
 """
@@ -24,34 +24,34 @@ _TOKEN = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[^\s,]+")
 _NUMBER = re.compile(r"[+-]?[\d.].*")
 _COUNT_WORDS = {"once": 1, "twice": 2, "thrice": 3}
 
-#: Longer pieces of a sentence are cut in messages.
+#: Longest quotation of a sentence in messages.
 _SHOWN = 60
 
 
 class PhraseError(ValueError):
-    """A sentence that says something else than what can be said."""
+    """Sentence that fits none of the forms."""
 
 
 @dataclass(frozen=True)
 class Token:
-    """A number or a word of a sentence, and where it ends in it."""
+    """Number or word of a sentence, with the position of its end."""
 
     text: str
     end: int
 
     @property
     def word(self) -> str:
-        """As it is compared: units keep their case, words do not."""
+        """Text for comparison: the case of units matters, that of words does not."""
         return self.text.lower()
 
     @property
     def is_number(self) -> bool:
-        """Whether it begins a quantity or a count."""
+        """Whether the token begins a quantity or a count."""
         return _NUMBER.fullmatch(self.text) is not None
 
 
 class Rate(NamedTuple):
-    """So much in so long [s]."""
+    """Rate: a level per time [s]."""
 
     change: Level
     per: float
@@ -59,15 +59,7 @@ class Rate(NamedTuple):
 
 @dataclass(frozen=True)
 class Form:
-    """One way to say something.
-
-    Parameters
-    ----------
-    kind : str
-        What it means.
-    words : str
-        Its words and slots in order.
-    """
+    """Form of a sentence: its meaning, and its words and slots in order."""
 
     kind: str
     words: str
@@ -75,20 +67,9 @@ class Form:
 
 @dataclass(frozen=True)
 class Reading:
-    """How far a form fits a sentence.
+    """Match of a form with a sentence, with the values of its slots.
 
-    Parameters
-    ----------
-    form : Form
-        The form.
-    slots : tuple
-        What its slots hold, in order.
-    reached : int
-        Tokens that fit.
-    expected : str
-        What should come next; empty if all fits.
-    why : str
-        Why a slot cannot be read; empty if another word is the matter.
+    `expected` is the next word, empty for a complete match; `why` the error of a slot.
     """
 
     form: Form
@@ -99,24 +80,7 @@ class Reading:
 
 
 def read_form(text: str, forms: Sequence[Form]) -> Reading:
-    """Find the form that a sentence has.
-
-    Parameters
-    ----------
-    text : str
-        One sentence.
-    forms : sequence of Form
-        What can be said.
-
-    Returns
-    -------
-    Reading
-        The form with its slots.
-
-    Raises
-    ------
-    PhraseError
-        If it has none of them; the message says what was understood and what was expected.
+    """Return the form that fits a sentence.
 
     Examples
     --------
@@ -156,7 +120,7 @@ def _reading(form: Form, tokens: Sequence[Token]) -> Reading:
 
 
 def _refusal(text: str, tokens: Sequence[Token], readings: Sequence[Reading]) -> str:
-    """What was understood of a sentence by the forms that fit it best, and what was not."""
+    """Message with the part of a sentence that the best forms match, and the part they do not."""
     reached = max(reading.reached for reading in readings)
     best = [reading for reading in readings if reading.reached == reached]
     if reached == 0:
@@ -182,7 +146,7 @@ def _nearest(tokens: Sequence[Token], readings: Sequence[Reading]) -> str:
 
 
 def _quantity(tokens: Sequence[Token]) -> tuple[str, int]:
-    """The text of a number and its unit, and how many tokens they are."""
+    """Text of a number and its unit, and their number of tokens."""
     if not tokens or not tokens[0].is_number:
         raise PhraseError("")
     if len(tokens) == 1 or tokens[1].is_number or _is_no_unit(tokens[1:]):
@@ -191,7 +155,7 @@ def _quantity(tokens: Sequence[Token]) -> tuple[str, int]:
 
 
 def _is_no_unit(tokens: Sequence[Token]) -> bool:
-    """Whether a word goes on with the sentence: of "0.1 in in 1 s", the second "in" does."""
+    """Whether a word continues the sentence: in "0.1 in in 1 s" the second "in" does."""
     words = [token.word for token in itertools.islice(tokens, 2)]
     prepositions = {*_WITHIN.split("|"), "at", "for", "with", "until"}
     if words[0] == "in" and (len(words) == 1 or words[1] in prepositions):
@@ -247,14 +211,14 @@ _SLOTS: dict[str, tuple[str, _Slot]] = {
 }
 
 
-def _forms(said: Iterable[tuple[str, str]]) -> tuple[Form, ...]:
-    return tuple(Form(kind, words) for kind, words in said)
+def _forms(rows: Iterable[tuple[str, str]]) -> tuple[Form, ...]:
+    return tuple(Form(kind, words) for kind, words in rows)
 
 
 _GO, _BACK = "ramp|load|press|move|go", "unload|withdraw|retract"
 _STILL = "hold|wait|rest|dwell|pause"
 
-#: All that can be said.
+#: All forms.
 FORMS = _forms(
     [
         ("to, in", f"{_GO}|{_BACK} [linearly] [up|down] to LEVEL {_WITHIN} TIME"),
@@ -275,8 +239,8 @@ FORMS = _forms(
     ]
 )
 
-#: What is told to those who said something else.
-CAN_BE_SAID = (
+#: Examples for error messages.
+EXAMPLES = (
     "ramp to 10 kN in 1 s (or: at 2 kN/s)",
     "step to 5 kN (or: by 1 kN)",
     "hold for 240 s",

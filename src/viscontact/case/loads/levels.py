@@ -1,4 +1,4 @@
-"""What is prescribed over time: a force or an approach, told apart by the unit."""
+"""Levels of a load: a force or an approach, distinguished by the unit."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from viscontact.case.quantities import Quantity
 from viscontact.loads.history import Control
 from viscontact.units.dimensions import DIMENSIONS
 
-#: How an approach is written; a length's own example would be a deep one.
+#: Example of an approach; that of a length would be too large.
 APPROACH_EXAMPLE = "0.1 mm"
 
 _DIMENSIONS: dict[str, Control] = {"force": "force", "length": "approach"}
@@ -27,22 +27,7 @@ class Level(NamedTuple):
 
 
 def read_level(given: Any) -> Level:
-    """Read a force or a length in words.
-
-    Parameters
-    ----------
-    given : object
-        Text such as ``"10 kN"`` or ``"0.1 mm"``; anything else is refused.
-
-    Returns
-    -------
-    Level
-        In SI units; a length is an approach.
-
-    Raises
-    ------
-    PydanticCustomError
-        If it is neither, or beyond what can be computed with.
+    """Read a force or a length with its unit.
 
     Examples
     --------
@@ -103,7 +88,7 @@ class _TiltQuantity(Quantity):
     def __get_pydantic_json_schema__(
         self, schema: CoreSchema, handler: GetJsonSchemaHandler
     ) -> JsonSchemaValue:
-        """Tell editors of the angle and of the word."""
+        """Return the JSON schema: an angle or the word."""
         angle = super().__get_pydantic_json_schema__(schema, handler)
         return {"anyOf": [angle, {"const": "free"}]}
 

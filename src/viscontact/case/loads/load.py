@@ -1,4 +1,4 @@
-"""The `load` of a case file."""
+"""Load section of a case file."""
 
 from __future__ import annotations
 
@@ -31,49 +31,49 @@ from viscontact.loads.history import Control
 from viscontact.units.dimensions import DIMENSIONS
 from viscontact.units.formatting import format_quantity
 
-#: How a mean pressure is written; a modulus' example would be a high one.
+#: Example of a mean pressure; that of a modulus would be too large.
 PRESSURE_EXAMPLE = "2 MPa"
 
 _FREE = "prescribed slope along {}, in place of the moment balance; free: no moment"
 
 
 class Load(Section):
-    """A force or an approach over time, where the force acts, and prescribed tilts."""
+    """A force or an approach over time, its eccentricity, and prescribed tilts."""
 
-    eccentricity_x: Offset = Field(default=0.0, description="where the force acts along x")
-    eccentricity_y: Offset = Field(default=0.0, description="where the force acts along y")
+    eccentricity_x: Offset = Field(default=0.0, description="position of the force along x")
+    eccentricity_y: Offset = Field(default=0.0, description="position of the force along y")
     tilt_x: Tilt = Field(default=None, description=_FREE.format("x"))
     tilt_y: Tilt = Field(default=None, description=_FREE.format("y"))
 
     @abstractmethod
     def build(self, area: float = 1.0) -> LoadHistory:
-        """Return the history that is described; a mean pressure acts on so much area [m²]."""
+        """Return the history; a mean pressure acts on the given area [m²]."""
 
     @property
     def table(self) -> Path | None:
-        """The file that the history is read from, if there is one."""
+        """File of the history, if there is one."""
         return None
 
     @property
     def is_by_pressure(self) -> bool:
-        """Whether a mean pressure is prescribed, which takes an area to act on."""
+        """Whether a mean pressure is prescribed, which needs an area."""
         return getattr(self, "mean_pressure", None) is not None
 
     @property
     def _tail(self) -> dict[str, Any]:
-        """What stands in the file; what does not is the noun's to choose."""
+        """Arguments that the file gives; the constructor has defaults for the others."""
         given = [name for name in Load.model_fields if name in self.model_fields_set]
         return {name: getattr(self, name) for name in given}
 
     @model_validator(mode="after")
     def _accepted(self) -> Load:
-        # What the noun refuses belongs among the problems of the file.
+        # Errors of the constructor are reported among the problems of the file.
         self.build()
         return self
 
 
 class Controlled(Load):
-    """A history whose height is a force or an approach."""
+    """History whose level is a force or an approach."""
 
     force: Force | None = Field(default=None, description="prescribed force")
     approach: Offset | None = Field(
@@ -97,7 +97,7 @@ class Controlled(Load):
 
 
 class Step(Controlled):
-    """A force or an approach put on at once, then held."""
+    """A force or an approach applied at once, then held."""
 
     kind: Literal["step"]
 
@@ -107,10 +107,10 @@ class Step(Controlled):
 
 
 class Ramp(Controlled):
-    """A force or an approach that grows evenly, then is held."""
+    """A force or an approach that increases linearly, then is held."""
 
     kind: Literal["ramp"]
-    duration: Duration = Field(description="of the rise; then it is held")
+    duration: Duration = Field(description="duration of the rise; then the level is held")
 
     def build(self, area: float = 1.0) -> LoadHistory:
         """Return the ramp."""
@@ -118,11 +118,13 @@ class Ramp(Controlled):
 
 
 class Triangle(Controlled):
-    """A force or an approach that grows evenly to its peak, then falls back to zero."""
+    """A force or an approach that increases linearly to its peak, then decreases to zero."""
 
     kind: Literal["triangle"]
-    rise: Duration = Field(description="how long the way up takes")
-    fall: Duration | None = Field(default=None, description="as long as rise when left out")
+    rise: Duration = Field(description="duration of the rise")
+    fall: Duration | None = Field(
+        default=None, description="duration of the fall; that of the rise when left out"
+    )
 
     def build(self, area: float = 1.0) -> LoadHistory:
         """Return the triangle."""
@@ -130,7 +132,7 @@ class Triangle(Controlled):
 
 
 class Harmonic(Load):
-    """A force or an approach that swings, mean + amplitude sin(2 pi t/period + phase)."""
+    """A harmonic force or approach, mean + amplitude sin(2 pi t/period + phase)."""
 
     kind: Literal["harmonic"]
     mean: Force | None = Field(default=None, description="mean force")
@@ -141,7 +143,7 @@ class Harmonic(Load):
     )
     amplitude: ForceOrApproach = Field(description="of the force, or of the approach")
     period: Duration = Field(description="time of a cycle")
-    cycles: CycleCount = Field(description="after these the level stays where it is")
+    cycles: CycleCount = Field(description="number of cycles; then the level is held")
     phase: Angle = Field(default=0.0, description="at time 0")
 
     def build(self, area: float = 1.0) -> LoadHistory:
@@ -189,7 +191,7 @@ class History(Load):
 
     @property
     def table(self) -> Path | None:
-        """The file that the history is read from, if there is one."""
+        """File of the history, if there is one."""
         return None if self.file is None else Path(self.file)
 
     def build(self, area: float = 1.0) -> LoadHistory:
@@ -229,11 +231,11 @@ class History(Load):
         return _history("force", times, [each * area for each in pressures], self._tail)
 
     def _from_sentences(self) -> LoadHistory:
-        said = [sentence for entry in self.sentences or () for sentence in entry]
+        sentences = [sentence for entry in self.sentences or () for sentence in entry]
         try:
-            course = course_of(said)
+            course = course_of(sentences)
         except SentenceError as error:
-            # A text has no entries; the message then names the section's key.
+            # A text has no entries, so the message names the key of the section.
             key = ("sentences", error.entry - 1)
             raise ValueError(f"{dotted(key)}: {error}") from error
         except ValueError as error:
@@ -244,14 +246,14 @@ class History(Load):
         columns = read_load_table(path)
         twice = sorted(columns.keys() & self.model_fields_set)
         if twice:
-            raise ValueError(f"{twice[0]} stands in the case and in {path.name}; give it once")
+            raise ValueError(f"{twice[0]} is given in the case and in {path.name}; give it once")
         control: Control = "approach" if "approach" in columns else "force"
         times, levels = columns.pop("times"), columns.pop(control)
         return _history(control, times, levels, {**self._tail, **columns})
 
 
 def _one_of(approach: float | None, name: str, value: float | None) -> dict[Any, float]:
-    """The force, under the name it has, or the approach."""
+    """Argument that is given, the level by its name or the approach; both are refused."""
     if approach is not None and value is not None:
         raise ValueError(f"{name} and approach exclude each other; give one of them")
     if approach is not None:
@@ -269,7 +271,7 @@ def _common_control(levels: Sequence[Level]) -> Control:
         if level.control != levels[0].control:
             words = {"force": "a force", "approach": "a length"}
             raise ValueError(
-                f"points[{place}]: {words[level.control]} stands there, {words[levels[0].control]} "
+                f"points[{place}]: it is {words[level.control]}, {words[levels[0].control]} "
                 "in the first point; either the force or the approach is prescribed, throughout"
             )
     return levels[0].control

@@ -1,4 +1,4 @@
-"""Load histories from CSV files whose header names columns and units."""
+"""Load histories from CSV files with columns and units in the header."""
 
 from __future__ import annotations
 
@@ -11,25 +11,7 @@ _COLUMNS = ("time", "force", "approach", "eccentricity_x", "eccentricity_y", "ti
 
 
 def read_load_table(path: Path) -> dict[str, list[float]]:
-    """Read a load history from a CSV file.
-
-    Parameters
-    ----------
-    path : Path
-        The file, as `viscontact.tables.read_table` takes it; its header names columns and
-        units, as ``time [s], force [kN]`` or ``t [s]; approach [um]``.
-
-    Returns
-    -------
-    dict
-        Arguments of `viscontact.ForceHistory` or `viscontact.ApproachHistory`, in SI units.
-
-    Raises
-    ------
-    ValueError
-        If the file cannot be read, a column is unknown or missing, an entry is no number, or
-        the times decrease; with the row and the column.
-    """
+    """Read a load history from a CSV file."""
     try:
         table = read_table(path)
         _require_columns(table)
@@ -43,7 +25,7 @@ def read_load_table(path: Path) -> dict[str, list[float]]:
 
 def _require_columns(table: Table) -> None:
     name = table.source.name
-    # A column left out in silence would be a load that is not applied.
+    # An ignored column could be a load that is not applied.
     others = [table.headings[column] for column in table.columns if column not in _COLUMNS]
     for unknown in (*table.left_out, *others):
         raise ValueError(

@@ -1,4 +1,4 @@
-"""What sentences about a load add up to: points of a history, one after another."""
+"""Points of a load history from its sentences."""
 
 from __future__ import annotations
 
@@ -14,20 +14,12 @@ from viscontact.loads.harmonic import STEPS_PER_CYCLE
 from viscontact.loads.history import Control
 from viscontact.units.formatting import format_quantity
 
-#: A history of more points than this is a slip of the pen: each is a step of the run.
+#: Largest number of points; each is a step of the run.
 MOST_POINTS = 100_000
 
 
 class SentenceError(ValueError):
-    """What a sentence asks for cannot be done.
-
-    Parameters
-    ----------
-    sentence : Sentence
-        The sentence.
-    why : str
-        Why not.
-    """
+    """Sentence that cannot be carried out."""
 
     def __init__(self, sentence: Sentence, why: str) -> None:
         super().__init__(f"{sentence}: {why}")
@@ -35,7 +27,7 @@ class SentenceError(ValueError):
 
 
 class Course(NamedTuple):
-    """A load history by points: what is prescribed, when [s] and how much [N or m]."""
+    """Load history by points: prescribed quantity, times [s] and levels [N or m]."""
 
     control: Control
     times: list[float]
@@ -43,31 +35,13 @@ class Course(NamedTuple):
 
 
 def course_of(sentences: Sequence[Sentence]) -> Course:
-    """Do what sentences say, one after another, from time 0 and nothing on.
-
-    Parameters
-    ----------
-    sentences : sequence of Sentence
-        From `read_sentences`.
-
-    Returns
-    -------
-    Course
-        Points of the history; a jump has two at one time, at time 0 only the one after it. What
-        is repeated is done so many times more. A swing is a sine of 128 lines a cycle.
-
-    Raises
-    ------
-    SentenceError
-        If a sentence asks for what cannot be done.
-    ValueError
-        If no sentence says how much.
+    """Return the history that sentences describe, from time 0 and level 0.
 
     Examples
     --------
     >>> from viscontact.case.loads.sentences import read_sentences
-    >>> said = read_sentences(["ramp to 10 kN in 1 s; hold for 240 s; unload in 0.1 s"])
-    >>> course_of(said)
+    >>> sentences = read_sentences(["ramp to 10 kN in 1 s; hold for 240 s; unload in 0.1 s"])
+    >>> course_of(sentences)
     Course(control='force', times=[0.0, 1.0, 241.0, 241.1], levels=[0.0, 10000.0, 10000.0, 0.0])
     """
     way = _Way(_control(sentences))
@@ -77,7 +51,7 @@ def course_of(sentences: Sequence[Sentence]) -> Course:
 
 
 def _control(sentences: Sequence[Sentence]) -> Control:
-    """Whether forces or lengths are spoken of; never both."""
+    """Whether the sentences prescribe forces or lengths; both are refused."""
     found: Control | None = None
     for sentence in sentences:
         for given in sentence.reading.slots:
@@ -98,7 +72,7 @@ def _control(sentences: Sequence[Sentence]) -> Control:
 
 
 def _moves(sentences: Sequence[Sentence]) -> Iterator[tuple[Sentence, Reading]]:
-    """What is done in turn, repetitions written out."""
+    """Sentences in order, with repetitions expanded."""
     done: list[list[Reading]] = []
     total = 0
     for sentence in sentences:
@@ -130,7 +104,7 @@ def _repeated(
 
 
 class _Way:
-    """Points that are gone through, in exact decimal numbers: ten times 0.1 s are 1 s."""
+    """Points of a history as exact decimal numbers, so that ten times 0.1 s are 1 s."""
 
     def __init__(self, control: Control) -> None:
         self.control: Control = control
@@ -139,7 +113,7 @@ class _Way:
         self._just_jumped = False
 
     def follow(self, sentence: Sentence, move: Reading) -> None:
-        """Do what a sentence says."""
+        """Add the points of a sentence."""
         kind, slots = move.form.kind, move.slots
         if kind == "hold for":
             self._go(sentence, self.levels[-1], _exact(slots[0]))
@@ -218,7 +192,7 @@ class _Way:
 
 
 def _exact(number: float) -> Fraction:
-    """The decimal number that was written, so that 2 um less 3 um are -1 um."""
+    """Decimal number as written, so that 2 um minus 3 um is -1 um."""
     return Fraction(repr(number))
 
 
@@ -227,7 +201,7 @@ def _refuse(sentence: Sentence, why: str) -> NoReturn:
 
 
 def _sine(k: int) -> Fraction:
-    """Sine of so many parts of a turn, exactly 0 and 1 where it is."""
+    """Sine of a fraction of a turn, with exact zeros and ones."""
     quarters, rest = divmod(4 * k, STEPS_PER_CYCLE)
     if rest == 0:
         return Fraction((0, 1, 0, -1)[quarters % 4])

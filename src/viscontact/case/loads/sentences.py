@@ -1,4 +1,4 @@
-"""A load history in sentences: "ramp to 10 kN in 1 s; hold for 240 s; unload in 0.1 s"."""
+"""Sentences of a load: "ramp to 10 kN in 1 s; hold for 240 s; unload in 0.1 s"."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from typing import Annotated, Any, NamedTuple
 from pydantic import BeforeValidator, PlainValidator, WithJsonSchema
 from pydantic_core import PydanticCustomError
 
-from viscontact.case.loads.grammar import CAN_BE_SAID, FORMS, PhraseError, Reading, read_form
+from viscontact.case.loads.grammar import EXAMPLES, FORMS, PhraseError, Reading, read_form
 
-#: Sentences end with these, or where the next begins with "then" or "and".
+#: Ends of sentences; a new one also begins with "then" or "and".
 _ENDS = re.compile(r";|\n|\.(?=\s|$)|,?\s*\b(?:and\s+)?then\b|,?\s+and\s+(?=[a-z])", re.IGNORECASE)
 
-#: Of so many sentences that cannot be understood a message tells why.
+#: Largest number of sentences that an error message explains.
 _MOST_TOLD = 10
 
-#: More sentences than these take seconds to understand, and nobody has written them.
+#: Largest number of sentences; more take seconds to parse.
 _MOST_SENTENCES = 10_000
 
 #: A short history.
@@ -27,19 +27,7 @@ EXAMPLE = "'ramp to 10 kN in 1 s; hold for 240 s; unload in 0.1 s'"
 
 @dataclass(frozen=True)
 class Sentence:
-    """A sentence that has been understood.
-
-    Parameters
-    ----------
-    number : int
-        Its place, from 1.
-    text : str
-        What was said.
-    entry : int
-        Its place in the list that it was given in, from 1.
-    reading : Reading
-        What it means.
-    """
+    """Parsed sentence, with its number and its list entry, both from 1."""
 
     number: int
     text: str
@@ -53,43 +41,18 @@ class Sentence:
 def split_sentences(text: str) -> list[str]:
     """Split a text into its sentences.
 
-    Parameters
-    ----------
-    text : str
-        Sentences behind one another.
-
-    Returns
-    -------
-    list of str
-        One each, without what separates them.
-
     Examples
     --------
     >>> split_sentences("Ramp to 1.5 N in 1 s, then hold for 2 s.")
     ['Ramp to 1.5 N in 1 s', 'hold for 2 s']
     """
-    # Single blanks: a pattern that looks for "and" behind blanks tries every run of them.
+    # Single blanks: a pattern for "and" after blanks would try every sequence of them.
     text = re.sub(r"\s+", lambda run: "\n" if "\n" in run[0] else " ", text)
     return [part.strip(" \t\r,") for part in _ENDS.split(text) if part.strip(" \t\r,")]
 
 
 def read_sentences(texts: Sequence[str]) -> list[Sentence]:
-    """Understand sentences, each for itself.
-
-    Parameters
-    ----------
-    texts : sequence of str
-        Entries of a list, each with one sentence or more.
-
-    Returns
-    -------
-    list of Sentence
-        All of them, in order.
-
-    Raises
-    ------
-    ValueError
-        If one cannot be understood.
+    """Parse sentences, each on its own.
 
     Examples
     --------
@@ -118,7 +81,7 @@ def _numbered(texts: Sequence[Any]) -> list[_Entry]:
 
 
 def _understood(entry: _Entry) -> tuple[Sentence, ...]:
-    """Sentences of an entry; one line tells of all that are refused."""
+    """Sentences of an entry; one message names all that are refused."""
     read: list[Sentence] = []
     refused: list[str] = []
     for number, text in enumerate(entry.parts, start=entry.first):
@@ -131,8 +94,8 @@ def _understood(entry: _Entry) -> tuple[Sentence, ...]:
     if refused:
         if len(refused) > _MOST_TOLD:
             refused[_MOST_TOLD:] = [f"and {len(refused) - _MOST_TOLD} more"]
-        said = ", ".join(repr(form) for form in CAN_BE_SAID)
-        why = f"{'; '.join(refused)}. What can be said: {said}"
+        forms = ", ".join(repr(form) for form in EXAMPLES)
+        why = f"{'; '.join(refused)}. Possible sentences: {forms}"
         raise PydanticCustomError("quantity", "{why}", {"why": why})
     return tuple(read)
 
@@ -155,7 +118,7 @@ def _as_entries(given: Any) -> list[_Entry]:
 
 
 _SCHEMA = {
-    "description": "what happens in turn, such as " + ", ".join(CAN_BE_SAID),
+    "description": "what happens in turn, such as " + ", ".join(EXAMPLES),
     "anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}}],
     "examples": [EXAMPLE.strip("'")],
 }

@@ -1,1 +1,1 @@
-"""The material sections of a case file: laws, tables, shifts, names of the library."""
+"""Material sections of a case file: laws, tables, shifts, names of the library."""

@@ -1,4 +1,4 @@
-"""What every material of a case file says besides its law: volume, temperature, range."""
+"""Common keys of material sections: volume, temperature, known range."""
 
 from __future__ import annotations
 
@@ -23,14 +23,15 @@ from viscontact.materials.material import Material
 
 
 class Medium(Section):
-    """A creep law in shear, and how the body gives in volume."""
+    """Creep law in shear, and the behaviour in volume."""
 
     poisson_ratio: PoissonRatio | None = Field(default=None, description="constant in time")
     bulk_modulus: Modulus | None = Field(
         default=None, description="elastic; Poisson's ratio then varies in time"
     )
     measured_until: Duration | None = Field(
-        default=None, description="last time the law is known for; a run that goes beyond warns"
+        default=None,
+        description="last time for which the law is known; a longer run issues a warning",
     )
     thickness: Length | None = Field(
         default=None,
@@ -38,18 +39,18 @@ class Medium(Section):
         "half width beyond a fifth of it warns",
     )
     temperature: Temperature | None = Field(
-        default=None, description="of the run; the law is shifted to it by shift"
+        default=None, description="temperature of the run, to which the law is shifted by shift"
     )
     shift: AnyShift | None = Field(
-        default=None, description="how all times of the law change with temperature"
+        default=None, description="change of all times of the law with temperature"
     )
 
     @abstractmethod
     def build_law(self) -> Law:
-        """Return the creep law that is described."""
+        """Return the creep law."""
 
     def build(self) -> Material:
-        """Return the material that is described, at its temperature."""
+        """Return the material at the temperature of the run."""
         if (self.poisson_ratio is None) == (self.bulk_modulus is None):
             raise ValueError(
                 "give poisson_ratio (e.g. 0.38) or bulk_modulus (e.g. '4 GPa'), and only one"
@@ -59,17 +60,17 @@ class Medium(Section):
 
     @property
     def files(self) -> Mapping[tuple[str, ...], Path]:
-        """Files that the material is read from, by the keys that name them."""
+        """Files of the material, by the keys that name them."""
         found = {} if self.shift is None else self.shift.files
         return {("shift", *key): path for key, path in found.items()}
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What stands in those files and is not used."""
+        """Notes on contents of the files that are not used."""
         return ()
 
     def _at_temperature(self, material: Material, shift: Shift | None) -> Material:
-        """Return the material at the run's temperature, with what is said of its range."""
+        """Return the material at the temperature of the run, with its known range."""
         factor = 1.0
         if self.temperature is not None:
             if shift is None:
@@ -85,7 +86,7 @@ class Medium(Section):
             material.law if factor == 1.0 else material.law.slowed(factor),
             material.poisson_ratio,
             bulk_modulus=material.bulk_modulus,
-            # What is known of the law as it is written shifts with it.
+            # The known range of the given law is shifted with it.
             measured_until=None if until is None else factor * until,
             thickness=self.thickness,
         )
@@ -96,6 +97,6 @@ class Medium(Section):
 
     @model_validator(mode="after")
     def _accepted(self) -> Medium:
-        # What the nouns refuse belongs among the problems of the file.
+        # Errors of the constructors are reported among the problems of the file.
         self.build()
         return self

@@ -1,4 +1,4 @@
-"""The `material` and `indenter_material` of a case file: any law, or a name of the library."""
+"""Material section of a case file: any law, or a name of the library."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError
 
 from viscontact.case.materials.base import Medium
-from viscontact.case.materials.library import MATERIALS
 from viscontact.case.materials.measured_laws import CardLaw, TableLaw
 from viscontact.case.materials.series_laws import CreepSeries, PowerLaw, RelaxationSeries
 from viscontact.case.materials.spring_laws import (
@@ -20,8 +19,9 @@ from viscontact.case.materials.spring_laws import (
     Maxwell,
     Zener,
 )
+from viscontact.materials import library
 
-#: The sections of a material by the name of their law.
+#: Material sections by the name of their law.
 LAWS: dict[str | int, type[Medium]] = {
     "elastic": Elastic,
     "maxwell": Maxwell,
@@ -40,20 +40,22 @@ LAWS: dict[str | int, type[Medium]] = {
 def _from_library(given: Any) -> Any:
     if not isinstance(given, str):
         return given
-    if given not in MATERIALS:
-        names = ", ".join(MATERIALS)
+    if given not in library.names():
+        names = ", ".join(library.names())
         why = f"no shipped material is called {given!r}; there are {names}"
         raise PydanticCustomError("library", "{why}", {"why": why})
-    return MATERIALS[given]
+    entry = library.entry(given)
+    # A run beyond the measured range issues a warning.
+    return {**entry.material, "measured_until": f"{entry.measured[1]!r} s"}
 
 
 class _OrName:
-    """Tells editors that the name of a shipped material may stand in the section's place."""
+    """Schema annotation that allows the name of a shipped material in place of the section."""
 
     def __get_pydantic_json_schema__(
         self, schema: CoreSchema, handler: GetJsonSchemaHandler
     ) -> JsonSchemaValue:
-        return {"anyOf": [{"enum": list(MATERIALS)}, handler(schema)]}
+        return {"anyOf": [{"enum": list(library.names())}, handler(schema)]}
 
 
 AnyMaterial = Annotated[

@@ -1,4 +1,4 @@
-"""Laws from files: measured tables, and cards of finite-element programs."""
+"""Sections of laws from files: measured tables, and cards of finite-element programs."""
 
 from __future__ import annotations
 
@@ -19,19 +19,19 @@ from viscontact.tables import Table, read_table
 from viscontact.units.parsing import parse_scale
 from viscontact.units.temperatures import in_celsius
 
-# Of the temperature that a table tells and the one that its shift refers to [K].
+# Tolerance between the temperature of a table and the one that its shift refers to [K].
 _SAME_TEMPERATURE = 1.0
 _AT_ROW = re.compile(r"\w+(?:\.from_\w+)?\.(?P<column>\w+), row (?P<row>\d+): (?P<why>.*)", re.S)
 
 
 class FromFile(Medium):
-    """A law that is read from a file."""
+    """Law from a file."""
 
     file: DataFile
 
     @property
     def files(self) -> Mapping[tuple[str, ...], Path]:
-        """The file and those of the shift, by their keys."""
+        """Files of the law and of its shift, by their keys."""
         return {("file",): Path(self.file), **super().files}
 
 
@@ -44,7 +44,7 @@ class TableLaw(FromFile):
         examples=["pmma.csv"],
     )
     quantity: Literal["creep_compliance", "relaxation_modulus"] = Field(
-        description="what its values are"
+        description="quantity of the values"
     )
     data: Literal["deviatoric", "shear", "uniaxial"] = Field(
         description="compliances are deviatoric (Phi = 1/(2G)), shear (1/G) or uniaxial (1/E); "
@@ -56,15 +56,17 @@ class TableLaw(FromFile):
     beyond: Literal["slope", "last"] = Field(
         default="slope", description="beyond the last row: its slope in log time, or its value"
     )
-    set: float | None = Field(default=None, description="number of the set, where there are some")
+    set: float | None = Field(
+        default=None, description="number of the set, where there are several"
+    )
     columns: dict[str, str | None] = Field(
         default={},
-        description="what columns mean whose headings do not say, as 'E: relaxation_modulus'",
+        description="quantities of columns with unclear headings, e.g. 'E: relaxation_modulus'",
         examples=[{"E_1": "relaxation_modulus", "remark": None}],
     )
 
     def build_law(self) -> Law:
-        """Return the law, whatever test the table is from."""
+        """Return the law, from a deviatoric, shear or uniaxial table."""
         if self.quantity == "relaxation_modulus" and self.data == "deviatoric":
             raise ValueError("data: moduli are shear or uniaxial; deviatoric is a compliance")
         try:
@@ -127,7 +129,7 @@ class TableLaw(FromFile):
             )
 
     def _located(self, table: Table, error: ValueError) -> str:
-        """Return what a law refused at the place in the file, not in its arguments."""
+        """Return an error of a law at its place in the file, not at its argument."""
         match = _AT_ROW.match(str(error))
         if match is None or int(match["row"]) >= len(table):
             return table.located(error)
@@ -151,7 +153,7 @@ def _told(sets: tuple[Table, ...]) -> str:
 
 
 class CardLaw(FromFile):
-    """The material of an Abaqus or Ansys card: its law and its volume, and its shift."""
+    """The material of an Abaqus or Ansys card: its law, its volume behaviour and its shift."""
 
     law: Literal["card"]
     file: DataFile = Field(
@@ -164,7 +166,7 @@ class CardLaw(FromFile):
         default=None, description="of the card's temperatures, if it has a shift", examples=["degC"]
     )
     name: str | None = Field(
-        default=None, description="which material, or its number, where there are several"
+        default=None, description="name or number of the material, where there are several"
     )
 
     def build_law(self) -> Law:
@@ -172,7 +174,7 @@ class CardLaw(FromFile):
         return self.build().law
 
     def card(self) -> Card:
-        """Return the card as it stands in the file."""
+        """Return the card of the file."""
         self._require_units()
         try:
             return read_card(
@@ -187,17 +189,17 @@ class CardLaw(FromFile):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What stands in the card and is not used."""
+        """Notes on contents of the card that are not used."""
         return self.card().notes
 
     def build(self) -> Material:
         """Return the card's material, at the run's temperature."""
         for key in ("poisson_ratio", "bulk_modulus"):
             if getattr(self, key) is not None:
-                raise ValueError(f"{key}: stands in the card; leave it out")
+                raise ValueError(f"{key}: is given in the card; leave it out")
         card = self.card()
         if card.shift is not None and self.shift is not None:
-            raise ValueError("shift: stands in the card; leave it out")
+            raise ValueError("shift: is given in the card; leave it out")
         return self._at_temperature(
             card.material, card.shift or (self.shift.build() if self.shift else None)
         )

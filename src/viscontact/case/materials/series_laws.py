@@ -1,4 +1,4 @@
-"""Laws given as sums of terms or as a power, as a case file gives them."""
+"""Sections of series laws and the power law."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class CreepSeries(Medium):
     data: Literal["deviatoric", "shear", "uniaxial"] = Field(description=_DATA)
 
     def build_law(self) -> Law:
-        """Return the law, whatever test the compliances are from."""
+        """Return the law, from deviatoric, shear or uniaxial compliances."""
         terms = (self.instant, self.amplitudes, self.times, self.fluidity)
         if self.data == "deviatoric":
             return laws.CreepSeries(*terms)
@@ -44,7 +44,7 @@ class RelaxationSeries(Medium):
     data: Literal["shear", "uniaxial"] = Field(description="moduli are shear (G) or uniaxial (E)")
 
     def build_law(self) -> Law:
-        """Return the law, from shear or from tensile moduli."""
+        """Return the law, from shear or uniaxial moduli."""
         terms = (self.equilibrium, self.moduli, self.times)
         if self.data == "shear":
             return laws.RelaxationSeries.from_shear(*terms)
@@ -55,14 +55,16 @@ class PowerLaw(Medium):
     """Creep compliance instant + compliance (t/reference_time)^exponent."""
 
     law: Literal["power-law"]
-    compliance: Compliance = Field(description="what has crept at the reference time")
+    compliance: Compliance = Field(description="creep compliance reached at the reference time")
     exponent: Exponent = Field(description="power of time")
-    reference_time: Duration = Field(description="by when compliance has crept")
-    instant: Compliance = Field(default=0.0, description="at once; without it no load can jump")
+    reference_time: Duration = Field(description="time at which the creep reaches compliance")
+    instant: Compliance = Field(
+        default=0.0, description="instantaneous compliance; without it the load cannot jump"
+    )
     data: Literal["deviatoric", "shear", "uniaxial"] = Field(description=_DATA)
 
     def build_law(self) -> Law:
-        """Return the law, whatever test the compliances are from."""
+        """Return the law, from deviatoric, shear or uniaxial compliances."""
         terms = (self.compliance, self.exponent, self.reference_time, self.instant)
         if self.data == "deviatoric":
             return laws.PowerLaw(*terms)

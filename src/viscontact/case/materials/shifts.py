@@ -1,4 +1,4 @@
-"""The `shift` of a material in a case file: what temperature does to its times."""
+"""Sections of time-temperature shifts."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ from viscontact.tables import read_table
 
 
 class Rule(Section):
-    """A rule that gives the shift factor of each temperature."""
+    """Rule for the shift factor as a function of temperature."""
 
     @abstractmethod
     def build(self) -> laws.Shift:
-        """Return the rule that is described."""
+        """Return the rule."""
 
     @property
     def files(self) -> Mapping[tuple[str, ...], Path]:
-        """Files that it is read from, by the keys that name them."""
+        """Files of the section, by the keys that name them."""
         return {}
 
 
@@ -33,7 +33,7 @@ class Wlf(Rule):
     """The rule of Williams, Landel and Ferry: log10 a_T = -c1 (T - T_r)/(c2 + T - T_r)."""
 
     kind: Literal["wlf"]
-    reference_temperature: Temperature = Field(description="T_r, which the law is given at")
+    reference_temperature: Temperature = Field(description="T_r, at which the law is given")
     c1: Annotated[float, Field(gt=0)] = Field(description="C_1 of the decimal logarithm")
     c2: TemperatureDifference = Field(description="C_2")
 
@@ -46,8 +46,8 @@ class Arrhenius(Rule):
     """The rule of Arrhenius: ln a_T = (E_a/R)(1/T - 1/T_r)."""
 
     kind: Literal["arrhenius"]
-    reference_temperature: Temperature = Field(description="T_r, which the law is given at")
-    activation_energy: MolarEnergy = Field(description="of all temperatures alike")
+    reference_temperature: Temperature = Field(description="T_r, at which the law is given")
+    activation_energy: MolarEnergy = Field(description="E_a, independent of temperature")
 
     def build(self) -> laws.Shift:
         """Return the rule."""
@@ -68,7 +68,7 @@ class Factors(Rule):
         return {("file",): Path(self.file)}
 
     def build(self) -> laws.Shift:
-        """Return the rule, straight in ln a_T between the rows."""
+        """Return the rule, linear in ln a_T between the rows."""
         try:
             table = read_table(self.file)
             order = np.argsort(table["temperature"], kind="stable")

@@ -1,4 +1,4 @@
-"""Laws of springs, dashpots and spring-pots, as a case file gives them."""
+"""Sections of laws of springs, dashpots and spring-pots."""
 
 from __future__ import annotations
 
@@ -13,20 +13,20 @@ from viscontact.laws import Law
 
 
 class Springs(Medium):
-    """A law of elements, by shear moduli, or with `data: uniaxial` by tensile ones."""
+    """Law of elements with shear moduli, or with uniaxial ones for `data: uniaxial`."""
 
     built: ClassVar[Any]  # the law's class; from_shear and from_uniaxial differ in arguments
 
-    shear_modulus: Modulus | None = Field(default=None, description="at once")
+    shear_modulus: Modulus | None = Field(default=None, description="instantaneous shear modulus")
     youngs_modulus: Modulus | None = Field(
         default=None, description="instead of shear_modulus, with data: uniaxial"
     )
     data: Literal["shear", "uniaxial"] | None = Field(
-        default=None, description="what all moduli and viscosities mean; shear when left out"
+        default=None, description="kind of all moduli and viscosities; shear when left out"
     )
 
     def build_law(self) -> Law:
-        """Return the law, from shear or from tensile moduli."""
+        """Return the law, from shear or uniaxial moduli."""
         others = {name: getattr(self, name) for name in self._others()}
         if self._is_uniaxial():
             law = self.built.from_uniaxial(self.youngs_modulus, **others, **self._in_volume)
@@ -96,7 +96,7 @@ class FractionalMaxwell(Springs):
     built = laws.FractionalMaxwell
 
     law: Literal["fractional-maxwell"]
-    time: Duration = Field(description="when both elements have given alike")
+    time: Duration = Field(description="time at which both elements have the same strain")
     exponent: Exponent = Field(description="of the spring-pot: 0 is a spring, 1 a dashpot")
     second_exponent: float = Field(
         default=0.0, ge=0, lt=1, description="of the other element; a spring when left out"
@@ -111,7 +111,7 @@ class FractionalZener(Springs):
     law: Literal["fractional-zener"]
     equilibrium_modulus: ModulusOrZero = Field(
         examples=["100 MPa"],
-        description="left after all relaxation, as shear or Young's modulus like the other",
+        description="modulus at long times, of the same kind as the other one",
     )
     time: Duration = Field(description="relaxation time")
     exponent: Exponent = Field(description="of the spring-pot: 0 is a spring, 1 a dashpot")
