@@ -61,9 +61,9 @@ def test_a_run_whose_directory_is_deleted_is_told_and_can_be_removed(folder: Pat
         assert status(client, RUN)["figures"]
         shutil.rmtree(folder / "runs" / RUN)
         (why,) = messages(client, *DRAWN)
-        assert why.startswith("what this run kept is gone")
+        assert why.startswith("the files of this run are no longer")
         (why,) = messages(client, "given", "case.yaml")
-        assert why.startswith("the case of this run is gone")
+        assert why.startswith("the case of this run is no longer")
         assert client.delete(f"/api/runs/{RUN}").status_code == 204
         assert client.get("/api/runs").json() == []
 

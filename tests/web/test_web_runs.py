@@ -127,7 +127,7 @@ def test_a_run_is_cancelled_and_goes_on_to_the_same_numbers(
     assert told["resumable"]
     assert 3 < told["step"] < 400
     assert told["message"].startswith(f"cancelled after step {told['step']} of 400, at t = ")
-    assert told["message"].endswith("; what it has computed is kept")
+    assert told["message"].endswith("; its results are kept")
     kept = client.get(f"/api/runs/{run}/history.csv").text
     assert len(kept.splitlines()) == told["step"] + 2
 
@@ -297,8 +297,8 @@ def test_a_full_disk_is_told_and_leaves_nothing_behind(client: TestClient, tmp_p
         resource.setrlimit(resource.RLIMIT_FSIZE, usual)
         signal.signal(signal.SIGXFSZ, before)
     assert (file.status_code, run.status_code) == (507, 507)
-    assert file.json()["problems"][0]["message"] == "a.csv cannot be kept: File too large"
-    assert "cannot be kept" in run.json()["problems"][0]["message"]
+    assert file.json()["problems"][0]["message"] == "a.csv cannot be stored: File too large"
+    assert "cannot be stored" in run.json()["problems"][0]["message"]
     assert list((tmp_path / "page" / "runs").iterdir()) == []
     assert {path.name for path in (tmp_path / "page" / "files").iterdir()} == {"rough-patch.npz"}
 

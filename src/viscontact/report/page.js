@@ -3,7 +3,7 @@
   const data = JSON.parse(document.getElementById("data").textContent);
   const place = (id) => document.getElementById(id);
   const ink = "#262626", faint = "#5f6670", blue = "#0072B2", warm = "#D55E00";
-  // A finger that scrolls the page is not to zoom the figures it passes.
+  // Scrolling with a finger must not zoom the figures.
   const byFinger = window.matchMedia("(pointer: coarse)").matches || window.innerWidth < 640;
   const config = {
     responsive: true, displaylogo: false, displayModeBar: byFinger ? false : "hover",
@@ -97,13 +97,13 @@
   };
   let shown = map ? map.start : 0;
 
-  // Beyond the border of a period nothing is to be seen; elsewhere the plane goes on.
+  // The surface ends at the border of a period; elsewhere the plane continues.
   const constrain = map && map.periodic ? "domain" : "range";
   const planeAxes = () => ({
     xaxis: axis(`x [${map.unit}]`, { range: map.xRange, constrain, showgrid: false }),
     yaxis: axis(`y [${map.unit}]`, { range: map.yRange, constrain, showgrid: false, scaleanchor: "x", scaleratio: map.stretch }),
   });
-  // As high as the true (or stated) shape asks for at this width.
+  // Height for the true (or stated) aspect ratio at this width.
   function planeHeight(box, around, most) {
     const ratio = map.stretch * (map.yRange[1] - map.yRange[0]) / (map.xRange[1] - map.xRange[0]);
     return Math.round(Math.min(Math.max((box.clientWidth - 80) * ratio + around, around + 60), most));
@@ -121,7 +121,7 @@
     const rim = { ...map.rims[shown], mode: "lines", line: { color: ink, width: 1 }, hoverinfo: "skip" };
     box.style.height = `${planeHeight(box, 130, 600)}px`;
     const plane = layout({ ...planeAxes(), margin: { l: 56, r: 24, t: 60, b: 58 } });
-    // Beside a horizontal colour bar the room of the tick labels is not counted.
+    // Space for the tick labels, which Plotly omits beside a horizontal colour bar.
     plane.xaxis.title.standoff = 28;
     return Plotly.react(box, [heat, rim], plane, config);
   }
@@ -187,6 +187,6 @@
     draw();
     setTimeout(drawNext);
   };
-  // The words are to be seen first, then figure by figure from above.
+  // The text is shown first, then the figures from top to bottom.
   requestAnimationFrame(() => setTimeout(drawNext));
 })();

@@ -1,4 +1,4 @@
-"""The calculator page: a server for one person, on their own machine.
+"""Calculator page: a web server for one user on their own machine.
 
-Nothing of it is imported by any other part of the package but the command that starts it.
+Only the command `serve` imports it.
 """

@@ -1,4 +1,4 @@
-"""The application: all routes, behind the guard."""
+"""Web application: all routes, behind the guard."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from viscontact.web.workspace.problems import Problem, RequestError
 
 _STATIC = Path(__file__).parent / "static"
 
-#: What may lie there; systems do not agree on what their endings mean.
+#: Media types of static files; operating systems differ in their own tables.
 _MEDIA_TYPES = {
     ".html": "text/html",
     ".js": "text/javascript",
@@ -39,19 +39,19 @@ _PLOTLY = "plotly.min.js"
 
 
 def new_app(calculator: Calculator) -> ASGIApp:
-    """Return the application."""
+    """Return the application of a calculator."""
 
     @asynccontextmanager
-    async def at_work(app: FastAPI) -> AsyncIterator[None]:
-        looking = asyncio.create_task(calculator.look_after_runs())
+    async def lifespan(app: FastAPI) -> AsyncIterator[None]:
+        polling = asyncio.create_task(calculator.poll_runs())
         yield
-        looking.cancel()
+        polling.cancel()
         with suppress(asyncio.CancelledError):
-            await looking
-        await run_in_threadpool(calculator.workshop.close)
+            await polling
+        await run_in_threadpool(calculator.queue.close)
 
-    # Its pages of documentation would load scripts from elsewhere.
-    app = FastAPI(lifespan=at_work, docs_url=None, redoc_url=None, openapi_url=None)
+    # No documentation pages, as they would load scripts from other sites.
+    app = FastAPI(lifespan=lifespan, docs_url=None, redoc_url=None, openapi_url=None)
     app.state.calculator = calculator
     app.add_exception_handler(RequestError, _refused)
     app.add_exception_handler(RequestValidationError, _misunderstood)
@@ -61,7 +61,7 @@ def new_app(calculator: Calculator) -> ASGIApp:
     app.include_router(run_routes.router)
     app.add_api_route("/", _page)
     app.add_api_route("/static/{name}", _static)
-    # Around all of it: answers about faults are made outside of what is added as middleware.
+    # Outermost, as answers to errors are made outside of added middleware.
     return Guard(app)
 
 
@@ -76,7 +76,7 @@ def _static(name: str) -> FileResponse:
             headers = {"cache-control": "max-age=86400"}
             return FileResponse(found, media_type="text/javascript", headers=headers)
     if not is_plain_name(name) or media_type is None or not path.is_file():
-        raise RequestError(404, f"there is nothing called {name[:40]!r}")
+        raise RequestError(404, f"there is no file called {name[:40]!r}")
     return FileResponse(path, media_type=media_type, headers={"cache-control": "no-cache"})
 
 
@@ -86,7 +86,7 @@ def _refused(request: Request, error: Exception) -> JSONResponse:
 
 
 def _misunderstood(request: Request, error: Exception) -> JSONResponse:
-    """Answer a request that no page of ours sends."""
+    """Answer a request whose parameters are not valid."""
     assert isinstance(error, RequestValidationError)
     found = [
         Problem(

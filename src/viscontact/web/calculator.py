@@ -1,4 +1,4 @@
-"""What answers requests: cases at a desk, runs in a workshop, and one thread for heavy work."""
+"""Calculator behind the page: case reader, run queue, and one thread for heavy tasks."""
 
 from __future__ import annotations
 
@@ -13,82 +13,84 @@ from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
 
 from viscontact import __version__
-from viscontact.web.cases.case_reader import Desk
-from viscontact.web.runs.queue import Workshop
-from viscontact.web.runs.run import Work
-from viscontact.web.runs.status import found_by, status_of
+from viscontact.web.cases.case_reader import CaseReader
+from viscontact.web.runs.queue import RunQueue
+from viscontact.web.runs.run import ManagedRun
+from viscontact.web.runs.status import result_summary, status_of
 from viscontact.web.workspace.folder import Folder
 from viscontact.web.workspace.problems import RequestError
 
 T = TypeVar("T")
 
-#: Time between two looks at the runs, and between two events of one [s].
-LOOK, EVENT = 0.1, 0.2
-#: After so many events without news a line is sent, lest somebody on the way gives up.
+#: Time between two checks of the runs, and between two events of one run [s].
+POLL_INTERVAL, EVENT_INTERVAL = 0.1, 0.2
+#: Number of events without a change after which a line is sent, to keep the connection open.
 _QUIET = 75
-#: Nobody reads an answer with this code: who asked is gone.
+#: Status code for a client that has closed the connection.
 _GONE = 499
 
 
 class Calculator:
-    """All that the page's requests need."""
+    """State of the server that all requests share."""
 
     def __init__(self, folder: Folder, at_once: int) -> None:
-        self.folder, self.desk = folder, Desk(folder)
-        self.workshop = Workshop(folder, at_once)
+        self.folder, self.cases = folder, CaseReader(folder)
+        self.queue = RunQueue(folder, at_once)
         self.is_to_end = False
         self._turn = asyncio.Lock()
-        # Forgotten with the run.
-        self._found: WeakKeyDictionary[Work, tuple[str, dict[str, Any]]] = WeakKeyDictionary()
+        # Summaries of results; an entry is dropped with its run.
+        self._summaries: WeakKeyDictionary[ManagedRun, tuple[str, dict[str, Any]]] = (
+            WeakKeyDictionary()
+        )
 
-    async def do(self, work: Callable[[], T], request: Request | None = None) -> T:
-        """Do heavy work in a thread, one piece after the other: HDF5 knows no threads."""
+    async def do(self, task: Callable[[], T], request: Request | None = None) -> T:
+        """Call a heavy task in a thread, one at a time, as HDF5 is not thread-safe."""
         async with self._turn:
             if request is not None and await request.is_disconnected():
-                raise RequestError(_GONE, "nobody waits for the answer")
-            return await run_in_threadpool(work)
+                raise RequestError(_GONE, "the client has closed the connection")
+            return await run_in_threadpool(task)
 
-    async def status(self, work: Work) -> dict[str, Any]:
-        """Return how a run stands, with what its result says once it is over."""
-        if not work.is_over:
-            return status_of(work, {})
-        key = f"{work.asked.state} {work.course.instants} {__version__}"
-        if self._found.get(work, ("",))[0] != key:
-            self._found[work] = key, await self._found_by(work, key)
-        return status_of(work, self._found[work][1])
+    async def status(self, run: ManagedRun) -> dict[str, Any]:
+        """Return the status of a run, with a summary of its result once it is over."""
+        if not run.is_over:
+            return status_of(run, {})
+        key = f"{run.entry.state} {run.course.instants} {__version__}"
+        if self._summaries.get(run, ("",))[0] != key:
+            self._summaries[run] = key, await self._summary(run, key)
+        return status_of(run, self._summaries[run][1])
 
-    async def _found_by(self, work: Work, key: str) -> dict[str, Any]:
-        """What the result of a run that is over says, read once."""
-        kept = self.folder.found(work.name, key)
+    async def _summary(self, run: ManagedRun, key: str) -> dict[str, Any]:
+        """Summary of the result of a run that is over, read once."""
+        kept = self.folder.summary(run.name, key)
         if kept is not None:
             return kept
         try:
-            found = await self.do(lambda: found_by(work.directory))
+            found = await self.do(lambda: result_summary(run.directory))
         except (OSError, ValueError, KeyError):
             return {}
         with suppress(OSError):  # a full disk
-            self.folder.keep_found(work.name, key, found)
+            self.folder.keep_summary(run.name, key, found)
         return found
 
-    async def events(self, work: Work) -> AsyncIterator[str]:
-        """Yield how a run stands, at once and whenever that changes, until it is over."""
+    async def events(self, run: ManagedRun) -> AsyncIterator[str]:
+        """Yield the status of a run as events, at once and at each change, until it is over."""
         before, quiet = "", 0
         while True:
-            told = json.dumps(await self.status(work), allow_nan=False, ensure_ascii=False)
-            quiet = 0 if told != before else quiet + 1
-            if told != before:
-                yield f"data: {told}\n\n"
+            status = json.dumps(await self.status(run), allow_nan=False, ensure_ascii=False)
+            quiet = 0 if status != before else quiet + 1
+            if status != before:
+                yield f"data: {status}\n\n"
             elif quiet % _QUIET == 0:
-                yield ": still there\n\n"
-            if work.is_over:
+                yield ": keep-alive\n\n"
+            if run.is_over:
                 return
-            before = told
-            await asyncio.sleep(EVENT)
+            before = status
+            await asyncio.sleep(EVENT_INTERVAL)
 
-    async def look_after_runs(self) -> None:
-        """Look after the runs for as long as this goes on."""
+    async def poll_runs(self) -> None:
+        """Start and check runs until cancelled."""
         while True:
             if self.is_to_end:
-                self.workshop.end()
-            self.workshop.look()
-            await asyncio.sleep(LOOK)
+                self.queue.end()
+            self.queue.poll()
+            await asyncio.sleep(POLL_INTERVAL)

@@ -1,4 +1,4 @@
-"""Who may ask: pages of this server, on this machine, with requests of a sensible size."""
+"""Access control: only pages of this server, on this machine, with limited request sizes."""
 
 from __future__ import annotations
 
@@ -8,21 +8,21 @@ from urllib.parse import urlsplit
 
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-#: What this machine calls itself. Another name in `Host` is another site's, whose address has been
-#: turned to this machine to let its page talk to us.
+#: Names of this machine. Another name in `Host` belongs to another site whose address was
+#: redirected to this machine (DNS rebinding).
 LOOPBACK = ("127.0.0.1", "localhost", "::1")
 
-#: How much a request may carry [bytes]: a case of a megabyte as JSON, and files of measurements.
+#: Largest size of a request [bytes]: a case as JSON, and a file of measurements.
 MOST_JSON, MOST_FILE = 3_000_000, 64_000_000
 
-#: What may be shown, and what the page may do; figures and drawings bring styles of their own.
+#: Content policy of the page; figures and drawings contain styles of their own.
 _PAGE_POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; "
     "img-src 'self' data: blob:; connect-src 'self'; font-src 'self'; manifest-src 'self'; "
     "form-action 'none'; base-uri 'none'; frame-ancestors 'none'"
 )
 _DRAWING_POLICY = "default-src 'none'; style-src 'unsafe-inline'"
-#: A report is one page that needs nothing from anywhere; its scripts get no access to this server.
+#: Content policy of a report, a self-contained page; its scripts have no access to this server.
 REPORT_POLICY = (
     "sandbox allow-scripts allow-downloads; default-src 'none'; script-src 'unsafe-inline'; "
     "style-src 'unsafe-inline'; img-src data: blob:; font-src data:"
@@ -38,7 +38,7 @@ _HEADERS = {
 
 
 class Guard:
-    """Lets no request through that is another site's or too large, and marks every answer."""
+    """Middleware that refuses foreign or too large requests and adds security headers."""
 
     def __init__(self, app: ASGIApp) -> None:
         self._app = app
@@ -48,32 +48,35 @@ class Guard:
         if scope["type"] != "http":
             await self._app(scope, receive, send)
             return
-        asked = {
+        headers = {
             name.decode("latin-1"): value.decode("latin-1") for name, value in scope["headers"]
         }
-        if refusal := _refusal(scope["method"], scope["path"], asked):
+        if refusal := _refusal(scope["method"], scope["path"], headers):
             await _refuse(_marking(send), *refusal)
         else:
             await self._app(scope, receive, _marking(send))
 
 
-def _refusal(method: str, path: str, asked: dict[str, str]) -> tuple[int, str] | None:
-    """Why a request is not let through, if it is not."""
-    host = asked.get("host", "")
+def _refusal(method: str, path: str, headers: dict[str, str]) -> tuple[int, str] | None:
+    """Status code and reason for refusing a request; None if it is allowed."""
+    host = headers.get("host", "")
     if _name(f"//{host}") not in LOOPBACK:
         return 403, f"this server answers to {', '.join(LOOPBACK)} only, and was called {host!r}"
-    origin = asked.get("origin")
+    origin = headers.get("origin")
     if origin is not None and origin != f"http://{host}":
         return 403, f"a page of {origin} may not use this server"
-    # Where the user clicked a link to this page, nothing has been asked by another one.
-    is_visit = method == "GET" and asked.get("sec-fetch-mode") == "navigate" and path == "/"
-    if asked.get("sec-fetch-site", "none") not in ("none", "same-origin") and not is_visit:
+    # A link to this page that the user clicked is no request of another page.
+    is_visit = method == "GET" and headers.get("sec-fetch-mode") == "navigate" and path == "/"
+    if headers.get("sec-fetch-site", "none") not in ("none", "same-origin") and not is_visit:
         return 403, "another page may not use this server"
-    if "transfer-encoding" in asked:  # what Content-Length says beside it does not count
-        return 411, "say in Content-Length, and not in pieces, how much you send"
-    size, most = asked.get("content-length", "0"), MOST_FILE if path == "/api/files" else MOST_JSON
+    if "transfer-encoding" in headers:  # it overrides Content-Length
+        return 411, "send a Content-Length instead of a chunked body"
+    size, most = (
+        headers.get("content-length", "0"),
+        MOST_FILE if path == "/api/files" else MOST_JSON,
+    )
     if not size.isdecimal() or len(size) > 20 or int(size) > most:
-        return 413, f"that is too large: at most {most // 1_000_000} MB can be sent here"
+        return 413, f"the request is too large: at most {most // 1_000_000} MB can be sent"
     return None
 
 
@@ -92,7 +95,7 @@ async def _refuse(send: Send, status: int, why: str) -> None:
 
 
 def _marking(send: Send) -> Send:
-    """Send answers with what tells browsers to be careful."""
+    """Add the security headers to answers."""
 
     async def marked(message: Message) -> None:
         if message["type"] == "http.response.start":

@@ -1,4 +1,4 @@
-"""The server's process: an address on this machine, and its end."""
+"""Process of the server: its socket, its start and its end."""
 
 from __future__ import annotations
 
@@ -14,25 +14,25 @@ import uvicorn
 
 from viscontact.runs.directory.lock import locked
 from viscontact.web.app import new_app
-from viscontact.web.calculator import LOOK, Calculator
+from viscontact.web.calculator import POLL_INTERVAL, Calculator
 from viscontact.web.runs.queue import usual_at_once
 from viscontact.web.workspace.folder import Folder, usual_folder
 
 HOST = "127.0.0.1"
 
-#: Tried in turn if nobody names a port.
+#: Ports tried in turn by default.
 USUAL_PORTS = range(8377, 8387)
 
-#: Answers that are being made when the server ends have so long to be finished [s].
+#: Time for unfinished answers when the server ends [s].
 _LAST_ANSWERS = 5
 
 
 class PortError(Exception):
-    """A port cannot be used."""
+    """Port that cannot be used."""
 
 
 def listening(port: int | None) -> socket.socket:
-    """Return a socket on this machine alone."""
+    """Return a socket that is reachable from this machine only."""
     if port is not None:
         return _bound(port)
     for usual in USUAL_PORTS:
@@ -55,7 +55,7 @@ def serve(
     is_to_stop: Callable[[], bool],
     on_start: Callable[[], None],
 ) -> None:
-    """Serve the page until somebody wants it to end, and the runs at work have saved."""
+    """Serve the page until `is_to_stop()`, and until the active runs have saved."""
     path.mkdir(parents=True, exist_ok=True)
     with locked(path), closing(listener):
         calculator = Calculator(Folder(path), at_once or usual_at_once())
@@ -78,16 +78,16 @@ def _run(
     is_to_stop: Callable[[], bool],
     on_start: Callable[[], None],
 ) -> None:
-    # In a thread of its own it leaves signals to who has met them from the start.
+    # In a thread of its own, uvicorn does not replace the signal handlers of the command.
     thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
     thread.start()
     try:
         while not server.started and thread.is_alive():
-            clock.sleep(LOOK)
+            clock.sleep(POLL_INTERVAL)
         if server.started:
             on_start()
         while thread.is_alive() and not is_to_stop():
-            clock.sleep(LOOK)
+            clock.sleep(POLL_INTERVAL)
     finally:
         calculator.is_to_end = True
         server.should_exit = True
@@ -97,8 +97,8 @@ def _run(
 def _bound(port: int) -> socket.socket:
     listener = socket.socket()
     try:
-        # A port that was given back a moment ago may be taken again; on Windows it may anyway, and
-        # this would let two servers share it.
+        # Allow a port that was closed a moment ago. Windows allows it anyway; there the option
+        # would let two servers share the port.
         if os.name != "nt":
             listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         listener.bind((HOST, port))

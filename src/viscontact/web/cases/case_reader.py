@@ -1,4 +1,4 @@
-"""What is told of a case before it is run: values, checks, drawings, and the run that it makes."""
+"""Reading and checking of cases, and the entry of a new run."""
 
 from __future__ import annotations
 
@@ -17,40 +17,39 @@ from viscontact.runs.free_memory import available_memory
 from viscontact.runs.preparation import PreparedRun, prepared
 from viscontact.runs.resources import run_memory, step_count
 from viscontact.web.cases.coarse import coarse_settings, without_cells
-from viscontact.web.workspace.folder import Folder
+from viscontact.web.workspace.folder import Folder, RunEntry
 from viscontact.web.workspace.naming import label_of, suggested_title
 from viscontact.web.workspace.problems import RequestError, case_problems, without_folder
-from viscontact.web.workspace.request import Asked
 
 
 @dataclass(frozen=True)
-class Desk:
-    """Where cases are read."""
+class CaseReader:
+    """Reader of cases that may name the files of a folder."""
 
     folder: Folder
-    _predicted: dict[str, tuple[PreparedRun, Forecast]] = field(default_factory=dict, repr=False)
+    _last: dict[str, tuple[PreparedRun, Forecast]] = field(default_factory=dict, repr=False)
 
-    def predicted(self, text: str) -> tuple[PreparedRun, Forecast]:
-        """Read a case, check it, and foresee its run.
+    def forecast(self, text: str) -> tuple[PreparedRun, Forecast]:
+        """Read and check a case, and predict its run.
 
-        What was asked for last is kept: a check, a drawing and a run of one case come after each
-        other, and an automatic grid is found once for all of them.
+        The last result is kept: a check, a drawing and a run of one case follow each other, and an
+        automatic grid is then computed once.
         """
-        if text in self._predicted:
-            whole, expected = self._predicted[text]
+        if text in self._last:
+            whole, expected = self._last[text]
             return whole, replace(expected, available=available_memory())
         try:
             whole = prepared(read_case_text(text, self.folder.case))
             found = whole, predicted(whole)
         except CaseError as error:
             raise case_problems(error, self.folder.case) from error
-        self._predicted.clear()
-        if not whole.case.files:  # these may be replaced meanwhile
-            self._predicted[text] = found
+        self._last.clear()
+        if not whole.case.files:  # files may be replaced in the meantime
+            self._last[text] = found
         return found
 
     def values(self, text: str) -> Any:
-        """Return the values of a case, as its text has them."""
+        """Return the values in the text of a case, unchanged."""
         try:
             return document_of(text, self.folder.case).data
         except CaseError as error:
@@ -64,15 +63,15 @@ class Desk:
             raise case_problems(error, self.folder.case) from error
 
     def parts(self, text: str) -> Parts:
-        """Read what can be read of a case that is still being written."""
+        """Read the valid parts of an incomplete case."""
         try:
             return read_parts(text, self.folder.case)
         except CaseError as error:
             raise case_problems(error, self.folder.case) from error
 
     def prepared(self, text: str, quality: str) -> tuple[PreparedRun, tuple[str, ...]]:
-        """Read and check a case."""
-        whole, expected = self.predicted(text)
+        """Read and check a case, with coarser settings unless the quality is "full"."""
+        whole, expected = self.forecast(text)
         if quality == "full":
             return whole, ()
         settings = coarse_settings(whole, expected)
@@ -86,9 +85,9 @@ class Desk:
             raise case_problems(error, self.folder.case) from error
 
     def check(self, text: str, quality: str) -> dict[str, Any]:
-        """Check a case, and say how large it is, how long it takes and what to expect."""
+        """Check a case, and return its size, its computing time and the results to expect."""
         if quality == "full":
-            run, expected = self.predicted(text)
+            run, expected = self.forecast(text)
         else:
             run, _ = self.prepared(text, quality)
             try:
@@ -96,29 +95,29 @@ class Desk:
             except CaseError as error:
                 raise case_problems(error, self.folder.case) from error
         first = without_folder(verdict(run, expected), self.folder.case.parent)
-        warnings, rows = warnings_of(run, expected), needs(run, expected)
+        warned, rows = warnings_of(run, expected), needs(run, expected)
         title, found = expectations(run, expected)
         lines = [
-            *(first, *(f"warning: {line}" for line in warnings)),
+            *(first, *(f"warning: {line}" for line in warned)),
             *(f"note: {line}" for line in run.case.notes),
             *(f"{name}: {value}" for name, value in rows),
             *((title, *(f"{name}: {value}" for name, value in found)) if found else ()),
         ]
         return {
-            **{"lines": lines, "warnings": warnings, "notes": list(run.case.notes)},
+            **{"lines": lines, "warnings": warned, "notes": list(run.case.notes)},
             **{"needs": rows, "expectations_title": title, "expectations": found},
             **{"seconds": expected.seconds, "memory": expected.memory},
             **{"cells": list(run.run.grid.shape), "steps": _steps(run)},
         }
 
     def new_run(
-        self, text: str, quality: str, others: Sequence[tuple[str, Asked]] = ()
-    ) -> tuple[str, Asked]:
-        """Check a case, and keep it and all that it reads, to be run."""
+        self, text: str, quality: str, others: Sequence[tuple[str, RunEntry]] = ()
+    ) -> tuple[str, RunEntry]:
+        """Check a case, and keep it with its files as a new run; return its name and entry."""
         found, settings = self.prepared(text, quality)
         run, case = found.run, found.case
         title = case.title or suggested_title(case.document.data) or "Untitled case"
-        asked = Asked(
+        entry = RunEntry(
             title=title,
             label=self._label(title, text, quality, others),
             quality=quality,
@@ -131,26 +130,27 @@ class Desk:
             errors=case.errors,
         )
         try:
-            name = self.folder.new_run(text, asked, {path: path.name for path in _data(case)})
+            name = self.folder.new_run(text, entry, {path: path.name for path in _data(case)})
         except OSError as error:
-            raise RequestError(507, f"the run cannot be kept: {error.strerror or error}") from error
-        return name, asked
+            why = f"the run cannot be stored: {error.strerror or error}"
+            raise RequestError(507, why) from error
+        return name, entry
 
     def _label(
-        self, title: str, text: str, quality: str, others: Sequence[tuple[str, Asked]]
+        self, title: str, text: str, quality: str, others: Sequence[tuple[str, RunEntry]]
     ) -> str:
-        """What a run is called; a coarse one and a full one of one case are told apart by that."""
-        alike = [(name, asked) for name, asked in others if asked.title == title]
+        """Label of a run, unique among the runs of the same quality."""
+        alike = [(name, entry) for name, entry in others if entry.title == title]
         first = None
-        with suppress(OSError, ValueError, RequestError):  # somebody has removed or damaged it
+        with suppress(OSError, ValueError, RequestError):  # removed or damaged files
             if alike:
                 first = self.values(self.folder.given(alike[0][0]).read_text(encoding="utf-8"))
-        taken = {asked.label or asked.title for _, asked in alike if asked.quality == quality}
+        taken = {entry.label or entry.title for _, entry in alike if entry.quality == quality}
         return label_of(title, self.values(text), first, taken)
 
 
 def filled(value: Any) -> Any:
-    """Return values without those that are empty.
+    """Return values without empty ones.
 
     Examples
     --------

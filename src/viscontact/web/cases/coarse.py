@@ -1,4 +1,4 @@
-"""The same case with fewer cells and steps, for an answer in seconds."""
+"""Settings with fewer cells and steps, for an approximate answer in seconds."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from viscontact.runs.forecast import Forecast
 from viscontact.runs.preparation import PreparedRun
 from viscontact.time_integration.requested_times import AdaptiveTimes
 
-#: So many steps and cells, and at least so many cells over each extent of the contact.
+#: Largest numbers of steps and cells, and least number of cells over each extent of the contact.
 STEPS, CELLS, LEAST_ACROSS = 24, 6000, 16
 
-#: Errors that adaptive steps, an automatic grid, and the solver may make.
+#: Tolerances of adaptive steps, the automatic grid and the solver.
 STEP_ERROR, GRID_ERROR, SOLVER_ERROR = 1e-2, 0.1, 1e-4
 
 
 def coarse_settings(prepared: PreparedRun, expected: Forecast) -> tuple[str, ...]:
-    """Return what to set in a case for an answer in seconds."""
+    """Return the settings that make a case coarse."""
     case = prepared.case
     settings = [*_steps(case), *_cells(case, expected)]
     if case.errors:
@@ -30,7 +30,7 @@ def coarse_settings(prepared: PreparedRun, expected: Forecast) -> tuple[str, ...
 
 
 def without_cells(settings: tuple[str, ...]) -> tuple[str, ...]:
-    """Leave the grid of a case as it is, which may need its cells."""
+    """Return the settings without those of the grid, for a case that needs all its cells."""
     return tuple(each for each in settings if not each.startswith("grid."))
 
 
@@ -54,13 +54,13 @@ def _cells(case: Case, expected: Forecast) -> Iterator[str]:
 
 
 def _coarser(grid: Grid, expected: Forecast) -> tuple[int, int]:
-    """Fewer cells both ways, in equal parts: few in all, and enough across the contact."""
+    """Shape reduced by the same factor both ways, with enough cells across the contact."""
     part = math.sqrt(CELLS / (grid.shape[0] * grid.shape[1]))
     for across in (expected.cells_along, expected.cells_across):
         if across > 0:
             part = max(part, LEAST_ACROSS / across)
     if part >= 1:
         return grid.shape
-    # Even as it was, or odd: whether there is a cell in the middle.
+    # Even or odd as before, which decides whether there is a cell at the centre.
     nx, ny = (2 * math.ceil(n * part / 2) + n % 2 for n in grid.shape)
     return min(nx, grid.shape[0]), min(ny, grid.shape[1])

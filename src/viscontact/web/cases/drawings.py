@@ -1,4 +1,4 @@
-"""Drawings of a case before it is run: the indenter, the material's curves, the load."""
+"""Drawings of a case before it is run: indenter, curves of the material, load."""
 
 from __future__ import annotations
 
@@ -8,36 +8,36 @@ from matplotlib.figure import Figure
 from viscontact.case import Case, CaseError, Parts
 from viscontact.materials.material import Material
 from viscontact.notebook.curves import law_span
-from viscontact.notebook.shapes import drawn_size as worth_drawing
+from viscontact.notebook.shapes import drawn_size as default_size
 from viscontact.plot import creep_curve, draw_indenter, draw_load
 from viscontact.plot.layout.page import Width
 from viscontact.runs.check_report import drawn_size
 from viscontact.runs.forecast import Forecast
 from viscontact.runs.preparation import PreparedRun
 from viscontact.time_integration.requested_times import AdaptiveTimes
-from viscontact.web.cases.case_reader import Desk
+from viscontact.web.cases.case_reader import CaseReader
 from viscontact.web.workspace.problems import RequestError, case_problems
 
-#: A law is drawn from so much earlier than the end on [-], at so many points.
+#: First time of a law's curve as a part of the end [-], and its number of points.
 _BACK, _POINTS = 1e-4, 300
 
 
-def drawing(desk: Desk, text: str, what: str, width: Width | None = None) -> Figure:
-    """Draw a part of a case, by itself while the rest of the case cannot be read."""
+def drawing(cases: CaseReader, text: str, what: str, width: Width | None = None) -> Figure:
+    """Draw a part of a case, on its own where the rest of the case is not valid."""
     try:
-        return _of_case(desk, text, what, width)
+        return _of_case(cases, text, what, width)
     except RequestError:
-        alone = _alone(desk.parts(text), what, width)
+        alone = _alone(cases.parts(text), what, width)
         if alone is None:
             raise
         return alone
 
 
-def _of_case(desk: Desk, text: str, what: str, width: Width | None) -> Figure:
-    case = desk.case(text)
+def _of_case(cases: CaseReader, text: str, what: str, width: Width | None) -> Figure:
+    case = cases.case(text)
     try:
         if what == "indenter":
-            return _indenter(*desk.predicted(text), width)
+            return _indenter(*cases.forecast(text), width)
         if what == "load":
             return draw_load(case.load, _end(case))
         return _curves(_material(case, what), _end(case), width)
@@ -48,10 +48,10 @@ def _of_case(desk: Desk, text: str, what: str, width: Width | None) -> Figure:
 
 
 def _alone(parts: Parts, what: str, width: Width | None) -> Figure | None:
-    """A part that can be read although the case cannot, over what is worth drawing of it."""
+    """Drawing of a valid part of an invalid case, over a range of its own."""
     try:
         if what == "indenter" and parts.indenter is not None:
-            return draw_indenter(parts.indenter, worth_drawing(parts.indenter), width=width)
+            return draw_indenter(parts.indenter, default_size(parts.indenter), width=width)
         if what == "load" and parts.load is not None:
             end = parts.end or float(parts.load.kinks[-1])
             return draw_load(parts.load, end)

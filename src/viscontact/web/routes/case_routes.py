@@ -1,4 +1,4 @@
-"""Requests about cases: examples, materials, checks, drawings, files that they read."""
+"""Routes about cases: examples, materials, checks, drawings and files."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from viscontact.web.calculator import Calculator
 from viscontact.web.cases.case_reader import filled
 from viscontact.web.cases.drawings import drawing
 from viscontact.web.workspace.naming import suggested_title
-from viscontact.web.workspace.pictures import MEDIA_TYPES, Wish, picture
+from viscontact.web.workspace.pictures import MEDIA_TYPES, FigureChoice, picture
 from viscontact.web.workspace.problems import RequestError
 
 router = APIRouter(prefix="/api")
@@ -30,32 +30,35 @@ Quality = Literal["coarse", "full"]
 
 
 def calculator_of(request: Request) -> Calculator:
-    """Return what answers a request."""
+    """Return the calculator of a request."""
     found = request.app.state.calculator
     assert isinstance(found, Calculator)
     return found
 
 
-Ours = Annotated[Calculator, Depends(calculator_of)]
+AppCalculator = Annotated[Calculator, Depends(calculator_of)]
 
 
 class CaseText(BaseModel):
-    """A case as it would stand in a file, and how well it is to be computed."""
+    """Text of a case file, and the quality of its run."""
 
     yaml: str
     quality: Quality = "full"
 
 
 class CaseValues(BaseModel):
-    """The values of a case, the text in whose manner they are to be written, and whose title."""
+    """Values of a case, and the text whose layout is kept when they are written.
+
+    Without `titled`, a title is derived from the values.
+    """
 
     case: dict[str, Any]
     yaml: str = ""
     titled: bool = True
 
 
-class DrawingWish(BaseModel):
-    """A case, and what of it is to be drawn."""
+class DrawingRequest(BaseModel):
+    """Case and the part of it to draw."""
 
     yaml: str
     what: Literal["indenter", "material", "indenter_material", "load"]
@@ -64,12 +67,12 @@ class DrawingWish(BaseModel):
 
 
 @router.get("/version")
-async def version(ours: Ours) -> dict[str, Any]:
-    """Tell which version this is, where it keeps things, and what it can draw."""
+async def version(calculator: AppCalculator) -> dict[str, Any]:
+    """Return the version, the data folder and the available figures."""
     return {
         "version": __version__,
-        "data": str(ours.folder.path),
-        "at_once": ours.workshop.at_once,
+        "data": str(calculator.folder.path),
+        "at_once": calculator.queue.at_once,
         "figures": list(FIGURES),
         "comparisons": list(COMPARISONS),
     }
@@ -77,13 +80,13 @@ async def version(ours: Ours) -> dict[str, Any]:
 
 @router.get("/schema")
 def schema() -> dict[str, Any]:
-    """Tell what a case file may hold."""
+    """Return the JSON schema of case files."""
     return case_schema()
 
 
 @router.get("/examples")
 def examples() -> list[dict[str, Any]]:
-    """Tell the shipped cases."""
+    """Return the shipped cases."""
     return _examples()
 
 
@@ -103,7 +106,7 @@ def _examples() -> list[dict[str, Any]]:
 
 @router.get("/materials")
 def shipped_materials() -> list[dict[str, str]]:
-    """Tell the materials of the library."""
+    """Return the materials of the library."""
     entries = (library.entry(name) for name in library.names())
     return [
         {
@@ -117,63 +120,63 @@ def shipped_materials() -> list[dict[str, str]]:
 
 
 @router.post("/yaml")
-def as_yaml(asked: CaseValues) -> dict[str, str]:
-    """Write values as a case file; one that is not titled gets a title that tells what it is."""
+def as_yaml(body: CaseValues) -> dict[str, str]:
+    """Return values as the text of a case file, with a suggested title if it has none."""
     try:
-        values = filled(asked.case)
+        values = filled(body.case)
         title = suggested_title(values)
-        if not asked.titled:
-            # Where there was none, it stands first.
+        if not body.titled:
+            # A new title is the first key.
             values = filled({"title": title} | values | {"title": title})
-        return {"yaml": rewritten(asked.yaml, values), "suggested_title": title}
+        return {"yaml": rewritten(body.yaml, values), "suggested_title": title}
     except RecursionError as error:
         raise RequestError(422, "nested too deeply for a case file") from error
 
 
 @router.post("/case")
-def as_values(asked: CaseText, ours: Ours) -> dict[str, Any]:
-    """Tell the values of a case file."""
-    values = ours.desk.values(asked.yaml)
+def as_values(body: CaseText, calculator: AppCalculator) -> dict[str, Any]:
+    """Return the values of a case file."""
+    values = calculator.cases.values(body.yaml)
     return {"case": values, "suggested_title": suggested_title(values)}
 
 
 @router.post("/check")
-async def check(asked: CaseText, ours: Ours, request: Request) -> dict[str, Any]:
+async def check(body: CaseText, calculator: AppCalculator, request: Request) -> dict[str, Any]:
     """Check a case."""
-    return await ours.do(lambda: ours.desk.check(asked.yaml, asked.quality), request)
+    return await calculator.do(lambda: calculator.cases.check(body.yaml, body.quality), request)
 
 
 @router.post("/drawing")
-async def draw(asked: DrawingWish, ours: Ours, request: Request) -> Response:
+async def draw(body: DrawingRequest, calculator: AppCalculator, request: Request) -> Response:
     """Draw a part of a case."""
-    wish = Wish(asked.what, is_dark=asked.dark)
-    width: Width | None = "single" if asked.narrow else None
-    drawn = await ours.do(
-        lambda: picture(drawing(ours.desk, asked.yaml, asked.what, width), wish), request
+    choice = FigureChoice(body.what, is_dark=body.dark)
+    width: Width | None = "single" if body.narrow else None
+    drawn = await calculator.do(
+        lambda: picture(drawing(calculator.cases, body.yaml, body.what, width), choice), request
     )
     return Response(drawn, media_type=MEDIA_TYPES["svg"])
 
 
 @router.get("/files")
-def known_files(ours: Ours) -> list[dict[str, Any]]:
-    """Tell which files cases may read."""
-    return ours.folder.files()
+def known_files(calculator: AppCalculator) -> list[dict[str, Any]]:
+    """Return the files that cases may read."""
+    return calculator.folder.files()
 
 
 @router.post("/files", status_code=201)
 async def put_file(
-    ours: Ours, request: Request, name: Annotated[str, Query(max_length=200)]
+    calculator: AppCalculator, request: Request, name: Annotated[str, Query(max_length=200)]
 ) -> dict[str, Any]:
-    """Keep a file for cases to read."""
+    """Store a file for cases to read."""
     content = await request.body()
-    await ours.do(lambda: ours.folder.put_file(name, content))
+    await calculator.do(lambda: calculator.folder.put_file(name, content))
     return {"name": name, "size": len(content)}
 
 
 @router.delete("/files/{name}", status_code=204)
-def remove_file(ours: Ours, name: str) -> None:
+def remove_file(calculator: AppCalculator, name: str) -> None:
     """Remove a file."""
-    ours.folder.remove_file(name)
+    calculator.folder.remove_file(name)
 
 
 def _title(text: str) -> str:

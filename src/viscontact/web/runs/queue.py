@@ -1,122 +1,119 @@
-"""Runs that wait, are at work, and are over; so many at once, and in which order."""
+"""Queue of runs: a limited number at the same time, coarse ones first."""
 
 from __future__ import annotations
 
 from os import cpu_count
 
 from viscontact.runs.free_memory import available_memory
-from viscontact.web.runs.run import Work
-from viscontact.web.workspace.folder import Folder
+from viscontact.web.runs.run import ManagedRun
+from viscontact.web.workspace.folder import Folder, RunEntry
 from viscontact.web.workspace.problems import RequestError
-from viscontact.web.workspace.request import Asked
 
-#: A coarse answer is not to wait until a long run is over, even on a single core.
+#: Least number of runs at the same time, so that a coarse answer need not wait for a long run.
 _LEAST_AT_ONCE = 2
 
 
 def usual_at_once() -> int:
-    """Return how many runs are computed at once if nobody says."""
+    """Return the default number of runs at the same time."""
     return max(_LEAST_AT_ONCE, (cpu_count() or 1) - 1)
 
 
-class Workshop:
+class RunQueue:
     """All runs of a folder."""
 
     def __init__(self, folder: Folder, at_once: int) -> None:
         self._folder, self.at_once, self.is_closing = folder, at_once, False
-        self._works = {name: Work(folder, name, asked) for name, asked in folder.runs()}
-        for work in self._works.values():
-            work.take_up()
+        self._runs = {name: ManagedRun(folder, name, entry) for name, entry in folder.runs()}
+        for run in self._runs.values():
+            run.restore_state()
 
     @property
-    def works(self) -> list[Work]:
-        """All runs, the newest first; those that are to be forgotten are left out."""
-        return [work for work in reversed(self._works.values()) if not work.is_unwanted]
+    def runs(self) -> list[ManagedRun]:
+        """All runs, the newest first, without those being deleted."""
+        return [run for run in reversed(self._runs.values()) if not run.is_deleted]
 
-    def work(self, name: str) -> Work:
-        """Return a run."""
-        work = self._works.get(name)
-        if work is None or work.is_unwanted:
+    def run(self, name: str) -> ManagedRun:
+        """Return a run by its name."""
+        run = self._runs.get(name)
+        if run is None or run.is_deleted:
             raise RequestError(404, f"there is no run {name[:40]!r}; it may have been removed")
-        return work
+        return run
 
-    def ask(self, name: str, asked: Asked) -> Work:
-        """Let a run wait for its turn."""
-        self._works[name] = work = Work(self._folder, name, asked)
-        self.look()
-        return work
+    def add(self, name: str, entry: RunEntry) -> ManagedRun:
+        """Add a run to the queue."""
+        self._runs[name] = run = ManagedRun(self._folder, name, entry)
+        self.poll()
+        return run
 
-    def cancel(self, work: Work) -> None:
-        """Stop a run as Ctrl-C does: its step is finished, and what it has done is kept."""
-        if work.is_foreign:
+    def cancel(self, run: ManagedRun) -> None:
+        """Stop a run after its current step; its results are kept."""
+        if run.is_foreign:
             raise RequestError(
                 409,
-                "this run was begun by an earlier server that was killed, and goes on by itself "
+                "this run was started by an earlier server that was killed; it continues by itself "
                 "until it is over",
             )
-        work.stop("cancelled")
+        run.stop("cancelled")
 
-    def resume(self, work: Work) -> None:
-        """Go on with a run that stopped early."""
-        if not work.can_go_on:
-            raise RequestError(
-                409, f"this run is {work.asked.state}; there is nothing to go on with"
-            )
-        work.stand("waiting")
-        self.look()
+    def resume(self, run: ManagedRun) -> None:
+        """Continue a run that stopped early."""
+        if not run.is_resumable:
+            raise RequestError(409, f"this run is {run.entry.state}; it cannot be continued")
+        run.set_state("waiting")
+        self.poll()
 
-    def forget(self, work: Work) -> None:
-        """Remove a run and all that is kept of it; one at work is cancelled first."""
-        self.cancel(work)
-        work.is_unwanted = True
-        self.look()
-        if not work.is_unwanted:
-            raise RequestError(507, f"the run cannot be removed from {work.directory.parent}")
+    def delete(self, run: ManagedRun) -> None:
+        """Remove a run and its files; an active one is cancelled first."""
+        self.cancel(run)
+        run.is_deleted = True
+        self.poll()
+        if not run.is_deleted:
+            raise RequestError(507, f"the run cannot be removed from {run.directory.parent}")
 
-    def look(self) -> None:
-        """Look after all runs: see who has ended, and begin what can be begun."""
-        for work in list(self._works.values()):
-            if work.is_at_work:
-                work.look()
-            if work.is_unwanted and work.is_over:
-                self._remove(work)
+    def poll(self) -> None:
+        """Check all runs: note those that have ended, and start waiting ones."""
+        for run in list(self._runs.values()):
+            if run.is_at_work:
+                run.poll()
+            if run.is_deleted and run.is_over:
+                self._remove(run)
         while not self.is_closing and (chosen := self._next()) is not None:
             chosen.start()
 
-    def _remove(self, work: Work) -> None:
-        """Remove a run, which is still there where its files cannot be removed."""
+    def _remove(self, run: ManagedRun) -> None:
+        """Remove a run, unless its files cannot be removed."""
         try:
-            self._folder.remove_run(work.name)
+            self._folder.remove_run(run.name)
         except OSError:
-            work.is_unwanted = False
+            run.is_deleted = False
         else:
-            del self._works[work.name]
+            del self._runs[run.name]
 
     def end(self) -> None:
-        """Begin no more, and ask the runs at work to finish their steps and save."""
+        """Start no further runs, and let the active ones finish their steps and save."""
         self.is_closing = True
-        for work in self._works.values():
-            if not work.is_over:
-                work.stop("interrupted")
+        for run in self._runs.values():
+            if not run.is_over:
+                run.stop("interrupted")
 
     def close(self) -> None:
-        """Wait until the runs at work have ended."""
+        """Wait until the active runs have ended."""
         self.end()
-        for work in list(self._works.values()):
-            work.wait()
-        self.look()
+        for run in list(self._runs.values()):
+            run.wait()
+        self.poll()
 
-    def _next(self) -> Work | None:
-        """The run that is begun next: coarse ones first, as they are soon over."""
-        active = sum(work.is_at_work for work in self._works.values())
-        waiting = [work for work in self._works.values() if work.asked.state == "waiting"]
+    def _next(self) -> ManagedRun | None:
+        """Run to start next: coarse ones first, as they are short."""
+        active = sum(run.is_at_work for run in self._runs.values())
+        waiting = [run for run in self._runs.values() if run.entry.state == "waiting"]
         if not waiting or active >= self.at_once:
             return None
-        chosen = min(waiting, key=lambda work: work.asked.quality != "coarse")
-        # None has been admitted that does not fit alone.
+        chosen = min(waiting, key=lambda run: run.entry.quality != "coarse")
+        # Each run fits into the memory alone; this was checked.
         if not active:
             return chosen
-        # What those hold that have taken steps is not free any more.
-        beginning = [work for work in self._works.values() if work.is_beginning]
-        promised = sum(work.asked.memory for work in beginning)
-        return chosen if chosen.asked.memory + promised <= available_memory() else None
+        # Runs with completed steps have allocated their memory already.
+        beginning = [run for run in self._runs.values() if run.is_starting]
+        promised = sum(run.entry.memory for run in beginning)
+        return chosen if chosen.entry.memory + promised <= available_memory() else None

@@ -1,4 +1,4 @@
-"""A run that waits, is at work, or is over."""
+"""Run of the calculator page: waiting, running or over."""
 
 from __future__ import annotations
 
@@ -13,25 +13,24 @@ from viscontact.runs.processes.exit_codes import DONE, INTERRUPTED
 from viscontact.runs.processes.job import Job, Standing
 from viscontact.runs.processes.progress import Course
 from viscontact.runs.processes.request import RunRequest
-from viscontact.web.workspace.folder import Folder
-from viscontact.web.workspace.request import Asked
+from viscontact.web.workspace.folder import Folder, RunEntry
 
-#: Errors take about so much of the time of the march before them.
+#: Time for estimating errors, as a part of the time of the march [-].
 ERRORS_PART = 0.67
 
-#: States in which nothing changes any more by itself.
+#: Final states.
 OVER = ("done", "cancelled", "interrupted", "failed")
 
 
-class Work:
-    """A run, from the wish for it on."""
+class ManagedRun:
+    """Run with its entry, its process and its progress."""
 
-    def __init__(self, folder: Folder, name: str, asked: Asked) -> None:
-        self.name, self.asked, self.is_unwanted = name, asked, False
+    def __init__(self, folder: Folder, name: str, entry: RunEntry) -> None:
+        self.name, self.entry, self.is_deleted = name, entry, False
         self.directory, self.given = folder.directory(name), folder.given(name)
         self._folder = folder
         self._child: Child | None = None
-        self._wish = ""
+        self._stop_state = ""
         self._pace: tuple[float, float] | None = None
         self._marched: float | None = None
         self._since, self._before = 0.0, 0
@@ -39,51 +38,55 @@ class Work:
 
     @property
     def label(self) -> str:
-        """What it is called among others; runs of an earlier version have a title only."""
-        return self.asked.label or self.asked.title
+        """Label among other runs; runs of an earlier version have a title only."""
+        return self.entry.label or self.entry.title
 
     @property
     def is_over(self) -> bool:
-        """Whether nothing changes any more by itself."""
-        return self.asked.state in OVER
+        """Whether the state is final."""
+        return self.entry.state in OVER
 
     @property
     def is_at_work(self) -> bool:
-        """Whether it is being computed."""
-        return self.asked.state == "running"
+        """Whether the run is being computed."""
+        return self.entry.state == "running"
 
     @property
-    def is_beginning(self) -> bool:
-        """Whether its process has begun, and has not taken a step yet."""
+    def is_starting(self) -> bool:
+        """Whether the process has been started and has not completed a step."""
         return self._child is not None and self.course.instants == self._before
 
     @property
-    def can_go_on(self) -> bool:
-        """Whether it stopped early, and what it keeps can be gone on with."""
-        if self.asked.state in ("cancelled", "interrupted"):
+    def is_resumable(self) -> bool:
+        """Whether the run stopped early and can be continued."""
+        if self.entry.state in ("cancelled", "interrupted"):
             return True
-        # What failed for a reason that can be mended, such as a full disk, says how to go on.
-        told = any("--resume" in line for line in self.asked.said)
-        return self.asked.state == "failed" and told and (self.directory / STATE_NAME).is_file()
+        # After a failure that can be corrected, such as a full disk, the message names --resume.
+        names_remedy = any("--resume" in line for line in self.entry.said)
+        return (
+            self.entry.state == "failed"
+            and names_remedy
+            and (self.directory / STATE_NAME).is_file()
+        )
 
     def start(self) -> None:
-        """Start its process, or take down why that is impossible."""
+        """Start the process, or note why that failed."""
         saved = (self.directory / STATE_NAME).is_file()
         job = self._job(Standing.STOPPED if saved else Standing.NEW)
-        self._pace, self._marched, self._wish = None, None, ""
+        self._pace, self._marched, self._stop_state = None, None, ""
         try:
             self._child = Child(job)
         except OSError as error:
-            self.stand("failed", f"the run cannot be started: {error}")
+            self.set_state("failed", f"the run cannot be started: {error}")
             return
         self.course = self._child.course
         self._before = self.course.instants
-        self.stand("running")
+        self.set_state("running")
 
-    def look(self) -> None:
-        """Look how far it has come, and whether it has ended."""
+    def poll(self) -> None:
+        """Update the progress, and note the end of the process."""
         if self._child is None:
-            self._look_from_outside()
+            self._poll_lock()
             return
         self.course.look()
         self._keep_pace()
@@ -91,34 +94,34 @@ class Work:
             self._end(ended)
 
     def stop(self, state: str) -> None:
-        """Let it finish its step, save and end; one that waits is over at once."""
-        if self.asked.state == "waiting":
-            self.stand(state)
+        """Stop after the current step; a waiting run is over at once."""
+        if self.entry.state == "waiting":
+            self.set_state(state)
         elif self._child is not None:
-            self._wish = self._wish or state
+            self._stop_state = self._stop_state or state
             self._child.ask_to_stop()
 
     def wait(self) -> None:
-        """Wait for its end."""
+        """Wait for the end of the process."""
         if self._child is not None:
             self._end(self._child.wait())
 
     @property
     def is_foreign(self) -> bool:
-        """Whether it is at work, but not for this server: an earlier one was killed."""
+        """Whether the process was started by an earlier server that was killed."""
         return self.is_at_work and self._child is None
 
     @property
     def is_estimating(self) -> bool:
-        """Whether its steps are done, and its errors are being estimated."""
-        return self.is_at_work and self.asked.errors and self.course.part >= 1
+        """Whether all steps are done and the errors are being estimated."""
+        return self.is_at_work and self.entry.errors and self.course.part >= 1
 
     @property
     def part(self) -> float:
-        """How much of it is done, errors included, from 0 to 1."""
-        if self.asked.state == "done":
+        """Completed part of the run, errors included, 0 to 1."""
+        if self.entry.state == "done":
             return 1.0
-        if not self.asked.errors:
+        if not self.entry.errors:
             return self.course.part
         whole = 1 + ERRORS_PART
         if not self.is_estimating or not self._marched:
@@ -128,66 +131,66 @@ class Work:
 
     @property
     def seconds_left(self) -> float | None:
-        """How long it will take, as far as its pace tells [s]."""
+        """Predicted time left [s]; None where unknown."""
         if not self.is_at_work or self._pace is None:
             return None
         if self._marched is not None:
             left = ERRORS_PART * self._marched - (clock.monotonic() - self._since)
-            return max(left, 0.0) if self.asked.errors else 0.0
+            return max(left, 0.0) if self.entry.errors else 0.0
         began, before = self._pace
         if self.course.part <= before:
             return None
         each = (clock.monotonic() - began) / (self.course.part - before)
-        ahead = 1 - self.course.part + (ERRORS_PART if self.asked.errors else 0.0)
+        ahead = 1 - self.course.part + (ERRORS_PART if self.entry.errors else 0.0)
         return each * ahead
 
-    def stand(self, state: str, *said: str) -> None:
-        """Take down how it stands, here and in the folder."""
-        self.asked = replace(self.asked, state=state, said=said)
-        with suppress(OSError):  # a full disk; who asks is told nevertheless
-            self._folder.keep(self.name, self.asked)
+    def set_state(self, state: str, *said: str) -> None:
+        """Change the state, here and in the folder."""
+        self.entry = replace(self.entry, state=state, said=said)
+        with suppress(OSError):  # a full disk; the state is kept in memory
+            self._folder.keep(self.name, self.entry)
 
-    def take_up(self) -> None:
-        """Find out how it stands when a server begins that has not seen its end."""
+    def restore_state(self) -> None:
+        """Determine the state of a run that an earlier server started."""
         if self.is_over:
             return
         if self._is_complete():
-            self.stand("done")
+            self.set_state("done")
         elif self._is_in_use():
-            self.stand("running")
+            self.set_state("running")
         else:
-            self.stand("interrupted")
+            self.set_state("interrupted")
 
     def _end(self, ended: Ended) -> None:
         self._child = None
         self.course.look()
-        by_request = self._wish or "interrupted"
+        by_request = self._stop_state or "interrupted"
         states = {DONE: "done", INTERRUPTED: by_request}
-        self.stand(states.get(ended.code, "failed"), *ended.said)
+        self.set_state(states.get(ended.code, "failed"), *ended.said)
 
-    def _look_from_outside(self) -> None:
-        """Look at a run of an earlier server that was killed: it goes on by itself."""
+    def _poll_lock(self) -> None:
+        """Update a run of an earlier server, which ends when its lock is free."""
         self.course.look()
         if not self._is_in_use():
-            self.take_up()
+            self.restore_state()
 
     def _keep_pace(self) -> None:
         part, now = self.course.part, clock.monotonic()
         if self._pace is None and self.course.instants:
-            self._pace = now, part  # what earlier processes did says nothing about the time left
+            self._pace = now, part  # work of earlier processes is left out of the estimate
         if self._marched is None and part >= 1 and self._pace is not None:
             self._marched, self._since = now - self._pace[0], now
 
     def _job(self, standing: Standing) -> Job:
-        asked, case = self.asked, self._folder.given(self.name)
-        request = RunRequest(case, self.directory, resume=True, settings=asked.settings)
+        entry, case = self.entry, self._folder.given(self.name)
+        request = RunRequest(case, self.directory, resume=True, settings=entry.settings)
         return Job(
             *(request, self.directory, self.name, standing),
-            *(asked.instants, asked.end, asked.work, asked.memory),
+            *(entry.instants, entry.end, entry.work, entry.memory),
         )
 
     def _is_complete(self) -> bool:
-        # What resuming needs is removed when a run is over.
+        # The restart file is removed when a run is complete.
         saved = (self.directory / STATE_NAME).exists()
         return bool(self.course.instants) and (self.directory / RESULT_NAME).exists() and not saved
 

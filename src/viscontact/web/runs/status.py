@@ -1,4 +1,4 @@
-"""How a run stands, as plain data."""
+"""Status of a run as plain data."""
 
 from __future__ import annotations
 
@@ -19,39 +19,39 @@ from viscontact.results.summary import summary_rows
 from viscontact.results.variables import SCALARS
 from viscontact.run_files import RESULT_NAME
 from viscontact.units.formatting import format_quantity
-from viscontact.web.runs.run import Work
+from viscontact.web.runs.run import ManagedRun
 from viscontact.web.workspace.pictures import DAMAGED
 from viscontact.web.workspace.problems import Problem, lines_of, problem_of
 
 _STAGES = {"waiting": "waiting", "running": "steps"}
-#: Of a run that was stopped.
-_ITS = "what it has computed is kept"
-#: Lines of the command line that say what to type, where the page has buttons.
+#: End of the message about a stopped run.
+_ITS = "its results are kept"
+#: First words of messages that name commands, for which the page has buttons.
 _COMMANDS = ("go on with:", "with that changed,", "once that is mended:", "interrupted")
 _WITHOUT_COMMAND = re.compile(r"^the run: (?=the run )|; [^;]*--overwrite[^;]*$")
 
 
-def status_of(work: Work, found: Mapping[str, Any]) -> dict[str, Any]:
-    """Return how a run stands."""
-    asked, course, left = work.asked, work.course, work.seconds_left
-    problems = _problems(work)
-    # Of one that failed, its own words say more.
-    is_whole = not work.is_over or "table" in found or asked.state == "failed"
-    is_damaged = course.instants > 0 and not is_whole
+def status_of(run: ManagedRun, found: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the status of a run, with the summary of its result once it is over."""
+    entry, course, left = run.entry, run.course, run.seconds_left
+    problems = _problems(run)
+    # The message of a failed run is more specific.
+    is_readable = not run.is_over or "table" in found or entry.state == "failed"
+    is_damaged = course.instants > 0 and not is_readable
     table = found.get("table") or _table(course.first, course.last)
-    steps = None if asked.instants is None else max(asked.instants - 1, 1)
+    steps = None if entry.instants is None else max(entry.instants - 1, 1)
     return {
-        **{"id": work.name, "title": asked.title, "label": work.label},
-        "quality": asked.quality,
-        **{"created": asked.created, "state": asked.state, "over": work.is_over},
-        **{"resumable": work.can_go_on and not is_damaged, "stage": _stage(work)},
-        "part": round(work.part, 4),
+        **{"id": run.name, "title": entry.title, "label": run.label},
+        "quality": entry.quality,
+        **{"created": entry.created, "state": entry.state, "over": run.is_over},
+        **{"resumable": run.is_resumable and not is_damaged, "stage": _stage(run)},
+        "part": round(run.part, 4),
         "step": max(course.instants - 1, 0),
         "steps": steps,
-        "end": asked.end,
+        "end": entry.end,
         "time": format_quantity(course.time, "s") if course.instants else None,
         "seconds_left": None if left is None else round(left, 1),
-        "message": DAMAGED if is_damaged else _message(work, [*lines_of(problems)]),
+        "message": DAMAGED if is_damaged else _message(run, [*lines_of(problems)]),
         "problems": [asdict(each) for each in problems],
         "warnings": found.get("warnings", list(course.last.get("warnings", []))),
         "scalars": _scalars(course.last, {row["name"] for row in table}),
@@ -62,8 +62,8 @@ def status_of(work: Work, found: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def found_by(directory: Path) -> dict[str, Any]:
-    """Return what the result of a run says, in words."""
+def result_summary(directory: Path) -> dict[str, Any]:
+    """Return a summary of the result of a run, with formatted numbers."""
     if not (directory / RESULT_NAME).is_file():
         return {}
     with open_results(directory) as ds:
@@ -89,71 +89,71 @@ def _field_times(ds: xr.Dataset) -> list[float]:
     return [float(time) for time in ds[ds["pressure"].dims[0]].values if math.isfinite(time)]
 
 
-def _error(ds: xr.Dataset, told: str) -> str:
-    """The error of a scalar; nothing where none was to be estimated."""
+def _error(ds: xr.Dataset, text: str) -> str:
+    """Error of a scalar; empty where errors were not requested."""
     has_errors = json.loads(str(ds.attrs.get("errors", "false")))
-    return told if has_errors else ""
+    return text if has_errors else ""
 
 
-def _stage(work: Work) -> str:
-    if work.is_over:
+def _stage(run: ManagedRun) -> str:
+    if run.is_over:
         return "over"
-    if work.is_estimating:
+    if run.is_estimating:
         return "errors"
-    return "starting" if work.is_at_work and not work.course.instants else _STAGES[work.asked.state]
+    return "starting" if run.is_at_work and not run.course.instants else _STAGES[run.entry.state]
 
 
-def _problems(work: Work) -> list[Problem]:
-    if work.asked.state != "failed":
+def _problems(run: ManagedRun) -> list[Problem]:
+    if run.entry.state != "failed":
         return []
-    said = [line for line in work.asked.said if not line.startswith(_COMMANDS)]
-    told = (line.replace(str(work.directory), "the run") for line in said)
-    return [problem_of(_WITHOUT_COMMAND.sub("", line), work.given) for line in told]
+    lines = [line for line in run.entry.said if not line.startswith(_COMMANDS)]
+    lines = [line.replace(str(run.directory), "the run") for line in lines]
+    return [problem_of(_WITHOUT_COMMAND.sub("", line), run.given) for line in lines]
 
 
-def _message(work: Work, problems: Sequence[str]) -> str:
-    asked, course = work.asked, work.course
-    of = "" if asked.instants is None else f" of {asked.instants}"
+def _message(run: ManagedRun, problems: Sequence[str]) -> str:
+    entry, course = run.entry, run.course
+    of = "" if entry.instants is None else f" of {entry.instants}"
     made = f"{course.instants}{of} instants"
     reached = f"{made}, t = {format_quantity(course.time, 's')}" if course.instants else ""
-    told = {
+    messages = {
         "waiting": "waiting for its turn",
         "running": reached or "starting",
         "done": f"done: {made}",
-        "cancelled": f"cancelled {_kept(work)}",
-        "interrupted": f"the server was stopped {_kept(work)}",
-        "failed": problems[0] if problems else "the run stopped, and did not say why",
+        "cancelled": f"cancelled {_kept(run)}",
+        "interrupted": f"the server was stopped {_kept(run)}",
+        "failed": problems[0] if problems else "the run stopped without a message",
     }
-    if work.is_estimating:
+    if run.is_estimating:
         return "all steps are done; estimating errors, from two coarser runs of the same case"
-    return told[asked.state]
+    return messages[entry.state]
 
 
-def _kept(work: Work) -> str:
-    """When a run was stopped, and what it has to go on from."""
-    asked, course = work.asked, work.course
+def _kept(run: ManagedRun) -> str:
+    """Part of a message: when the run was stopped, and what is kept."""
+    entry, course = run.entry, run.course
     if not course.instants:
         return "before its first step; there is nothing to show yet"
     if course.part >= 1:
         return f"after its last step, before its error bars; {_ITS}"
-    of = "" if asked.instants is None else f" of {asked.instants - 1}"
+    of = "" if entry.instants is None else f" of {entry.instants - 1}"
     return (
         f"after step {course.instants - 1}{of}, at t = {format_quantity(course.time, 's')}; {_ITS}"
     )
 
 
 def _scalars(line: Mapping[str, Any], names: Collection[str]) -> dict[str, Any]:
-    """The last values of those that are more than rounding: as numbers, and in words."""
-    told = {}
+    """Last values of the named scalars, as numbers and as text."""
+    scalars = {}
     for name, variable in SCALARS.items():
         value = line.get(name)
         if name in names and isinstance(value, int | float):
-            told[name] = {"value": value, "text": format_quantity(value, variable.units, 4)}
-    return told
+            scalars[name] = {"value": value, "text": format_quantity(value, variable.units, 4)}
+    return scalars
 
 
 def _table(first: Mapping[str, Any], last: Mapping[str, Any]) -> list[dict[str, str]]:
-    """The table of a run at work: its first and its last instant so far."""
+    """Table of an active run: its first and its latest instant."""
     if not last:
         return []
     numbers = {

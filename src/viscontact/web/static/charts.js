@@ -1,4 +1,4 @@
-// What figures have in common: Plotly when it is needed, axes, colours, the axis of time.
+// Common parts of figures: loading of Plotly, axes, colours and the time axis.
 
 import { make } from "./dom.js";
 import { colour } from "./theme.js";
@@ -6,7 +6,7 @@ import { unitFor } from "./units.js";
 
 let loading = null;
 
-// The library is large: it is fetched when the first result is to be drawn.
+// The library is large, so it is loaded with the first result.
 export function plotly() {
   loading ??= new Promise((ready, failed) => {
     const script = make("script", { src: "/static/plotly.min.js" });
@@ -17,7 +17,7 @@ export function plotly() {
   return loading;
 }
 
-// A finger that scrolls the page is not to zoom the figures it passes.
+// Scrolling with a finger must not zoom the figures.
 const byFinger = () => window.matchMedia("(pointer: coarse)").matches || window.innerWidth < 640;
 export const config = () => ({
   responsive: true, displaylogo: false, displayModeBar: byFinger() ? false : "hover",
@@ -43,8 +43,8 @@ export const layout = (more) => ({
 const number = (value) => String(Number(value.toPrecision(3)));
 export const instant = (seconds, unit) => `${Number((seconds / unit.factor).toPrecision(4))} ${unit.symbol}`;
 
-// Places on the axis of time, linear or logarithmic; there the instant 0 stands half a decade
-// before the first step.
+// Positions on the time axis, linear or logarithmic; on the latter, 0 is half a decade before the
+// first step.
 export function timeScale(instants, onLog) {
   const unit = unitFor("s", instants), times = instants.map((time) => time / unit.factor);
   const positive = times.filter((time) => time > 0), first = Math.min(...positive), last = Math.max(...positive);

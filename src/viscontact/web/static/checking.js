@@ -1,4 +1,4 @@
-// After each change: the text, what is wrong with it, what it would take, and the drawings.
+// Check after each change: text, problems, estimate and drawings.
 
 import { mended } from "./choosing.js";
 import { caseText, draft, writeText } from "./draft.js";
@@ -8,7 +8,7 @@ import { clearProblems, showProblems } from "./problems.js";
 import { post } from "./server.js";
 import { lasting } from "./units.js";
 
-// Long enough for a word, short enough to feel at once.
+// Delay after a change [ms].
 const PAUSE = 350;
 let request = null;
 export const check = { problems: [], full: null, busy: false };
@@ -23,7 +23,7 @@ export function setUpChecking() {
     }
   }, PAUSE);
   draft.addEventListener("values", () => {
-    request?.abort(); // what it would say is of a case that is no more
+    request?.abort(); // its answer would be about an earlier case
     tell({ busy: true });
     soon();
   });
@@ -60,7 +60,7 @@ function drawCheck() {
   place("estimate").setAttribute("aria-busy", String(check.busy));
   place("to-problem").hidden = count === 0;
   write(place("to-problem"), count === 1 ? "One problem: show it" : `${count} problems: show the first`);
-  write(place("estimate-text"), full ? estimate(full) : count ? "" : "Looking at the case…");
+  write(place("estimate-text"), full ? estimate(full) : count ? "" : "Checking the case…");
   write(place("refine-time"), full ? (full.seconds < 1 ? "< 1 s" : lasting(full.seconds)) : "");
   place("expected").hidden = count > 0;
   if (!full) return;

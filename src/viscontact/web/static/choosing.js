@@ -1,18 +1,18 @@
-// What goes along with a choice, found out by trying: a choice is to give a case that can be run.
+// Keeps a case valid after a choice: values that the server refuses are set aside or replaced.
 
 import { changed, dotted, setValue, valueAt } from "./draft.js";
 
-// The group that a choice was made in, as it was then, and what it would be without what was before.
+// The group of the latest choice, its values then, and its values without the earlier ones.
 let last = null;
-// Values that do not go with what is chosen, by their keys, for when they do again.
+// Values that do not suit the choice, by their keys, to be restored later.
 const aside = new Map();
 
-// After a choice in the group at `path`; `anew` is the group without what was carried over.
+// Called after a choice in the group at `path`; `anew` is the group without earlier values.
 export function chosen(path, anew = null) {
   last = { path, anew, text: JSON.stringify(valueAt(path)) };
 }
 
-// Before one: what was put aside is tried again.
+// Called before a choice: values that were set aside are tried again.
 export function putBack(path) {
   for (const [name, { group, key, value }] of [...aside]) {
     if (group !== dotted(path)) continue;
@@ -21,9 +21,9 @@ export function putBack(path) {
   }
 }
 
-// Does what can be done about a choice that is refused, and returns whether there was anything:
-// keys that are to be left out are put aside; else, where what was there before does not go with
-// what the choice begins with, such as a ball's radius with the spacing of dimples, all begins anew.
+// Corrects a refused choice where possible, and returns whether it did. Keys that must be left out
+// are set aside; else, where earlier values do not suit the choice (such as a ball's radius with the
+// spacing of dimples), the group starts without them.
 export function mended(problems) {
   const { path, anew, text } = last ?? {};
   last = null;

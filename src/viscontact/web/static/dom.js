@@ -1,6 +1,6 @@
-// Elements of the page, made and found.
+// Creating and finding elements of the page.
 
-// An element with properties and children; null and false children are left out.
+// Creates an element with properties and children; null and false children are left out.
 export function make(tag, properties = {}, ...children) {
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(properties)) {
@@ -20,12 +20,12 @@ export const definitions = (pairs) =>
 
 export const place = (id) => document.getElementById(id);
 
-// Sets text only where it differs: what is read aloud is not to be read twice.
+// Sets text only where it differs, so that screen readers do not repeat it.
 export function write(element, text) {
   if (element.textContent !== text) element.textContent = text;
 }
 
-// Calls `act` once nobody has asked for it for so long.
+// Calls `act` after a pause without further calls [ms].
 export function settled(act, milliseconds) {
   let clock = null;
   return (...words) => {

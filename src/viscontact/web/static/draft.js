@@ -1,4 +1,4 @@
-// The case that is being written: as values for the form, and as the YAML text that is run.
+// The current case: as values for the form, and as the YAML text that is run.
 
 import { post } from "./server.js";
 
@@ -6,11 +6,11 @@ export const draft = new EventTarget();
 let values = {};
 let text = "";
 let asked = 0;
-// Whether the values are those of the text; not while that cannot be read.
+// Whether the values agree with the text; false while the text is not valid.
 let read = false;
 
-// Whose the title is: "own" was typed, "given" came with an example that nobody has changed yet,
-// "made" follows from the case, and changes with it.
+// Origin of the title: "own" was typed, "given" belongs to an unchanged example, "made" is derived
+// from the case and changes with it.
 let naming = "made";
 let suggested = "";
 let shipped = new Set();
@@ -19,14 +19,14 @@ export function useExampleTitles(titles) {
   shipped = new Set(titles);
 }
 
-// A tab keeps its own case over a reload; a new tab begins with the one written last.
+// A tab keeps its case when it is reloaded; a new tab starts with the latest case.
 const KEY = "viscontact.case";
 
 export const caseValues = () => values;
 export const caseText = () => text;
 export const isRead = () => read;
 
-// Keys and positions as people write them: material.times[1].
+// Keys and positions as in messages: material.times[1].
 export const dotted = (path) =>
   path.map((key) => (typeof key === "number" ? `[${key + 1}]` : `.${key}`)).join("").replace(/^\./, "");
 
@@ -36,7 +36,7 @@ const isEmpty = (value) =>
   value === undefined || value === null || value === "" ||
   (typeof value === "object" && Object.keys(value).length === 0);
 
-// Sets a value; an empty one is left out, and so is a mapping that holds nothing any more.
+// Sets a value; empty values and empty mappings are removed.
 export function setValue(path, value) {
   if (path.length === 1 && path[0] === "title") naming = isEmpty(value) ? "made" : "own";
   else if (naming === "given") naming = "made";
@@ -44,7 +44,7 @@ export function setValue(path, value) {
   changed("values");
 }
 
-// Writes a value in another way that means the same: no change of the case.
+// Rewrites a value without changing its meaning: not a change of the case.
 export function rewrite(path, value) {
   put(values, path, value);
 }
@@ -59,8 +59,7 @@ function put(part, [key, ...rest], value) {
   else part[key] = value ?? "";
 }
 
-// A whole case from elsewhere, as text, or the present one `edited` as such; its values are read
-// by the server.
+// Replaces the whole text, or takes over the `edited` one; the server reads its values.
 export async function replaceText(yaml, { edited = false } = {}) {
   const turn = ++asked, before = values.title;
   text = yaml;
@@ -78,7 +77,7 @@ export async function replaceText(yaml, { edited = false } = {}) {
   draft.dispatchEvent(new Event("replaced"));
 }
 
-// The text that the values amount to. A later change makes an earlier answer void.
+// The text of the values. An answer to an earlier request is ignored.
 export async function writeText() {
   const turn = ++asked;
   const titled = naming !== "made";
@@ -95,7 +94,7 @@ export async function writeText() {
   return true;
 }
 
-// A case that was edited as text may still have the title that it had before.
+// A case that was edited as text may still have its earlier title.
 export async function renew() {
   if (read && naming === "made" && values.title !== suggested) await writeText();
 }
@@ -108,7 +107,7 @@ function keep() {
   try {
     sessionStorage.setItem(KEY, text);
     localStorage.setItem(KEY, text);
-  } catch { /* a browser that keeps nothing */ }
+  } catch { /* storage is disabled */ }
 }
 
 export function keptText() {

@@ -1,4 +1,4 @@
-// The shape, the material and the load as they are written, drawn by the server.
+// Drawings of the shape, the material and the load, made by the server.
 
 import { caseText, caseValues } from "./draft.js";
 import { make, place } from "./dom.js";
@@ -10,14 +10,14 @@ const KINDS = {
   material: { tab: "Material", about: "Creep compliance and relaxation modulus of the half-space", section: "material" },
   load: { tab: "Load", about: "The load over time", section: "load" },
 };
-const BEFORE = "As it was before the last change: what is written now cannot be drawn.";
+const BEFORE = "Drawing before the last change: the current values cannot be drawn.";
 const narrow = window.matchMedia("(max-width: 860px)");
-// There the panels of a drawing stand below one another.
+// On narrow pages the panels of a drawing are placed below each other.
 const phone = window.matchMedia("(max-width: 640px)");
 const boxes = {};
 let request = null;
 let shown = "indenter";
-// What is not seen is drawn when it is looked at.
+// Hidden drawings are made when they are shown.
 const outdated = new Set();
 
 export function setUpDrawings() {
@@ -41,7 +41,7 @@ export function setUpDrawings() {
   placeDrawings();
 }
 
-// On a narrow page each drawing stands with its section, else they share one place.
+// On a narrow page each drawing is placed in its section, else they share one place.
 export function placeDrawings() {
   for (const [kind, { section }] of Object.entries(KINDS)) {
     const slot = document.querySelector(`[data-slot="${section}"]`);
@@ -87,7 +87,7 @@ async function drawOne(kind, signal) {
     const before = image.src;
     image.src = address;
     image.hidden = false;
-    // Letters about as large as those of the page, whatever the drawing's own size.
+    // Letters about as large as those of the page.
     image.onload = () => {
       image.style.maxWidth = `${Math.round(1.12 * image.naturalWidth)}px`;
       image.style.minWidth = `${Math.round(0.72 * image.naturalWidth)}px`;
@@ -106,4 +106,4 @@ async function drawOne(kind, signal) {
   boxes[kind].removeAttribute("aria-busy");
 }
 
-const missing = (kind) => (caseValues()[kind] ? "What is written cannot be drawn yet." : "Nothing is written yet.");
+const missing = (kind) => (caseValues()[kind] ? "The values cannot be drawn yet." : "No values yet.");

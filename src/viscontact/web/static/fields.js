@@ -1,4 +1,4 @@
-// Single values: a text with a unit, a number, a choice, a switch.
+// Fields for single values: text with a unit, number, choice, switch.
 
 import { chosen, putBack } from "./choosing.js";
 import { changed, dotted, setValue, valueAt } from "./draft.js";
@@ -9,7 +9,7 @@ import { get, upload } from "./server.js";
 
 export const idOf = (path) => `field-${dotted(path)}`;
 
-// A label, the control, what it means, and room for what is wrong with it.
+// A field: label, control, description and room for problems.
 export function field(path, node, required) {
   const key = path.at(-1), id = idOf(path);
   const told = [node.description, hint(node)].filter(Boolean).join(" · ");
@@ -21,10 +21,10 @@ export function field(path, node, required) {
     make("ul", { class: "problems", id: `${id}-problems` }));
 }
 
-// A description that says no more than the label and the example do is only read aloud.
+// A description that adds nothing to label and example is for screen readers only.
 const isPlain = (node) => /^an? [a-z ]+ with its unit, (any|zero or more|more than zero)$/.test(node.description);
 
-// What may be written, as far as the description does not say so.
+// Hint about allowed values, where the description does not give them.
 function hint(node) {
   const said = [];
   if (node.kind === "number") said.push(range(node));
@@ -55,7 +55,7 @@ function controlFor(path, node, required) {
   return entry(path, node, { required });
 }
 
-// A text field. `label` where no visible one stands beside it.
+// A text field. `label` is needed where there is no visible one.
 export function entry(path, node, { label = null, required = true, example = node.examples?.[0] } = {}) {
   const id = idOf(path), key = path.at(-1);
   const input = make("input", {
@@ -80,7 +80,7 @@ function asText(value) {
   return Array.isArray(value) ? value.map(asText).join(", ") : String(value);
 }
 
-// Numbers as numbers where numbers are wanted; everything else as it was typed.
+// Numbers as numbers where the schema asks for them; other values as typed.
 function asValue(typed, node) {
   const text = typed.trim();
   const plain = text !== "" && /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(text);
@@ -97,7 +97,7 @@ function suggest(input, options) {
   return list;
 }
 
-// The number as typed, with each usual unit.
+// The typed number with each usual unit.
 function suggestUnits(input, node) {
   const list = suggest(input, []);
   const offer = () => {

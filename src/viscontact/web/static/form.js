@@ -1,4 +1,4 @@
-// The form: sections, groups and variants as the schema has them.
+// The form: sections, groups and variants of the schema.
 
 import { chosen } from "./choosing.js";
 import { caseValues, changed, dotted, rewrite, setValue, valueAt } from "./draft.js";
@@ -8,9 +8,9 @@ import { LATER, titleOf } from "./hints.js";
 import { list, terms } from "./rows.js";
 import { keysOf, startOf, startOfVariant, wholeCase } from "./schema.js";
 
-// What a variant held before another was chosen, to be there when it is chosen again.
+// Values of variants that are not chosen now, to be restored when they are chosen again.
 const left = new Map();
-// Folds that were opened by hand stay open.
+// Folds that the user opened stay open.
 const opened = new Set();
 let materials = new Map();
 
@@ -18,7 +18,7 @@ export function useMaterials(known) {
   materials = new Map(known.map((each) => [each.name, each]));
 }
 
-// Draws the form anew; the focus stays where it was.
+// Redraws the form; the focus is kept.
 export function drawForm(box) {
   const focused = document.activeElement?.id, scrolled = box.scrollTop;
   const keys = keysOf(wholeCase(), { requiredFirst: false });
@@ -75,7 +75,7 @@ function nested(path, node, required) {
     body(path, node, required), make("ul", { class: "problems" }));
 }
 
-// The keys of a group: lists that go together as one table, later ones folded unless they are set.
+// The keys of a group: related lists as one table, less common keys folded unless they are set.
 function group(path, node) {
   const keys = keysOf(node), given = valueAt(path) ?? {};
   const isPlainList = (each) => each.kind === "list" && each.item.kind !== "tuple";
@@ -96,7 +96,7 @@ function group(path, node) {
       [make("span", { textContent: `More: ${names}` })], later.map(draw)));
 }
 
-// One shape or, with others laid over it, a sum of shapes.
+// One shape, or a sum of shapes.
 function sum(path, node) {
   const value = valueAt(path), several = Array.isArray(value);
   const count = several ? value.length : 1;
@@ -121,9 +121,9 @@ function sum(path, node) {
 
 const adder = (text, act) => make("button", { type: "button", class: "add", textContent: text, onclick: act });
 
-// A choice between groups of keys, and names that stand for whole groups.
+// A choice between groups of keys, or names of whole groups.
 function variants(path, node, required, which = "") {
-  // A variant by its name alone: its keys have to have a place.
+  // A variant given by its name only needs a place for its keys.
   if (keysOf(node.options.get(valueAt(path)) ?? { properties: {} }).length) rewrite(path, { [node.tag]: valueAt(path) });
   const value = valueAt(path), chosen = value !== null && typeof value === "object" ? value[node.tag] : value;
   const select = make("select", {
@@ -172,7 +172,7 @@ function choose(path, node, name) {
   changed("structure");
 }
 
-// A key that some of the choices have too, such as a roller's crown radius, goes where this one has not.
+// A key that only some choices have, such as a roller's crown radius, is dropped for the others.
 function leaveBeside(path, node, name) {
   const around = path.slice(0, -1), here = node.options.get(name).properties;
   for (const key of Object.keys(valueAt(around) ?? {})) {

@@ -1,4 +1,4 @@
-// The page: what there is, and what follows from what.
+// Entry point of the page: sets up all parts and connects their events.
 
 import { check, checked, look, refuse, setUpChecking } from "./checking.js";
 import {
@@ -19,7 +19,7 @@ import { onTheme, setUpTheme } from "./theme.js";
 import { SYSTEMS, useSystem } from "./units.js";
 
 let examples = [];
-// Whether the next answer is one that was asked for here: it is brought into sight.
+// Whether the next answer was requested on this page, so that the page scrolls to it.
 let arriving = false;
 const narrow = window.matchMedia("(max-width: 860px)");
 
@@ -29,7 +29,7 @@ function complain(error) {
   notify(error.problems.map(({ path, message }) => [path, message].filter(Boolean).join(": ")).join("\n"));
 }
 
-// A line at the foot of the page, with a way back where there is one.
+// A line at the foot of the page, with an undo button where possible.
 function notify(text, undo = null) {
   const close = () => place("notice").replaceChildren();
   place("notice").replaceChildren(make("p", {}, text,
@@ -84,7 +84,7 @@ async function begin(quality) {
   }
 }
 
-// On a narrow page the buttons stay in sight anyway.
+// On a narrow page the buttons are always visible.
 function bringIntoSight() {
   const top = place("results").getBoundingClientRect().top;
   if (narrow.matches) place("results").scrollIntoView();
@@ -124,7 +124,7 @@ function setUpCase() {
   for (const mode of ["form", "text"]) place(`as-${mode}`).addEventListener("click", () => choose(mode));
 }
 
-// A title that follows from the case; not while somebody is about to type one.
+// Shows a title derived from the case, unless the field has the focus.
 function showTitle() {
   const input = place("field-title"), title = caseValues().title ?? "";
   if (input && input !== document.activeElement && input.value !== title) input.value = title;
@@ -132,7 +132,7 @@ function showTitle() {
 
 function choose(mode) {
   if (mode === "form" && !isRead()) {
-    notify("The form follows when the YAML can be read.");
+    notify("The form is shown when the YAML is valid.");
     return;
   }
   for (const each of ["form", "text"]) place(`as-${each}`).setAttribute("aria-pressed", String(each === mode));
@@ -141,7 +141,7 @@ function choose(mode) {
   place("yaml").value = caseText();
 }
 
-// An automatic grid follows whatever shape is chosen next; one for a roller fits no ball.
+// Removes the grid: an automatic one suits any shape, a roller's grid does not suit a ball.
 function withoutGrid(yaml) {
   return yaml.replace(/^grid:.*\n(?:[ #].*\n)*/m, "");
 }
@@ -149,11 +149,11 @@ function withoutGrid(yaml) {
 function setUpUnits() {
   const select = place("units"), key = "viscontact.units";
   select.append(...Object.entries(SYSTEMS).map(([value, { name }]) => make("option", { value, textContent: name })));
-  try { select.value = localStorage.getItem(key) ?? "auto"; } catch { /* a browser that keeps nothing */ }
+  try { select.value = localStorage.getItem(key) ?? "auto"; } catch { /* storage is disabled */ }
   if (!select.value) select.value = "auto";
   useSystem(select.value);
   select.addEventListener("change", () => {
-    try { localStorage.setItem(key, select.value); } catch { /* likewise */ }
+    try { localStorage.setItem(key, select.value); } catch { /* storage is disabled */ }
     useSystem(select.value);
     drawResults();
   });

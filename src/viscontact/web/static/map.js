@@ -1,4 +1,4 @@
-// The pressure over the surface with a slider over time, and sections along and across.
+// Pressure map with a time slider, and sections along x and y.
 
 import { axis, config, instant, layout, plotly, quiet } from "./charts.js";
 import { make, place, settled } from "./dom.js";
@@ -16,11 +16,11 @@ export function setUpMap() {
   place("instant-slider").addEventListener("input", () => showInstant(Number(place("instant-slider").value)));
   place("instant-slider").addEventListener("pointerdown", pause);
   place("play").addEventListener("click", () => (clock === null ? play() : pause()));
-  // Its height follows from its width: a phone is turned, a window made narrow.
+  // The height depends on the width, which changes with the window.
   window.addEventListener("resize", settled(() => picture && drawPlane(), 150));
 }
 
-// Draws the map anew; the instant stays, where the run is the same.
+// Redraws the map; the instant is kept for the same run.
 export async function drawMap(shown, reference) {
   const Plotly = await plotly(), map = shown.data.map;
   place("map-chapter").hidden = !map;
@@ -69,12 +69,12 @@ const rim = (source, index, unit) => {
   return { x: times(source.rims[index].x), y: times(source.rims[index].y), mode: "lines", hoverinfo: "skip" };
 };
 
-// Which instant of the reference is nearest.
+// Index of the nearest instant of the reference.
 function nearest(times, time) {
   return times.reduce((best, each, index) => (Math.abs(each - time) < Math.abs(times[best] - time) ? index : best), 0);
 }
 
-// An axis's title, which beside a horizontal colour bar may come to stand among the tick labels.
+// Title of an axis as an annotation: a horizontal colour bar would shift a real one into the labels.
 const below = (text) => ({
   text, showarrow: false, xref: "paper", yref: "paper", x: 0.5, y: 0, yanchor: "top", yshift: -20,
   font: { size: 12, color: colour("ink") },
@@ -103,7 +103,7 @@ function drawPlane() {
   const xRange = scaled(map.xRange), yRange = scaled(map.yRange), constrain = map.periodic ? "domain" : "range";
   const ratio = map.stretch * (yRange[1] - yRange[0]) / (xRange[1] - xRange[0]);
   const height = Math.round(Math.min(Math.max((box.clientWidth - 76) * ratio + 128, 190), 560));
-  // The colour bar makes its own room above the map.
+  // The colour bar adds its own space above the map.
   const plane = layout({
     height,
     margin: { l: 56, r: 20, t: 0, b: 50 },

@@ -1,4 +1,4 @@
-// The numbers of a run as a table with their errors, beside those of the reference.
+// Table of the scalars of a run with their errors, beside those of the reference.
 
 import { instant } from "./charts.js";
 import { make } from "./dom.js";
@@ -10,7 +10,7 @@ const number = (text, style = "") => make("td", { class: `number ${style}`, text
 export function numbersTable(data, reference) {
   const stated = data.told.some((name) => isStated(data.scalars[name]));
   const rows = data.told.map((name) => row(name, data, reference, stated));
-  // Where all is largest at the beginning or in the end, that stands there already.
+  // The column "largest" is left out where all values are largest at the start or the end.
   const isTold = data.told.every((name) => {
     const { value } = data.scalars[name];
     return [0, value.length - 1].includes(largestAt(value));
@@ -32,7 +32,7 @@ function head(data, reference, stated) {
 
 function row(name, data, reference, stated) {
   const scalar = data.scalars[name], other = reference?.data.scalars[name];
-  // What is rounding there is nothing to compare with.
+  // Values that are rounding errors in the reference are not compared.
   const before = reference?.data.told.includes(name) ? other.value.at(-1) : null;
   const unit = unitFor(scalar.unit, scalar.value);
   const at = largestAt(scalar.value), largest = scalar.value[at] ?? null;
@@ -47,17 +47,17 @@ function row(name, data, reference, stated) {
     reference && [cell(before, other?.error.at(-1) ?? null), number(change(scalar.value.at(-1), before))]);
 }
 
-// Where there is no room, a value stands above its error.
+// On narrow pages a value is placed above its error.
 const whole = (text) => text.replace("± ", "±\u00a0").replace("> ", ">\u00a0");
 
 const largestAt = (values) =>
   values.reduce((best, value, index) => (Math.abs(value) > Math.abs(values[best] ?? 0) ? index : best), 0);
 
-// Beside a zero, what counts is what the value becomes.
+// A change from zero is shown as the new value.
 const shownError = (value, error, largest) =>
   (value === 0 && error <= 1e-4 * Math.abs(largest) ? 0 : error);
 
-// The worst of the run as a part of the largest value, and when it is.
+// The largest error as a part of the largest value, and its time.
 function errorTold(scalar, largest, times) {
   if (scalar.mesh) return "depends on the mesh";
   const worst = scalar.error.reduce((best, error, index) =>

@@ -1,4 +1,4 @@
-// What is wrong with the case, beside the very field, in the server's words.
+// Problems of the case, shown beside their fields.
 
 import { place, make } from "./dom.js";
 
@@ -12,7 +12,7 @@ export function clearProblems(form) {
   place("text-problems").replaceChildren();
 }
 
-// Shows each problem where its key is, or where the nearest key above it is.
+// Shows each problem at its key, or at the nearest key above it.
 export function showProblems(form, problems) {
   clearProblems(form);
   for (const problem of problems) {
@@ -46,7 +46,7 @@ function mark({ box }, rest) {
   marked.push(control);
 }
 
-// Brings the first problem into sight, and the focus to it.
+// Scrolls to the first problem and focuses its field.
 export function goToProblem(form) {
   const control = form.querySelector("[aria-invalid]");
   const first = control ?? form.querySelector(".problems li") ?? place("other-problems").firstChild;

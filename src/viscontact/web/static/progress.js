@@ -1,4 +1,4 @@
-// The run that is going on: how far it is, how to stop it, and what became of it.
+// The active run: its progress, buttons and messages; and the list of runs.
 
 import { items, make, place, settled, write } from "./dom.js";
 import { drawGrowing } from "./growing.js";
@@ -25,7 +25,7 @@ export function drawProgress() {
   if (status.part > 0 || status.over) bar.value = status.over ? 1 : status.part;
   else bar.removeAttribute("value");
   bar.hidden = status.over;
-  write(place("progress-text"), state.lost ? "No connection to the server; the run is looked for again." : told(status));
+  write(place("progress-text"), state.lost ? "No connection to the server; trying again." : told(status));
   drawGrowing(status);
   place("cancel").hidden = status.over || state.lost;
   place("resume").hidden = !(status.over && status.resumable);
@@ -36,7 +36,7 @@ export function drawProgress() {
   speak(status);
 }
 
-// Before its first step there is nothing to go on from.
+// Before its first step a run is started, not resumed.
 const onward = (status) => (status.figures.length ? "Resume" : "Start");
 
 function told(status) {
@@ -53,24 +53,24 @@ function stage({ stage: now, step, steps }) {
   return steps ? `step ${step} of ${steps}` : `step ${step}`;
 }
 
-// Screen readers are told of changes of state at once, of progress now and then.
+// Screen readers get changes of state at once, and progress at intervals.
 const speakSoon = settled((text) => write(place("spoken"), text), 4000);
 function speak(status) {
   const news = `${status.state} ${status.id}`;
   if (news !== spoken) {
     spoken = news;
-    const over = status.state === "done" ? "The answer is there." : status.message;
-    write(place("spoken"), status.over ? over : "The run has begun.");
+    const over = status.state === "done" ? "The answer is ready." : status.message;
+    write(place("spoken"), status.over ? over : "The run has started.");
   } else if (!status.over && document.hasFocus()) speakSoon(told(status));
 }
 
 const isReference = (run) => state.reference?.id === run.id;
 
-// `load` writes a case into the form; `complain` tells of what is refused.
+// `load` writes a case into the form; `complain` shows errors.
 const buttonsFor = (run, { load, complain }) => [
   run.figures.length > 0 && act("Show", "Show this answer", () => show(run.id), complain),
   !run.over && act("Follow", "Follow this run", () => watch(run.id), complain),
-  run.resumable && act(onward(run), "Go on with this run", () => resume(run.id), complain),
+  run.resumable && act(onward(run), "Continue this run", () => resume(run.id), complain),
   run.figures.length > 0 && act(isReference(run) ? "Not the reference" : "Reference", "Compare with this answer",
     () => refer(isReference(run) ? null : run.id), complain),
   act("Its case", "Write this run’s case into the form",
@@ -82,7 +82,7 @@ const act = (text, about, doIt, complain) => make("button", {
   type: "button", class: "small", textContent: text, title: about, onclick: () => doIt().catch(complain),
 });
 
-// All runs that the server knows, those of other tabs too; at first the last few.
+// All runs of the server, those of other tabs included; at first the latest ones only.
 const FEW = 6;
 let all = false;
 export function drawList(acts) {

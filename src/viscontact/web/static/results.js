@@ -1,4 +1,4 @@
-// What a run found: the numbers with their errors, the pressure, the histories, the downloads.
+// Results of a run: numbers with errors, pressure, histories, downloads.
 
 import { instant } from "./charts.js";
 import { definitions, items, make, place, write } from "./dom.js";
@@ -8,7 +8,11 @@ import { numbersTable } from "./numbers.js";
 import { state } from "./runs.js";
 import { told, unitFor } from "./units.js";
 
-// What may be taken along: where it is, what it is called, and whether it is saved or looked at.
+const FACTS = {
+  contact_area: "Contact area", approach: "Approach",
+  peak_pressure: "Peak pressure", mean_pressure: "Mean pressure",
+};
+// Downloads: path, title, and whether the file is saved or opened.
 const DOWNLOADS = [
   ["case.yaml", "Case (YAML)", true],
   ["report.html", "Report (HTML)", true],
@@ -16,8 +20,8 @@ const DOWNLOADS = [
   ["result.nc", "Result (netCDF)", true],
   ["history.csv", "Histories (CSV)", true],
 ];
-const COARSE = "Fewer cells and steps than the case asks for, and no error bars. "
-  + "Refine to have the case as it is written.";
+const COARSE = "Fewer cells and steps than in the case, and no error bars. "
+  + "Refine to compute the case as written.";
 
 export const newRunShown = forgetScale;
 const qualityOf = (run) => (run.status.quality === "coarse" ? "coarse answer" : "full run");
@@ -42,24 +46,24 @@ export async function drawResults() {
 
 function notes(status, data) {
   const note = (text, style = "") => make("p", { class: `note ${style}`, textContent: text });
-  // Of one that was stopped early the notices tell where it ended.
+  // For a run that stopped early, the notes state where it ended.
   const said = [status.quality === "coarse" && note(COARSE), status.state === "failed" && note(status.message)];
   said.push(...data.notices.map((text) => note(text, "warm")));
   if (data.warnings.length) said.push(warned(data.warnings));
   return said.filter(Boolean);
 }
 
-// Many would hide the answer; the first few stand there, the others unfold.
+// The first few warnings are shown, the others are folded.
 const FEW = 3;
 function warned(warnings) {
   const count = warnings.length > FEW + 1 ? FEW : warnings.length, rest = warnings.slice(count);
   return make("div", { class: "note warm" },
-    make("p", { textContent: "This run warns:" }), make("ul", {}, items(warnings.slice(0, count))),
+    make("p", { textContent: "Warnings of this run:" }), make("ul", {}, items(warnings.slice(0, count))),
     rest.length > 0 && make("details", {},
       make("summary", { textContent: `${rest.length} more warnings` }), make("ul", {}, items(rest))));
 }
 
-// The end of the run, or where the contact was largest, if it is lost by then.
+// The end of the run, or the instant of the largest contact if it is lost at the end.
 function telling(data) {
   const areas = data.scalars.contact_area.value;
   return areas.at(-1) > 0 ? areas.length - 1 : areas.indexOf(Math.max(...areas));

@@ -1,4 +1,4 @@
-// Lists: the terms of a series as rows of one table, points as rows of pairs, single values.
+// Lists as tables: terms of a series, points as pairs, single values.
 
 import { changed, dotted, setValue, valueAt } from "./draft.js";
 import { make } from "./dom.js";
@@ -6,7 +6,7 @@ import { entry } from "./fields.js";
 import { titleOf } from "./hints.js";
 import { startOf } from "./schema.js";
 
-// Lists that belong together, term by term: all required lists of single values in a group.
+// Related lists: all required lists of single values in a group, row by row.
 export function terms(path, keys) {
   const columns = keys.map(({ key, node }) => (
     { path: [...path, key], node: node.item, title: titleOf(key), told: node.description }));
@@ -20,7 +20,7 @@ export function terms(path, keys) {
   });
 }
 
-// A list of single values or of tuples under one key.
+// List of single values or of tuples under one key.
 export function list(path, node) {
   const tuple = node.item.kind === "tuple" ? node.item.items : null;
   const columns = (tuple ?? [node.item]).map((item) => ({ path, node: item, title: columnName(item, path) }));
@@ -67,8 +67,8 @@ function table(path, columns, count, cells, { name, add, drop }) {
     make("button", more, `Add a ${name}`));
 }
 
-// A block copied from a spreadsheet fills the rows from here on; numbers without a unit get that
-// of the cell they are pasted over.
+// A block pasted from a spreadsheet fills the following rows; numbers without a unit get the unit
+// of the cell that they replace.
 function pasting(input, row, columns, cells) {
   input.addEventListener("paste", (event) => {
     const copied = event.clipboardData.getData("text/plain").trim();

@@ -1,16 +1,16 @@
-// Runs on the server: started, followed, stopped, and found again after a reload.
+// Runs on the server: start, follow, stop, and restore after a reload.
 
 import { caseText } from "./draft.js";
 import { connection, follow, get, post, remove } from "./server.js";
 
-// Tells of "active" (the run being followed), "shown", "reference" and "listed".
+// Dispatches "active" (the followed run has changed), "shown", "reference" and "listed".
 export const runs = new EventTarget();
 export const state = { active: null, shown: null, reference: null, listed: [], lost: false };
 
 let stop = () => {};
 const tell = (what) => runs.dispatchEvent(new Event(what));
 
-// The page's address names its runs: a reload, or the address sent to another tab, finds them.
+// The address of the page contains its runs, for a reload or another tab.
 function remember() {
   const names = { run: state.active?.id, shown: state.shown?.id, ref: state.reference?.id };
   const parts = Object.entries(names).filter(([, id]) => id).map(([name, id]) => `${name}=${id}`);
@@ -29,7 +29,7 @@ export async function start(quality) {
   await watch(status.id, status);
 }
 
-// Follows a run from its present status on.
+// Follows a run from its current status.
 export async function watch(id, known = null) {
   stop();
   state.lost = false;
@@ -99,7 +99,7 @@ export async function forget(id) {
   await list();
 }
 
-// Asks for all runs; while the server does not answer the old list stays.
+// Updates the list of all runs; without an answer the old list is kept.
 export async function list() {
   try {
     state.listed = await get("/api/runs");
@@ -109,7 +109,7 @@ export async function list() {
   tell("listed");
 }
 
-// The server is back: take up the run where it is now, or say that it is gone.
+// Called when the server is back: follow the run again, or report that it is gone.
 connection.addEventListener("back", async () => {
   list();
   const active = state.active;

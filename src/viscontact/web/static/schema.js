@@ -1,4 +1,4 @@
-// What a part of the JSON Schema asks for, as one of a few kinds that the form can draw.
+// Parts of the JSON schema as one of a few kinds that the form can draw.
 
 import { APART, FILLED, FIRST, INSTEAD } from "./hints.js";
 
@@ -12,14 +12,14 @@ export const wholeCase = () => understand(root);
 export const unitsOf = (dimension) =>
   [dimension].flat().flatMap((each) => root["x-units"]?.[each] ?? []);
 
-// The part with its reference followed; what stands beside the reference is the more special.
+// A part with its reference resolved; keys beside the reference have priority.
 function resolved(part) {
   if (!part.$ref) return part;
   const { $ref, ...beside } = part;
   return { ...resolved(root.$defs[$ref.split("/").pop()]), ...beside };
 }
 
-// All that may stand here, unions within unions flattened.
+// All alternatives of a part, nested unions flattened.
 function alternatives(part) {
   const union = part.anyOf ?? part.oneOf;
   return union ? union.flatMap((each) => alternatives(resolved(each))) : [part];
@@ -30,7 +30,7 @@ const about = (part) => ({
 });
 
 // The kind of a part: constant, choice, switch, number, text, group, mapping, tuple, list,
-// variants, lines; or text, which reads anything.
+// variants or lines; text by default.
 function understand(given) {
   const part = resolved(given);
   const all = alternatives(part);
@@ -70,7 +70,7 @@ function array(part) {
 
 const group = (part) => ({ kind: "group", properties: part.properties, required: part.required ?? [] });
 
-// The key whose constant tells which of several groups it is.
+// The key whose constant identifies one of several groups.
 function tagOf(groups) {
   const names = Object.keys(groups[0].properties);
   return names.find((name) => groups.every((each) => "const" in (each.properties[name] ?? {})));
@@ -96,7 +96,7 @@ function variants(parts, groups) {
   return { kind: "variants", tag, named: named.filter((name) => !unique.has(name)), options: unique, sum };
 }
 
-// The keys of a group in the order in which they are shown, with what each asks for.
+// The keys of a group in the order of the form, with the kind of each.
 export function keysOf(node, { requiredFirst = true } = {}) {
   const rank = (key) => (FIRST.includes(key) ? FIRST.indexOf(key) : FIRST.length);
   return Object.entries(node.properties)
@@ -105,7 +105,7 @@ export function keysOf(node, { requiredFirst = true } = {}) {
     .sort((a, b) => (requiredFirst ? b.required - a.required : 0) || rank(a.key) - rank(b.key));
 }
 
-// A value to begin with where one is required.
+// Initial value of a required key.
 export function startOf(node) {
   if (node.default !== undefined && node.default !== null && node.kind !== "text") return node.default;
   if (node.examples.length) return node.examples[0];
@@ -118,7 +118,7 @@ export function startOf(node) {
   return "";
 }
 
-// A variant to begin with; what the one before had under the same keys goes on.
+// Initial values of a variant; values under the same keys are kept.
 export function startOfVariant(node, tag, before) {
   return { [node.tag]: tag, ...startOfGroup(node.options.get(tag), before) };
 }
@@ -135,7 +135,7 @@ function startOfGroup(node, before) {
   return values;
 }
 
-// A force is not filled in beside an approach.
+// No force is added beside an approach.
 const stoodFor = (key, node, before) =>
   (INSTEAD[key] ?? []).some((other) => other in before && other in node.properties);
 

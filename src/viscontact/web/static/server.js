@@ -1,4 +1,4 @@
-// What the server is asked. Every refusal carries its problems in the words of the command line.
+// Requests to the server. An error carries the problems, worded as on the command line.
 
 class Refused extends Error {
   constructor(status, problems) {
@@ -8,7 +8,7 @@ class Refused extends Error {
   }
 }
 
-// Tells of "gone" and "back".
+// Dispatches "gone" and "back".
 export const connection = new EventTarget();
 let reachable = true;
 let waiting = null;
@@ -37,9 +37,6 @@ function found() {
   reachable = true;
   connection.dispatchEvent(new Event("back"));
 }
-
-// Somebody saw the connection break: ask whether the server is still there.
-const doubt = () => look();
 
 async function ask(path, options) {
   let answer;
@@ -82,7 +79,7 @@ export async function upload(file) {
   return (await ask(path, { method: "POST", body: file })).json();
 }
 
-// Follows a run: `tell` gets each status until the run is over. Returns what stops following.
+// Follows a run: `tell` gets each status until the run is over. Returns a function that stops this.
 export function follow(id, tell, gone) {
   const source = new EventSource(`/api/runs/${id}/events`);
   source.onmessage = (event) => {
@@ -92,7 +89,7 @@ export function follow(id, tell, gone) {
   };
   source.onerror = () => {
     source.close();
-    doubt();
+    look();
     gone();
   };
   return () => source.close();

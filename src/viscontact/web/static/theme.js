@@ -1,4 +1,4 @@
-// Light or dark, by the system's wish or one's own; colours for figures.
+// Light or dark theme, from the system or chosen; colours for figures.
 
 import { place } from "./dom.js";
 
@@ -14,20 +14,20 @@ export function setUpTheme() {
   const select = place("theme");
   try {
     select.value = localStorage.getItem(KEY) ?? "auto";
-  } catch { /* a browser that keeps nothing */ }
+  } catch { /* storage is disabled */ }
   const apply = () => {
     document.documentElement.dataset.theme = select.value;
     told.dispatchEvent(new Event("change"));
   };
   select.addEventListener("change", () => {
-    try { localStorage.setItem(KEY, select.value); } catch { /* likewise */ }
+    try { localStorage.setItem(KEY, select.value); } catch { /* storage is disabled */ }
     apply();
   });
   system.addEventListener("change", apply);
   apply();
 }
 
-// A colour of the page's style as figures take it.
+// A colour of the page's style, for figures.
 export function colour(name) {
   const probe = place("probe");
   probe.style.color = `var(--${name})`;

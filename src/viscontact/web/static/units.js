@@ -1,4 +1,4 @@
-// Results in units: SI numbers become numbers that people read.
+// Display units: SI numbers in readable units.
 
 const PREFIXED = [["G", 1e9], ["M", 1e6], ["k", 1e3], ["", 1], ["m", 1e-3], ["µ", 1e-6], ["n", 1e-9],
   ["p", 1e-12], ["f", 1e-15], ["a", 1e-18]];
@@ -11,7 +11,7 @@ const LADDERS = {
   m2: [["m²", 1], ["mm²", 1e-6], ["µm²", 1e-12], ["nm²", 1e-18]],
   Pa: prefixed("Pa", 1e-9), N: prefixed("N"), J: prefixed("J"), rad: [["rad", 1], ["mrad", 1e-3], ["µrad", 1e-6], ["nrad", 1e-9]], s: TIMES,
 };
-// Of every kind the unit to use; mrad and s suit all but SI.
+// Units of each system; mrad and s are used in all but SI.
 const system = (name, units) => ({ name, units: { rad: ["mrad", 1e-3], s: ["s", 1], ...units } });
 const METRIC = { m: ["mm", 1e-3], m2: ["mm²", 1e-6], Pa: ["MPa", 1e6] };
 const TINY = { m: ["µm", 1e-6], m2: ["µm²", 1e-12], Pa: ["kPa", 1e3], N: ["mN", 1e-3], J: ["µJ", 1e-6] };
@@ -27,7 +27,7 @@ export const SYSTEMS = {
 let chosen = "auto";
 export const useSystem = (name) => { chosen = name in SYSTEMS ? name : "auto"; };
 
-// The unit for these values [SI], with its factor to SI.
+// Unit for values [SI], with its factor to SI.
 export function unitFor(si, ...values) {
   const fixed = SYSTEMS[chosen].units[si];
   if (fixed) return { symbol: fixed[0], factor: fixed[1] };
@@ -35,7 +35,7 @@ export function unitFor(si, ...values) {
   const long = si === "s" && LONG_TIMES.find(([above]) => largest > above);
   if (long) return { symbol: long[1], factor: long[2] };
   const ladder = LADDERS[si] ?? [[si === "1" ? "" : si, 1]];
-  // An area passes for its unit down to a hundredth: 0.7 mm² reads better than 700000 µm².
+  // Areas keep their unit down to a hundredth: 0.7 mm² is clearer than 700000 µm².
   const least = si === "m2" ? 0.01 : 1;
   const found = ladder.find(([, factor]) => 1.001 * largest >= least * factor) ?? ladder.at(-1);
   const [symbol, factor] = largest > 0 ? found : ladder.find(([, each]) => each === 1);
@@ -43,12 +43,12 @@ export function unitFor(si, ...values) {
 }
 
 const MINUS = "\u2212";
-// Errors of so small a part are not told; a value whose error is not known has four digits.
+// Relative error below which it is not shown; a value of unknown error has four digits.
 const NEGLIGIBLE = 1e-4, DIGITS = 4, MOST = 7;
-// The place of the first digit, once the number is rounded to two: 0 for ones, -1 for tenths.
+// Decimal place of the first digit of a number rounded to two digits: 0 for ones, -1 for tenths.
 const leading = (value) => Number(Math.abs(value).toExponential(1).split("e")[1]);
 
-// So many significant digits, without an exponent where that reads well.
+// A number with a count of significant digits, without an exponent where possible.
 function inDigits(value, count) {
   const size = Math.abs(value);
   if (size === 0) return "0";
@@ -61,7 +61,7 @@ function inDigits(value, count) {
 const withoutIdleZeros = (text) => (/\.\d*$/.test(text) ? text.replace(/\.?0+$/, "") : text);
 const isTold = (error, value) => error > NEGLIGIBLE * Math.abs(value);
 
-// As many digits as the error supports, down to its second one; no idle zeros where it is 0.
+// Digits down to the second one of the error; no trailing zeros where it is 0.
 export function digits(value, error = null) {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
   if (error === 0) return withoutIdleZeros(inDigits(value, DIGITS + 1));
@@ -71,7 +71,7 @@ export function digits(value, error = null) {
   return inDigits(rounded, Math.min(Math.max(leading(rounded) - last + 1, 1), MOST));
 }
 
-// A value with its error in a unit; none where it is negligible.
+// A value with its error in a unit; without a negligible error.
 export function toldIn(unit, value, error, mesh = false) {
   if (value === null || value === undefined) return "–";
   const number = value / unit.factor, half = isTold(error, value) ? error / unit.factor : null;
@@ -79,14 +79,14 @@ export function toldIn(unit, value, error, mesh = false) {
   return parts.filter(Boolean).join(" ");
 }
 
-// A value with its error and unit, as a sentence has it: without idle zeros.
+// A value with its error and unit, for sentences: without trailing zeros.
 export function told(value, error, si, mesh = false) {
   if (value === null || value === undefined) return "–";
   const unit = unitFor(si, value), number = toldIn(unit, value, error, mesh);
   return `${number.includes("±") ? number : withoutIdleZeros(number)} ${unit.symbol}`.trim();
 }
 
-// A duration as people say it.
+// A duration in a readable unit.
 export function lasting(seconds) {
   if (seconds < 1) return "less than a second";
   if (seconds < 90) return `${Math.round(seconds)} s`;

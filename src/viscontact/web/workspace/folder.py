@@ -1,4 +1,4 @@
-"""The folder in which the page keeps what it was given and what it has computed."""
+"""Folder of the calculator page: files that cases read, and runs."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import sys
 import time as clock
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, suppress
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -21,21 +21,42 @@ from viscontact.case.data_file import is_plain_name
 from viscontact.run_files import CASE_NAME
 from viscontact.runs.directory.atomic_files import replace
 from viscontact.web.workspace.problems import RequestError
-from viscontact.web.workspace.request import Asked
 
 _FILES, _RUNS, _GIVEN, _RUN = "files", "runs", "given", "run"
-_ASKED, _FOUND = "asked.json", "found.json"
+_ENTRY_NAME, _SUMMARY_NAME = "asked.json", "found.json"
 
 
-#: Endings of shipped files that examples read.
+#: Suffixes of shipped files that examples read.
 _SHIPPED = (".npz", ".csv")
 
 
-_ASKED_FORM = TypeAdapter(Asked)
+@dataclass(frozen=True)
+class RunEntry:
+    """Entry of a run, stored beside it: its request, its size and its state.
+
+    `end` is its last instant [s], `work` its cells times steps [-], `memory` its need [bytes],
+    `instants` their number (None for adaptive steps), and `said` the messages of its process.
+    """
+
+    title: str
+    quality: str
+    created: str
+    settings: tuple[str, ...]
+    instants: int | None
+    end: float
+    work: float
+    memory: float
+    errors: bool
+    state: str = "waiting"
+    said: tuple[str, ...] = ()
+    label: str = ""
+
+
+_ENTRY = TypeAdapter(RunEntry)
 
 
 class Folder:
-    """Where files that cases may name, and runs, are kept."""
+    """Folder with the files that cases may name, and with the runs."""
 
     def __init__(self, path: Path) -> None:
         self.path = path.absolute()
@@ -45,11 +66,11 @@ class Folder:
 
     @property
     def case(self) -> Path:
-        """What a case is called that is only looked at: beside the files that it may name."""
+        """Path of a case that is not run, beside the files that it may name."""
         return self.path / _FILES / CASE_NAME
 
     def files(self) -> list[dict[str, Any]]:
-        """Return what files there are: name and size [bytes]."""
+        """Return name and size [bytes] of each file."""
         found = sorted((self.path / _FILES).iterdir())
         return [
             {"name": path.name, "size": path.stat().st_size}
@@ -58,12 +79,12 @@ class Folder:
         ]
 
     def put_file(self, name: str, content: bytes) -> None:
-        """Keep a file under a name; one of that name is replaced."""
+        """Store a file, in place of one of the same name."""
         path = self._file(name)
         try:
             _write(path, content)
         except OSError as error:
-            why = f"{name} cannot be kept: {error.strerror or error}"
+            why = f"{name} cannot be stored: {error.strerror or error}"
             raise RequestError(507, why) from error
 
     def remove_file(self, name: str) -> None:
@@ -73,57 +94,59 @@ class Folder:
             raise RequestError(404, f"there is no file {name!r}")
         path.unlink()
 
-    def new_run(self, text: str, asked: Asked, data: Mapping[Path, str]) -> str:
-        """Keep a case that is to be run, and what it reads."""
+    def new_run(self, text: str, entry: RunEntry, data: Mapping[Path, str]) -> str:
+        """Store a case to be run and its files; return the name of the run."""
         name = f"{clock.strftime('%Y%m%d-%H%M%S', clock.gmtime())}-{secrets.token_hex(3)}"
         given = self.path / _RUNS / name / _GIVEN
         with ExitStack() as undoing:
             given.mkdir(parents=True)
-            undoing.callback(self.remove_run, name)  # unless all of it is kept
+            undoing.callback(self.remove_run, name)  # unless everything is stored
             (given / CASE_NAME).write_text(text, encoding="utf-8")
             for path, called in data.items():
                 shutil.copyfile(path, given / called)
-            self.keep(name, asked)  # last: without it there is no run
+            self.keep(name, entry)  # last: without it there is no run
             undoing.pop_all()
         return name
 
-    def keep(self, name: str, asked: Asked) -> None:
-        """Keep how a run stands."""
-        told = json.dumps(asdict(asked), ensure_ascii=False, indent=1)
-        _write(self.path / _RUNS / name / _ASKED, told.encode())
+    def keep(self, name: str, entry: RunEntry) -> None:
+        """Store the entry of a run."""
+        text = json.dumps(asdict(entry), ensure_ascii=False, indent=1)
+        _write(self.path / _RUNS / name / _ENTRY_NAME, text.encode())
 
-    def runs(self) -> Iterator[tuple[str, Asked]]:
-        """Yield the runs that are kept, oldest first; what cannot be read is left alone."""
-        for path in sorted((self.path / _RUNS).glob(f"*/{_ASKED}")):
+    def runs(self) -> Iterator[tuple[str, RunEntry]]:
+        """Yield the names and entries of runs, oldest first, without unreadable ones."""
+        for path in sorted((self.path / _RUNS).glob(f"*/{_ENTRY_NAME}")):
             with suppress(OSError, ValueError):
-                yield path.parent.name, _ASKED_FORM.validate_json(path.read_bytes())
+                yield path.parent.name, _ENTRY.validate_json(path.read_bytes())
 
-    def keep_found(self, name: str, key: str, found: dict[str, Any]) -> None:
-        """Keep what the result of a run says, so that it need not be read again."""
-        told = json.dumps({"key": key, "found": found}, allow_nan=False)
-        _write(self.path / _RUNS / name / _FOUND, told.encode())
+    def keep_summary(self, name: str, key: str, found: dict[str, Any]) -> None:
+        """Store the summary of a result, so that the result need not be read again."""
+        text = json.dumps({"key": key, "found": found}, allow_nan=False)
+        _write(self.path / _RUNS / name / _SUMMARY_NAME, text.encode())
 
-    def found(self, name: str, key: str) -> dict[str, Any] | None:
-        """Return what the result of a run was found to say; None if that is not kept."""
+    def summary(self, name: str, key: str) -> dict[str, Any] | None:
+        """Return the stored summary of a result; None without one for this key."""
         try:
-            kept = json.loads((self.path / _RUNS / name / _FOUND).read_text(encoding="utf-8"))
+            kept = json.loads(
+                (self.path / _RUNS / name / _SUMMARY_NAME).read_text(encoding="utf-8")
+            )
             return dict(kept["found"]) if kept["key"] == key else None
         except (OSError, ValueError, TypeError, LookupError):
             return None
 
     def remove_run(self, name: str) -> None:
-        """Remove a run and all that is kept of it; of one that lies elsewhere, the link to it."""
+        """Remove a run and its files; of a linked run, the link only."""
         place = self.path / _RUNS / name
-        if place.is_symlink():  # somebody keeps it elsewhere, where nothing is ours to remove
+        if place.is_symlink():  # its files are kept elsewhere
             place.unlink()
             return
-        # First what makes a run of it: whatever cannot be removed comes back no more.
+        # The entry first: without it the remaining files no longer count as a run.
         with suppress(FileNotFoundError):
-            (place / _ASKED).unlink()
+            (place / _ENTRY_NAME).unlink()
         shutil.rmtree(place, ignore_errors=True)
 
     def given(self, name: str) -> Path:
-        """Return the case of a run, as it was given."""
+        """Return the path of the case of a run, as submitted."""
         return self.path / _RUNS / name / _GIVEN / CASE_NAME
 
     def directory(self, name: str) -> Path:
@@ -131,11 +154,11 @@ class Folder:
         return self.path / _RUNS / name / _RUN
 
     def report(self, name: str) -> Path:
-        """Return where the report of a run is kept."""
+        """Return the path of the stored report of a run."""
         return self.path / _RUNS / name / "report.html"
 
     def keep_report(self, name: str, page: bytes, made_from: int) -> None:
-        """Keep the report of a run, with the time at which the result it tells of was written."""
+        """Store the report of a run, with the modification time of its result [ns]."""
         _write(self.report(name), page)
         os.utime(self.report(name), ns=(made_from, made_from))
 
@@ -147,7 +170,7 @@ class Folder:
         return self.path / _FILES / name
 
     def _put_shipped_files(self) -> None:
-        """Put what shipped examples read beside what users give."""
+        """Copy the files that shipped examples read into the folder."""
         for entry in files("viscontact.examples").iterdir():
             path = self.path / _FILES / entry.name
             if path.suffix in _SHIPPED and not path.exists():
@@ -155,7 +178,7 @@ class Folder:
 
 
 def usual_folder() -> Path:
-    """Return where data of programs belong on this system, below the user's own folder."""
+    """Return the folder for application data on this system."""
     if sys.platform == "win32":
         base = Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local")
     elif sys.platform == "darwin":
@@ -166,11 +189,11 @@ def usual_folder() -> Path:
 
 
 def _write(path: Path, content: bytes) -> None:
-    """Write a file so that it is there whole or not at all."""
-    fresh = path.with_name(f".{secrets.token_hex(6)}.new")  # two may come at once
+    """Write a file atomically."""
+    fresh = path.with_name(f".{secrets.token_hex(6)}.new")  # requests may write at the same time
     try:
         fresh.write_bytes(content)
         replace(fresh, path)
     finally:
-        with suppress(OSError):  # only if it could not be written or put there
+        with suppress(OSError):  # exists only after a failure
             fresh.unlink()

@@ -1,4 +1,4 @@
-"""What cases and runs are called, so that they can be told apart."""
+"""Titles and labels that distinguish cases and runs."""
 
 from __future__ import annotations
 
@@ -9,21 +9,21 @@ from typing import Any
 
 from viscontact.runs.directory.differences import differences
 
-#: What a shape, and a law, is known by: the first of these that it has.
+#: Keys that identify a shape and a law; the first one present is used.
 _SIZES = ("radius", "radius_x", "half_angle", "semi_axis_x", "ring_radius", "amplitude", "file")
 _MODULI = ("shear_modulus", "youngs_modulus", "file")
-#: What the load may be given by.
+#: Keys of the load's level.
 _LEVELS = ("force", "approach", "mean_pressure", "mean")
 _PROPER = ("zener", "maxwell", "burgers")
 _SECTIONS = ("indenter", "indenter_material", "material", "load", "time")
-#: Keys that mean something else in another section.
+#: Words for keys that are ambiguous without their section.
 _KEYS = {"grid.shape": "cells", "grid.size": "extents", "time.end": "until"}
-#: Longer values name nothing; so many differences tell two cases apart.
+#: Longest value in a label, and largest number of differences.
 _LONGEST, _MOST = 24, 2
 
 
 def suggested_title(case: Mapping[str, Any]) -> str:
-    """Return a title for a case that has none of its own.
+    """Return a title for a case without one.
 
     Examples
     --------
@@ -38,12 +38,12 @@ def suggested_title(case: Mapping[str, Any]) -> str:
     body = ", with ".join(_shape(each) for each in shapes)
     below = _material(case.get("material"))
     parts = [f"{body}, on {below}" if body and below else body or below, _load(case.get("load"))]
-    told = ", ".join(part for part in parts if part)
-    return told[:1].upper() + told[1:]
+    title = ", ".join(part for part in parts if part)
+    return title[:1].upper() + title[1:]
 
 
 def label_of(title: str, case: Any, first: Any, taken: Collection[str]) -> str:
-    """Return what a run is called beside others whose cases have the same title.
+    """Return a label for a run among others whose cases have the same title.
 
     Examples
     --------
@@ -54,18 +54,18 @@ def label_of(title: str, case: Any, first: Any, taken: Collection[str]) -> str:
     'Ball (2)'
     """
     changes = () if first is None else differences(first, case)
-    # A list is one value; what is pressed, on what and how, says more than how it is computed.
+    # A list is one value; the physical sections come before the numerical ones.
     places = dict.fromkeys(each.where.partition("[")[0] for each in changes)
     places.pop("title", None)
-    told = [_told(place, case) for place in sorted(places, key=_rank)]
-    more = [f"and {len(told) - _MOST} more"] if len(told) > _MOST else []
-    label = " ".join([", ".join([title, *told[:_MOST]]), *more])
+    words = [_difference(place, case) for place in sorted(places, key=_rank)]
+    more = [f"and {len(words) - _MOST} more"] if len(words) > _MOST else []
+    label = " ".join([", ".join([title, *words[:_MOST]]), *more])
     numbered = (f"{label} ({number})" for number in count(2))
     return label if label not in taken else next(each for each in numbered if each not in taken)
 
 
 def file_stem(label: str, quality: str) -> str:
-    """Return a name for files that are handed out.
+    """Return a name for downloaded files.
 
     Examples
     --------
@@ -74,7 +74,7 @@ def file_stem(label: str, quality: str) -> str:
     """
     words = re.findall(r"\w+", label.lower())
     stem = "-".join(words) or "case"
-    if len(stem) > 80:  # what tells it from others stands at the end
+    if len(stem) > 80:  # the end distinguishes it from others
         stem = f"{stem[:40].strip('-')}-{stem[-39:].strip('-')}"
     return f"{stem}-coarse" if quality == "coarse" else stem
 
@@ -103,13 +103,13 @@ def _load(given: Any) -> str:
     if not isinstance(given, Mapping):
         return ""
     level = next((value for _, value in _sizes(given, _LEVELS)), "")
-    kind, swing = _words(given.get("kind")), _text(given.get("amplitude"))
+    kind, amplitude = _words(given.get("kind")), _text(given.get("amplitude"))
     to = {"step": level, "ramp": f"ramp to {level}", "triangle": f"triangle to {level}"}
-    told = to.get(kind, f"{kind} {level}".strip()) if level else kind
+    words = to.get(kind, f"{kind} {level}".strip()) if level else kind
     duration, aside = _text(given.get("duration")), _text(given.get("eccentricity_x"))
-    told += f" in {duration}" if duration else ""
-    told += f" ± {swing}" if swing else ""
-    return f"{told} off centre by {aside}" if re.match(r"-?[\d.]*[1-9]", aside) else told
+    words += f" in {duration}" if duration else ""
+    words += f" ± {amplitude}" if amplitude else ""
+    return f"{words} off centre by {aside}" if re.match(r"-?[\d.]*[1-9]", aside) else words
 
 
 def _sizes(given: Mapping[Any, Any], keys: tuple[str, ...]) -> Iterator[tuple[str, str]]:
@@ -121,8 +121,8 @@ def _rank(place: str) -> int:
     return _SECTIONS.index(section) if section in _SECTIONS else len(_SECTIONS)
 
 
-def _told(place: str, case: Any) -> str:
-    """A difference in a few words: the last key, and what is there now."""
+def _difference(place: str, case: Any) -> str:
+    """Difference in a few words: the last key and its value."""
     key, now = _KEYS.get(place) or _words(place.rpartition(".")[2]), case
     for step in place.split("."):
         now = now.get(step) if isinstance(now, Mapping) else None
@@ -133,9 +133,9 @@ def _told(place: str, case: Any) -> str:
 
 
 def _text(value: Any) -> str:
-    """A short value as it stands there; nothing of any other."""
-    told = str(value) if isinstance(value, str | int | float) else ""
-    return told if len(told) <= _LONGEST else ""
+    """Text of a short value; empty for any other."""
+    text = str(value) if isinstance(value, str | int | float) else ""
+    return text if len(text) <= _LONGEST else ""
 
 
 def _words(value: Any) -> str:

@@ -1,4 +1,4 @@
-"""Figures as files for a page, light or dark."""
+"""Figures as image files for a light or a dark page."""
 
 from __future__ import annotations
 
@@ -26,18 +26,18 @@ MEDIA_TYPES: dict[str, str] = {
 }
 
 _NO_RESULT = "the run has no result; there is one after its first step"
-#: What is told of a result that cannot be read.
+#: Message about a result that cannot be read.
 DAMAGED = "the result of this run is damaged; delete the run, and run its case again"
 
 #: Colours in a drawing, and no names of its parts.
 _COLOUR = re.compile(rb"""(?<=[:\s"'])#([0-9a-fA-F]{6})(?=[;\s"'])""")
-#: White becomes so light [-]: nearly black.
+#: Lightness that white becomes on a dark page [-].
 _WHITE = 0.12
 
 
 @dataclass(frozen=True)
-class Wish:
-    """What a figure is to show, and how."""
+class FigureChoice:
+    """Choice of a figure: name, format, instants and colours."""
 
     name: str
     kind: Kind = "svg"
@@ -45,46 +45,48 @@ class Wish:
     is_dark: bool = False
 
     def instants(self) -> list[float] | None:
-        """Return the instants [s]; None for the figure's own choice."""
+        """Return the instants [s]; None for the default of the figure."""
         try:
             return [parse_quantity(text, "time") for text in self.times] or None
         except ValueError as error:
             raise RequestError(422, f"time: {error}") from error
 
 
-def figure_of(directory: Path, figures: Mapping[str, Callable[..., Figure]], wish: Wish) -> bytes:
+def figure_of(
+    directory: Path, figures: Mapping[str, Callable[..., Figure]], choice: FigureChoice
+) -> bytes:
     """Draw a figure of a run."""
-    draw, instants = _named(figures, wish.name), wish.instants()
+    draw, instants = _named(figures, choice.name), choice.instants()
     with opened(directory) as ds:
         _refuse_outside(instants, ds)
-        return _drawn(draw, ds, instants, wish)
+        return _drawn(draw, ds, instants, choice)
 
 
 def comparison_of(
-    runs: Mapping[str, Path], figures: Mapping[str, Callable[..., Figure]], wish: Wish
+    runs: Mapping[str, Path], figures: Mapping[str, Callable[..., Figure]], choice: FigureChoice
 ) -> bytes:
     """Draw a figure of several runs."""
-    draw, instants = _named(figures, wish.name), wish.instants()
+    draw, instants = _named(figures, choice.name), choice.instants()
     with ExitStack() as stack:
         results = {label: stack.enter_context(opened(path)) for label, path in runs.items()}
         for ds in results.values():
             _refuse_outside(instants, ds)
-        return _drawn(draw, results, instants, wish)
+        return _drawn(draw, results, instants, choice)
 
 
-def picture(figure: Figure, wish: Wish) -> bytes:
-    """Return a figure as a file."""
-    if wish.kind != "svg":
-        return written(figure, wish.kind)
+def picture(figure: Figure, choice: FigureChoice) -> bytes:
+    """Return a figure as an image file."""
+    if choice.kind != "svg":
+        return written(figure, choice.kind)
     figure.patch.set_alpha(0.0)
     for axes in figure.axes:
         axes.patch.set_alpha(0.0)
     drawn = written(figure, "svg")
-    return on_dark(drawn) if wish.is_dark else drawn
+    return on_dark(drawn) if choice.is_dark else drawn
 
 
 def on_dark(drawing: bytes) -> bytes:
-    """Return a drawing in colours for a dark ground: what was light is dark, in the same hue.
+    """Return a drawing in colours for a dark page: lightness inverted, hue unchanged.
 
     Examples
     --------
@@ -92,7 +94,7 @@ def on_dark(drawing: bytes) -> bytes:
     b'<svg fill="#ffffff" ><path style="fill: #1f1f1f; stroke: #ffffff"/></svg>'
     """
     recoloured = _COLOUR.sub(lambda found: _opposite(found[1].decode()).encode(), drawing)
-    # What has no colour of its own is black.
+    # Parts without a colour are black by default.
     return recoloured.replace(b"<svg ", f'<svg fill="{_opposite("000000")}" '.encode(), 1)
 
 
@@ -104,7 +106,7 @@ def _opposite(colour: str) -> str:
 
 
 def opened(directory: Path) -> xr.Dataset:
-    """Open the result of a run."""
+    """Open the result of a run, or raise RequestError."""
     try:
         ds = open_results(directory)
     except (OSError, ValueError) as error:
@@ -116,9 +118,9 @@ def opened(directory: Path) -> xr.Dataset:
 
 
 def _why_none(directory: Path) -> str:
-    """Why a result cannot be read: it is whole at every moment, unless somebody meddles with it."""
+    """Reason why a result cannot be read."""
     if not directory.parent.exists():
-        return "what this run kept is gone from the folder; delete the run here"
+        return "the files of this run are no longer in the folder; delete the run here"
     if (directory / RESULT_NAME).exists():
         return DAMAGED
     return _NO_RESULT
@@ -133,10 +135,13 @@ def _named(figures: Mapping[str, Callable[..., Figure]], name: str) -> Callable[
 
 
 def _drawn(
-    draw: Callable[..., Figure], results: Any, instants: Sequence[float] | None, wish: Wish
+    draw: Callable[..., Figure],
+    results: Any,
+    instants: Sequence[float] | None,
+    choice: FigureChoice,
 ) -> bytes:
     try:
-        return picture(draw(results, times=instants), wish)
+        return picture(draw(results, times=instants), choice)
     except ValueError as error:
         raise RequestError(422, str(error)) from error
 

@@ -1,4 +1,4 @@
-"""What is wrong with a request, in the words of the command line, and in one form."""
+"""Problems of a request as structured data, from the messages of the command line."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from typing import Any
 
 from viscontact.case import CaseError
 
-#: A key as messages write it: words joined by points, positions in lists in brackets.
+#: Key in a message: words joined by dots, with positions in lists in brackets.
 _KEY = re.compile(r"([A-Za-z_][\w-]*(?:\[\d+\])*(?:\.[A-Za-z_][\w-]*(?:\[\d+\])*)*): ")
 
 
 @dataclass(frozen=True)
 class Problem:
-    """One thing that is wrong."""
+    """Problem with its message, its key in the case and its line."""
 
     message: str
     path: str = ""
@@ -24,22 +24,22 @@ class Problem:
 
 
 class RequestError(Exception):
-    """A request that is not granted."""
+    """Refused request, with its problems as the body of the answer."""
 
     def __init__(self, status: int, *problems: Problem | str) -> None:
         super().__init__(*problems)
         self.status = status
-        told = (Problem(each) if isinstance(each, str) else each for each in problems)
-        self.body: dict[str, Any] = {"problems": [asdict(each) for each in told]}
+        found = (Problem(each) if isinstance(each, str) else each for each in problems)
+        self.body: dict[str, Any] = {"problems": [asdict(each) for each in found]}
 
 
 def case_problems(error: CaseError, path: Path) -> RequestError:
-    """Return what is wrong with a case as an answer."""
+    """Return the problems of a case as a refused request."""
     return RequestError(422, *(problem_of(line, path) for line in error.problems))
 
 
 def problem_of(line: str, path: Path) -> Problem:
-    """Take a message of the command line apart.
+    """Split a message of the command line into message, key and line.
 
     Examples
     --------
@@ -58,7 +58,7 @@ def problem_of(line: str, path: Path) -> Problem:
 
 
 def without_folder(text: str, folder: Path) -> str:
-    """Leave out where files lie, which says nothing to whoever has sent them."""
+    """Return a message without the path of the folder, which is of no use in a browser."""
     return re.sub(rf"{re.escape(str(folder))}[/\\]", "", text)
 
 
@@ -68,5 +68,5 @@ def lines_of(problems: Iterable[Problem]) -> list[str]:
 
 
 def _is_key(text: str, line: int | None) -> bool:
-    """Whether it is a key, and not the name of a file."""
+    """Whether the text is a key, and not a file name."""
     return line is not None or not re.search(r"\.(csv|npz|npy|ya?ml)$", text)
