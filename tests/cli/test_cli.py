@@ -13,6 +13,7 @@ import sys
 import time as clock
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -28,6 +29,7 @@ from viscontact.errors import ConvergenceError
 from viscontact.results.formatting import format_percent
 from viscontact.runs import resources
 from viscontact.runs.directory.progress_log import ProgressLog
+from viscontact.runs.processes.request import RunRequest
 from viscontact.simulation import stepper
 from viscontact.simulation.setup import prepare_run
 from viscontact.units.formatting import format_quantity
@@ -728,8 +730,8 @@ def test_demo_runs_the_shipped_case_to_pictures(folder: Path) -> None:
 def test_second_demo_replaces_the_first(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     whole = execution.execute
 
-    def coarse(case: Path, output: Path, **options: Any) -> Path:
-        return whole(case, output, settings=["grid.shape=[64, 32]", "time.steps=2"], **options)
+    def coarse(request: RunRequest) -> Path:
+        return whole(replace(request, settings=("grid.shape=[64, 32]", "time.steps=2")))
 
     monkeypatch.setattr(execution, "execute", coarse)
     monkeypatch.setattr("viscontact.cli.commands.cases.DEMO_FIGURES", ())

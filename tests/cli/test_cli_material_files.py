@@ -10,7 +10,7 @@ import pytest
 import viscontact as vc
 from viscontact.case import read_case, read_material
 from viscontact.cli import main
-from viscontact.cli.material.material_files import Typed, find_material
+from viscontact.cli.material.material_files import MaterialOptions, find_material
 from viscontact.laws import SeriesLaw
 from viscontact.materials import library
 
@@ -40,7 +40,7 @@ load: {kind: ramp, force: 1 N, duration: 1 s}
 time: {end: 2 s, steps: 4}
 """
 IN_MPA = ["--modulus-unit", "MPa", "--time-unit", "s"]
-READ = Typed(modulus_unit="MPa", time_unit="s")
+READ = MaterialOptions(modulus_unit="MPa", time_unit="s")
 SERIES = [n for n in library.names() if isinstance(vc.shipped_material(n).law, SeriesLaw)]
 
 
@@ -83,7 +83,7 @@ def test_a_table_whose_times_fall_is_the_same_from_its_end(
 def test_measured_rows_are_the_points_of_the_figure_and_their_times_its_range(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    shown = find_material("creep.txt", Typed(data="uniaxial", poisson_ratio=0.3))
+    shown = find_material("creep.txt", MaterialOptions(data="uniaxial", poisson_ratio=0.3))
     [points] = shown.points
     assert points.quantity == "creep_compliance"
     assert points.at.tolist() == [10.0, 1000.0]  # the row at 0 has no place on a log axis
@@ -130,12 +130,12 @@ def test_check_tells_what_stands_in_a_card_and_is_not_used(
         (["relax.csv", "--bulk-modulus", "4 mm"], "--bulk-modulus: cannot read '4 mm'"),
         (["relax.csv", "--data", "shear", "--poisson-ratio", "0.3"], "--data: shear contradicts"),
         (["relax.csv", "--data", "sheer"], "--data: unknown value 'sheer'; did you mean 'shear'?"),
-        (["relax.csv", "--name", "A"], "relax.csv: is a table, to which --name says nothing"),
+        (["relax.csv", "--name", "A"], "relax.csv: is a table, to which --name does not apply"),
         (["creep.txt", "--poisson-ratio", "0.3"], "creep.txt: the headings do not say what kind"),
         (["falling.csv", "--poisson-ratio", "0.3"], "say which with --set: 0 (20 °C), 1 (40 °C)"),
         (["falling.csv", "--poisson-ratio", "0.3", "--set", "7"], "has no set 7; 0 (20 °C), 1"),
         (["dma.csv", "--poisson-ratio", "0.3"], "`viscontact fit dma.csv` finds the law"),
-        (["two.dat"], "two.dat: cards do not say what they are in; add e.g. --modulus-unit MPa"),
+        (["two.dat"], "two.dat: cards do not state their units; add e.g. --modulus-unit MPa"),
         (["two.dat", *IN_MPA, "--name", "A"], "two.dat:8: has temperatures, and cards do not say"),
         (["two.dat", *IN_MPA, "--name", "A"], "give --temperature-unit, e.g. 'degC'"),
         (
@@ -143,19 +143,22 @@ def test_check_tells_what_stands_in_a_card_and_is_not_used(
             "has several materials; choose one with --name: 'A', 'B'",
         ),
         (["ansys.txt", "--modulus-unit", "mm", "--time-unit", "s"], "--modulus-unit: cannot read"),
-        (["ansys.txt", *IN_MPA, "--poisson-ratio", "0.3"], "--poisson-ratio: stands in the card"),
-        (["ansys.txt", *IN_MPA, "--data", "shear"], "is a card, to which --data says nothing"),
+        (["ansys.txt", *IN_MPA, "--poisson-ratio", "0.3"], "--poisson-ratio: is given in the card"),
+        (["ansys.txt", *IN_MPA, "--data", "shear"], "is a card, to which --data does not apply"),
         (["pmma-paper", "--poisson-ratio", "0.3"], "is a shipped material, to which --poisson-rat"),
-        (["pmma-paper", *IN_MPA], "to which --modulus-unit says nothing"),
+        (["pmma-paper", *IN_MPA], "to which --modulus-unit does not apply"),
         (["no.csv"], "no such file no.csv"),
         (["no.inp"], "no such file no.inp"),
         (["pmma-paper", "-o", "pmma.inp"], "-o alone is a figure (.png, .pdf or .svg); add --to a"),
-        (["pmma-paper", "--to", "abaqus", "-o", "p.png"], "p.png: with --to, -o is what is writt"),
+        (
+            ["pmma-paper", "--to", "abaqus", "-o", "p.png"],
+            "p.png: with --to, -o is the file",
+        ),
         (["pmma-paper", "--to", "nastran"], "--to: must be one of abaqus, ansys, csv, got 'nas"),
         (["pmma-paper", "--to", "csv", "--time-unit", "m"], "--time-unit: cannot read 'm'"),
         (["pmma-paper", "--to", "csv", "-o", "no/p.csv"], "no/p.csv: No such file"),
         (["--to", "csv"], "--to csv: name one material"),
-        (["ansys.txt", *IN_MPA, "--to", "csv", "-o", "ansys.txt"], "is the file that is read"),
+        (["ansys.txt", *IN_MPA, "--to", "csv", "-o", "ansys.txt"], "is the input file"),
     ],
 )
 def test_refusals_name_the_option_on_one_line_with_exit_code_2(
@@ -198,7 +201,7 @@ def test_a_shipped_series_is_the_same_after_a_card(
     assert main(["material", name, "--to", form, "-o", file]) == 0
     assert capsys.readouterr().out.strip() == file
     given, found = vc.shipped_material(name), find_material(file, READ).material
-    t = np.geomspace(*find_material(name, Typed()).span(), 40)
+    t = np.geomspace(*find_material(name, MaterialOptions()).span(), 40)
     np.testing.assert_allclose(found.law(t), given.law(t), rtol=1e-8)
     j, k = (each.contact_compliance()(t) for each in (found, given))
     np.testing.assert_allclose(j, k, rtol=1e-8)
@@ -224,7 +227,7 @@ def test_a_card_keeps_its_shift_when_it_is_written_for_the_other_program(folder:
     units = [*IN_MPA, "--temperature-unit", "degC"]
     command = ["material", "two.dat", *units, "--name", "A", "--to", "ansys", "-o", "a.mac"]
     assert main(command) == 0
-    typed = Typed(modulus_unit="MPa", time_unit="s", temperature_unit="degC")
+    typed = MaterialOptions(modulus_unit="MPa", time_unit="s", temperature_unit="degC")
     assert find_material("a.mac", typed).shift == vc.WLF(298.15, 17.44, 51.6)
 
 
@@ -251,8 +254,9 @@ def test_a_table_written_as_csv_is_the_same_table(folder: Path) -> None:
     command = ["material", "creep.txt", "--data", "shear", "--bulk-modulus", "40 GPa"]
     assert main([*command, "--to", "csv", "-o", "law.csv"]) == 0
     assert "bulk_modulus: 4e+10 Pa" in (folder / "law.csv").read_text(encoding="utf-8")
-    found = find_material("law.csv", Typed(bulk_modulus="40 GPa")).material.law
-    given = find_material("creep.txt", Typed(data="shear", bulk_modulus="40 GPa")).material.law
+    found = find_material("law.csv", MaterialOptions(bulk_modulus="40 GPa")).material.law
+    options = MaterialOptions(data="shear", bulk_modulus="40 GPa")
+    given = find_material("creep.txt", options).material.law
     assert isinstance(found, vc.TabulatedCreep)
     assert found.times == given.times
     np.testing.assert_allclose(found.compliance, given.compliance, rtol=1e-11)

@@ -28,7 +28,7 @@ from interrupted_runs import (
     whole,
 )
 from viscontact.cli import main
-from viscontact.cli.run import attempt, execution
+from viscontact.cli.run import checked_run, execution
 from viscontact.cli.terminal.interruption import watched_interruption
 from viscontact.runs.directory import recorder
 from viscontact.runs.directory.lock import locked
@@ -336,7 +336,7 @@ def test_request_before_the_first_step_changes_nothing(
     def preparing(*arguments: Any) -> None:
         signal.raise_signal(signal.SIGTERM)
 
-    monkeypatch.setattr(attempt, "prepare", preparing)
+    monkeypatch.setattr(checked_run, "prepare", preparing)
     assert main(["run", "case.yaml"]) == 130
     assert (
         capsys.readouterr().err == "interrupted before the first step; nothing has been changed\n"

@@ -163,13 +163,13 @@ def test_runs_that_do_not_fit_into_memory_wait_for_one_another(
     found = [job(f"{n}", memory) for n, memory in enumerate((1e8, 2e8, 1.5e8))]
     # the two largest together are too many, whichever of them meet
     assert jobs.fitting(found) == 1
-    said = jobs.warnings(found, wanted=3, at_once=1, threads=1)
+    said = jobs.resource_warnings(found, wanted=3, at_once=1, threads=1)
     assert said == [
         "-j 3: these runs at once would need about 0.450 GB of memory, 0.300 GB are free; "
         "1 at a time"
     ]
     assert jobs.fitting(found[:1] + found[2:]) == 2
-    (crowded,) = jobs.warnings(found[:1] + found[2:], wanted=2, at_once=2, threads=2)
+    (crowded,) = jobs.resource_warnings(found[:1] + found[2:], wanted=2, at_once=2, threads=2)
     assert "2 runs of 2 threads each at once share 2 cores" in crowded
 
 

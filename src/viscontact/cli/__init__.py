@@ -1,7 +1,7 @@
-"""The command line: each command is one call of the package.
+"""Command line: each command is one call of the package.
 
-Nothing heavy is imported until a command needs it, so that ``--help`` answers at once, and
-nothing at all before signals are met.
+Heavy modules are imported only by the commands that need them, so that ``--help`` is fast, and
+nothing is imported before signals are handled.
 """
 
 from viscontact.cli.entry import main

@@ -1,7 +1,7 @@
-"""A run that ends with the process that began it: `python -m viscontact.cli.child_run run CASE`.
+"""Run that ends with its parent process: `python -m viscontact.cli.child_run run CASE`.
 
-Whoever begins it holds the other end of its standard input, and lets go of it to ask it to end, or
-by coming to an end, in whichever way. The step at work is finished then, and saved.
+The parent holds the other end of the standard input. When it closes it, or ends for any reason, the
+current step is finished and saved, and the run ends.
 """
 
 from __future__ import annotations
@@ -15,11 +15,11 @@ from viscontact.cli.entry import main
 
 
 def end_with_parent() -> None:
-    """Ask this process to end as soon as its standard input does."""
-    threading.Thread(target=_outlive_nobody, daemon=True).start()
+    """Stop this process when its standard input is closed."""
+    threading.Thread(target=_stop_at_end_of_input, daemon=True).start()
 
 
-def _outlive_nobody() -> None:
+def _stop_at_end_of_input() -> None:
     while os.read(0, 1):
         pass
     signal.raise_signal(signal.SIGTERM)

@@ -1,4 +1,4 @@
-"""The way in and the way out: signals met from the start, and an exit code, never a traceback."""
+"""Entry point: signals are handled from the start, and errors end in an exit code."""
 
 from __future__ import annotations
 
@@ -8,19 +8,19 @@ from collections.abc import Sequence
 from contextlib import suppress
 
 from viscontact.cli.terminal.interruption import Interruption, watched_interruption
-from viscontact.cli.terminal.messages import INTERRUPTED, REFUSED, STOPPED, say
+from viscontact.cli.terminal.messages import INTERRUPTED, REFUSED, STOPPED, CommandError, say
 from viscontact.cli.terminal.streams import occupy_streams, remember_output, unwritten
 
-#: The libraries take so much before a case has been looked at [bytes]. With a little less some of
-#: them hang, or end the process, instead of saying so.
+#: Memory that the libraries take before a case has been read [bytes]. With a little less some of
+#: them hang or end the process without a message.
 LEAST_MEMORY = 3e8
 
-#: What a loader says of a library for which there is no room.
+#: Messages of the dynamic loader when a library does not fit into memory.
 _NO_ROOM = ("failed to map segment", "cannot allocate memory", "Cannot allocate memory")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command line.
+    """Run the command line, and return its exit code.
 
     Examples
     --------
@@ -33,23 +33,23 @@ def main(arguments: Sequence[str] | None = None) -> int:
         remember_output()
     try:
         return _watched(arguments)
-    except KeyboardInterrupt:  # in the first or the last moment
+    except KeyboardInterrupt:  # before or after the command
         say("interrupted")
         return INTERRUPTED
 
 
 def _watched(arguments: Sequence[str] | None) -> int:
     with watched_interruption(until_exit=arguments is None) as interruption:
-        # Inner products over a contact are too short for the threads of a BLAS, which then wait
-        # for one another: ten times slower on a busy machine. NumPy reads this when imported.
+        # Inner products over a contact are too short for several BLAS threads: up to ten times
+        # slower on a busy machine. NumPy reads these variables when it is imported.
         for library in ("OPENBLAS", "MKL", "OMP", "BLIS"):
             os.environ.setdefault(f"{library}_NUM_THREADS", "1")
-        code = _answered(None if arguments is None else list(arguments), interruption)
+        code = _exit_code(None if arguments is None else list(arguments), interruption)
         interruption.over = True
-        return _written(code)
+        return _flushed(code)
 
 
-def _answered(typed: list[str] | None, interruption: Interruption) -> int:
+def _exit_code(typed: list[str] | None, interruption: Interruption) -> int:
     if _address_space() < LEAST_MEMORY:
         return _lacks_memory()
     try:
@@ -59,14 +59,18 @@ def _answered(typed: list[str] | None, interruption: Interruption) -> int:
         return int(command(typed, prog_name="viscontact", standalone_mode=False) or 0)
     except KeyboardInterrupt:
         return _interrupted(interruption)
-    except SystemExit:  # rich and Typer, when the reader of a pipe has had enough
+    except CommandError as end:
+        for line in end.lines:
+            say(line)
+        return end.code
+    except SystemExit:  # rich and Typer, when the reader of a pipe has closed it
         return STOPPED
     except Exception as error:
         return _error_code(error, interruption)
 
 
-def _written(code: int) -> int:
-    """See to it that all that was printed is written, and say it if not."""
+def _flushed(code: int) -> int:
+    """Flush what was printed; where that fails, report it and return another exit code."""
     error = unwritten("stdout")
     if error is not None:
         code = code or STOPPED
@@ -77,19 +81,19 @@ def _written(code: int) -> int:
 
 
 def _interrupted(interruption: Interruption) -> int:
-    interruption.over = True  # once more changes nothing
+    interruption.over = True  # a further request changes nothing
     say("interrupted")
     return INTERRUPTED
 
 
 def _error_code(error: Exception, interruption: Interruption) -> int:
-    # Typer's own errors know how to show themselves; their class has moved between its versions.
-    show_itself = getattr(error, "show", None)
-    if show_itself is not None:
+    # Typer's own errors have a method `show`; their class differs between its versions.
+    show = getattr(error, "show", None)
+    if show is not None:
         with suppress(OSError):
-            show_itself()
+            show()
         return int(getattr(error, "exit_code", REFUSED))
-    if interruption.seen:  # whatever an import or a library has made of it
+    if interruption.seen:  # an import or a library may have raised another error
         return _interrupted(interruption)
     if isinstance(error, OSError) and (reason := unwritten("stdout")) is not None:
         if not isinstance(reason, BrokenPipeError):
@@ -110,7 +114,7 @@ def _lacks_memory() -> int:
 
 
 def _address_space() -> float:
-    """How many bytes the process may take, where the system sets a limit (not on Windows)."""
+    """Limit on the memory of the process [bytes]; infinite without one, and on Windows."""
     try:
         import resource
     except ImportError:

@@ -1,4 +1,4 @@
-"""The commands together."""
+"""Typer application with all commands."""
 
 from __future__ import annotations
 
@@ -11,11 +11,9 @@ from viscontact.cli.commands.cases import demo, example, schema
 from viscontact.cli.commands.drawing import compare, plot
 from viscontact.cli.commands.fitting import fit
 from viscontact.cli.commands.materials import material
-from viscontact.cli.commands.reporting import report
 from viscontact.cli.commands.running import check, run
 from viscontact.cli.commands.serving import serve
-from viscontact.cli.commands.showing import export, show
-from viscontact.cli.commands.verification import verify
+from viscontact.cli.commands.showing import export, report, show, verify
 
 app = typer.Typer(
     name="viscontact",
@@ -62,8 +60,8 @@ def viscontact(
         ),
     ] = False,
 ) -> None:
-    """Press a body on a creeping half-space and see what happens over time."""
+    """Simulate the contact of a body with a viscoelastic half-space over time."""
 
 
-#: What is typed is read by this: `app` would build it anew for each call.
+#: Click command; calling `app` would build it anew each time.
 command = typer.main.get_command(app)

@@ -1,4 +1,4 @@
-"""`schema`, `example` and `demo`."""
+"""`schema`, `example` and `demo`: the case format and the shipped cases."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from typing import Annotated
 import typer
 
 from viscontact.cli.terminal.messages import refuse
+from viscontact.runs.processes.request import RunRequest
 
 DEMO, DEMO_DIRECTORY = "roller-dogbone-e05", Path("viscontact-demo")
 DEMO_FIGURES = ("pressure-map", "pressure-profile", "contact-outline", "history")
@@ -26,14 +27,16 @@ def schema() -> None:
 
 
 def example(
-    name: Annotated[str | None, typer.Argument(help="Which one; lists them if left out.")] = None,
+    name: Annotated[
+        str | None, typer.Argument(help="Name of the example; by default all are listed.")
+    ] = None,
     output: Annotated[
         Path | None,
-        typer.Option("-o", "--output", metavar="FILE", help="Where to; stdout if left out."),
+        typer.Option("-o", "--output", metavar="FILE", help="File to write; stdout by default."),
     ] = None,
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace FILE.")] = False,
 ) -> None:
-    """Copy a shipped case, to run and to change."""
+    """Copy a shipped case, to run or to change it."""
     if name is None:
         _list_examples()
         return
@@ -45,14 +48,14 @@ def example(
 
 
 def demo(
-    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Only errors.")] = False,
+    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print errors only.")] = False,
 ) -> None:
-    """Press a crowned roller on PMMA for 1000 s and draw what happens, in ./viscontact-demo."""
+    """Press a crowned roller on PMMA for 1000 s and draw the results, in ./viscontact-demo."""
     from viscontact.cli.results.figures import draw
     from viscontact.cli.run.execution import execute
 
     with as_file(_examples()[DEMO]) as case:
-        execute(case, DEMO_DIRECTORY, overwrite=True, quiet=quiet)
+        execute(RunRequest(case, DEMO_DIRECTORY, overwrite=True, quiet=quiet))
     for figure in DEMO_FIGURES:
         draw(DEMO_DIRECTORY, figure, [], None)
     if not quiet:
@@ -62,7 +65,7 @@ def demo(
 
 
 def _typed_command() -> str:
-    """Say what to type for viscontact: its path where the shell does not find its name."""
+    """Command of viscontact: its name, or its path where the shell does not find it."""
     if shutil.which("viscontact"):
         return "viscontact"
     script = shutil.which("viscontact", path=str(Path(sys.executable).parent))
@@ -108,13 +111,13 @@ def _is(path: Path, content: bytes) -> bool:
 
 
 def _data_of(text: str) -> dict[str, bytes]:
-    """Shipped files that a case names."""
+    """Contents of the shipped files that a case names."""
     named = re.findall(r"^[ -]*file: *([\w.-]+)", text, re.MULTILINE)
     return {name: (files("viscontact.examples") / name).read_bytes() for name in named}
 
 
 def _write_example(output: Path, text: str, data: dict[str, bytes], *, overwrite: bool) -> None:
-    """Write the case, its data, and the schema that its first line names to editors."""
+    """Write a case, its data files, and the schema that its first line names."""
     beside = {output.parent / name: content for name, content in data.items()}
     for path in (output, *beside):
         if path.exists() and not (overwrite or (path in beside and _is(path, beside[path]))):

@@ -1,4 +1,4 @@
-"""`plot` and `compare`."""
+"""`plot` and `compare`: figures of one run or several."""
 
 from __future__ import annotations
 
@@ -11,20 +11,20 @@ from viscontact.cli.commands.showing import RunDirectory
 
 Picture = Annotated[
     Path | None,
-    typer.Option("-o", "--output", metavar="FIG.png", help="Where to: .png, .pdf or .svg."),
+    typer.Option("-o", "--output", metavar="FIG.png", help="Figure: .png, .pdf or .svg."),
 ]
-PictureOrFilm = Annotated[
+FigureOrAnimation = Annotated[
     Path | None,
     typer.Option(
         "-o",
         "--output",
         metavar="FIG.png",
-        help="Where to: .png, .pdf or .svg; an animation: .gif or .mp4.",
+        help="Figure: .png, .pdf or .svg; animation: .gif or .mp4.",
     ),
 ]
 Instants = Annotated[
     list[str] | None,
-    typer.Option("--time", metavar="T", help="An instant such as '240 s'; may be repeated."),
+    typer.Option("--time", metavar="T", help="Instant such as '240 s'; may be repeated."),
 ]
 
 
@@ -33,7 +33,7 @@ Width = Annotated[
     typer.Option(
         "--width",
         metavar="WIDTH",
-        help="A column of a journal, single (89 mm) or double (183 mm), or a width as '120 mm'.",
+        help="Width of the figure: single (89 mm), double (183 mm), or a length such as '120 mm'.",
     ),
 ]
 Along = Annotated[
@@ -42,7 +42,9 @@ Along = Annotated[
 ]
 At = Annotated[
     str | None,
-    typer.Option("--at", metavar="PLACE", help="Where it crosses the other axis, such as '2 mm'."),
+    typer.Option(
+        "--at", metavar="PLACE", help="Position of the line on the other axis, such as '2 mm'."
+    ),
 ]
 
 
@@ -58,16 +60,18 @@ def plot(
         ),
     ],
     times: Instants = None,
-    output: PictureOrFilm = None,
+    output: FigureOrAnimation = None,
     width: Width = None,
     along: Along = None,
     at: At = None,
     seconds: Annotated[
-        float | None, typer.Option("--seconds", help="How long an animation lasts; 8 s.")
+        float | None, typer.Option("--seconds", help="Duration of an animation [s]; 8 by default.")
     ] = None,
-    fps: Annotated[float | None, typer.Option("--fps", help="Its frames a second; 15.")] = None,
+    fps: Annotated[
+        float | None, typer.Option("--fps", help="Frames per second; 15 by default.")
+    ] = None,
 ) -> None:
-    """Draw a figure of a run, or a film of it."""
+    """Draw a figure or an animation of a run."""
     from viscontact.cli.results.figures import draw
 
     options = {"width": width, "along": along, "at": at, "seconds": seconds, "fps": fps}

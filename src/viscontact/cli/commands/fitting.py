@@ -1,4 +1,4 @@
-"""`fit`: a law from measured values."""
+"""`fit`: identify a law from measured values."""
 
 from __future__ import annotations
 
@@ -11,35 +11,42 @@ from viscontact.cli.commands.drawing import Width
 
 Table = Annotated[
     Path,
-    typer.Argument(metavar="FILE.csv", help="Measured values; the headings say what they are."),
+    typer.Argument(
+        metavar="FILE.csv", help="Measured values; the headings name the quantities and units."
+    ),
 ]
 Test = Annotated[
     str | None,
     typer.Option(
         "--data",
         metavar="TEST",
-        help="shear (G, 1/G), uniaxial (E, 1/E) or deviatoric (Phi), where the headings do not "
-        "say.",
+        help="Kind of test: shear (G, 1/G), uniaxial (E, 1/E) or deviatoric (Phi); needed where "
+        "the headings do not state it.",
     ),
 ]
 PoissonRatio = Annotated[
-    float | None, typer.Option("--poisson-ratio", metavar="NU", help="Of the body, constant.")
+    float | None,
+    typer.Option("--poisson-ratio", metavar="NU", help="Constant Poisson's ratio of the body."),
 ]
 BulkModulus = Annotated[
     str | None,
-    typer.Option("--bulk-modulus", metavar="K", help="Instead, elastic, such as '4 GPa'."),
+    typer.Option("--bulk-modulus", metavar="K", help="Elastic bulk modulus instead, e.g. '4 GPa'."),
 ]
 Terms = Annotated[
     int | None,
-    typer.Option("--terms", metavar="N", help="At most so many; else as few as needed."),
+    typer.Option(
+        "--terms", metavar="N", help="Largest number of terms; by default as few as needed."
+    ),
 ]
-Fluid = Annotated[bool, typer.Option("--fluid", help="It flows in the end.")]
+Fluid = Annotated[
+    bool, typer.Option("--fluid", help="The material is a fluid: it flows at long times.")
+]
 Reference = Annotated[
     str | None,
     typer.Option(
         "--reference",
         metavar="T",
-        help="Temperature of the master curve, such as '23 degC'; else the set nearest 20 degC.",
+        help="Temperature of the master curve, e.g. '23 degC'; by default the set nearest 20 degC.",
     ),
 ]
 Temperature = Annotated[
@@ -51,8 +58,8 @@ Body = Annotated[
     typer.Option(
         "--indenter",
         metavar="SHAPE",
-        help="Of an indentation record: 'sphere 5 um' (radius), 'cone 70 deg' (half angle) or "
-        "'punch 2 um' (radius).",
+        help="Indenter of an indentation record: 'sphere 5 um' (radius), 'cone 70 deg' (half "
+        "angle) or 'punch 2 um' (radius).",
     ),
 ]
 LawName = Annotated[
@@ -60,17 +67,19 @@ LawName = Annotated[
     typer.Option(
         "--law",
         metavar="LAW",
-        help="Of an indentation record: elastic, maxwell, zener, burgers, creep-series, power-law "
-        "or power-law-with-instant.",
+        help="Law for an indentation record: elastic, maxwell, zener, burgers, creep-series, "
+        "power-law or power-law-with-instant.",
     ),
 ]
 Figure = Annotated[
     Path | None,
-    typer.Option("-o", "--output", metavar="FIG.png", help="Draw it: .png, .pdf or .svg."),
+    typer.Option("-o", "--output", metavar="FIG.png", help="Figure: .png, .pdf or .svg."),
 ]
 Section = Annotated[
     Path | None,
-    typer.Option("--yaml", metavar="OUT.yaml", help="Write the material section there too."),
+    typer.Option(
+        "--yaml", metavar="OUT.yaml", help="Also write the material section to this file."
+    ),
 ]
 
 
@@ -91,13 +100,14 @@ def fit(
 ) -> None:
     """Fit a law to measured creep, relaxation, oscillation or indentation.
 
-    Several temperatures in the file are joined to a master curve, and the shift factors printed.
+    Measurements at several temperatures are joined to a master curve, and the shift factors are
+    printed.
     """
-    from viscontact.cli.material.fit_options import Wishes
+    from viscontact.cli.material.fit_options import FitArguments
     from viscontact.cli.material.fit_report import report_fit
     from viscontact.cli.results.figures import chosen_width
 
-    wishes = Wishes(
+    arguments = FitArguments(
         data=data,
         poisson_ratio=poisson_ratio,
         bulk_modulus=bulk_modulus,
@@ -109,4 +119,4 @@ def fit(
         law=law,
     )
     page = chosen_width(width, drawn=output is not None, switch="-o FIG.png")
-    report_fit(file, wishes, output, section, width=page)
+    report_fit(file, arguments, output, section, width=page)

@@ -1,4 +1,4 @@
-"""`material`: the shipped library, and the curves of a law."""
+"""`material`: list, show, draw and write materials."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from viscontact.cli.commands.drawing import Width
 from viscontact.cli.terminal.messages import refuse
 
 if TYPE_CHECKING:  # heavy, and only to name its type
-    from viscontact.cli.material.material_files import Typed
+    from viscontact.cli.material.material_files import MaterialOptions
 
 Which = Annotated[
     str | None,
     typer.Argument(
         metavar="[NAME|FILE]",
-        help="A shipped material, a case file, a measured table or an Abaqus or Ansys card; "
-        "lists the shipped ones if left out.",
+        help="A shipped material, a case file, a measured table, or an Abaqus or Ansys card; "
+        "by default the shipped materials are listed.",
     ),
 ]
 Output = Annotated[
@@ -27,50 +27,60 @@ Output = Annotated[
         "-o",
         "--output",
         metavar="FILE",
-        help="Draw it: .png, .pdf or .svg; with --to, write it there.",
+        help="Figure (.png, .pdf or .svg); with --to, the file to write.",
     ),
 ]
 Form = Annotated[
     str | None,
-    typer.Option("--to", metavar="FORM", help="Write it instead: abaqus, ansys or csv."),
+    typer.Option(
+        "--to", metavar="FORM", help="Write the material in this form: abaqus, ansys or csv."
+    ),
 ]
 Test = Annotated[
     str | None,
     typer.Option(
         "--data",
         metavar="TEST",
-        help="Of a table: shear (G, 1/G), uniaxial (E, 1/E) or deviatoric (Phi), where the "
-        "headings do not say.",
+        help="Kind of test of a table: shear (G, 1/G), uniaxial (E, 1/E) or deviatoric (Phi); "
+        "needed where the headings do not state it.",
     ),
 ]
 PoissonRatio = Annotated[
     float | None,
-    typer.Option("--poisson-ratio", metavar="NU", help="Of a table's body, constant."),
+    typer.Option(
+        "--poisson-ratio", metavar="NU", help="Constant Poisson's ratio, for a table or a card."
+    ),
 ]
 BulkModulus = Annotated[
     str | None,
-    typer.Option("--bulk-modulus", metavar="K", help="Instead, elastic, such as '4 GPa'."),
+    typer.Option("--bulk-modulus", metavar="K", help="Elastic bulk modulus instead, e.g. '4 GPa'."),
 ]
 SetNumber = Annotated[
-    float | None, typer.Option("--set", metavar="N", help="Which set of a table.")
+    float | None, typer.Option("--set", metavar="N", help="Number of the set in a table.")
 ]
 ModulusUnit = Annotated[
     str | None,
     typer.Option(
-        "--modulus-unit", metavar="UNIT", help="Of a card's moduli; MPa of what is written."
+        "--modulus-unit", metavar="UNIT", help="Unit of a card's moduli; MPa by default with --to."
     ),
 ]
 TimeUnit = Annotated[
     str | None,
-    typer.Option("--time-unit", metavar="UNIT", help="Of a card's times; s of what is written."),
+    typer.Option(
+        "--time-unit", metavar="UNIT", help="Unit of a card's times; s by default with --to."
+    ),
 ]
 TemperatureUnit = Annotated[
     str | None,
-    typer.Option("--temperature-unit", metavar="UNIT", help="Of a card's shift: degC, K."),
+    typer.Option(
+        "--temperature-unit",
+        metavar="UNIT",
+        help="Unit of the temperatures in a card's shift: degC or K.",
+    ),
 ]
 Name = Annotated[
     str | None,
-    typer.Option("--name", metavar="NAME", help="Which material of a card, or its number."),
+    typer.Option("--name", metavar="NAME", help="Name or number of a material in a card."),
 ]
 
 
@@ -88,10 +98,10 @@ def material(
     temperature_unit: TemperatureUnit = None,
     name: Name = None,
 ) -> None:
-    """Show creep and relaxation of a law, and where a shipped one is from; or write it."""
-    from viscontact.cli.material.material_files import Typed
+    """Show creep and relaxation of a material and its source, or write it for another program."""
+    from viscontact.cli.material.material_files import MaterialOptions
 
-    typed = Typed(
+    typed = MaterialOptions(
         data=data,
         poisson_ratio=poisson_ratio,
         bulk_modulus=bulk_modulus,
@@ -105,7 +115,11 @@ def material(
 
 
 def _show_or_write(
-    which: str | None, output: Path | None, width: str | None, to: str | None, typed: Typed
+    which: str | None,
+    output: Path | None,
+    width: str | None,
+    to: str | None,
+    typed: MaterialOptions,
 ) -> None:
     from viscontact.cli.material.material_files import find_material
     from viscontact.cli.material.material_tables import list_library, show_material

@@ -8,14 +8,14 @@ from typing import Annotated
 import typer
 
 from viscontact.cli.commands.drawing import Width
-from viscontact.cli.terminal.interruption import Interruption, watched_interruption
-from viscontact.cli.terminal.messages import INTERRUPTED, stop
+from viscontact.cli.terminal.interruption import watched_interruption
+from viscontact.cli.terminal.messages import INTERRUPTED, refuse, stop
 from viscontact.runs.processes.request import RunRequest
 
 CaseFiles = Annotated[
-    list[Path], typer.Argument(metavar="CASE.yaml...", help="The case file, or several.")
+    list[Path], typer.Argument(metavar="CASE.yaml...", help="Case file, or several.")
 ]
-CaseFile = Annotated[Path, typer.Argument(metavar="CASE.yaml", help="The case file.")]
+CaseFile = Annotated[Path, typer.Argument(metavar="CASE.yaml", help="Case file.")]
 Settings = Annotated[
     list[str] | None,
     typer.Option("--set", metavar="KEY=VALUE", help="Replace a value, e.g. load.force=20kN."),
@@ -26,7 +26,8 @@ Output = Annotated[
         "-o",
         "--output",
         metavar="DIR",
-        help="Where to; CASE/ beside the file. Of several runs each gets a directory in DIR.",
+        help="Run directory; by default CASE/ beside the case file. Several runs get a directory "
+        "each in DIR.",
     ),
 ]
 Varied = Annotated[
@@ -34,10 +35,11 @@ Varied = Annotated[
     typer.Option(
         "--vary",
         metavar="KEY=VALUE,VALUE,...",
-        help="A run for each value, e.g. load.force=5kN,10kN; given again, for each pair.",
+        help="One run for each value, e.g. load.force=5kN,10kN; if repeated, one for each "
+        "combination.",
     ),
 ]
-Threads = Annotated[int, typer.Option(min=1, help="Threads of one Fourier transform.")]
+Threads = Annotated[int, typer.Option(min=1, help="Number of threads of a Fourier transform.")]
 
 
 def run(
@@ -47,71 +49,53 @@ def run(
         bool, typer.Option("--overwrite", help="Replace the result that DIR holds.")
     ] = False,
     resume: Annotated[
-        bool, typer.Option("--resume", help="Go on with the run that DIR holds.")
+        bool, typer.Option("--resume", help="Continue the run that DIR holds.")
     ] = False,
     settings: Settings = None,
     varied: Varied = None,
     jobs: Annotated[
-        int, typer.Option("-j", "--jobs", min=1, metavar="N", help="So many runs at once.")
+        int,
+        typer.Option("-j", "--jobs", min=1, metavar="N", help="Number of runs at the same time."),
     ] = 1,
     threads: Threads = 1,
-    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Only errors.")] = False,
+    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print errors only.")] = False,
 ) -> None:
-    """Run a case and write its result to a directory; or several, each to its own.
+    """Run a case and write its result to a directory; several runs get a directory each.
 
-    Several:  viscontact run my.yaml --vary load.force=5kN,10kN,20kN -j 2 -o forces
+    Several runs:  viscontact run my.yaml --vary load.force=5kN,10kN,20kN -j 2 -o forces
     """
-    given = tuple(settings or ())
-    request = RunRequest(cases[0], output, overwrite, resume, given, threads, quiet)
+    common = RunRequest(cases[0], output, overwrite, resume, tuple(settings or ()), threads, quiet)
     try:
         with watched_interruption() as interruption:
+            # An import that is interrupted may end in any error: the request waits for its end.
+            with interruption.postponed():
+                from viscontact.cli.many.jobs import ManyRequest
+                from viscontact.cli.many.schedule import execute_many
+                from viscontact.cli.run.execution import execute
             if len(cases) == 1 and not varied:
-                _run_one(request, interruption)
+                execute(common)
             else:
-                _run_many(cases, request, varied or [], jobs, interruption)
+                execute_many(ManyRequest(tuple(cases), common, tuple(varied or ()), jobs))
     except KeyboardInterrupt:
         stop("interrupted", code=INTERRUPTED)
-
-
-def _run_one(request: RunRequest, interruption: Interruption) -> None:
-    # An import that is interrupted may end in any error: the request waits for its end.
-    with interruption.postponed():
-        from viscontact.cli.run.execution import execute
-    execute(
-        request.case,
-        request.output,
-        overwrite=request.overwrite,
-        resume=request.resume,
-        settings=request.settings,
-        threads=request.threads,
-        quiet=request.quiet,
-    )
-
-
-def _run_many(
-    cases: list[Path], common: RunRequest, varied: list[str], jobs: int, interruption: Interruption
-) -> None:
-    with interruption.postponed():
-        from viscontact.cli.many.request import ManyRequest
-        from viscontact.cli.many.schedule import execute_many
-    execute_many(ManyRequest(tuple(cases), common, tuple(varied), jobs))
 
 
 def check(
     case: CaseFile,
     figure: Annotated[
         Path | None,
-        typer.Argument(metavar="FIG.png", help="With --plot: where to; CASE-indenter.png."),
+        typer.Argument(
+            metavar="FIG.png", help="With --plot: the figure; by default CASE-indenter.png."
+        ),
     ] = None,
-    plot: Annotated[bool, typer.Option("--plot", help="Draw the indenter, too.")] = False,
+    plot: Annotated[bool, typer.Option("--plot", help="Draw the indenter as well.")] = False,
     width: Width = None,
     settings: Settings = None,
 ) -> None:
-    """Check a case, and say how large it is, how long it takes and what to expect."""
+    """Check a case, and estimate its size, its computing time and its results."""
     from viscontact.cli.results.figures import chosen_width
     from viscontact.cli.run.check import draw_body, print_forecast
-    from viscontact.cli.run.preparation import prepare
-    from viscontact.cli.terminal.messages import refuse
+    from viscontact.cli.run.checked_run import prepare
 
     if figure is not None and not plot:
         refuse(f"{figure}: a picture goes with --plot, as in: check {case} --plot {figure}")

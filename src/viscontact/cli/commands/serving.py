@@ -1,4 +1,4 @@
-"""`serve`."""
+"""`serve`: the calculator page."""
 
 from __future__ import annotations
 
@@ -26,26 +26,29 @@ def serve(
             metavar="N",
             min=0,
             max=65535,
-            help="Which port; 0 for any, 8377 or the next one free if left out.",
+            help="Port; 0 for any free one. By default 8377, or the next free one.",
         ),
     ] = None,
     directory: Annotated[
         Path | None,
         typer.Option(
-            "--dir", metavar="DIR", help="Where runs and files are kept; your folder for data."
+            "--dir",
+            metavar="DIR",
+            help="Directory of runs and files; by default in your folder for application data.",
         ),
     ] = None,
     jobs: Annotated[
-        int | None, typer.Option("-j", "--jobs", min=1, metavar="N", help="So many runs at once.")
+        int | None,
+        typer.Option("-j", "--jobs", min=1, metavar="N", help="Number of runs at the same time."),
     ] = None,
     browser: Annotated[
-        bool, typer.Option("--open/--no-open", help="Show the page in the browser.")
+        bool, typer.Option("--open/--no-open", help="Open the page in the browser.")
     ] = True,
 ) -> None:
-    """Serve the calculator page, to this machine only, until Ctrl-C.
+    """Serve the calculator page to this machine only, until Ctrl-C.
 
-    Ctrl-C ends it with exit code 0. Runs at work finish their step and save first. When the page is
-    served from the same DIR again, they are there and can be gone on with.
+    Ctrl-C ends it with exit code 0; active runs finish their step and save first. When the page is
+    served from the same DIR again, they can be continued.
     """
     with watched_interruption() as interruption:
         with interruption.postponed():
@@ -55,20 +58,20 @@ def serve(
             listener = server.listening(port)
         address = server.address_of(listener)
 
-        def tell() -> None:
+        def announce() -> None:
             print(f"{address}  (Ctrl-C ends it; runs and files are in {folder})", flush=True)
             if browser and _has_display():
                 webbrowser.open(address)
 
         with _refusing(port, folder), interruption.marching(), suppress(KeyboardInterrupt):
-            server.serve(folder, listener, jobs, lambda: interruption.requested, tell)
+            server.serve(folder, listener, jobs, lambda: interruption.requested, announce)
         interruption.over = True
         say("ended")
 
 
 @contextmanager
 def _refusing(port: int | None, folder: Path) -> Iterator[None]:
-    """Refuse a port that is taken, and a folder that cannot be used or is in use."""
+    """Refuse a port or a folder that cannot be used."""
     from viscontact.runs.directory.lock import DirectoryInUse
     from viscontact.web.server import PortError
 
@@ -79,13 +82,13 @@ def _refusing(port: int | None, folder: Path) -> Iterator[None]:
     except DirectoryInUse:
         refuse(f"{folder}: another viscontact serves from there; choose another --dir DIR")
     except OSError as error:
-        # What is said of the lock names an option that runs have.
+        # The message of the lock names an option of `run`.
         cause = error.__cause__ if isinstance(error.__cause__, OSError) else error
         refuse(f"{folder}: cannot be used: {cause.strerror or cause}; choose another --dir DIR")
 
 
 def _server() -> Any:
-    """Return `viscontact.web.server`, or say what it needs."""
+    """Return `viscontact.web.server`, or name the missing package."""
     try:
         from viscontact.web import server
     except ModuleNotFoundError as error:
@@ -96,7 +99,7 @@ def _server() -> Any:
 
 
 def _has_display() -> bool:
-    """Whether a browser would show up beside the terminal, and not in it."""
+    """Whether a browser would open in a window, and not in the terminal."""
     if sys.platform in ("win32", "darwin"):
         return True
     return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))

@@ -1,56 +1,105 @@
-"""Several runs, all checked before the first of them begins."""
+"""Runs of one command, all checked before the first of them begins."""
 
 from __future__ import annotations
 
-import io
 from collections import Counter
-from collections.abc import Sequence
-from contextlib import redirect_stderr, suppress
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, replace
 from os import cpu_count
 from pathlib import Path
 
-import typer
-
-from viscontact.cli.many.request import ManyRequest
-from viscontact.cli.many.variations import as_typed
-from viscontact.cli.run.attempt import attempted
-from viscontact.cli.terminal.interruption import Interruption
-from viscontact.cli.terminal.messages import refuse
+from viscontact.cli.many.variations import as_typed, variations
+from viscontact.cli.run.checked_run import checked_run
+from viscontact.cli.run.run_directory import chosen_directory
+from viscontact.cli.terminal.messages import CommandError, refuse
 from viscontact.run_files import LOCK_NAME
 from viscontact.runs import resources
 from viscontact.runs.directory.lock import DirectoryInUse, locked
 from viscontact.runs.free_memory import available_memory
 from viscontact.runs.processes.job import Job
-from viscontact.runs.processes.request import RunRequest
+from viscontact.runs.processes.request import RunRequest, command, no_option
 from viscontact.units.formatting import format_number
 
 
-def checked_jobs(request: ManyRequest, interruption: Interruption) -> list[Job]:
-    """Check runs, all of them before any is refused."""
+@dataclass(frozen=True)
+class ManyRequest:
+    """Arguments of ``viscontact run`` with several cases or varied values.
+
+    The case of `common` is ignored; its output is the directory of the run directories.
+    """
+
+    cases: tuple[Path, ...]
+    common: RunRequest
+    varied: tuple[str, ...] = ()
+    jobs: int = 1
+
+    def runs(self) -> list[RunRequest]:
+        """Return one request for each combination of case and varied values."""
+        found = []
+        for case in self.cases:
+            for variation in variations(self.varied, self.common.settings):
+                settings = (*self.common.settings, *variation.settings)
+                output = self._output(case, variation.name)
+                found.append(replace(self.common, case=case, output=output, settings=settings))
+        return found
+
+    @property
+    def resuming(self) -> str:
+        """Command that resumes all of them, quoted for a shell.
+
+        Examples
+        --------
+        >>> common = RunRequest(Path("a.yaml"), output=Path("all"))
+        >>> ManyRequest((Path("a.yaml"), Path("b.yaml")), common, jobs=2).resuming
+        'viscontact run a.yaml b.yaml -o all -j 2 --resume'
+        """
+        return command(*self._words(), "--resume")
+
+    def _words(self) -> Iterator[str]:
+        yield from (no_option(case) for case in self.cases)
+        _, *options = replace(self.common, resume=False, overwrite=False).words()
+        yield from options
+        for text in self.varied:
+            yield from ("--vary", text)
+        if self.jobs != 1:
+            yield from ("-j", str(self.jobs))
+
+    def _output(self, case: Path, name: str) -> Path | None:
+        """Directory of a run: CASE/ or CASE_KEY=VALUE/, by default beside the case file."""
+        if self.common.output is None and not name:
+            return None
+        if not case.stem:
+            refuse(f"{case}: there is no name in it for a directory; give the file another one")
+        beside = chosen_directory(case, None)
+        parent = beside.parent if self.common.output is None else self.common.output
+        return parent / "_".join(filter(None, (beside.name, name)))
+
+
+def checked_jobs(request: ManyRequest) -> list[Job]:
+    """Check all runs of a request; the problems of all of them are reported together."""
     jobs: list[Job] = []
     problems: dict[str, list[RunRequest]] = {}
     requests = request.runs()
     for each in requests:
-        said = io.StringIO()
         try:
-            with redirect_stderr(said):
-                jobs.append(_checked(each, interruption))
-        except typer.Exit:
-            for line in said.getvalue().splitlines():
+            jobs.append(_checked(each))
+        except CommandError as refusal:
+            for line in refusal.lines:
                 problems.setdefault(as_typed(line, request.varied), []).append(each)
     if problems:
-        refuse(*(_told(line, concerned, requests) for line, concerned in problems.items()))
+        refuse(*(_attributed(line, runs, requests) for line, runs in problems.items()))
     _refuse_shared_directories(jobs)
     return _named(jobs)
 
 
 def fitting(jobs: Sequence[Job]) -> int:
-    """Return how many runs at once, whichever they are, fit into the memory that is free."""
+    """Return how many of the runs fit into the free memory at the same time, at least 1."""
     return max(1, resources.fitting((job.memory for job in jobs), available_memory()))
 
 
-def warnings(jobs: Sequence[Job], wanted: int, at_once: int, threads: int) -> list[str]:
-    """Say where more is asked for than the machine has."""
+def resource_warnings(jobs: Sequence[Job], wanted: int, at_once: int, threads: int) -> list[str]:
+    """Return a line for each resource of the machine that the runs exceed."""
     lines = []
     if at_once < min(wanted, len(jobs)):
         needed = sum(sorted(job.memory for job in jobs)[-wanted:])
@@ -78,17 +127,17 @@ def usable_cores() -> int:
     return cpu_count() or 1
 
 
-def _checked(request: RunRequest, interruption: Interruption) -> Job:
-    attempt = attempted(request, interruption)
-    stands = attempt.standing()
-    directory, run = attempt.recorded.directory, attempt.recorded.run
+def _checked(request: RunRequest) -> Job:
+    checked = checked_run(request)
+    standing = checked.standing()
+    directory, run = checked.recorded.directory, checked.recorded.run
     _refuse_in_use(directory)
     cells = run.grid.shape[0] * run.grid.shape[1]
     return Job(
         request,
         directory,
         directory.name,
-        stands,
+        standing,
         len(run.times) if run.adaptive is None else None,
         float(run.times[-1]),
         cells * (1.0 + resources.step_count(run)),
@@ -106,22 +155,22 @@ def _refuse_in_use(directory: Path) -> None:
         refuse(str(error))
 
 
-def _told(line: str, concerned: list[RunRequest], requests: Sequence[RunRequest]) -> str:
-    """A problem, with the values that have it, where others of the same case do not."""
+def _attributed(line: str, concerned: list[RunRequest], requests: Sequence[RunRequest]) -> str:
+    """Add the varied values to a problem that other runs of the same case do not have."""
     cases = {each.case for each in concerned}
     others = [each for each in requests if each.case in cases and each not in concerned]
     if not others:
         return line
     common = set.intersection(*(set(each.settings) for each in requests))
     varied = [[text for text in each.settings if text not in common] for each in concerned]
-    told = {", ".join(texts): None for texts in varied}
-    if len(told) == 1 and all(text.partition("=")[2].strip() in line for text in varied[0]):
+    combinations = {", ".join(texts): None for texts in varied}
+    if len(combinations) == 1 and all(text.partition("=")[2].strip() in line for text in varied[0]):
         return line
-    return f"{line} [with {'; '.join(told)}]"
+    return f"{line} [with {'; '.join(combinations)}]"
 
 
 def _refuse_shared_directories(jobs: Sequence[Job]) -> None:
-    # Where the case of letters does not count, MPa and mPa are one name.
+    # On a file system that ignores the case of letters, MPa and mPa are the same name.
     places = [str(job.directory.resolve()).casefold() for job in jobs]
     for place, count in Counter(places).items():
         if count > 1:
@@ -133,7 +182,7 @@ def _refuse_shared_directories(jobs: Sequence[Job]) -> None:
 
 
 def _named(jobs: list[Job]) -> list[Job]:
-    """Call runs by their directories' names, and by the way there where that is not enough."""
+    """Name runs after their directories, with the whole path where names are equal."""
     count = Counter(job.name for job in jobs)
     return [
         job if count[job.name] == 1 else Job(**{**vars(job), "name": str(job.directory)})

@@ -22,12 +22,12 @@ from viscontact.runs.processes.child import Child, Ended
 from viscontact.runs.processes.job import Job
 from viscontact.units.formatting import format_quantity
 
-#: Plain lines come at this part of all the work, or after so many seconds.
+#: A plain line is printed after this part of all the work, or after this time [s].
 _LINE_PART, _LINE_SECONDS = 0.1, 30.0
 
 
 class RunsDisplay:
-    """Runs, shown as they go on; this one shows nothing."""
+    """Progress of several runs; this base class displays nothing."""
 
     def __init__(self, jobs: Sequence[Job]) -> None:
         self._work = {job.directory: job.work for job in jobs}
@@ -35,19 +35,19 @@ class RunsDisplay:
         self._count = len(jobs)
         self._ended = 0
 
-    def goes_on(self, active: Sequence[Child]) -> None:
-        """Show how far the runs have come."""
+    def update(self, active: Sequence[Child]) -> None:
+        """Display the progress of the active runs."""
         for child in active:
             self._parts[child.job.directory] = child.course.part
 
-    def ends(self, ended: Ended) -> None:
-        """Show that a run has ended."""
+    def end(self, ended: Ended) -> None:
+        """Display that a run has ended."""
         self._ended += 1
         self._parts[ended.job.directory] = 1.0
 
     @property
     def _part(self) -> float:
-        """How much of all the work is done."""
+        """Completed part of all the work, 0 to 1."""
         done = sum(self._parts[place] * work for place, work in self._work.items())
         return done / sum(self._work.values())
 
@@ -57,7 +57,7 @@ class RunsDisplay:
 
 
 class _Lines(RunsDisplay):
-    """A line for each run that ends, and one now and then."""
+    """A line for each run that ends, and one at intervals."""
 
     def __init__(self, jobs: Sequence[Job]) -> None:
         super().__init__(jobs)
@@ -65,10 +65,10 @@ class _Lines(RunsDisplay):
         self._before: float | None = None
         self._next = 0.0
 
-    def goes_on(self, active: Sequence[Child]) -> None:
-        super().goes_on(active)
+    def update(self, active: Sequence[Child]) -> None:
+        super().update(active)
         part, now = self._part, clock.perf_counter()
-        if self._before is None:  # what earlier processes did says nothing about the time left
+        if self._before is None:  # work of earlier processes is left out of the estimate
             self._before, self._next = part, part + _LINE_PART
         is_due = part >= self._next or now - self._said_at >= _LINE_SECONDS
         if not is_due or part >= 1 or part <= self._before:
@@ -77,13 +77,13 @@ class _Lines(RunsDisplay):
         left = (now - self._started) / (part - self._before) * (1 - part)
         say(f"{part:.0%} done, {self._runs}, about {left:.0f} s left")
 
-    def ends(self, ended: Ended) -> None:
-        super().ends(ended)
+    def end(self, ended: Ended) -> None:
+        super().end(ended)
         say(f"{ended.job.name}: {ended.outcome}; {self._runs}")
 
 
 class _Bars(RunsDisplay):
-    """A bar for all, and one for each that is at work."""
+    """A bar for all runs together, and one for each active run."""
 
     def __init__(self, jobs: Sequence[Job], bars: Progress) -> None:
         super().__init__(jobs)
@@ -91,8 +91,8 @@ class _Bars(RunsDisplay):
         self._all = bars.add_task("all", total=1.0, details=self._runs)
         self._tasks: dict[str, TaskID] = {}
 
-    def goes_on(self, active: Sequence[Child]) -> None:
-        super().goes_on(active)
+    def update(self, active: Sequence[Child]) -> None:
+        super().update(active)
         for child in active:
             name = child.job.name
             if name not in self._tasks:
@@ -102,8 +102,8 @@ class _Bars(RunsDisplay):
             )
         self._bars.update(self._all, completed=self._part, details=self._runs)
 
-    def ends(self, ended: Ended) -> None:
-        super().ends(ended)
+    def end(self, ended: Ended) -> None:
+        super().end(ended)
         if ended.job.name in self._tasks:
             self._bars.remove_task(self._tasks.pop(ended.job.name))
         self._bars.update(self._all, completed=self._part, details=self._runs)
@@ -111,7 +111,7 @@ class _Bars(RunsDisplay):
 
 @contextmanager
 def shown_runs(jobs: Sequence[Job], *, quiet: bool) -> Iterator[RunsDisplay]:
-    """Show how several runs go on."""
+    """Choose how the progress of several runs is displayed."""
     if quiet or not jobs:
         yield RunsDisplay(jobs)
     elif sys.stderr.isatty():
@@ -120,7 +120,7 @@ def shown_runs(jobs: Sequence[Job], *, quiet: bool) -> Iterator[RunsDisplay]:
         try:
             yield _Bars(jobs, bars)
         finally:
-            # A terminal that is gone is no reason for runs to fail.
+            # A closed terminal is not a reason for runs to fail.
             with suppress(OSError):
                 bars.stop()
     else:

@@ -1,4 +1,4 @@
-"""Several runs, some of them at once: scheduled, shown, and stopped together."""
+"""Scheduler of several runs: started, displayed and stopped together."""
 
 from __future__ import annotations
 
@@ -7,19 +7,18 @@ from collections import deque
 from collections.abc import Sequence
 from contextlib import suppress
 
-from viscontact.cli.many.jobs import checked_jobs, fitting, warnings
+from viscontact.cli.many.jobs import ManyRequest, checked_jobs, fitting, resource_warnings
 from viscontact.cli.many.progress import RunsDisplay, shown_runs
-from viscontact.cli.many.request import ManyRequest
 from viscontact.cli.many.table import print_table
 from viscontact.cli.many.variations import as_typed
-from viscontact.cli.run.execution import before_the_first_step, tidy
+from viscontact.cli.run.execution import before_the_first_step, remove_leftovers
 from viscontact.cli.terminal.interruption import Interruption, watched_interruption
 from viscontact.cli.terminal.messages import DONE, INTERRUPTED, STOPPED, refuse, say, stop
 from viscontact.cli.terminal.streams import printing, unwritten
 from viscontact.runs.processes.child import Child, Ended
 from viscontact.runs.processes.job import Job, Standing
 
-#: Time between two looks at the runs [s].
+#: Time between two checks of the runs [s].
 PAUSE = 0.05
 
 
@@ -30,20 +29,19 @@ def execute_many(request: ManyRequest) -> None:
     quiet = request.common.quiet
     with watched_interruption() as interruption:
         with before_the_first_step():
-            jobs = checked_jobs(request, interruption)
+            jobs = checked_jobs(request)
             left = [job for job in jobs if job.standing is not Standing.FINISHED]
             at_once = min(request.jobs, fitting(left), max(1, len(left)))
-            for line in (
-                () if quiet else warnings(left, request.jobs, at_once, request.common.threads)
-            ):
-                say(line)
+            if not quiet:
+                for line in resource_warnings(left, request.jobs, at_once, request.common.threads):
+                    say(line)
         with shown_runs(left, quiet=quiet) as shown:
             ended = _Schedule(left, at_once, interruption, shown).run()
     _end(request, jobs, ended)
 
 
 class _Schedule:
-    """Runs that wait, are at work, and have ended."""
+    """Waiting, active and ended runs of one command."""
 
     def __init__(
         self, jobs: Sequence[Job], at_once: int, interruption: Interruption, shown: RunsDisplay
@@ -54,22 +52,22 @@ class _Schedule:
         self._at_once, self._interruption, self._shown = at_once, interruption, shown
 
     def run(self) -> list[Ended]:
-        """Let all runs go to their ends, or stop them as soon as somebody wants that."""
+        """Run all jobs, or stop them as soon as it is requested."""
         try:
             with self._interruption.marching():
                 while self._active or (self._waiting and not self._interruption.requested):
-                    self._look_after()
+                    self._poll()
                     if self._interruption.requested:
                         self._stop()
         except KeyboardInterrupt:
-            pass  # asked a second time; their own second request has reached them too
+            pass  # the second request; the processes have received it as well
         finally:
             self._stop()
             with suppress(KeyboardInterrupt), self._interruption.postponed():
                 self._ended.extend(child.wait() for child in self._active)
         return self._ended
 
-    def _look_after(self) -> None:
+    def _poll(self) -> None:
         while self._waiting and len(self._active) < self._at_once:
             with self._interruption.postponed():
                 self._start(self._waiting.popleft())
@@ -80,8 +78,8 @@ class _Schedule:
                 if (ended := child.ended()) is not None:
                     self._active.remove(child)
                     self._ended.append(ended)
-                    self._shown.ends(ended)
-        self._shown.goes_on(self._active)
+                    self._shown.end(ended)
+        self._shown.update(self._active)
 
     def _start(self, job: Job) -> None:
         try:
@@ -89,21 +87,21 @@ class _Schedule:
         except OSError as error:
             why = f"{job.directory}: the run cannot be started: {error}"
             self._ended.append(Ended(job, "stopped", STOPPED, (why,)))
-            self._shown.ends(self._ended[-1])
+            self._shown.end(self._ended[-1])
 
     def _stop(self) -> None:
-        """Begin no further run, and let those at work finish their steps and save."""
+        """Start no further run, and let the active ones finish their steps and save."""
         self._waiting.clear()
         for child in self._active:
             child.ask_to_stop()
 
 
 def _end(request: ManyRequest, jobs: Sequence[Job], ended: Sequence[Ended]) -> None:
-    """Say how all runs ended, and end with the worst of their codes."""
+    """Print how all runs ended, and end with the worst of their exit codes."""
     by_place = {each.job.directory: each for each in ended}
     runs = [by_place.get(job.directory) or _not_marched(job) for job in jobs]
     if not request.common.quiet:
-        _tell(runs)
+        _print_table(runs)
     for each in runs:
         for line in each.said if each.code else ():
             say(as_typed(line, request.varied))
@@ -118,11 +116,11 @@ def _end(request: ManyRequest, jobs: Sequence[Job], ended: Sequence[Ended]) -> N
 def _not_marched(job: Job) -> Ended:
     if job.standing is not Standing.FINISHED:
         return Ended(job, "not begun", INTERRUPTED)
-    tidy(job.directory)
+    remove_leftovers(job.directory)
     return Ended(job, "was finished", DONE)
 
 
-def _tell(runs: Sequence[Ended]) -> None:
+def _print_table(runs: Sequence[Ended]) -> None:
     try:
         with printing():
             print_table(runs)

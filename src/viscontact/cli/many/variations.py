@@ -1,4 +1,4 @@
-"""Values that are varied: `--vary KEY=VALUE,VALUE,...`, each combination of them a run."""
+"""Combinations of varied values: `--vary KEY=VALUE,VALUE,...`."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ _OPENING, _CLOSING, _QUOTES = "[{", "]}", "\"'"
 
 @dataclass(frozen=True)
 class Variation:
-    """One combination of varied values."""
+    """One combination of varied values, as `--set` takes them, and a name for its directory."""
 
     settings: tuple[str, ...] = ()
     name: str = ""
 
 
 def variations(varied: Sequence[str], settings: Sequence[str] = ()) -> list[Variation]:
-    """Return every combination of the values of `--vary`, the last key's changing fastest.
+    """Return all combinations of the values of `--vary`; those of the last key change fastest.
 
     Examples
     --------
@@ -44,7 +44,7 @@ def variations(varied: Sequence[str], settings: Sequence[str] = ()) -> list[Vari
 
 
 def as_typed(line: str, varied: Sequence[str]) -> str:
-    """Return what is said of a setting under the option by which it was given.
+    """Name the option `--vary` in a message about a varied value.
 
     Examples
     --------
@@ -75,7 +75,7 @@ def _key(text: str) -> str:
 
 
 def _split(text: str) -> list[str]:
-    """Split at the commas that stand outside of brackets and quotes."""
+    """Split at commas outside brackets and quotes."""
     pieces, depth, quote = [""], 0, ""
     for letter in text:
         if quote:
@@ -98,13 +98,13 @@ def _refuse_keys_given_twice(keys: list[str], varied: set[str]) -> None:
 
 
 def _short_names(keys: list[str]) -> dict[str, str]:
-    """The last part of each key, or all of it where several end in the same."""
+    """Last part of each key, or the whole key where that is ambiguous."""
     last = {key: key.rpartition(".")[2] for key in keys}
     count = Counter(last.values())
     return {key: name if count[name] == 1 else key for key, name in last.items()}
 
 
 def _safe(text: str) -> str:
-    """What may stand in the name of a directory on any system."""
+    """Text with only those characters that directory names may have on any system."""
     words = re.sub(r"[^\w.+%-]+", "-", re.sub(r"\s+", "", text))
     return words.strip("-.") if text.strip()[:1] != "-" else "-" + words.strip("-.")

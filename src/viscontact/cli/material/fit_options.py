@@ -1,4 +1,4 @@
-"""What was typed behind `fit`, and what it means for a table."""
+"""Arguments of `fit`, and their meaning for a table."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from viscontact.units.parsing import parse_quantity
 
 
 @dataclass(frozen=True)
-class Wishes:
-    """What was typed behind `fit`, not yet understood."""
+class FitArguments:
+    """Arguments of `fit`, as typed."""
 
     data: str | None
     poisson_ratio: float | None
@@ -25,7 +25,7 @@ class Wishes:
     law: str
 
     def options(self, table: Table) -> FitOptions:
-        """Return what the fit of a series is asked for."""
+        """Return the options for the fit of a series to a table."""
         data = self.data or table.data
         if data is None:
             raise ValueError(
@@ -44,7 +44,7 @@ class Wishes:
         return options
 
     def volume(self) -> tuple[float | None, float | None]:
-        """Return Poisson's ratio and the bulk modulus, as far as given [-, Pa]."""
+        """Return Poisson's ratio [-] and the bulk modulus [Pa], None where not given."""
         if self.bulk_modulus is None:
             return self.poisson_ratio, None
         try:
@@ -53,7 +53,7 @@ class Wishes:
             raise ValueError(f"--bulk-modulus: {error}") from None
 
     def indenter_of(self, table: Table) -> Indenter:
-        """Return what made an indentation record."""
+        """Return the indenter of an indentation record."""
         if self.indenter is None:
             raise ValueError(
                 f"{table.source.name}: an indentation record needs --indenter, such as "
@@ -68,7 +68,7 @@ class Wishes:
         return read_indenter(self.indenter)
 
     def _refuse_idle(self, table: Table) -> None:
-        """Refuse options that an indentation record has no use for, rather than pass them over."""
+        """Refuse options that do not apply to an indentation record."""
         options = {
             "--data": self.data is not None,
             "--fluid": self.fluid,
@@ -116,6 +116,6 @@ def read_indenter(text: str) -> Indenter:
     except ValueError as error:
         raise ValueError(f"--indenter: {error}") from None
     raise ValueError(
-        f"--indenter: {text!r} is no indenter; write e.g. 'sphere 5 um', 'cone 70 deg' or "
+        f"--indenter: {text!r} is not an indenter; write e.g. 'sphere 5 um', 'cone 70 deg' or "
         "'punch 2 um'"
     )

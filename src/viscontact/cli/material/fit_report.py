@@ -1,4 +1,4 @@
-"""What `fit` finds, prints, draws and writes."""
+"""Fit of a measured table: printed, drawn and written."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.cli.material.fit_options import Wishes, read_kelvin
+from viscontact.cli.material.fit_options import FitArguments, read_kelvin
 from viscontact.cli.results.figures import plot_package
 from viscontact.cli.terminal.messages import refuse, say
 from viscontact.errors import AccuracyWarning
@@ -37,18 +37,18 @@ _ROOM = 293.15  # [K]
 
 def report_fit(
     file: Path,
-    wishes: Wishes,
+    arguments: FitArguments,
     output: Path | None,
     section: Path | None,
     *,
     width: str | float | None = None,
 ) -> None:
-    """Fit, print, draw and write, or refuse in one line."""
+    """Fit a law to a table; print it, and draw and write it where files are named."""
     table = _read(file)
     if table.left_out:
-        say(f"{file.name}: not understood and left out: {', '.join(table.left_out)}")
+        say(f"{file.name}: columns not recognized and left out: {', '.join(table.left_out)}")
     try:
-        text, draw = _found(table, wishes)
+        text, draw = _fitted(table, arguments)
     except ValueError as error:
         refuse(table.located(error))
     print(f"\n{text}")
@@ -59,7 +59,7 @@ def report_fit(
 
 
 class _Drawing:
-    """A figure that is made only when it is asked for: matplotlib may be missing."""
+    """Figure that is drawn only when it is saved, as matplotlib may be missing."""
 
     def __init__(self, name: str, *shown: object, **options: object) -> None:
         self._name, self._shown, self._options = name, shown, options
@@ -70,25 +70,25 @@ class _Drawing:
         plot.save_figure(draw(*self._shown, width=width, **self._options), path)
 
 
-def _found(table: Table, wishes: Wishes) -> tuple[str, _Drawing]:
-    """Return the material section and the figure of what is in the table."""
+def _fitted(table: Table, arguments: FitArguments) -> tuple[str, _Drawing]:
+    """Return the material section and the figure for a table."""
     if "force" in table and "approach" in table:
-        return _from_indentation(table, wishes)
-    if wishes.indenter is not None:
+        return _from_indentation(table, arguments)
+    if arguments.indenter is not None:
         raise ValueError(
             f"{table.source.name}: --indenter goes with columns time, approach and force; there "
             f"are {', '.join(table.columns)}"
         )
     sets = table.sets()
     if len(sets) > 1:
-        return _from_sets(table, sets, wishes)
-    if wishes.reference is not None or wishes.temperature is not None:
+        return _from_sets(table, sets, arguments)
+    if arguments.reference is not None or arguments.temperature is not None:
         raise ValueError(
             f"{table.source.name}: --reference and --temperature go with several temperatures; "
             "there is one set"
         )
     points, measured = _columns(table)
-    options = wishes.options(table)
+    options = arguments.options(table)
     if "compliance" in measured:
         fit = fit_creep(points, measured["compliance"], **options)
     elif "modulus" in measured:
@@ -97,45 +97,47 @@ def _found(table: Table, wishes: Wishes) -> tuple[str, _Drawing]:
         storage, loss = measured["storage"], measured["loss"]
         fit = fit_dynamic(points, storage, loss, **options)
     print(table.located(ValueError(repr(fit))))
-    fit = _with_volume(fit, wishes)
+    fit = _with_volume(fit, arguments)
     return material_section(fit), _Drawing("fitted_series", fit)
 
 
-def _from_sets(table: Table, sets: tuple[Table, ...], wishes: Wishes) -> tuple[str, _Drawing]:
-    """Join sets of several temperatures, print the shift factors and the fit."""
-    options = wishes.options(table)
+def _from_sets(
+    table: Table, sets: tuple[Table, ...], arguments: FitArguments
+) -> tuple[str, _Drawing]:
+    """Join sets of several temperatures to a master curve; print the shift factors and the fit."""
+    options = arguments.options(table)
     isotherms = [_isotherm(one) for one in sets]
     temperatures = [isotherm.temperature for isotherm in isotherms]
     reference = (
         min(temperatures, key=lambda kelvin: abs(kelvin - _ROOM))
-        if wishes.reference is None
-        else read_kelvin("--reference", wishes.reference)
+        if arguments.reference is None
+        else read_kelvin("--reference", arguments.reference)
     )
     curve = build_master_curve(isotherms, reference)
     rules = _rules(curve)
     _print_shifts(curve, rules)
-    fit = _with_volume(fit_master_curve(curve, **options), wishes)
+    fit = _with_volume(fit_master_curve(curve, **options), arguments)
     print(f"\nAt {_celsius(reference)}:\n{fit!r}")
     drawing = _Drawing("master_curve", curve, fit=fit, rules=rules)
-    if wishes.temperature is None:
+    if arguments.temperature is None:
         return material_section(fit), drawing
-    asked = read_kelvin("--temperature", wishes.temperature)
-    factor = curve.shift.factor(asked)
-    print(f"At {_celsius(asked)} everything takes {factor:.4g} times as long (by the table above).")
+    wanted = read_kelvin("--temperature", arguments.temperature)
+    factor = curve.shift.factor(wanted)
+    print(f"At {_celsius(wanted)} all times are {factor:.4g} times as long (from the table above).")
     slowed = dataclasses.replace(fit, law=fit.law.slowed(factor), series=fit.series.slowed(factor))
     return material_section(slowed), drawing
 
 
-def _from_indentation(table: Table, wishes: Wishes) -> tuple[str, _Drawing]:
-    indenter = wishes.indenter_of(table)
+def _from_indentation(table: Table, arguments: FitArguments) -> tuple[str, _Drawing]:
+    indenter = arguments.indenter_of(table)
     record = IndentationRecord(indenter, table["time"], table["approach"], table["force"])
-    poisson_ratio, bulk_modulus = wishes.volume()
+    poisson_ratio, bulk_modulus = arguments.volume()
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", AccuracyWarning)
         fit = fit_indentation(
             record,
-            wishes.law,
-            terms=1 if wishes.terms is None else wishes.terms,
+            arguments.law,
+            terms=1 if arguments.terms is None else arguments.terms,
             poisson_ratio=poisson_ratio,
             bulk_modulus=bulk_modulus,
         )
@@ -152,9 +154,9 @@ def _read(file: Path) -> Table:
         refuse(str(error))
 
 
-def _with_volume(fit: Fit, wishes: Wishes) -> Fit:
-    """Return the fit with what is known of the volume, which data in shear say nothing of."""
-    poisson_ratio, bulk_modulus = wishes.volume()
+def _with_volume(fit: Fit, arguments: FitArguments) -> Fit:
+    """Return the fit with the given volume constants, which shear data do not determine."""
+    poisson_ratio, bulk_modulus = arguments.volume()
     if fit.data == "uniaxial" or (poisson_ratio is None and bulk_modulus is None):
         return fit
     material = Material(fit.law, poisson_ratio, bulk_modulus=bulk_modulus)
@@ -195,7 +197,7 @@ def _rules(curve: MasterCurve) -> list[ShiftFit]:
     for fitted in (curve.fit_wlf, curve.fit_arrhenius):
         try:
             rules.append(fitted())
-        except ValueError:  # too few temperatures, or none that differ
+        except ValueError:  # too few different temperatures
             continue
     return rules
 
@@ -209,7 +211,7 @@ def _print_shifts(curve: MasterCurve, rules: list[ShiftFit]) -> None:
         share = f"{100 * mismatch:.2g} %" if np.isfinite(mismatch) else "-"
         print(f"{in_celsius(temperature):9.2f}  {np.log10(factor):10.3f}  {share}")
     for rule in rules:
-        print(f"{_constants(rule)}, misses them by {rule.residual:.2g} decades (rms)")
+        print(f"{_constants(rule)}, deviates by {rule.residual:.2g} decades (rms)")
 
 
 def _constants(rule: ShiftFit) -> str:

@@ -1,4 +1,4 @@
-"""Which material is meant: a shipped one, a case file, a measured table, or a card."""
+"""Material from a name or a file: shipped, case file, measured table or card."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ _KEYS = re.compile(r"\b(poisson_ratio|bulk_modulus|modulus_unit|time_unit|temper
 
 
 @dataclass(frozen=True)
-class Typed:
-    """What was typed to say how a file is meant, not yet understood."""
+class MaterialOptions:
+    """Options that say how a material file is to be read, as typed."""
 
     data: str | None = None
     poisson_ratio: float | None = None
@@ -37,28 +37,28 @@ class Typed:
     name: str | None = None
 
     def given(self, *keys: str) -> dict[str, Any]:
-        """Return those of the options that were given, by their keys."""
+        """Return the given ones of these options, by their keys."""
         values = {key: getattr(self, key) for key in keys}
         return {key: value for key, value in values.items() if value is not None}
 
 
-def find_material(which: str, typed: Typed, *, writes: bool = False) -> MaterialDisplay:
-    """Return a material by its shipped name, or from a file of any kind."""
+def find_material(which: str, typed: MaterialOptions, *, writes: bool = False) -> MaterialDisplay:
+    """Return a material by its shipped name or from a file; refuse options without effect."""
     idle = ["data", "set", "name", "poisson_ratio", "bulk_modulus"]
     units = [] if writes else ["modulus_unit", "time_unit", "temperature_unit"]
     if which in materials.names():
-        _refuse_idle(which, "a shipped material", typed, [*idle, *units])
+        _refuse_unused(which, "a shipped material", typed, [*idle, *units])
         return MaterialDisplay(which, shipped_material(which), materials.entry(which))
     path = Path(which)
     _refuse_unknown(which, path)
     kind = _kind(path)
     if kind == "table":
-        _refuse_idle(which, "a table", typed, ["name", *units])
+        _refuse_unused(which, "a table", typed, ["name", *units])
         return _from_table(path, typed)
     if kind == "card":
-        _refuse_idle(which, "a card", typed, ["data", "set"])
+        _refuse_unused(which, "a card", typed, ["data", "set"])
         return _from_card(path, typed)
-    _refuse_idle(which, "a case file", typed, [*idle, *units])
+    _refuse_unused(which, "a case file", typed, [*idle, *units])
     try:
         return MaterialDisplay(which, read_material(path))
     except CaseError as error:
@@ -77,13 +77,13 @@ def _refuse_unknown(which: str, path: Path) -> None:
     )
 
 
-def _refuse_idle(which: str, what: str, typed: Typed, keys: list[str]) -> None:
+def _refuse_unused(which: str, what: str, typed: MaterialOptions, keys: list[str]) -> None:
     for key in typed.given(*keys):
-        refuse(f"{which}: is {what}, to which {_option(key)} says nothing; leave it out")
+        refuse(f"{which}: is {what}, to which {_option(key)} does not apply; leave it out")
 
 
 def _kind(path: Path) -> str:
-    """Tell a case file, a card and a table apart: suffixes are as people like them."""
+    """Return "case", "card" or "table", from the suffix or the content."""
     suffix = path.suffix.lower()
     if suffix in _CASE_SUFFIXES or path.is_dir():
         return "case"
@@ -98,14 +98,14 @@ def _kind(path: Path) -> str:
     return "card" if suffix in _CARD_SUFFIXES else "table"
 
 
-def _from_table(path: Path, typed: Typed) -> MaterialDisplay:
+def _from_table(path: Path, typed: MaterialOptions) -> MaterialDisplay:
     try:
         table = read_table(path)
         quantity = _quantity(table)
     except ValueError as error:
         refuse(str(error))
     if table.left_out:
-        say(f"{path.name}: not understood and left out: {', '.join(table.left_out)}")
+        say(f"{path.name}: columns not recognized and left out: {', '.join(table.left_out)}")
     data = typed.data or table.data
     if data is None:
         refuse(
@@ -118,7 +118,7 @@ def _from_table(path: Path, typed: Typed) -> MaterialDisplay:
 
 
 def _quantity(table: Table) -> str:
-    """Return which column is the law; ValueError if there is none over time."""
+    """Return the name of the column with the law; ValueError without one over time."""
     found = [quantity for quantity in _QUANTITIES if quantity in table]
     if not found or "time" not in table:
         hint = ""
@@ -133,10 +133,10 @@ def _quantity(table: Table) -> str:
     return found[0]
 
 
-def _from_card(path: Path, typed: Typed) -> MaterialDisplay:
+def _from_card(path: Path, typed: MaterialOptions) -> MaterialDisplay:
     if typed.modulus_unit is None or typed.time_unit is None:
         refuse(
-            f"{path.name}: cards do not say what they are in; add e.g. --modulus-unit MPa "
+            f"{path.name}: cards do not state their units; add e.g. --modulus-unit MPa "
             "--time-unit s"
         )
     keys = ("modulus_unit", "time_unit", "temperature_unit", "name")
@@ -153,7 +153,7 @@ def _from_card(path: Path, typed: Typed) -> MaterialDisplay:
 
 
 def _read(path: Path, section: dict[str, Any]) -> Any:
-    """Read a section as a case file would have it, and say in options what it lacks."""
+    """Read a material section; errors name the options of the command line."""
     try:
         return read_section(section, path)
     except CaseError as error:
@@ -169,7 +169,7 @@ def _in_options(path: Path, line: str) -> str:
     why = _KEYS.sub(lambda match: _option(match[1]), why)
     why = why.replace("say which with set:", "say which with --set:")
     why = why.replace("; name one of ", "; choose one with --name: ").replace("name=", "--name")
-    # Only a case file says what columns mean.
+    # Only a case file can name the columns.
     why = why.replace("with columns=", "in a case file with columns: ")
     if "smooth out the noise" in why:
         why += f"; `viscontact fit {path}` does"

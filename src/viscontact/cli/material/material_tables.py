@@ -1,4 +1,4 @@
-"""What `material` prints and draws."""
+"""Printing and drawing of materials by `material`."""
 
 from __future__ import annotations
 
@@ -48,13 +48,13 @@ def list_library(output: Path | None = None) -> None:
         cells = (cell.ljust(width) for cell, width in zip(row, widths, strict=True))
         print("  ".join(cells).rstrip())
         print(f"    {each.title} ({each.cite})")
-    print("viscontact material NAME tells all of one; -o FIG.png draws it against its source")
+    print("viscontact material NAME shows all data of one; -o FIG.png draws it with its source")
 
 
 def show_material(
     shown: MaterialDisplay, output: Path | None, width: str | float | None = None
 ) -> None:
-    """Print, and draw if a file is named, one material."""
+    """Print a material, and draw it where a file is named."""
     if output is not None and (form := _WRITTEN.get(output.suffix.lower())):
         refuse(f"{output}: -o alone is a figure (.png, .pdf or .svg); add --to {form}")
     if shown.entry is not None:
@@ -68,7 +68,7 @@ def show_material(
 
 
 def _print_about(shown: MaterialDisplay) -> None:
-    """Print what a file says besides."""
+    """Print the further contents of a file."""
     if shown.card_name:
         print(f"  material      {shown.card_name}")
     if shown.shift is not None:
@@ -132,7 +132,7 @@ def _values(shown: MaterialDisplay) -> Table:
     low, high = round(math.log10(first)), round(math.log10(last))
     times = np.logspace(low, high, high - low + 1, dtype=np.float64)
     law = shown.material.law
-    # It is 1/(2 G(t)) of an elastic law only.
+    # Phi = 1/(2 G(t)) holds for an elastic law only.
     columns = {"creep Φ = 1/(2G)" if isinstance(law, Elastic) else "creep Φ": (law(times), "1/Pa")}
     if float(law(0.0)) > 0:
         columns["relaxation G"] = (law.relaxation(times), "Pa")
@@ -154,7 +154,7 @@ def _values(shown: MaterialDisplay) -> Table:
 
 
 def _in_unit(values: NDArray[np.float64], unit: str) -> tuple[str, list[str]]:
-    # By the middle of what spans many decades, without what a fluid has left in the end.
+    # Unit of the geometric mean, without the vanishing modulus of a fluid at long times.
     good = values[values > _DEPTH * values.max()]
     middle = float(np.exp(np.mean(np.log(good))))
     if unit == "1/Pa":

@@ -1,4 +1,4 @@
-"""A material written as a card of another program, or as a table."""
+"""Material written as a card of another program or as a table."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.cli.material.material_files import Typed
+from viscontact.cli.material.material_files import MaterialOptions
 from viscontact.cli.material.named_material import MaterialDisplay
 from viscontact.cli.terminal.messages import refuse, say
 from viscontact.laws import TabulatedCreep, TabulatedRelaxation
@@ -19,28 +19,30 @@ from viscontact.units.parsing import parse_unit
 
 FORMS = ("abaqus", "ansys", "csv")
 _ROWS_PER_DECADE = 20
-# A fluid's modulus ends in nothing, which is no measured one.
+# Relative modulus [-] below which a fluid's modulus counts as vanished.
 _LEAST_MODULUS = 1e-9
 _FIGURES = (".png", ".pdf", ".svg")
 
 
-def write_material(shown: MaterialDisplay, form: str, typed: Typed, output: Path | None) -> None:
+def write_material(
+    named: MaterialDisplay, form: str, typed: MaterialOptions, output: Path | None
+) -> None:
     """Write a material to a file, or print it."""
     if output is not None and output.suffix.lower() in _FIGURES:
-        refuse(f"{output}: with --to, -o is what is written; leave --to out for a figure")
-    if output is not None and _is_same(output, Path(shown.name)):
-        refuse(f"{output}: is the file that is read; give another one")
-    for note in shown.notes:
+        refuse(f"{output}: with --to, -o is the file to write; leave --to out for a figure")
+    if output is not None and _is_same(output, Path(named.name)):
+        refuse(f"{output}: is the input file; give another one")
+    for note in named.notes:
         say(f"note: {note}")
     moduli, times = typed.modulus_unit or "MPa", typed.time_unit or "s"
     _require_units(moduli, times)
     try:
         if form == "csv":
-            text = _table(shown, moduli, times)
+            text = _table(named, moduli, times)
         else:
-            text = _card(shown, form, moduli, times, typed.temperature_unit)
+            text = _card(named, form, moduli, times, typed.temperature_unit)
     except ValueError as error:
-        refuse(f"{shown.name}: {_with_remedy(str(error), shown.name)}")
+        refuse(f"{named.name}: {_with_remedy(str(error), named.name)}")
     _put(text, output)
 
 
@@ -59,9 +61,9 @@ def _require_units(moduli: str, times: str) -> None:
             refuse(f"{option}: {error}")
 
 
-def _card(shown: MaterialDisplay, form: str, moduli: str, times: str, degrees: str | None) -> str:
-    name = shown.card_name or _plain(shown)
-    card = Card(name, shown.material, shown.shift)
+def _card(named: MaterialDisplay, form: str, moduli: str, times: str, degrees: str | None) -> str:
+    name = named.card_name or _plain(named)
+    card = Card(name, named.material, named.shift)
     if form == "abaqus":
         return write_abaqus(card, modulus_unit=moduli, time_unit=times, temperature_unit=degrees)
     number = int(name) if name.isascii() and name.isdigit() and int(name) > 0 else 1
@@ -70,9 +72,9 @@ def _card(shown: MaterialDisplay, form: str, moduli: str, times: str, degrees: s
     )
 
 
-def _plain(shown: MaterialDisplay) -> str:
-    """Return a name that any program takes."""
-    name = shown.name if shown.entry is not None else Path(shown.name).stem
+def _plain(named: MaterialDisplay) -> str:
+    """Return a name that any program accepts."""
+    name = named.name if named.entry is not None else Path(named.name).stem
     return re.sub(r"[^\w-]", "_", name, flags=re.ASCII)[:80]
 
 
@@ -87,28 +89,28 @@ def _with_remedy(why: str, name: str) -> str:
     )
 
 
-def _table(shown: MaterialDisplay, moduli: str, times: str) -> str:
+def _table(named: MaterialDisplay, moduli: str, times: str) -> str:
     """Return creep compliance and relaxation modulus in shear over log time."""
-    if shown.shift is not None:
+    if named.shift is not None:
         say("note: the table holds the law at its reference temperature, without its shift")
-    material = shown.material
+    material = named.material
     second, pascal = parse_unit(times, "time"), parse_unit(moduli, "pressure")
-    columns = _columns(shown)
+    columns = _columns(named)
     units = {"time": times, "J": _reciprocal(moduli), "G": moduli}
     factors = {"time": 1 / second, "J": pascal, "G": 1 / pascal}
     heads = [f"{name} [{units[name]}]" for name in columns]
     rows = zip(*(factors[name] * values for name, values in columns.items()), strict=True)
     lines = [
-        f"# {_plain(shown)}: creep compliance J = 2 Phi and relaxation modulus G in shear",
+        f"# {_plain(named)}: creep compliance J = 2 Phi and relaxation modulus G in shear",
         f"# law: table; quantity: creep_compliance; data: shear; {_volume(material)}",
     ]
     return "\n".join([*lines, ",".join(heads), *(_line(*row) for row in rows)]) + "\n"
 
 
-def _columns(shown: MaterialDisplay) -> dict[str, NDArray[np.float64]]:
-    law = shown.material.law
-    instants = _instants(shown)
-    # Conversion by numbers may waver in its last digits; a law must not.
+def _columns(named: MaterialDisplay) -> dict[str, NDArray[np.float64]]:
+    law = named.material.law
+    instants = _instants(named)
+    # Numerical interconversion may oscillate in its last digits; a table must be monotonic.
     columns = {"time": instants, "J": 2 * np.maximum.accumulate(law(instants))}
     if float(law(0.0)) > 0:
         columns["G"] = np.minimum.accumulate(law.relaxation(instants))
@@ -117,20 +119,20 @@ def _columns(shown: MaterialDisplay) -> dict[str, NDArray[np.float64]]:
     return columns
 
 
-def _instants(shown: MaterialDisplay) -> NDArray[np.float64]:
-    """Return a table's own times, or some over log time and the instant of loading [s]."""
-    law = shown.material.law
+def _instants(named: MaterialDisplay) -> NDArray[np.float64]:
+    """Times of the rows [s]: a table's own, or logarithmic ones with 0 in front."""
+    law = named.material.law
     if isinstance(law, TabulatedCreep | TabulatedRelaxation):
         return np.asarray(law.times, dtype=np.float64)
-    first, last = shown.span()
+    first, last = named.span()
     count = max(2, math.ceil(_ROWS_PER_DECADE * math.log10(last / first)) + 1)
     instants = np.geomspace(first, last, count, dtype=np.float64)
-    # Without an instant compliance the row at 0 would make the first rows straight in time.
+    # Without an instantaneous compliance, a row at 0 would make the law linear up to the next row.
     return np.concatenate(([0.0], instants)) if float(law(0.0)) > 0 else instants
 
 
 def _reciprocal(unit: str) -> str:
-    """Return how the unit of a compliance is written, e.g. 1/MPa."""
+    """Return the unit of a compliance, e.g. 1/MPa."""
     for written in (f"1/{unit}", f"1/({unit})"):
         try:
             if math.isclose(parse_unit(written, "compliance") * parse_unit(unit, "pressure"), 1):

@@ -1,4 +1,4 @@
-"""A material as the command line shows it: with its name, where it is from, and its range."""
+"""Material with its name, source and measured range, for display."""
 
 from __future__ import annotations
 
@@ -13,13 +13,16 @@ from viscontact.laws import SeriesLaw, Shift, TabulatedCreep, TabulatedRelaxatio
 from viscontact.materials.library import Entry, Points
 from viscontact.materials.material import Material
 
-# A law that says nothing about its times is shown over these [s].
+# Time span for a law without time constants [s].
 _ANY_TIMES = (1e-3, 1e6)
 
 
 @dataclass(frozen=True)
 class MaterialDisplay:
-    """A material to show or to write."""
+    """Material to show or to write, with its library entry or its data from a card.
+
+    `name` is a shipped name or a file; `notes` list the contents of the file that are not used.
+    """
 
     name: str
     material: Material
@@ -30,7 +33,7 @@ class MaterialDisplay:
 
     @property
     def measured(self) -> tuple[float, float] | None:
-        """First and last time on which the law rests, as far as known [s]."""
+        """First and last measured time, None where unknown [s]."""
         if self.entry is not None:
             return self.entry.measured
         until = self.material.known_until
@@ -41,7 +44,7 @@ class MaterialDisplay:
 
     @property
     def points(self) -> tuple[Points, ...]:
-        """Measured values: those of the library's source, or the rows of a table."""
+        """Measured values of the library's source, or the rows of a table."""
         if self.entry is not None:
             return self.entry.points
         law = self.material.law
@@ -52,7 +55,7 @@ class MaterialDisplay:
         return ()
 
     def span(self) -> tuple[float, float]:
-        """First and last time that something is known of, above 0 [s]."""
+        """First and last time above 0 that the law is known for [s]."""
         law = self.material.law
         if _is_table(law):
             return min(time for time in law.times if time > 0), law.times[-1]
@@ -63,9 +66,9 @@ class MaterialDisplay:
         return first or last * 1e-4, last
 
     def times(self) -> tuple[float, float]:
-        """First and last time worth a look [s]: a decade more than is known."""
+        """First and last time of a display [s]: a decade beyond the known times."""
         first, last = self.span()
-        # Whole decades, so that a table has round times.
+        # Whole decades give round times in a table.
         low = math.floor(math.log10(first) + 1e-9)
         high = math.ceil(math.log10(last) - 1e-9)
         margin = 1 if self.measured else 0
@@ -77,13 +80,13 @@ def _is_table(law: object) -> TypeGuard[TabulatedCreep | TabulatedRelaxation]:
 
 
 def _rows(quantity: str, times: Sequence[float], values: Sequence[float]) -> Points:
-    # A row at 0 has no place on a logarithmic axis.
+    # A logarithmic axis has no 0.
     at, measured = np.asarray(times, dtype=np.float64), np.asarray(values, dtype=np.float64)
     return Points(quantity, "the table's rows", at[at > 0], measured[at > 0], 0.0)
 
 
 def _own_times(material: Material) -> tuple[float, float]:
-    """Over what times a law made of exponentials changes [s]."""
+    """Time span over which a law of exponentials changes [s]."""
     law = material.law
     times = law.creep_series().times if isinstance(law, SeriesLaw) else ()
     return (min(times) / 100, max(times) * 100) if times else _ANY_TIMES

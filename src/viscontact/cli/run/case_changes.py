@@ -1,4 +1,4 @@
-"""What differs between the case of a run and the one it is to go on as, in the user's words."""
+"""Differences between the case of a stored run and the case now, in the keys of the file."""
 
 from __future__ import annotations
 
@@ -14,14 +14,18 @@ from viscontact.runs.directory.differences import Difference, differences
 from viscontact.units.dimensions import DIMENSIONS
 from viscontact.units.parsing import parse_quantity
 
-#: So many lines say enough.
+#: Largest number of lines.
 _MOST = 12
-# They change no number.
-_OF_NO_ACCOUNT = ("title",)
+# Keys without influence on the numbers.
+_IRRELEVANT = ("title",)
 
 
 def case_changes(kept: Path, case: Case, computed: Iterable[Difference]) -> list[str]:
-    """Say what has changed in a case."""
+    """Return a line for each change of the case.
+
+    The computed differences, in SI units, are used where the files are equal, as when a table that
+    they name has changed.
+    """
     try:
         written = differences(read_document(kept).data, parse(case.text)[0])
     except CaseError:
@@ -32,7 +36,7 @@ def case_changes(kept: Path, case: Case, computed: Iterable[Difference]) -> list
 
 
 def _means_the_same(change: Difference) -> bool:
-    if change.where in _OF_NO_ACCOUNT:
+    if change.where in _IRRELEVANT:
         return True
     return any(
         isclose(one, other, rel_tol=1e-12)

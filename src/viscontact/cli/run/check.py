@@ -1,4 +1,4 @@
-"""What `check` prints."""
+"""Report and drawing of `check`."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ from viscontact.runs.check_report import (
 from viscontact.runs.forecast import Forecast
 from viscontact.runs.preparation import PreparedRun
 
-#: Two lists below each other have their values in line.
+#: Width of the first column, so that the values of both lists are aligned.
 _NAMES = len("peak pressure")
 
 
 def print_forecast(prepared: PreparedRun) -> Forecast:
-    """Print what a run will need and what it may find."""
+    """Print the resources that a run needs and the results to expect."""
     try:
         expected = predicted(prepared)
     except CaseError as error:
@@ -52,7 +52,7 @@ def draw_body(
     picture: Path | None,
     width: str | float | None = None,
 ) -> None:
-    """Draw the indenter, on the grid's part of the surface and as far as it goes beside it."""
+    """Draw the indenter on the grid and beside it, with the expected contact shaded."""
     plot, found, run = plot_package(), expected.estimate, prepared.run
     contact = found and (found.centre_x, found.centre_y, found.length, found.width)
     path = prepared.case.document.path

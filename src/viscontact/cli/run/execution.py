@@ -1,15 +1,15 @@
-"""A run from its case file to its directory."""
+"""Execution of a run, from its case file to its run directory."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack, closing, contextmanager, suppress
 from functools import partial
 from pathlib import Path
 
-from viscontact.cli.run.attempt import Attempt, attempted
+from viscontact.cli.run.checked_run import CheckedRun, checked_run
 from viscontact.cli.run.resuming import refuse_changed
-from viscontact.cli.run.run_directory import taken, write_case
+from viscontact.cli.run.run_directory import reserved, write_case
 from viscontact.cli.run.summary import print_summary
 from viscontact.cli.terminal.interruption import Interruption, watched_interruption
 from viscontact.cli.terminal.messages import INTERRUPTED, refuse, say, stop
@@ -25,49 +25,41 @@ from viscontact.runs.processes.request import RunRequest
 from viscontact.units.formatting import format_quantity
 
 
-def execute(
-    path: Path,
-    output: Path | None = None,
-    *,
-    overwrite: bool = False,
-    resume: bool = False,
-    settings: Sequence[str] | None = None,
-    threads: int = 1,
-    quiet: bool = False,
-) -> Path:
-    """Run a case and write its result."""
-    if overwrite and resume:
+def execute(request: RunRequest) -> Path:
+    """Run a case and write its result; return the run directory."""
+    if request.overwrite and request.resume:
         refuse("--resume goes on with a run and --overwrite begins it anew: give one of them")
-    request = RunRequest(path, output, overwrite, resume, tuple(settings or ()), threads, quiet)
     with watched_interruption() as interruption:
         with before_the_first_step():
-            attempt = attempted(request, interruption)
-            # Looked at before anything is created, and again once no other run can change it.
-            stands = attempt.standing()
-        directory = attempt.recorded.directory
-        if stands is not Standing.FINISHED:
-            with taken(directory):
-                stands = attempt.standing()
-                if stands is not Standing.FINISHED:
-                    _run(attempt, stands)
+            checked = checked_run(request)
+            # Checked before anything is created, and again when the directory is locked.
+            standing = checked.standing()
+        directory = checked.recorded.directory
+        if standing is not Standing.FINISHED:
+            with reserved(directory):
+                standing = checked.standing()
+                if standing is not Standing.FINISHED:
+                    _run(checked, standing, interruption)
                     return directory
-    _say_finished(attempt)
+    _say_finished(checked)
     return directory
 
 
-def _run(attempt: Attempt, stands: Standing) -> None:
-    """Begin or go on, to the end; the directory is this run's alone."""
+def _run(checked: CheckedRun, standing: Standing, interruption: Interruption) -> None:
+    """Compute the run from its beginning or its last saved step; the directory is locked."""
     with before_the_first_step():
-        record = _begun(attempt) if stands is Standing.NEW else _taken_up(attempt)
+        if standing is Standing.NEW:
+            record = _new_record(checked, interruption)
+        else:
+            record = _resumed_record(checked, interruption)
     with closing(record):
-        _march(attempt, record)
-    if not attempt.request.quiet:
-        _tell(attempt)
+        _march(checked, record, interruption)
+    if not checked.request.quiet:
+        _print_summary(checked.recorded.directory)
 
 
-def _tell(attempt: Attempt) -> None:
-    """Print the summary; the run is finished, whether or not anybody reads it."""
-    directory = attempt.recorded.directory
+def _print_summary(directory: Path) -> None:
+    """Print the summary of a finished run; an output that cannot be written is no failure."""
     try:
         with printing():
             print_summary(directory)
@@ -78,40 +70,40 @@ def _tell(attempt: Attempt) -> None:
         say(f"{directory}: the run is finished; its table cannot be printed: {why}")
 
 
-def _begun(attempt: Attempt) -> RunRecord:
-    recorded, postponed = attempt.recorded, attempt.interruption.postponed
-    if attempt.request.resume:
-        attempt.say(f"{recorded.directory}: nothing is saved there yet; starting at the beginning")
-    write = partial(_write_case, attempt)
+def _new_record(checked: CheckedRun, interruption: Interruption) -> RunRecord:
+    recorded, postponed = checked.recorded, interruption.postponed
+    if checked.request.resume:
+        checked.say(f"{recorded.directory}: nothing is saved there yet; starting at the beginning")
+    write = partial(write_case, recorded.directory, checked.prepared.case)
     try:
-        return _whole(postponed, partial(RunRecord, recorded, write, postponed))
+        return _opened_record(postponed, partial(RunRecord, recorded, write, postponed))
     except OSError as error:
         refuse(f"{recorded.directory}: cannot be written: {error}")
 
 
-def _taken_up(attempt: Attempt) -> RunRecord:
-    recorded, postponed = attempt.recorded, attempt.interruption.postponed
-    write = partial(_write_case, attempt)
+def _resumed_record(checked: CheckedRun, interruption: Interruption) -> RunRecord:
+    recorded, postponed = checked.recorded, interruption.postponed
+    write = partial(write_case, recorded.directory, checked.prepared.case)
     try:
-        record = _whole(postponed, partial(RunRecord.resume, recorded, write, postponed))
+        record = _opened_record(postponed, partial(RunRecord.resume, recorded, write, postponed))
     except ChangedCaseError as error:
-        refuse_changed(recorded.directory, attempt.prepared.case, error.changes)
+        refuse_changed(recorded.directory, checked.prepared.case, error.changes)
     except ValueError as error:
         refuse(str(error))
     except OSError as error:
         stop(
             f"{recorded.directory}: the run cannot go on: {error}",
-            f"what it keeps is as it was; once that is mended: {attempt.request.resuming}",
+            f"what it keeps is as it was; once that is mended: {checked.request.resuming}",
         )
-    made = attempt.made(*record.resumed)
+    made = checked.made(*record.resumed)
     time = record.resumed.time
     at = "" if time is None else f", t = {format_quantity(time, 's')}"
-    attempt.say(f"{recorded.directory}: going on after {made}{'' if ', up to t =' in made else at}")
+    checked.say(f"{recorded.directory}: going on after {made}{'' if ', up to t =' in made else at}")
     return record
 
 
-def _whole(postponed: Undisturbed, make: Callable[[], RunRecord]) -> RunRecord:
-    """Make a record whole; if somebody wants to stop meanwhile, close it again."""
+def _opened_record(postponed: Undisturbed, make: Callable[[], RunRecord]) -> RunRecord:
+    """Open a record completely; on a request to stop in the meantime, close it again."""
     with ExitStack() as opened:
         with postponed():
             record = make()
@@ -120,54 +112,49 @@ def _whole(postponed: Undisturbed, make: Callable[[], RunRecord]) -> RunRecord:
     return record
 
 
-def _write_case(attempt: Attempt) -> None:
-    write_case(attempt.recorded.directory, attempt.prepared.case)
-
-
-def _march(attempt: Attempt, record: RunRecord) -> None:
-    """March and record; whatever ends it early, the completed steps stay."""
+def _march(checked: CheckedRun, record: RunRecord, interruption: Interruption) -> None:
+    """March and record; the completed steps are kept however it ends."""
     try:
-        with attempt.interruption.marching():
-            is_whole = _is_marched_to_the_end(attempt, record)
+        with interruption.marching():
+            is_complete = _complete_march(checked, record, interruption)
     except (ConvergenceError, DomainError) as error:
         _publish(record)
-        # A resumed run would end in the same way.
-        remedy = "with that changed, run it again" + (
-            " with --overwrite" if record.shown.instants else ""
-        )
-        stop(*attempt.prepared.case.error(str(error)).problems, _kept(attempt, record), remedy)
+        # A resumed run would stop at the same step.
+        option = " with --overwrite" if record.shown.instants else ""
+        remedy = f"with that changed, run it again{option}"
+        stop(*checked.prepared.case.error(str(error)).problems, _kept(checked, record), remedy)
     except (OSError, MemoryError) as error:
         _publish(record)
-        why = f"{attempt.recorded.directory}: the run stopped: {str(error) or type(error).__name__}"
-        stop(why, _resumable(attempt, record), f"once that is mended: {_remedy(attempt, record)}")
+        why = f"{checked.recorded.directory}: the run stopped: {str(error) or type(error).__name__}"
+        stop(why, _resumable(checked, record), f"once that is mended: {_remedy(checked, record)}")
     except KeyboardInterrupt:
         _publish(record)
-        is_whole = False
-    if not is_whole:
-        kept = _resumable(attempt, record)
-        stop("interrupted", kept, f"go on with: {_remedy(attempt, record)}", code=INTERRUPTED)
+        is_complete = False
+    if not is_complete:
+        kept = _resumable(checked, record)
+        stop("interrupted", kept, f"go on with: {_remedy(checked, record)}", code=INTERRUPTED)
 
 
-def _is_marched_to_the_end(attempt: Attempt, record: RunRecord) -> bool:
-    """March until the end, or until somebody wants it to stop, and leave everything saved."""
-    recorded = attempt.recorded
+def _complete_march(checked: CheckedRun, record: RunRecord, interruption: Interruption) -> bool:
+    """March to the end and save everything; False after a request to stop."""
+    recorded = checked.recorded
     run = recorded.run
     total = None if run.adaptive else len(run.times)
-    with shown_progress(total, record.resumed.instants, quiet=attempt.request.quiet) as progress:
+    with shown_progress(total, record.resumed.instants, quiet=checked.request.quiet) as progress:
         for state in record.steps(progress):
             is_last = state is not None and state.time >= run.times[-1]
-            if attempt.interruption.requested and not is_last:
+            if interruption.requested and not is_last:
                 record.checkpoint()
                 return False
     if recorded.errors:
-        attempt.say("estimating errors, from two coarser runs of the same case")
-    record.finish(record.estimate_errors(partial(_stop_if_asked, attempt.interruption)))
-    attempt.interruption.over = True
+        checked.say("estimating errors, from two coarser runs of the same case")
+    record.finish(record.estimate_errors(partial(_stop_if_requested, interruption)))
+    interruption.over = True
     return True
 
 
-def _stop_if_asked(interruption: Interruption) -> None:
-    """End the estimate of errors; it is made anew when the run is taken up."""
+def _stop_if_requested(interruption: Interruption) -> None:
+    """End the estimation of errors on request; it is repeated when the run is resumed."""
     if interruption.requested:
         raise KeyboardInterrupt
 
@@ -178,51 +165,51 @@ def _publish(record: RunRecord) -> None:
         record.publish()
 
 
-def _kept(attempt: Attempt, record: RunRecord) -> str:
-    directory = attempt.recorded.directory
-    if _is_gone(attempt, record):
+def _kept(checked: CheckedRun, record: RunRecord) -> str:
+    directory = checked.recorded.directory
+    if _is_gone(checked, record):
         return f"{directory} is not there any more, and what it kept has gone with it"
     if not record.shown.instants:
         return f"{directory} keeps nothing yet: no instant was finished"
-    return f"{directory} keeps {attempt.made(*record.shown)}"
+    return f"{directory} keeps {checked.made(*record.shown)}"
 
 
-def _resumable(attempt: Attempt, record: RunRecord) -> str:
+def _resumable(checked: CheckedRun, record: RunRecord) -> str:
     saved = record.saved.instants
-    lost = saved < record.shown.instants and not _is_gone(attempt, record)
-    return _kept(attempt, record) + (f"; the run goes on after {saved}" if lost else "")
+    lost = saved < record.shown.instants and not _is_gone(checked, record)
+    return _kept(checked, record) + (f"; the run goes on after {saved}" if lost else "")
 
 
-def _remedy(attempt: Attempt, record: RunRecord) -> str:
-    """The command to type next; without a step there is nothing to go on from."""
-    keeps = record.shown.instants and not _is_gone(attempt, record)
-    return attempt.request.resuming if keeps else attempt.request.repeating
+def _remedy(checked: CheckedRun, record: RunRecord) -> str:
+    """Command to type next: it resumes the run, or repeats it where no step is saved."""
+    keeps = record.shown.instants and not _is_gone(checked, record)
+    return checked.request.resuming if keeps else checked.request.repeating
 
 
-def _is_gone(attempt: Attempt, record: RunRecord) -> bool:
-    """Whether the directory has been removed or moved during the run."""
-    files = (attempt.recorded.directory / name for name in (RESULT_NAME, STATE_NAME))
+def _is_gone(checked: CheckedRun, record: RunRecord) -> bool:
+    """Whether the saved files were removed or moved during the run."""
+    files = (checked.recorded.directory / name for name in (RESULT_NAME, STATE_NAME))
     return record.shown.instants > 0 and not any(file.exists() for file in files)
 
 
-def _say_finished(attempt: Attempt) -> None:
-    directory, run = attempt.recorded.directory, attempt.recorded.run
-    tidy(directory)
-    attempt.say(
+def _say_finished(checked: CheckedRun) -> None:
+    directory, run = checked.recorded.directory, checked.recorded.run
+    remove_leftovers(directory)
+    checked.say(
         f"{directory}: is finished already, up to t = "
         f"{format_quantity(float(run.times[-1]), 's')}; --overwrite computes it anew"
     )
 
 
-def tidy(directory: Path) -> None:
-    """Remove what a finished run has left that was killed in its last moment."""
+def remove_leftovers(directory: Path) -> None:
+    """Remove temporary files of a finished run whose process was killed at its end."""
     with suppress(OSError, DirectoryInUse), locked(directory):
         remove_traces(directory)
 
 
 @contextmanager
 def before_the_first_step() -> Iterator[None]:
-    """Within it, a request to stop finds nothing to save."""
+    """End with a message on a request to stop, as nothing has been saved yet."""
     try:
         yield
     except KeyboardInterrupt:

@@ -83,7 +83,7 @@ def write_case(directory: Path, case: Case) -> None:
 
 
 @contextmanager
-def taken(directory: Path) -> Iterator[None]:
+def reserved(directory: Path) -> Iterator[None]:
     """Make the directory, and keep other runs out of it for as long as the block goes on."""
     is_new = not directory.exists()
     try:

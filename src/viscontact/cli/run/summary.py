@@ -1,4 +1,4 @@
-"""The summary of a run, in readable units."""
+"""Summary table of a run, in readable units."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _GAP = 2
 
 
 def print_summary(directory: Path) -> None:
-    """Print what a finished run found, what it took, and what to doubt."""
+    """Print the results, the cost and the warnings of a finished run."""
     with open_results(directory) as ds:
         _print(ds, directory)
 
@@ -33,7 +33,7 @@ def print_summary(directory: Path) -> None:
 def _print(ds: xr.Dataset, directory: Path) -> None:
     console = Console()
     rows = summary_rows(ds)
-    # Rather too wide for a terminal than with digits left out.
+    # Never truncated, even where the table is wider than the terminal.
     console.print(_table(ds, rows, console.width), crop=False)
     if _states_errors(ds, rows):
         console.print(LEGEND, highlight=False)
@@ -56,19 +56,19 @@ def _print(ds: xr.Dataset, directory: Path) -> None:
 
 
 def _warnings(lines: Path, of_result: str) -> Iterator[str]:
-    """What was doubted, and when: the result tells only what; and what was doubted in the end."""
-    told: set[str] = set()
+    """Warnings of each instant with its time, then those of the whole run."""
+    printed: set[str] = set()
     with lines.open(encoding="utf-8") as file:
         for line in file:
             state = json.loads(line)
-            told |= set(state["warnings"])
+            printed |= set(state["warnings"])
             for text in state["warnings"]:
                 yield f"t = {format_quantity(state['time'], 's')}: {text}"
-    yield from (text for text in of_result.splitlines() if text not in told)
+    yield from (text for text in of_result.splitlines() if text not in printed)
 
 
 def _table(ds: xr.Dataset, rows: list[SummaryRow], width: int) -> Table:
-    """Errors stand behind their numbers, and below them where the terminal is too narrow."""
+    """Table with the errors beside their numbers, or below them on a narrow terminal."""
     columns = _columns(ds, rows)
     whole = sum(max(map(len, [heading, *cells])) + _GAP for heading, cells in columns.items())
     narrow = whole > width
@@ -87,7 +87,7 @@ def _table(ds: xr.Dataset, rows: list[SummaryRow], width: int) -> Table:
 def _columns(ds: xr.Dataset, rows: list[SummaryRow]) -> dict[str, list[str]]:
     columns = {"": [f"{row.title} [{row.unit}]" for row in rows]}
     first, last = (f"t = {format_quantity(float(ds['time'][index]), 's')}" for index in (0, -1))
-    # A load that comes on has nothing to tell of its first instant.
+    # A load that starts at 0 has no values at its first instant.
     if not all(row.first.split()[0] in ("0", "-") for row in rows):
         columns[first] = _aligned([row.first for row in rows])
     columns[last] = _aligned([row.last for row in rows])
@@ -99,7 +99,7 @@ def _columns(ds: xr.Dataset, rows: list[SummaryRow]) -> dict[str, list[str]]:
 
 
 def _broken(cell: str) -> str:
-    """An error below its number, and the instant of the largest one below that."""
+    """Cell with the error, and the time of the largest one, on lines of their own."""
     return re.sub(r"\s+(?=±|at \d)", "\n", cell.strip())
 
 
@@ -108,7 +108,7 @@ def _states_errors(ds: xr.Dataset, rows: list[SummaryRow]) -> bool:
 
 
 def _aligned(cells: list[str]) -> list[str]:
-    """Put numbers below each other, and errors behind them."""
+    """Align numbers to the right, with the errors behind them."""
     parts = [cell.partition(" ± ") for cell in cells]
     width = max((len(number) for number, _, _ in parts), default=0)
     return [f"{number.rjust(width)}{f' ±{bar}' if bar else ''}" for number, _, bar in parts]

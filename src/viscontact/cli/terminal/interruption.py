@@ -1,4 +1,7 @@
-"""Ctrl-C once: finish the step. Twice: stop now. A polite request to end counts as Ctrl-C."""
+"""Requests to stop: the first lets the current step be finished, the second stops at once.
+
+Ctrl-C, SIGTERM, SIGHUP and Ctrl-Break all count as requests.
+"""
 
 from __future__ import annotations
 
@@ -13,18 +16,22 @@ from types import FrameType
 from typing import Any
 
 from viscontact.cli.terminal.messages import say
-from viscontact.cli.terminal.streams import lead_nowhere
+from viscontact.cli.terminal.streams import discard
 
-#: Where they exist: Ctrl-C, what batch systems send, a terminal that closes, Ctrl-Break.
+#: Ctrl-C, SIGTERM of batch systems, a closed terminal and Ctrl-Break, where they exist.
 _SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK")
 
-#: A batch system sends its signal to every process of a job, and a process that passes it on sends
-#: it again: within this time [s] that is one request. Ctrl-C is pressed by somebody who means it.
+#: A batch system signals every process of a job, and a parent may pass the signal on: signals
+#: within this time [s] count as one request, except Ctrl-C, which is pressed deliberately.
 _ONE_REQUEST = 2.0
 
 
 class Interruption:
-    """Whether somebody has asked to stop."""
+    """State of the requests to stop.
+
+    `requested`: stop after this step; `seen`: a signal has arrived; `over`: the work is done, and
+    further requests have no effect.
+    """
 
     def __init__(self) -> None:
         self.requested = False
@@ -34,12 +41,12 @@ class Interruption:
         self._postponed = 0
         self._pending = False
         self._requested_at = -math.inf
-        # A stream that has no terminal, such as a log, outlives the terminal.
+        # A stream that is not a terminal, such as a log file, stays open when the terminal closes.
         self._on_terminal = [name for name in ("stdout", "stderr") if getattr(sys, name).isatty()]
 
     @contextmanager
     def marching(self) -> Iterator[None]:
-        """Within it, the first request lets the step be finished; else each one stops at once."""
+        """Within the block, the first request lets the step be finished."""
         self._marching = True
         try:
             yield
@@ -48,12 +55,12 @@ class Interruption:
 
     @contextmanager
     def postponed(self) -> Iterator[None]:
-        """Within it, nothing is stopped: a request to stop now waits until its end."""
+        """Within the block, a request to stop at once waits until its end."""
         self._postponed += 1
         try:
             yield
         except BaseException:
-            self._pending = False  # it ends here anyway, and says why
+            self._pending = False  # the error ends the command in any case
             raise
         finally:
             self._postponed -= 1
@@ -62,7 +69,7 @@ class Interruption:
             raise KeyboardInterrupt
 
     def handle(self, number: int, frame: FrameType | None) -> None:
-        """Note the first request; the second one ends the step as well."""
+        """Handle a signal: note the first request, and raise KeyboardInterrupt on the second."""
         self.seen = True
         if number == getattr(signal, "SIGHUP", None):
             self._leave_terminal()
@@ -81,42 +88,42 @@ class Interruption:
             raise KeyboardInterrupt
 
     def _leave_terminal(self) -> None:
-        """Write to nowhere instead of to a terminal that is gone, which would be an error."""
+        """Discard further output to a terminal that has been closed."""
         for name in self._on_terminal:
-            lead_nowhere(name)
+            discard(name)
 
 
 @contextmanager
 def watched_interruption(*, until_exit: bool = False) -> Iterator[Interruption]:
-    """Catch Ctrl-C and polite requests to end, for as long as the block runs."""
-    standing = getattr(signal.getsignal(signal.SIGINT), "__self__", None)
-    if isinstance(standing, Interruption):
-        yield standing  # one for all who ask
+    """Handle requests to stop within the block; with `until_exit`, ignore later ones."""
+    current = getattr(signal.getsignal(signal.SIGINT), "__self__", None)
+    if isinstance(current, Interruption):
+        yield current  # nested blocks share it
         return
     interruption = Interruption()
     before: dict[int, Any] = {}
-    # Only the main thread may handle signals; elsewhere they stay as they are.
+    # Only the main thread may handle signals; in other threads they are left unchanged.
     with suppress(ValueError):
         for number in filter(None, (getattr(signal, name, None) for name in _SIGNALS)):
-            if not _is_to_be_ignored(number):
+            if not _is_ignored(number):
                 before[number] = signal.signal(number, interruption.handle)
     try:
         yield interruption
     finally:
         for caught, handler in before.items():
-            # None: whoever set it did not do so from Python.
+            # None: the handler was not set from Python.
             after = signal.SIG_DFL if handler is None else handler
             signal.signal(caught, signal.SIG_IGN if until_exit else after)
 
 
-def _is_to_be_ignored(number: int) -> bool:
-    # nohup: the run is to outlive its terminal
+def _is_ignored(number: int) -> bool:
+    # Under nohup the run continues when its terminal closes.
     return number == getattr(signal, "SIGHUP", None) and signal.getsignal(number) == signal.SIG_IGN
 
 
 def _notice(line: str) -> None:
     try:
         say(line)
-    except RuntimeError:  # it came while a line was being written, which must not be begun again
+    except RuntimeError:  # the signal arrived within another write to stderr
         with suppress(OSError):
             os.write(2, f"{line}\n".encode())

@@ -1,4 +1,4 @@
-"""What is said on stderr, and the exit codes."""
+"""Messages on stderr, and the end of a command with an exit code."""
 
 from __future__ import annotations
 
@@ -8,31 +8,29 @@ from typing import NoReturn
 
 from viscontact.runs.processes.exit_codes import DONE, INTERRUPTED, REFUSED, STOPPED
 
-__all__ = ["DONE", "INTERRUPTED", "REFUSED", "STOPPED", "refuse", "say", "stop"]
+__all__ = ["DONE", "INTERRUPTED", "REFUSED", "STOPPED", "CommandError", "refuse", "say", "stop"]
+
+
+class CommandError(Exception):
+    """End of a command with an exit code, and the lines that `main` prints on stderr."""
+
+    def __init__(self, code: int, lines: tuple[str, ...]) -> None:
+        super().__init__("; ".join(lines))
+        self.code, self.lines = code, lines
 
 
 def say(line: str) -> None:
     """Print a line on stderr, where messages do not mix with results."""
-    # Whoever closed it, or the terminal, does not want to know; a run goes on.
+    # A closed stream or terminal is not a reason for a run to fail.
     with suppress(OSError):
         print(line, file=sys.stderr, flush=True)
 
 
 def refuse(*lines: str) -> NoReturn:
-    """Say why nothing was done, and end with exit code 2."""
-    for line in lines:
-        say(line)
-    _leave(REFUSED)
+    """End the command before anything was created, with exit code 2 and the reasons."""
+    raise CommandError(REFUSED, lines)
 
 
 def stop(*lines: str, code: int = STOPPED) -> NoReturn:
-    """Say why the work ended early, and end with exit code 1 or another one."""
-    for line in lines:
-        say(line)
-    _leave(code)
-
-
-def _leave(code: int) -> NoReturn:
-    import typer  # late: nothing heavy before signals are met
-
-    raise typer.Exit(code)
+    """End the command during its work, with exit code 1 or another one and the reasons."""
+    raise CommandError(code, lines)

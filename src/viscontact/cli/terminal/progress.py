@@ -1,4 +1,4 @@
-"""Progress of a run: a bar on a terminal, plain lines elsewhere."""
+"""Progress of one run: a bar on a terminal, plain lines elsewhere."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from viscontact.simulation.state_generator import Progress as Report
 from viscontact.state import ContactState
 from viscontact.units.formatting import format_quantity
 
-#: Plain lines come at this part of the run, or after so many seconds.
+#: A plain line is printed after this part of the run, or after this time [s].
 _LINE_PART, _LINE_SECONDS = 0.1, 30.0
 
 
 @contextmanager
 def shown_progress(total: int | None, done: int = 0, *, quiet: bool) -> Iterator[Report]:
-    """Show how a run goes on."""
+    """Display the progress of a run; `total` is None where the number of steps is estimated."""
     if quiet:
         yield lambda state, done, total: None
     elif sys.stderr.isatty():
@@ -33,7 +33,7 @@ def shown_progress(total: int | None, done: int = 0, *, quiet: bool) -> Iterator
                 task, completed=done, total=total, details=_details(state)
             )
         finally:
-            # A terminal that is gone is no reason for a run to fail.
+            # A closed terminal is not a reason for a run to fail.
             with suppress(OSError):
                 bar.stop()
     else:
@@ -42,7 +42,7 @@ def shown_progress(total: int | None, done: int = 0, *, quiet: bool) -> Iterator
 
 @contextmanager
 def frames_shown(total: int) -> Iterator[Callable[[int, int], None]]:
-    """Show on a terminal how a film is drawn; elsewhere, where it takes a while, say nothing."""
+    """Display on a terminal how many frames of an animation are drawn."""
     if not sys.stderr.isatty():
         yield lambda done, total: None
         return
@@ -57,7 +57,7 @@ def frames_shown(total: int) -> Iterator[Callable[[int, int], None]]:
     try:
         yield lambda done, total: bar.update(task, completed=done, total=total)
     finally:
-        with suppress(OSError):  # a terminal that is gone
+        with suppress(OSError):  # a closed terminal
             bar.stop()
 
 
@@ -73,7 +73,7 @@ def _bar() -> Progress:
 
 
 class _PlainLines:
-    """A line now and then."""
+    """Progress as plain lines at intervals."""
 
     def __init__(self, before: int, *, guessed: bool) -> None:
         self._before = before

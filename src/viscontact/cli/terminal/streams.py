@@ -1,4 +1,4 @@
-"""The standard streams of the process: there, and written to, or given up."""
+"""Standard streams of the process, closed or failing ones included."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from contextlib import contextmanager
 
 
 class _Output(io.TextIOWrapper):
-    """A stream that remembers that it could not be written, be it buffered or not."""
+    """Stream that keeps the first error of writing, buffered or not."""
 
     failure: OSError | None = None
 
@@ -30,7 +30,7 @@ class _Output(io.TextIOWrapper):
 
 
 def occupy_streams() -> None:
-    """Let closed streams lead to nowhere, as under cron, and no file take their numbers."""
+    """Redirect closed standard streams to the null device, so that no file takes their numbers."""
     for number in range(3):
         try:
             os.fstat(number)
@@ -41,22 +41,22 @@ def occupy_streams() -> None:
                 os.close(opened)
     for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
         if getattr(sys, name) is None:
-            lead_nowhere(name, mode)
+            discard(name, mode)
     # A terminal that cannot write "mm²" gets "mm?", not an error.
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")
 
 
-def lead_nowhere(name: str, mode: str = "w") -> None:
-    """Let a stream of `sys` lead to nowhere, as long as the process lasts."""
-    # Not by its number, which a file may have taken before this.
+def discard(name: str, mode: str = "w") -> None:
+    """Redirect a stream of `sys` to the null device, until the process ends."""
+    # A new number, as a file may have taken the old one.
     opened = os.open(os.devnull, os.O_RDONLY if mode == "r" else os.O_WRONLY)
     setattr(sys, name, os.fdopen(opened, mode, encoding="utf-8"))
 
 
 def remember_output() -> None:
-    """Let the stdout of this process remember whether it could be written."""
+    """Replace stdout by a stream that keeps errors of writing."""
     old = sys.stdout
     if isinstance(old, io.TextIOWrapper):
         options = {
@@ -67,7 +67,7 @@ def remember_output() -> None:
 
 
 def unwritten(name: str) -> OSError | None:
-    """Return why what was printed cannot be written, if so, and give the stream up."""
+    """Flush a stream; where that fails, discard its further output and return the error."""
     stream = getattr(sys, name)
     try:
         stream.flush()
@@ -80,15 +80,15 @@ def unwritten(name: str) -> OSError | None:
         os.dup2(nowhere, stream.fileno())
         os.close(nowhere)
     if isinstance(stream, _Output):
-        stream.failure = None  # said once
+        stream.failure = None  # reported once
     return failure
 
 
 @contextmanager
 def printing() -> Iterator[None]:
-    """Within it, output that cannot be written is an OSError, at the end at the latest."""
+    """Raise OSError, at the end of the block at the latest, where output cannot be written."""
     try:
         yield
         sys.stdout.flush()
-    except SystemExit as error:  # what rich makes of a reader that is gone
-        raise BrokenPipeError("nobody reads it") from error
+    except SystemExit as error:  # rich, when the reader of a pipe has closed it
+        raise BrokenPipeError("the reader has closed the pipe") from error
