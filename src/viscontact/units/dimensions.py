@@ -1,4 +1,4 @@
-"""Which kinds of quantities there are, and what they are called in a sentence."""
+"""Physical dimensions that arguments can have, with their SI units and names."""
 
 from __future__ import annotations
 
@@ -7,21 +7,10 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Dimension:
-    """What kind of quantity is wanted.
+    """Physical dimension: its name in a sentence, SI unit, an example and common units.
 
-    Attributes
-    ----------
-    name : str
-        What it is called in a sentence.
-    unit : str
-        Its SI unit.
-    example : str
-        A value as it may be written.
-    units : tuple of str
-        Units that it is often written in, to suggest; any other of its kind is read, too.
+    Other units of the same dimension are read as well.
 
-    Examples
-    --------
     >>> DIMENSIONS["force"].units
     ('mN', 'N', 'kN', 'MN')
     """
@@ -32,7 +21,7 @@ class Dimension:
     units: tuple[str, ...]
 
 
-#: What can be asked for, by the word for it.
+#: Dimensions of arguments, by name.
 DIMENSIONS = {
     "length": Dimension("a length", "m", "5 mm", ("nm", "um", "mm", "m", "in")),
     "time": Dimension("a time", "s", "1000 s", ("ms", "s", "min", "h", "d")),
@@ -55,7 +44,7 @@ DIMENSIONS = {
     "molar energy": Dimension("an energy per mole", "J/mol", "80 kJ/mol", ("kJ/mol", "J/mol")),
 }
 
-#: Only to name what was given instead: "(got a mass)".
+#: Other dimensions, to name what was given instead: "(got a mass)".
 OTHER_DIMENSIONS = {
     "kg": "a mass",
     "m^2": "an area",

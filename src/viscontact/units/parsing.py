@@ -1,4 +1,4 @@
-"""Quantities in words become SI numbers."""
+"""Parse quantities with units, such as '5 mm', to SI numbers."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from typing import Any
 from viscontact.units.dimensions import DIMENSIONS, OTHER_DIMENSIONS, Dimension
 from viscontact.units.temperatures import ZERO_CELSIUS
 
-# Degrees have an offset, which units as factors cannot have, and C alone is no coulomb here.
+# Degrees have an offset, unlike units that are factors; C alone is not a coulomb here.
 _DEGREES = {
     **dict.fromkeys(("k", "kelvin", "degk", "°k"), (1.0, 0.0)),
     **dict.fromkeys(("c", "celsius", "degc", "°c", "℃"), (1.0, ZERO_CELSIUS)),
@@ -35,7 +35,7 @@ _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 _QUANTITY = re.compile(rf"(?P<number>{_NUMBER})\s*(?P<unit>.*)", re.DOTALL)
 #: Longer texts are cut in messages.
 _SHOWN = 60
-# Stricter than pint, which skips characters that it does not know and would spend forever on
+# Stricter than pint, which skips unknown characters and would take unlimited time for
 # the powers of "9**9**9": words, each with a small power, joined by products and quotients.
 _UNIT = re.compile(
     r"(?:1\s*)?[\s/*·×()]*{word}(?:[\s/*·×()]+{word})*\)*".format(
@@ -47,31 +47,18 @@ _NOT_FINITE = re.compile(r"\s*[+-]?\.?(?:nan|inf|infinity)\b.*", re.IGNORECASE |
 
 @dataclass(frozen=True)
 class Scale:
-    """A unit as a straight line to SI: SI value = factor × number + offset."""
+    """Conversion of a unit to SI: SI value = factor * number + offset."""
 
     factor: float
     offset: float = 0.0
 
     def si(self, number: str) -> float:
-        """Return the SI value of a number in this unit.
+        """Return the SI value of a number, given by its digits; inf beyond all floats.
 
-        Parameters
-        ----------
-        number : str
-            Its digits, with a decimal point.
-
-        Returns
-        -------
-        float
-            The value; inf if it is beyond all floats.
-
-        Examples
-        --------
         >>> Scale(0.001).si("9.565"), Scale(1.0, 273.15).si("60")
         (0.009565, 333.15)
         """
-        # In decimals, so that 9.565 mm is the 0.009565 m that a script would say, to the last
-        # digit; 9.565 * 0.001 is not.
+        # In decimals, so that 9.565 mm is 0.009565 m to the last digit; 9.565 * 0.001 is not.
         plain = float(number)
         if not math.isfinite(plain):
             return math.inf
@@ -83,28 +70,11 @@ class Scale:
 
 
 def parse_quantity(text: str, dimension: str) -> float:
-    """Read a quantity given in words, as the SI number it means.
+    """Parse a quantity such as ``"5 mm"`` or ``"5.545e-4 / MPa"`` to its SI number.
 
-    Parameters
-    ----------
-    text : str
-        A number and a unit, such as ``"5 mm"``, ``"10kN"`` or ``"5.545e-4 / MPa"``.
-    dimension : str
-        What is wanted: a key of `DIMENSIONS`.
+    `dimension` is a key of `DIMENSIONS`. ValueError if there is no unit, the unit is unknown or of
+    another dimension, or the number is not finite.
 
-    Returns
-    -------
-    float
-        The value in the dimension's SI unit.
-
-    Raises
-    ------
-    ValueError
-        If there is no unit, the unit is unknown or measures something else, or the number
-        is not finite.
-
-    Examples
-    --------
     >>> parse_quantity("9.565 mm", "length")
     0.009565
     >>> parse_quantity("10 MPa", "force")
@@ -121,27 +91,10 @@ def parse_quantity(text: str, dimension: str) -> float:
 
 
 def parse_unit(text: str, dimension: str) -> float:
-    """Return how many SI units one unit, given in words, is.
+    """Return the factor of a unit such as ``"kN"`` to the SI unit of a key of `DIMENSIONS`.
 
-    Parameters
-    ----------
-    text : str
-        A unit alone, such as ``"kN"`` or ``"1/MPa"``.
-    dimension : str
-        What is wanted: a key of `DIMENSIONS`.
+    ValueError if the unit is unknown or of another dimension.
 
-    Returns
-    -------
-    float
-        The factor to the dimension's SI unit.
-
-    Raises
-    ------
-    ValueError
-        If the unit is unknown or measures something else.
-
-    Examples
-    --------
     >>> parse_unit("min", "time")
     60.0
     """
@@ -149,27 +102,8 @@ def parse_unit(text: str, dimension: str) -> float:
 
 
 def parse_scale(text: str, dimension: str) -> Scale:
-    """Return what one unit, given in words, is in SI: temperatures may have an offset.
+    """Return the conversion of a unit to SI, as `parse_unit`; temperatures may have an offset.
 
-    Parameters
-    ----------
-    text : str
-        A unit alone, such as ``"kN"`` or ``"degC"``.
-    dimension : str
-        What is wanted: a key of `DIMENSIONS`.
-
-    Returns
-    -------
-    Scale
-        The line to the dimension's SI unit.
-
-    Raises
-    ------
-    ValueError
-        If the unit is unknown or measures something else.
-
-    Examples
-    --------
     >>> parse_scale("°C", "temperature").si("-50")
     223.15
     >>> parse_scale("degC", "temperature difference").si("51.6")
@@ -204,7 +138,7 @@ def _split(text: str, wanted: Dimension) -> tuple[str, str]:
 
 
 def _shown(text: str) -> str:
-    """Return a text in quotation marks, cut where it is long."""
+    """Return a text in quotation marks, shortened if it is long."""
     return repr(text if len(text) <= _SHOWN else f"{text[: _SHOWN - 3]}...")
 
 
@@ -228,7 +162,7 @@ def _parsed_unit(unit: str, text: str, wanted: Dimension) -> Any:
         if len(unit) > 60 or not _UNIT.fullmatch(unit):
             raise ValueError("characters that no unit has")
         return _registry().parse_units(plain)
-    except Exception as error:  # pint leaks its tokenizer's and parser's many kinds
+    except Exception as error:  # pint raises many kinds, of its tokenizer and parser too
         raise ValueError(
             f"cannot read {_shown(text)} as {wanted.name}: unknown unit {_shown(unit)}"
             f"{_nearest_unit(unit)}; write e.g. {wanted.example!r}"
@@ -242,7 +176,7 @@ def _nearest_unit(unit: str) -> str:
 
 
 def _in_base_units(unit: Any) -> tuple[float, str]:
-    # The string of the base units tells an angle (radian) from a ratio, which its
+    # The string of the base units distinguishes an angle (radian) from a ratio; the
     # dimensionality does not.
     try:
         zero, one = (_registry().Quantity(n, unit).to_base_units() for n in (0.0, 1.0))

@@ -1,4 +1,4 @@
-"""A numerical inverse that grows with what is asked of it, and remembers."""
+"""Numerical inverse of a creep or relaxation function, computed on demand and cached."""
 
 from __future__ import annotations
 
@@ -11,27 +11,17 @@ from viscontact.laws.interconversion.log_curve import LogCurve
 from viscontact.laws.interconversion.product_integration import Floats, Function, Load, Mean
 from viscontact.laws.interconversion.volterra import Response, respond, steadied
 
-# Beyond so many decades after the first node the final value is taken for the function.
+# Beyond this many decades after the first node the function equals its final value.
 _MOST_DECADES = 60
 
 
 class Inverse:
-    """The solution g of ∫ f(t - t') dg(t') = r(t), found as far as it is asked for.
+    """Solution g of ∫ f(t - t') dg(t') = r(t), computed up to the largest time requested so far.
 
-    Parameters
-    ----------
-    function, mean : callable
-        f(t) and its mean over intervals, as in `viscontact.laws.interconversion.volterra.invert`.
-    first : float
-        First node [s].
-    trend : int
-        +1 if g grows, -1 if it falls.
-    kinks : sequence of float, optional
-        Times at which f or r has a kink [s].
-    load : Load, optional
-        r(t); 1 if left out.
-    since : float, optional
-        If f begins as a power, the time up to which it is one [s].
+    `function` is f(t), `mean` its mean over intervals, as in `volterra.invert`; `first` is the
+    first node [s]; `trend` +1 if g grows, -1 if it falls; `kinks` are the times at which f or r
+    has a kink [s]; `load` is r(t), 1 if left out; up to the time `since` f is a power, if it
+    begins as one [s].
     """
 
     def __init__(
@@ -61,7 +51,7 @@ class Inverse:
         return np.where(t > last, self._final(last), values)
 
     def _final(self, last: float) -> float:
-        """Return what the end values say, or if both are infinite those of a very late time."""
+        """Return the limit at infinite time, or the value at a very late time if there is none."""
         for late in (np.full(1, np.inf), np.full(1, last)):
             load = 1.0 if self._load is None else float(self._load.at(late)[0])
             met = float(self._function(late)[0])

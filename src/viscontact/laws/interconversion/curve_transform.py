@@ -1,10 +1,10 @@
-"""How a curve through points answers an oscillation: its transform, with no fit.
+"""Fourier transform of a curve through points: its response to steady oscillation, without a fit.
 
-i ω L[f](i ω) = f(0) + ∫ exp(-i ω t) f'(t) dt is taken piece by piece. While the phase
-ω t is small, Gauss-Legendre panels in ln t follow it. Later the integrand swings through
-nearly nothing, so that each piece, whose f' is an analytic function of t, is integrated along
-paths of steepest descent from its two ends, where exp(-i ω t) only decays (Huybrechs &
-Vandewalle 2006, SIAM J. Numer. Anal. 44, 1026): Gauss-Laguerre quadrature.
+i ω L[f](i ω) = f(0) + ∫ exp(-i ω t) f'(t) dt is integrated piece by piece. While the phase ω t is
+small, Gauss-Legendre panels in ln t resolve it. Later the integrand oscillates about zero, so each
+piece, whose f' is an analytic function of t, is integrated along paths of steepest descent from
+its two ends, where exp(-i ω t) only decays (Huybrechs & Vandewalle 2006, SIAM J. Numer. Anal. 44,
+1026): Gauss-Laguerre quadrature.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ def _at(curve: LogCurve, omega: float) -> complex:
 
 
 def _followed(curve: LogCurve, omega: float, start: float, end: float) -> complex:
-    """Return ∫ exp(-i ω t) f' dt while the phase is small, on panels between the points."""
+    """Return ∫ exp(-i ω t) f' dt for small phases, on Gauss-Legendre panels between the points."""
     count = int(_PANELS * np.log10(end / start)) + 2
     points = curve.times[(curve.times > start) & (curve.times < end)]
     edges = np.log(np.unique(np.concatenate([np.geomspace(start, end, count), points])))
@@ -56,7 +56,7 @@ def _followed(curve: LogCurve, omega: float, start: float, end: float) -> comple
 
 
 def _descended(curve: LogCurve, omega: float, start: float) -> complex:
-    """Return ∫ exp(-i ω t) f' dt from a late phase on, to the end of time."""
+    """Return ∫ exp(-i ω t) f' dt from a late phase to infinity, by steepest descent."""
     edges = np.append(start, curve.times[curve.times > start])
     middles = np.append(np.sqrt(edges[:-1]) * np.sqrt(edges[1:]), 2 * edges[-1])
     # From the start of each piece down, and from its end up again; the last one has no end.

@@ -1,8 +1,8 @@
-"""A function of time through measured points: monotone in log time, with exact means.
+"""Monotone interpolation of a function of time in log time, with exact means.
 
 Between the points the curve is the monotone cubic in ln t of Fritsch & Carlson (1980, SIAM J.
-Numer. Anal. 17, 238), so that values over many decades weigh alike and nothing over- or
-undershoots. Before the first point and beyond the last it goes on by a rule that is named.
+Numer. Anal. 17, 238), so that values over many decades weigh alike and there is no overshoot.
+Before the first point and beyond the last one it is extrapolated by a named rule.
 """
 
 from __future__ import annotations
@@ -31,24 +31,13 @@ _NARROW = 1.0
 
 
 class LogCurve:
-    """A monotone curve through points in log time.
+    """Monotone curve through points in log time.
 
-    Parameters
-    ----------
-    times : array_like, shape (n,)
-        Ascending times >= 0 [s], at least two of them positive. A point at 0 is the value at
-        once; up to the first positive time the curve is then straight in t.
-    values : array_like, shape (n,)
-        Values, monotone.
-    before : {"value", "power"} or float, optional
-        Before the first point, if that is not at 0.
-    beyond : {"value", "line", "power"}, optional
-        Beyond the last point.
-    steepest : tuple of float, optional
-        Least and greatest exponent that the power before the first point may take.
+    `times` >= 0 ascend, at least two of them positive [s]; a point at 0 is the value at once, and
+    up to the first positive time the curve is then straight in t. `values` are monotone. The rules
+    `before` the first point (if not at 0) and `beyond` the last are named in `Before` and
+    `Beyond`; `steepest` bounds the exponent of a power before the first point.
 
-    Examples
-    --------
     >>> curve = LogCurve([1.0, 10.0, 100.0], [1.0, 2.0, 3.0], beyond="line")
     >>> [round(float(value), 9) for value in curve([0.1, 1.0, 10**1.5, 1000.0])]
     [1.0, 1.0, 2.5, 4.0]
@@ -85,7 +74,7 @@ class LogCurve:
         self._areas = np.concatenate([[0.0], np.cumsum(whole)])
 
     def _smooth(self, first: float | None, last: float | None) -> Floats:
-        """Return the cubics, with given slopes at the ends so that the curve goes on smoothly."""
+        """Return the cubics, with given slopes at the ends for a smooth continuation."""
         u = np.log(self.times)
         monotone = scipy.interpolate.PchipInterpolator(u, self.values)
         slopes = monotone.derivative()(u)
@@ -107,7 +96,7 @@ class LogCurve:
         return np.asarray(np.where(t >= self.times[-1], beyond, values))
 
     def rate(self, t: NDArray[Any], where: Floats) -> NDArray[Any]:
-        """Return df/dt at times `t`, by the formula of the pieces in which the times `where` lie.
+        """Return df/dt at times `t`, by the formula of the pieces that contain the times `where`.
 
         The formulas are analytic: `t` may be complex.
         """
@@ -128,10 +117,8 @@ class LogCurve:
     def mean(self, start: ArrayLike, end: ArrayLike) -> Floats:
         """Return the means over the times `start` to `end` [s], of equal shape; values where equal.
 
-        Notes
-        -----
-        The primitive of a polynomial P(ln t) is t (P - P' + P'' - P'''). Where an interval is so
-        narrow that its difference would cancel, Gauss-Legendre quadrature has all digits.
+        The primitive of a polynomial P(ln t) is t (P - P' + P'' - P^(3) + ...). Gauss-Legendre
+        quadrature replaces it on intervals so narrow that its difference would cancel.
         """
         start, end = np.asarray(start, np.float64), np.asarray(end, np.float64)
         first, last = self.times[0], self.times[-1]
@@ -237,7 +224,7 @@ def narrow_mean(
 ) -> Floats:
     """Return the mean of a smooth function of ln t over narrow intervals of time, by quadrature.
 
-    Over others it is what the caller knows, by a primitive whose difference is then sound.
+    Over wider ones it is `otherwise`, from a difference of primitives, which is accurate there.
     """
     narrow = np.asarray(end <= start * np.exp(_NARROW))
     if not narrow.any():
@@ -251,9 +238,9 @@ def narrow_mean(
 def mean_power(exponent: float, start: Floats, end: Floats) -> Floats:
     """Return the mean of t^n over intervals of time, t^n where they have no length.
 
-    It is b^n times (1 - r^(n+1)) / ((n+1)(1 - r)) with r = a/b, both differences of which lose
-    nothing however close a and b are; below n = -1, where b^n may vanish beside r^n, the same
-    with a and b in each other's place. Infinite from 0 on if n <= -1.
+    It is b^n times (1 - r^(n+1)) / ((n+1)(1 - r)) with r = a/b, whose differences do not cancel
+    however close a and b are; for n < -1, where b^n may vanish beside r^n, with a and b exchanged.
+    Infinite from 0 on if n <= -1.
     """
     length, power = end - start, exponent + 1
     part = np.where(length > 0, length, 1.0) / np.where(length > 0, end, 1.0)

@@ -1,4 +1,4 @@
-"""The Mittag-Leffler function of negative argument, the exponential of fractional laws."""
+"""Mittag-Leffler function of negative argument, the exponential of fractional laws."""
 
 from __future__ import annotations
 
@@ -23,38 +23,21 @@ def mittag_leffler(x: float, alpha: float, beta: float = 1.0) -> float: ...
 @overload
 def mittag_leffler(x: NDArray[np.float64], alpha: float, beta: float = 1.0) -> Floats: ...
 def mittag_leffler(x: ArrayLike, alpha: float, beta: float = 1.0) -> float | Floats:
-    """Return E_α,β(-x) = Σ (-x)^k / Γ(α k + β) of a negative argument.
+    """Return E_α,β(-x) = Σ (-x)^k / Γ(α k + β) for x >= 0, 0 < α <= 1 and α <= β <= 4 [-].
 
-    Parameters
-    ----------
-    x : float or array_like
-        Minus the argument, >= 0 [-].
-    alpha : float
-        First parameter, 0 < α <= 1 [-].
-    beta : float, optional
-        Second parameter, α <= β <= 4 [-]. The function is then completely monotone in x.
-
-    Returns
-    -------
-    float or ndarray
-        The function, in the shape of `x` [-].
-
-    Raises
-    ------
-    ValueError
-        If a parameter or an argument lies outside its range.
+    It is then completely monotone in x. ValueError outside these ranges.
 
     Notes
     -----
     E_α,β(-x) is the inverse Laplace transform of s^(α-β)/(s^α + x) at time 1. For α <= 1 that has
     no pole off the negative real axis, so one contour around that axis serves every x, with an
     error that falls geometrically in the number of nodes (Weideman & Trefethen 2007, Math. Comp.
-    76, 1341: the cotangent contour; Garrappa 2015, SIAM J. Numer. Anal. 53, 1350). Late, when the
+    76, 1341: the cotangent contour; Garrappa 2015, SIAM J. Numer. Anal. 53, 1350). For large x the
     first terms -Σ (-x)^-k / Γ(β - α k) of the asymptotic series (Erdélyi 1955, Higher
-    Transcendental Functions III, 18.1) are exact to rounding, they are the function.
+    Transcendental Functions III, 18.1) are exact to rounding and replace it.
 
-    Relative errors are near 1e-14; as α comes close to 1 with β = 1, where the function becomes
-    an exponential, they grow as 1/(1 - α). α = β = 1 is that exponential.
+    Relative errors are near 1e-14; as α approaches 1 with β = 1, where the function becomes an
+    exponential, they grow as 1/(1 - α). α = β = 1 is that exponential.
 
     Examples
     --------
@@ -84,8 +67,8 @@ def mittag_leffler(x: ArrayLike, alpha: float, beta: float = 1.0) -> float | Flo
 def _on_contour(x: Floats, alpha: float, beta: float) -> Floats:
     s, weights = _contour()
     total = np.zeros(x.shape)
-    # 1/(s^α + x) = 1/x - s^α/(x (s^α + x)): for large x the first part, which is known and all but
-    # nothing where β is close to α, is taken off the integrand.
+    # 1/(s^α + x) = 1/x - s^α/(x (s^α + x)): for large x the first part, which is known and nearly
+    # zero where β is close to α, is subtracted from the integrand.
     known = (x > 1) & (beta <= 1)
     scale = np.where(known, -x, 1.0)
     for start, power in zip(weights * s ** (alpha - beta), s**alpha, strict=True):
@@ -96,7 +79,7 @@ def _on_contour(x: Floats, alpha: float, beta: float) -> Floats:
 
 @cache
 def _contour() -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
-    """Return the nodes s in the upper half plane and e^s ds / π: the lower half mirrors it."""
+    """Return the nodes s and e^s ds / π in the upper half plane; the lower mirrors it."""
     theta = np.arange(1, _NODES, 2) * (math.pi / _NODES)
     turned = 0.6407 * theta
     s = _NODES * (0.5017 * theta / np.tan(turned) - 0.6122 + 0.2645j * theta)

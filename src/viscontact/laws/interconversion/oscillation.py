@@ -1,8 +1,8 @@
-"""Series under a steady oscillation: complex compliance and modulus, each part kept accurate.
+"""Complex compliance and modulus of series under steady oscillation.
 
 With x = ω τ a relaxing term gives i x/(1 + i x) and a delayed one 1/(1 + i x). Their real and
-imaginary parts are summed apart, where all terms have one sign, so that a loss far below the
-storage (or the other way round) keeps its digits.
+imaginary parts are summed separately, where all terms have one sign, so that a loss far below
+the storage (or vice versa) keeps its digits.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ def modulus_of_relaxation(
     terms: RelaxationTerms, omega: NDArray[np.float64]
 ) -> NDArray[np.complex128]:
     """Return G* [Pa] of a relaxation series, at angular frequencies > 0 [rad/s]."""
-    # The same numbers seen from the other end: x²/(1 + x²) is 1/(1 + 1/x²).
+    # x²/(1 + x²) is 1/(1 + 1/x²).
     in_phase, lagging = _debye(1.0 / omega, 1.0 / terms.times)
     return np.asarray(terms.equilibrium + in_phase @ terms.moduli + 1j * (lagging @ terms.moduli))
 
@@ -39,7 +39,7 @@ def half_inverse(storage: NDArray[np.float64], loss: NDArray[np.float64]) -> NDA
 def _debye(
     omega: NDArray[np.float64], times: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return 1/(1 + x²) and x/(1 + x²) of x = ω τ, with one more axis for the times."""
+    """Return 1/(1 + x²) and x/(1 + x²) of x = ω τ, with a last axis for the times."""
     x = omega[..., None] * times
     size = np.hypot(1.0, x)
     return 1.0 / size**2, (x / size) / size

@@ -1,21 +1,21 @@
-"""One march in time for ∫ f(t - t') dg(t') = r(t): product integration on a given grid.
+"""Product integration of ∫ f(t - t') dg(t') = r(t) on a given grid of times.
 
-Only the unknown is approximated, so that f may have kinks and its own scale of time (Hopkins &
-Hamming 1957, J. Appl. Phys. 28, 906). The obvious unknown, g straight on each step, is sound but
-where f grows steeply: there errors come back with the opposite sign and ring (Linz 1985,
-Analytical and Numerical Methods for Volterra Equations, chapter 9); and where f falls within a
-step the order drops to one. Hence the form in which the kernel falls,
+Only the unknown is approximated, so f may have kinks and its own time scale (Hopkins & Hamming
+1957, J. Appl. Phys. 28, 906). The simplest unknown, g straight on each step, fails where f grows
+steeply: errors return there with the opposite sign and oscillate (Linz 1985, Analytical and
+Numerical Methods for Volterra Equations, chapter 9); and where f falls within a step the order
+drops to one. Hence the form in which the kernel falls,
 
     f falls:   ∫ f(t - t') g'(t') dt' + f(t) g(0) = 1,                 unknown g,
     f grows:   f(0) k'(t) + ∫ f'(t - t') k'(t') dt' = r(t),  k' = g,   unknown k,
 
-whose unknown is a parabola on each step, through its value there and the two before. Where the
-kernel is all at lag 0 this is the second-order backward difference formula, which damps; a
-straight line would lose an order there, and on past steps too where the kernel is singular. A
-step reaches back over all earlier ones: the work grows with their number squared.
+whose unknown is a parabola on each step, through its value there and the two before. For a kernel
+concentrated at lag 0 this is the second-order backward difference formula, which damps; a
+straight line would lose an order there, and on past steps too where the kernel is singular. Each
+step sums over all earlier ones: the work grows with the square of their number.
 
 A function that begins like a power, f = c t^m with f(0) = 0 or inf, has an inverse that begins
-like sin(πm)/(πm) t^-m / c, which starts the march.
+like sin(πm)/(πm) t^-m / c, which is the initial value.
 """
 
 from __future__ import annotations
@@ -35,12 +35,12 @@ Mean = Callable[[Floats, Floats], Floats]
 # of f are taken over that part of the lag at least.
 _POINT = 3e-4
 
-# Nodes whose past is weighed in one call.
+# Nodes whose weights are computed in one call.
 _AT_ONCE = 16
 
 
 class Load(NamedTuple):
-    """The right-hand side r(t), with its mean over intervals."""
+    """Right-hand side r(t), with its mean over intervals."""
 
     at: Function
     mean: Mean
@@ -50,15 +50,12 @@ _ONE = Load(np.ones_like, lambda start, end: np.ones_like(start))
 
 
 class Kernel(NamedTuple):
-    """What a falling kernel κ makes of the unknown's rate on each step.
+    """Weights of a falling kernel κ for the rate of the unknown on each step.
 
-    Attributes
-    ----------
-    past : callable
-        From lags, a row for each node, and the steps that end there, ∫ κ dl over each step and
-        ∫ κ (h - 2 (l - a)) dl, a being where it begins: what the bend of the unknown meets.
-    whole, bent : ndarray
-        The same over the step in progress, for all steps, with what κ has in a point at lag 0.
+    `past`: from lags, a row for each node, and the steps that end there, ∫ κ dl over each step and
+    ∫ κ (h - 2 (l - a)) dl, with a its beginning: the weight of the unknown's curvature. `whole`
+    and `bent`: the same over the current step, for all steps, with the part of κ that is a point
+    at lag 0.
     """
 
     past: Callable[[Floats, Floats], tuple[Floats, Floats]]
@@ -67,7 +64,7 @@ class Kernel(NamedTuple):
 
 
 def march(function: Function, mean: Mean, nodes: Floats, load: Load | None) -> tuple[float, Floats]:
-    """Return g at once, 0 or inf where it begins as a power, and at the nodes (or but the last)."""
+    """Return g(0), 0 or inf where g begins as a power, and g at the nodes (or all but the last)."""
     begin, end = function(nodes[[0, -1]])
     steps = np.diff(nodes, prepend=0.0)
     instant = float(function(np.zeros(1))[0])
@@ -93,7 +90,7 @@ def march(function: Function, mean: Mean, nodes: Floats, load: Load | None) -> t
 
 
 def _rates(kernel: Kernel, nodes: Floats, owed: Floats, first: float | None) -> Floats:
-    """Return the mean rates of the unknown on all steps, the first one of which may be known."""
+    """Return the mean rates of the unknown on all steps, the first of which may be known."""
     begins, steps = np.append(0.0, nodes[:-1]), np.diff(nodes, prepend=0.0)
     rates, bends = np.zeros(nodes.size), np.zeros(nodes.size)
     rates[0] = owed[0] / kernel.whole[0] if first is None else first
@@ -112,12 +109,12 @@ def _rates(kernel: Kernel, nodes: Floats, owed: Floats, first: float | None) -> 
 def _pasts(
     kernel: Kernel, nodes: Floats, begins: Floats, steps: Floats
 ) -> Iterator[tuple[Floats, Floats]]:
-    """Yield what the kernel makes of all steps before each node but the first."""
-    # Many nodes at once: one by one, the calls would take longer than the numbers.
+    """Yield the weights of all steps before each node but the first."""
+    # Many nodes at once, since calls for single nodes would take longer than the arithmetic.
     for low in range(1, nodes.size, _AT_ONCE):
         high = min(low + _AT_ONCE, nodes.size)
         lags = nodes[low:high, None] - begins[: high - 1]
-        # A step that is not past yet is seen from its end, and left out again.
+        # A step that is not past yet is evaluated from its end, and discarded.
         whole, bent = kernel.past(np.maximum(lags, steps[: high - 1]), steps[: high - 1])
         for i in range(low, high):
             yield whole[i - low, :i], bent[i - low, :i]
@@ -161,7 +158,7 @@ def _growing(function: Function, mean: Mean, steps: Floats) -> Kernel:
 
 
 def _at_nodes(rates: Floats, steps: Floats) -> Floats:
-    """Return the rate at each node but the last, by the parabola through the nodes around."""
+    """Return the rate at each node but the last, by the parabola through adjacent nodes."""
     before, after = steps[:-1], steps[1:]
     return np.asarray((rates[:-1] * after + rates[1:] * before) / (before + after))
 
@@ -178,7 +175,7 @@ def _power_share(function: Function, first: float) -> float:
 
 
 def first_exponent(function: Function, first: float) -> float:
-    """Return the exponent of the power of time as which f begins, from two times there."""
+    """Return the exponent of the power of time as which f begins, from two early times."""
     low, high = function(np.array([first, 2 * first]))
     return math.log2(float(high / low))
 

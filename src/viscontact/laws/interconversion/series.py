@@ -59,23 +59,9 @@ class RelaxationTerms(NamedTuple):
 def creep_from_relaxation(equilibrium: float, moduli: ArrayLike, times: ArrayLike) -> SeriesTerms:
     """Return the creep series that is the exact inverse of a relaxation series.
 
-    Parameters
-    ----------
-    equilibrium : float
-        Modulus left after all relaxation, M_inf >= 0 [Pa]; 0 for a fluid.
-    moduli, times : array_like
-        Strengths M_j >= 0 [Pa] and relaxation times ρ_j > 0 [s], in any order.
-
-    Returns
-    -------
-    SeriesTerms
-        Compliances [1/Pa], retardation times ascending [s] and fluidity [1/(Pa s)], which is
-        positive exactly when `equilibrium` is 0.
-
-    Raises
-    ------
-    ValueError
-        If there is no modulus at all.
+    Strengths M_j >= 0 and `equilibrium` M_inf >= 0 [Pa] (0 for a fluid), relaxation times ρ_j > 0
+    [s] in any order; compliances [1/Pa], ascending retardation times [s] and, for a fluid only, a
+    fluidity [1/(Pa s)]. ValueError if all moduli are 0.
 
     Notes
     -----
@@ -106,29 +92,14 @@ def relaxation_from_creep(
 ) -> RelaxationTerms:
     """Return the relaxation series that is the exact inverse of a creep series.
 
-    Parameters
-    ----------
-    instant : float
-        Compliance at once, J_0 > 0 [1/Pa].
-    amplitudes, times : array_like
-        Delayed compliances J_i >= 0 [1/Pa] and retardation times τ_i > 0 [s], in any order.
-    fluidity : float
-        Rate of steady flow φ >= 0 [1/(Pa s)].
-
-    Returns
-    -------
-    RelaxationTerms
-        Equilibrium modulus [Pa], 0 if there is flow; moduli [Pa]; times ascending [s].
-
-    Raises
-    ------
-    ValueError
-        If `instant` is 0: the inverse then holds a Dirac impulse and is not a series.
+    `instant` J_0 > 0 and amplitudes J_i >= 0 [1/Pa], retardation times τ_i > 0 [s] in any order,
+    fluidity φ >= 0 [1/(Pa s)]; moduli [Pa] and ascending times [s]. ValueError if `instant` is 0:
+    the inverse then holds a Dirac impulse and is not a series.
 
     Notes
     -----
     M_inf = 1/J(inf); the residues are M_j = 1 / sum_i J_i (ρ_j / (ρ_j - τ_i))², where the
-    sum takes J_0 in as a term of time 0.
+    sum includes J_0 as a term of time 0.
 
     Examples
     --------
@@ -233,11 +204,10 @@ def _slopes(
 ) -> NDArray[np.float64]:
     """Return -F'(x_j) from the distances of the roots to all poles and to each other.
 
-    F is its leading coefficient, c or sum(w), times the product of all x - x_k over that of all
-    x - p_i. At x_j this leaves a product of ratios which interlacing keeps within bounds. The
-    sum of w_i/(x_j - p_i)² would do as well for exact roots. Where F is near 0 already without
-    a weak pole's share, rounding blurs the root's distance from that pole; the product then
-    still gives residues that fit the roots found, and the product of the transforms stays one.
+    F is its leading coefficient, c or sum(w), times the product of all x - x_k over that of all x
+    - p_i. At x_j this leaves a product of ratios that interlacing bounds. The sum of w_i/(x_j -
+    p_i)² is equivalent for exact roots only: where rounding blurs the distance of a root from a
+    weak pole, the product still gives residues that fit the roots found.
     """
     count = to_roots.shape[0]
     np.fill_diagonal(to_roots, 1.0)
@@ -249,10 +219,9 @@ def _slopes(
 def _nearest_poles(
     poles: NDArray[np.float64], weights: NDArray[np.float64], constant: float
 ) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.float64]]:
-    """Return, for each root, the index of its nearest pole, its side and its reach.
+    """Return, for each root, the index of its nearest pole, its side and its largest distance.
 
-    Side is +1 where the root lies right of that pole and -1 where left; reach is how far off
-    it can be.
+    Side is +1 where the root lies right of that pole and -1 where left.
     """
     half = np.diff(poles) / 2
     middle = (poles[:-1, None] - poles) + half[:, None]

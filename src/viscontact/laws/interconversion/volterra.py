@@ -1,11 +1,11 @@
-"""Interconversion of any creep or relaxation function by numbers, over many decades of time.
+"""Numerical interconversion of any creep or relaxation function, over many decades of time.
 
 Creep and relaxation are inverse under the Boltzmann integral: the response g to f obeys
 
     ∫ f(t - t') dg(t') = 1    for every t > 0,
 
-the jump g(0) = 1/f(0) included. It is marched in time (`product_integration`) on grids that are
-even in ln t, each of half the other's step, and extrapolated to a vanishing step.
+the jump g(0) = 1/f(0) included. It is integrated in time (`product_integration`) on three grids
+even in ln t, each with half the step of the one before, and extrapolated to a vanishing step.
 """
 
 from __future__ import annotations
@@ -39,14 +39,10 @@ _MOST_DECADES = 60
 
 
 class Response(NamedTuple):
-    """A solution as a function, and how well it is known.
+    """Solution of a Volterra equation and its estimated error.
 
-    Attributes
-    ----------
-    curve : LogCurve
-        The solution, from the nodes of the fine grid, extrapolated to a vanishing step.
-    nodes, node_errors : ndarray
-        The nodes of the coarse grid [s], and the estimated relative error at each [-].
+    `curve` is extrapolated to a vanishing step, at the nodes of the fine grid; `nodes` are those
+    of the coarse grid [s] and `node_errors` the estimated relative errors there [-].
     """
 
     curve: LogCurve
@@ -60,35 +56,18 @@ class Response(NamedTuple):
 
 
 def invert(function: Function, mean: Mean, instants: ArrayLike) -> tuple[Floats, float]:
-    """Return the convolution inverse of a creep (or relaxation) function at given instants.
+    """Return the inverse of a creep (or relaxation) function at instants [s], and its error.
 
-    Parameters
-    ----------
-    function : callable
-        f(t) at times >= 0 in an array [s]: positive and monotone for t > 0. f(0) may be 0 or inf
-        if f begins like a power of time between t^-1 and t^1.
-    mean : callable
-        Mean of f over the times start..end, two arrays of equal shape [s].
-    instants : array_like
-        Times >= 0 [s], in any order and shape.
-
-    Returns
-    -------
-    values : ndarray
-        g(t) with ∫ f(t - t') dg(t') = 1, of the shape of `instants`.
-    error : float
-        Estimated relative error [-]: of a g that grows relative to g, of one that falls relative
-        to 1/f, the greatest it can be (g itself may have relaxed to nothing).
-
-    Raises
-    ------
-    ValueError
-        If f begins like a dashpot or vanishes: its inverse holds a Dirac impulse.
+    `function` is f(t) of an array of times >= 0 [s], positive and monotone for t > 0; f(0) may be
+    0 or inf if f begins like a power of time between t^-1 and t^1. `mean` is the mean of f over
+    the times start..end [s]. The relative error [-] is that of g if g grows, and relative to 1/f,
+    its upper bound, if it falls. ValueError if f begins like a dashpot or vanishes, since its
+    inverse holds a Dirac impulse.
 
     Notes
     -----
     The error is of second order in the step of ln t, which is extrapolated to 0 (Richardson)
-    from three grids; how far the last halving moves the limit is the estimate of its error.
+    from three grids; the change of the limit by the last halving is the error estimate.
 
     Examples
     --------
@@ -121,29 +100,12 @@ def respond(
     load: Load | None = None,
     steps: int = STEPS,
 ) -> Response:
-    """Solve ∫ f(t - t') dg(t') = r(t) for g up to a time.
+    """Solve ∫ f(t - t') dg(t') = r(t) for g up to the time `end` [s].
 
-    Parameters
-    ----------
-    function, mean : callable
-        As in `invert`.
-    end : float
-        Time to reach [s].
-    first : float
-        First node of the grid [s]; before it g is straight in t, or a power if f is.
-    since : float, optional
-        If f begins as a power, the time up to which it is one [s], far after `first`.
-    kinks : sequence of float, optional
-        Times at which g may have a kink [s]: they are made nodes.
-    load : Load, optional
-        r(t), for a growing f with f(0) > 0; left out, it is 1 for t > 0.
-    steps : int, optional
-        Steps in a decade of time on the coarsest grid.
-
-    Returns
-    -------
-    Response
-        The solution. Its values before a time do not depend on `end`.
+    `function` and `mean` as in `invert`; before the node `first` [s] g is straight in t, or a
+    power if f is one up to `since` [s], far after `first`; `kinks` [s] are made nodes; `load` is
+    r(t) for a growing f with f(0) > 0, and 1 if left out; `steps` counts the steps in a decade of
+    the coarsest grid. Values before a time do not depend on `end`.
     """
     coarse = _nodes(first, end, kinks, steps)
     middle = _halved(coarse)
@@ -172,7 +134,7 @@ def respond(
 
 
 def _extrapolated(rough: Floats, better: Floats) -> Floats:
-    """Return the limit of a vanishing step from two of which one is half the other (Richardson)."""
+    """Return the Richardson limit of a vanishing step from the steps h and h/2."""
     change = better[::2] - rough
     # Where a rest has all but relaxed, the rough solution is no guide to the better one.
     change[np.abs(change) > np.abs(better[::2]) / 2] = 0.0
@@ -182,36 +144,21 @@ def _extrapolated(rough: Floats, better: Floats) -> Floats:
 
 
 def steadied(found: Response, trend: int, function: Function | None) -> Response:
-    """Return a solution that should grow (trend 1) or fall (-1), free of swings.
+    """Return a solution made monotone: growing (trend 1) or falling (-1), with its node errors.
 
-    Rounding swings about a plateau, and extrapolation about what has relaxed to nothing: by next
-    to nothing. But a function that no body of springs and dashpots has, such as a table that is
-    kinked or steep, has an inverse that truly swings. What is taken off it counts as doubt.
-
-    Parameters
-    ----------
-    found : Response
-        The solution.
-    trend : int
-        Its direction.
-    function : callable, optional
-        f if r is 1: f(t) g(t) is then at most 1, for whichever of them falls.
-
-    Returns
-    -------
-    Response
-        Monotone, with the node_errors; at most 1, as a monotone g that falls lies between 0 and
-        1/f.
+    Rounding and extrapolation cause small oscillations. A function that no body of springs and
+    dashpots has, such as a table with kinks, has an inverse that truly oscillates: what is removed
+    counts as error. With `function` f and r = 1, g is at most 1/f where it falls.
     """
     times, values, known = found.curve.times, found.curve.values, found.curve.at_once is not None
     if found.curve.at_once is not None:
         times, values = np.append(0.0, times), np.append(found.curve.at_once, values)
     if function is not None:
-        # What has relaxed to nothing bounds nothing.
+        # A function that has relaxed to zero gives no bound.
         with np.errstate(divide="ignore", over="ignore"):
             values = np.fmin(values, 1.0 / function(times))
-    # From the end backwards: a swing then spoils those before it, which are larger, by no more
-    # than itself.
+    # From the end backwards: an oscillation then changes the earlier, larger values by its own
+    # size at most.
     values = np.maximum(values, np.finfo(np.float64).tiny)
     running = np.minimum if trend > 0 else np.maximum
     steady = running.accumulate(values[::-1])[::-1]
@@ -226,13 +173,13 @@ def steadied(found: Response, trend: int, function: Function | None) -> Response
 
 
 def onset(function: Function, change: float = _FIRST_CHANGE) -> float:
-    """Return a time [s] by which a function has hardly changed from its value at 0, to a part."""
+    """Return a time [s] up to which a function hardly changes, by a fraction of its value at 0."""
     at_once = float(function(np.zeros(1))[0])
 
     def changed(decade: float) -> bool:
         return bool(abs(float(function(np.array([10.0**decade]))[0]) / at_once - 1) > change)
 
-    # Outward from 1 s: far times may be costly to know. 280 decades are what a double can hold.
+    # Outward from 1 s: far times may be costly to evaluate; a double holds 280 decades.
     low = next((d for d in np.arange(0.0, -280.0, -5.0) if not changed(d)), -280.0)
     high = next((d for d in np.arange(low + 5.0, 280.0, 5.0) if changed(d)), None)
     if high is None:
@@ -245,7 +192,7 @@ def onset(function: Function, change: float = _FIRST_CHANGE) -> float:
 
 
 def first_node(curve: LogCurve) -> float:
-    """Return where the grid for the inverse of a curve begins [s]."""
+    """Return the first time of the grid for the inverse of a curve [s]."""
     if curve.at_once is None:
         # A constant up to the first point has a constant inverse up to there.
         return float(curve.times[0]) * (1.0 if curve.exponent == 0 else _AHEAD)
@@ -260,8 +207,8 @@ def _first_node(function: Function, early: float, late: float) -> float:
 
 
 def _nodes(first: float, end: float, kinks: Sequence[float], steps: int) -> Floats:
-    """Return a grid even in ln t from the first node past the end, each kink a node."""
-    # The last nodes are lost to differentiation: the end keeps clear of them.
+    """Return a grid even in ln t from the first node past the end, with each kink as a node."""
+    # Differentiation loses the last nodes, so the grid ends after them.
     decades = max(1, math.floor(math.log10(end / first) + 1.5 / steps) + 1)
     # Whole decades from the first node on: a later end adds nodes and moves none.
     marks = first * 10.0 ** np.arange(decades + 1)
@@ -277,7 +224,7 @@ def _nodes(first: float, end: float, kinks: Sequence[float], steps: int) -> Floa
 
 
 def _halved(nodes: Floats) -> Floats:
-    """Return the grid of half the step in ln t; every other node is an old one."""
+    """Return the grid of half the step in ln t; every other node is one of the old grid."""
     fine = np.empty(2 * nodes.size - 1)
     fine[::2] = nodes
     fine[1::2] = np.sqrt(nodes[:-1]) * np.sqrt(nodes[1:])
