@@ -1,4 +1,4 @@
-"""Each doubt is raised where it is due, with its number, once, and nowhere else."""
+"""Accuracy warnings: issued where they apply, with their number, once, and nowhere else."""
 
 import warnings
 
@@ -31,12 +31,12 @@ def hertz_force(part, radius=1.0):
     return 4 * (part * radius) ** 3 / (3 * radius * 0.25e-6)
 
 
-def test_a_gentle_contact_on_a_good_mesh_raises_no_doubt():
+def test_a_gentle_contact_on_a_good_mesh_causes_no_warning():
     grid = vc.Grid((60, 60), (0.28, 0.28))
     assert warnings_of(vc.Paraboloid(1.0, 1.0), vc.step(hertz_force(0.1)), grid) == []
 
 
-def test_a_wide_deep_and_steep_contact_is_doubted_for_each():
+def test_a_wide_deep_and_steep_contact_causes_a_warning_for_each():
     texts = warnings_of(
         vc.Paraboloid(1.0, 1.0), vc.step(hertz_force(0.4)), vc.Grid((40, 40), (1.1, 1.1))
     )
@@ -46,7 +46,7 @@ def test_a_wide_deep_and_steep_contact_is_doubted_for_each():
     assert any("slope" in text for text in texts)
 
 
-def test_a_steep_cone_is_doubted_for_its_slope_and_its_tip_only():
+def test_a_steep_cone_is_warned_about_its_slope_and_tip_only():
     texts = warnings_of(vc.Cone(np.radians(60)), vc.step(1.0), vc.Grid((40, 40), (0.0025, 0.0025)))
     assert len(texts) == 2
     assert any("the indenter's slope within the contact" in text for text in texts)
@@ -74,7 +74,7 @@ CORNERS = {
 
 
 @pytest.mark.parametrize("name", CORNERS)
-def test_a_peak_at_a_tip_or_a_corner_is_doubted_as_the_meshs(name):
+def test_a_peak_at_a_tip_or_a_corner_causes_a_warning_of_the_mesh(name):
     """The pressure there grows with the logarithm of the cell size: `test_roller_ends`."""
     body, cells, singular = CORNERS[name]
     roller = isinstance(body, vc.Roller)
@@ -84,12 +84,12 @@ def test_a_peak_at_a_tip_or_a_corner_is_doubted_as_the_meshs(name):
     assert any("at a tip, an edge or a corner" in text for text in texts) == singular
 
 
-def test_a_punch_is_doubted_for_the_end_of_its_profile():
+def test_a_punch_causes_a_warning_for_the_end_of_its_profile():
     (text,) = warnings_of(vc.FlatPunch(1.0), vc.step(1e3), vc.Grid((40, 40), (2.4, 2.4)))
     assert "end of the indenter's profile" in text
 
 
-def test_few_cells_across_are_doubted_and_too_few_refused():
+def test_few_cells_across_cause_a_warning_and_too_few_refused():
     load = vc.step(hertz_force(0.1))
     (text,) = warnings_of(vc.Paraboloid(1.0, 1.0), load, vc.Grid((12, 12), (0.36, 0.36)))
     assert "cells lie across" in text
@@ -101,22 +101,22 @@ soft = vc.Material(vc.Zener(1e6, 1e5, 1e5), 0.5)  # tau = 1 s, J(inf) = 11 J(0)
 ball, wide = vc.Paraboloid(1.0, 1.0), vc.Grid((40, 40), (0.8, 0.8))
 
 
-def step_doubts_of(times):
+def step_warnings_of(times):
     found = warnings_of(ball, vc.step(hertz_force(0.1)), wide, times, soft)
     return [text for text in found if "time step" in text]
 
 
-def test_a_step_too_long_for_the_law_is_doubted_while_something_happens():
+def test_a_step_too_long_for_the_law_causes_a_warning_while_something_happens():
     # Central pressure errs by 0.39 of itself with this one step.
-    assert "time step of 5 s" in step_doubts_of([0.0, 5.0])[0]
+    assert "time step of 5 s" in step_warnings_of([0.0, 5.0])[0]
 
 
-def test_an_even_longer_step_is_doubted_too():
-    assert step_doubts_of([0.0, 10.0])
+def test_an_even_longer_step_causes_a_warning_too():
+    assert step_warnings_of([0.0, 10.0])
 
 
-def test_steps_as_short_as_the_law_wants_are_not_doubted():
-    assert not step_doubts_of(np.concatenate([vc.uniform_times(10.0, 500), [1000.0]]))
+def test_steps_as_short_as_the_law_wants_cause_no_warning():
+    assert not step_warnings_of(np.concatenate([vc.uniform_times(10.0, 500), [1000.0]]))
 
 
 def test_each_kind_is_said_once():
@@ -125,7 +125,7 @@ def test_each_kind_is_said_once():
     assert warnings.new({"mesh": "coarser"}) == ()
 
 
-def test_mesh_doubts_begin_below_their_bound():
+def test_mesh_warnings_begin_below_their_bound():
     assert mesh_warnings(WARNING_CELLS) == {}
     assert "only 9 cells" in mesh_warnings(WARNING_CELLS - 1)["mesh"]
 
@@ -145,7 +145,7 @@ def test_spots_are_measured_by_their_chords():
     assert cells_across_spots(np.zeros((4, 4), dtype=bool)) == 0
 
 
-def test_askew_strip_is_doubted_though_its_extents_hold_many_cells():
+def test_askew_strip_causes_a_warning_though_its_extents_hold_many_cells():
     assert list(mesh_warnings(120, across_spots=3.0)) == ["spots"]
 
 
@@ -155,7 +155,7 @@ def test_relative_change_knows_zero():
     assert relative_change(4.0, 3.0) == 0.25
 
 
-def test_a_law_that_is_remembered_or_converted_badly_is_doubted(monkeypatch):
+def test_a_law_that_is_remembered_or_converted_badly_causes_a_warning(monkeypatch):
     # Ten times the compliance within a factor 1.5 in time: no positive exponentials do that.
     times, jump = [1.0, 2.0, 3.0, 4.0], [1e-9, 1.001e-9, 9e-9, 9.01e-9]
     ball, load, grid = vc.Sphere(1e-3), vc.step(1e-3), vc.Grid((32, 32), (1.6e-5, 1.6e-5))
@@ -179,7 +179,7 @@ def test_a_law_that_is_remembered_or_converted_badly_is_doubted(monkeypatch):
 @pytest.mark.parametrize(
     ("times", "compliance"), [([1, 10, 100], [1, 3, 10]), ([0.1, 10], [1e-9, 4e-8])]
 )
-def test_a_table_that_would_gain_energy_is_doubted(times, compliance):
+def test_a_table_that_would_gain_energy_causes_a_warning(times, compliance):
     law = TabulatedCreep(times, compliance)
     assert law.complex_modulus(np.geomspace(0.1, 100, 50)).imag.min() < 0
     (text,) = passivity_warnings(law, 100.0).values()
@@ -187,7 +187,7 @@ def test_a_table_that_would_gain_energy_is_doubted(times, compliance):
 
 
 @pytest.mark.parametrize("rows", [2, 5, 20])
-def test_a_table_of_a_material_is_not_doubted(rows):
+def test_a_table_of_a_material_causes_no_warning(rows):
     zener, times = Zener(1e9, 1e8, 1e8), np.geomspace(1e-3, 1e3, 6 * rows + 1)
     for law in (
         TabulatedCreep([0.0, *times], [zener(0.0), *zener(times)]),

@@ -554,7 +554,7 @@ FORETOLD = {
 
 @pytest.fixture
 def case(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A case without any doubt, and a table beside it."""
+    """A case without any warning, and a table beside it."""
     monkeypatch.chdir(tmp_path)
     times = np.geomspace(1, 100, 21)
     rows = "".join(f"{t!r}; {0.05 * t**0.05!r}\n" for t in times.tolist())
@@ -585,7 +585,7 @@ def checked(capsys: pytest.CaptureFixture[str], *settings: str) -> str:
     ],
 )
 @pytest.mark.usefixtures("case")
-def test_check_and_run_say_nothing_where_nothing_is_doubtful(
+def test_check_and_run_warn_of_nothing_in_a_sound_case(
     settings: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert "case.yaml: no problems found" in checked(capsys, *settings)

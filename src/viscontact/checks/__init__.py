@@ -1,1 +1,1 @@
-"""Argument checks, and warnings about accuracy and validity."""
+"""Argument checks, and accuracy warnings as dicts of kind to sentence, empty if there is none."""

@@ -1,4 +1,4 @@
-"""Collect each kind of warning once."""
+"""Collection of accuracy warnings: each kind is issued once."""
 
 from __future__ import annotations
 
@@ -7,23 +7,12 @@ from dataclasses import dataclass, field
 
 @dataclass
 class WarningCollector:
-    """Each kind of doubt once: what has been said already, and what is new."""
+    """Accuracy warnings by kind, each issued once."""
 
-    said: dict[str, str] = field(default_factory=dict)
+    said: dict[str, str] = field(default_factory=dict)  # sentences issued so far, by kind
 
     def new(self, *found: dict[str, str]) -> tuple[str, ...]:
-        """Keep what has not been said, and return it.
-
-        Parameters
-        ----------
-        *found : dict of str to str
-            Sentences by kind of doubt.
-
-        Returns
-        -------
-        tuple of str
-            The sentences of kinds met for the first time.
-        """
+        """Keep the sentences of kinds that have not been issued yet, and return them."""
         fresh = {
             kind: text
             for warnings in found

@@ -1,4 +1,4 @@
-"""Doubts about a contact's geometry: strains too large, and bodies that end."""
+"""Warnings about half-space theory: large strains, bodies that end, singular pressure."""
 
 from __future__ import annotations
 
@@ -16,55 +16,39 @@ from viscontact.grid import Grid
 from viscontact.indenters import Indenter
 from viscontact.units.formatting import format_quantity
 
-#: Small-strain theory is doubtful beyond these: slope, contact half width / R, approach / R, and
-#: for a body without a radius approach / half width, which a cone of that slope has at 0.47.
+#: Limits of small-strain theory: slope, contact half width / R, approach / R, and for a body
+#: without a radius approach / half width (a cone of the limiting slope has 0.47).
 STEEP_SLOPE, WIDE_CONTACT, DEEP_APPROACH, DEEP_PUNCH = 0.3, 0.3, 0.1, 0.5
 
-#: Where slopes stay so far below steep a tilt up to this makes none too steep [rad].
+#: Tilts up to this need not be added to slopes that are smaller than the limit by as much [rad].
 LITTLE_TILT = 0.03
 
-#: Cells across a contact whose extents can be measured against the approach.
+#: Fewest cells across a contact whose extents are compared with the approach.
 FEW_CELLS = 4
 
-#: From one side of a period's border to the other the gap may change by so many times what it does
-#: from cell to cell elsewhere.
+#: Largest change of the gap across a period's border, in changes between neighbouring cells
+#: elsewhere.
 SEAM = 2.0
 
-#: Kinds of doubt that leave the peak pressure without a limit.
+#: Kinds of warnings under which the peak pressure does not converge with the mesh.
 SINGULAR_KINDS = frozenset({"end", "seam", "corner"})
 
-#: A body counts as deep if the contact's half width is no larger part of its thickness. At that
-#: bound an incompressible layer bonded to a rigid base carries 28 % more under a sphere at the same
-#: approach (Dimitriadis et al. 2002, Biophys. J. 82, 2798).
+#: Largest contact half width over thickness of a body that counts as a half-space. At that limit an
+#: incompressible layer bonded to a rigid base carries 28 % more under a sphere at the same approach
+#: (Dimitriadis et al. 2002, Biophys. J. 82, 2798).
 THIN_BODY = 0.2
 
 
 @dataclass(frozen=True, eq=False)
 class Geometry:
-    """What the warnings about geometry need to know.
-
-    Attributes
-    ----------
-    indenter : Indenter
-        The shape; its radius of curvature is the measure of depth and width.
-    open_gap : ndarray, shape (nx, ny)
-        Initial gap [m], +inf outside the outline.
-    grid : Grid
-        The cells.
-    thickness : float
-        Of the thinner body; inf if none is told [m].
-    indenter_gives : bool
-        Whether the indenter is deformable, and so taken for a half-space as well.
-    predicted : bool
-        Whether the contact is an estimate of what is to come, and spoken of as such.
-    """
+    """Shape of the body on its grid, as the warnings about geometry need it."""
 
     indenter: Indenter
-    open_gap: NDArray[np.float64]
+    open_gap: NDArray[np.float64]  # initial gap, +inf outside the outline [m]
     grid: Grid
-    thickness: float = math.inf
-    indenter_gives: bool = False
-    predicted: bool = False
+    thickness: float = math.inf  # of the thinner body, inf if not given [m]
+    indenter_gives: bool = False  # the indenter is deformable, so a half-space as well
+    predicted: bool = False  # the contact is an estimate made before the run
 
     @property
     def _verbs(self) -> tuple[str, str]:
@@ -72,7 +56,7 @@ class Geometry:
 
     @cached_property
     def steepness(self) -> NDArray[np.float64]:
-        """The larger slope from each cell to the next along either axis, without a sign [-]."""
+        """Larger absolute slope from each cell to the next along either axis [-]."""
         steepness = np.zeros(self.grid.shape)
         for axis in (0, 1):
             here = np.moveaxis(steepness, axis, 0)[:-1]
@@ -83,12 +67,12 @@ class Geometry:
 
     @cached_property
     def steepest(self) -> float:
-        """The largest of these slopes [-]."""
+        """Largest of these slopes [-]."""
         return float(self.steepness.max())
 
     @cached_property
     def nearly_steep(self) -> NDArray[np.bool_]:
-        """Cells from which the body rises so steeply that a little tilt makes it too steep."""
+        """Cells at which a little tilt makes the slope too steep."""
         return self.steepness > STEEP_SLOPE - LITTLE_TILT
 
     @cached_property
@@ -107,23 +91,9 @@ def geometry_warnings(
     motion: NDArray[np.float64],
     displacement: NDArray[np.float64],
 ) -> dict[str, str]:
-    """Doubts about small strains, about where the bodies end, and about what the grid misses.
+    """Warn of large strains, ends of the bodies, and parts that the grid misses.
 
-    Parameters
-    ----------
-    geometry : Geometry
-        The undeformed shape on its grid.
-    rim : Rim
-        The contact and its extents.
-    motion : ndarray, shape (3,)
-        Approach [m] and tilts [rad].
-    displacement : ndarray, shape (nx, ny)
-        Displacement of the surface [m].
-
-    Returns
-    -------
-    dict of str to str
-        Sentences by kind of doubt; empty if there is none.
+    The motion holds approach [m] and tilts [rad], the displacement that of the surface [m].
     """
     return (
         strain_warnings(geometry, rim, motion)
@@ -133,18 +103,7 @@ def geometry_warnings(
 
 
 def strain_warnings(geometry: Geometry, rim: Rim, motion: NDArray[np.float64]) -> dict[str, str]:
-    """Doubts about strains too large for a linear theory: slope, width, approach.
-
-    Parameters
-    ----------
-    geometry, rim, motion
-        As in `geometry_warnings`.
-
-    Returns
-    -------
-    dict of str to str
-        Sentences by kind of doubt; empty if there is none.
-    """
+    """Warn of strains too large for linear theory: slope, width, approach."""
     warnings: dict[str, str] = {}
     half_width, radius = _half_width(rim), geometry.indenter.radius_of_curvature
     # A roller's length is no measure of its width, and may be less.
@@ -165,8 +124,8 @@ def strain_warnings(geometry: Geometry, rim: Rim, motion: NDArray[np.float64]) -
     measure, named, most = radius, "indenter's radius of curvature", DEEP_APPROACH
     if math.isinf(radius):
         measure, named, most = half_width, "contact's half width", DEEP_PUNCH
-    # Of a body without a radius, slopes say it already where there are any; and the extents of a
-    # contact of few cells say little.
+    # Without a radius, a steep slope is reported already, and the extents of a contact of few cells
+    # are inaccurate.
     known = math.isfinite(radius) or (slope <= STEEP_SLOPE and _spans(rim.contact, FEW_CELLS))
     if known and motion[0] > most * measure:
         warnings["approach"] = (
@@ -177,18 +136,7 @@ def strain_warnings(geometry: Geometry, rim: Rim, motion: NDArray[np.float64]) -
 
 
 def body_warnings(geometry: Geometry, rim: Rim) -> dict[str, str]:
-    """Doubts about bodies that end where a half-space goes on: profile, end face, thickness.
-
-    Parameters
-    ----------
-    geometry, rim
-        As in `geometry_warnings`.
-
-    Returns
-    -------
-    dict of str to str
-        Sentences by kind of doubt; empty if there is none.
-    """
+    """Warn of bodies that end where a half-space continues: profile, end face, thickness."""
     warnings: dict[str, str] = {}
     half_width, (be, reach) = _half_width(rim), geometry._verbs
     if geometry.grid.periodic and _touches_seam(geometry, rim):
@@ -224,23 +172,10 @@ def corner_warnings(
     strain: float,
     searched: tuple[float, float] | None = None,
 ) -> dict[str, str]:
-    """Doubt about a peak of pressure at a tip, an edge or a corner of the body.
+    """Warn of a pressure peak at a tip, an edge or a corner of the body.
 
-    Parameters
-    ----------
-    geometry : Geometry
-        The undeformed shape on its grid.
-    place : tuple of float
-        Where pressure is largest [m].
-    strain : float
-        That makes it, from `singularities.strain_of` [-].
-    searched : tuple of float, optional
-        Edges of the cells that the place is known to [m]; the grid's when left out.
-
-    Returns
-    -------
-    dict of str to str
-        Sentences by kind of doubt; empty if there is none.
+    The largest pressure lies at `place` [m], to within `searched` [m] (a cell if left out);
+    `strain` is `singularities.strain_of` of it [-].
     """
     cell = geometry.grid.cell_size
     along, across = (1.5 * each for each in searched or cell)
@@ -260,7 +195,7 @@ def corner_warnings(
 def _touches_seam(geometry: Geometry, rim: Rim) -> bool:
     """Whether contact lies at a step from the period's last cells to its first.
 
-    A step is much larger than those from cell to cell elsewhere.
+    A step is much larger than the differences between neighbouring cells elsewhere.
     """
     for axis, lines in enumerate((rim.rows, rim.columns)):
         gap = np.moveaxis(geometry.open_gap, axis, 0)
@@ -274,15 +209,17 @@ def _touches_seam(geometry: Geometry, rim: Rim) -> bool:
 
 
 def _spans(contact: NDArray[np.bool_], cells: int) -> bool:
+    """Whether a contact extends over a number of cells along both axes."""
     return all(int(contact.any(axis=axis).sum()) >= cells for axis in (0, 1))
 
 
 def _half_width(rim: Rim) -> float:
+    """Half the smaller extent of a contact [m]."""
     return min(rim.length, rim.width) / 2
 
 
 def _ends_within(geometry: Geometry, rim: Rim, distance: float) -> bool:
-    """Whether the indenter ends near the box around the contact, within the grid."""
+    """Whether the indenter ends within a distance [m] of the box around the contact."""
     block = []
     for axis, lines in enumerate((rim.rows, rim.columns)):
         touched = lines[rim.contact.any(axis=1 - axis)]
@@ -294,7 +231,7 @@ def _ends_within(geometry: Geometry, rim: Rim, distance: float) -> bool:
 
 
 def _around(lines: NDArray[np.intp], distance: int, grid: Grid, axis: int) -> NDArray[np.intp]:
-    """Lines of the grid from so many before the first of some to so many behind the last."""
+    """Lines of the grid from `distance` before the first given line to as many after the last."""
     count = grid.shape[axis]
     first, last = int(lines[0]) - distance, int(lines[-1]) + distance
     if grid.periodic:
@@ -303,7 +240,7 @@ def _around(lines: NDArray[np.intp], distance: int, grid: Grid, axis: int) -> ND
 
 
 def _steepest_slope(geometry: Geometry, rim: Rim, motion: NDArray[np.float64]) -> float:
-    """Steepest slope in contact; a bound where that is not steep."""
+    """Steepest slope in contact; an upper bound where that is not steep."""
     tilt = float(np.abs(motion[1:]).max())
     if geometry.steepest + tilt <= STEEP_SLOPE:
         return geometry.steepest + tilt

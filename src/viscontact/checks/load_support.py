@@ -1,4 +1,4 @@
-"""Where a force can act: within the hull of what can touch.
+"""Load support: the convex hull of the cells that can touch, within which a force can be balanced.
 
 References
 ----------
@@ -17,14 +17,9 @@ from viscontact.units.formatting import format_quantity
 
 
 class LoadSupport:
-    """Where a force can act so that pressure, which is never negative, can balance it.
+    """Region in which a force can be balanced by pressure, which is never negative.
 
-    Parameters
-    ----------
-    solid : ndarray of bool, shape (nx, ny)
-        Cells that can touch.
-    grid : Grid
-        The cells.
+    `solid` marks the cells that can touch.
 
     Examples
     --------
@@ -46,20 +41,7 @@ class LoadSupport:
         )
 
     def refuse_outside(self, where: tuple[float | None, float | None], time: float) -> None:
-        """Refuse a force outside the hull of those cells.
-
-        Parameters
-        ----------
-        where : tuple of float or None
-            Eccentricities of the force along x and y; None along an axis whose tilt is given [m].
-        time : float
-            Instant, for the message [s].
-
-        Raises
-        ------
-        ValueError
-            If no pressure can balance it.
-        """
+        """Refuse a force outside the hull; an eccentricity is None where its tilt is prescribed."""
         for name, eccentricity, (first, last) in zip("xy", where, self._spans, strict=True):
             if eccentricity is not None and not first <= eccentricity <= last:
                 raise ValueError(
@@ -95,9 +77,9 @@ class LoadSupport:
 
 
 def _upper_envelope(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Corners of the lowest concave line above points of ascending x (Andrew 1979).
+    """Upper convex hull of points of ascending x (Andrew 1979).
 
-    By hand, as the library with hulls takes a tenth of a second to import: a fifth of many runs.
+    Not by SciPy's hulls, whose import takes a tenth of a second.
     """
     corners: list[tuple[float, float]] = []
     for x2, y2 in zip(x.tolist(), y.tolist(), strict=True):

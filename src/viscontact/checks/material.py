@@ -1,4 +1,4 @@
-"""Doubts about the material of a run: its data, what is made of them, and whether they can be."""
+"""Warnings about the material of a run: range of the data, interconversion, passivity."""
 
 from __future__ import annotations
 
@@ -8,30 +8,18 @@ from viscontact.laws import Law, TabulatedCreep, TabulatedRelaxation
 from viscontact.loads import LoadHistory
 from viscontact.units.formatting import format_quantity
 
-#: A table's loss modulus may fall below zero by this part of the modulus, at so many frequencies.
+#: Tolerated negative loss modulus of a table, as a part of the modulus; frequencies examined.
 NEGATIVE_LOSS, FREQUENCIES = 0.02, 25
 
-#: A creep compliance that may be off by more than this part is not the material's any more.
+#: Largest relative error of a creep compliance that is not reported.
 MAX_LAW_ERROR = 0.01
 
-#: Part of the largest load that may have come later than the data can tell its creep.
+#: Part of the largest load that may act for less time than the data cover.
 EARLY_LOAD_FRACTION = 0.25
 
 
 def data_warnings(time: float, measured_until: float) -> dict[str, str]:
-    """Doubt about a run that goes beyond the times at which the material was measured.
-
-    Parameters
-    ----------
-    time : float
-        Instant of the run [s].
-    measured_until : float
-        Last time of the data [s].
-
-    Returns
-    -------
-    dict of str to str
-        Sentences by kind of doubt; empty if there is none.
+    """Warn of a run beyond the times at which the material was measured [s].
 
     Examples
     --------
@@ -51,23 +39,9 @@ def data_warnings(time: float, measured_until: float) -> dict[str, str]:
 def early_warnings(
     measured_from: float, load: LoadHistory, time: float, side: str = "right"
 ) -> dict[str, str]:
-    """Doubt about an instant so soon after the load that no data tell the material's creep yet.
+    """Warn of a time so soon after the load that the data do not cover the creep yet.
 
-    Parameters
-    ----------
-    measured_from : float
-        First time of the data [s]; 0 if they begin with the instant compliance, or for a formula.
-    load : LoadHistory
-        What presses.
-    time : float
-        Instant of the run [s].
-    side : {"left", "right"}
-        Side of a jump at that instant.
-
-    Returns
-    -------
-    dict of str to str
-        Sentences by kind of doubt; empty if there is none.
+    `measured_from` is the first time of the data, 0 for a formula [s].
 
     Examples
     --------
@@ -93,19 +67,7 @@ def early_warnings(
 
 
 def law_warnings(memory_error: float, inversion_error: float) -> dict[str, str]:
-    """Doubts about a creep compliance that is not quite the one of the law as given.
-
-    Parameters
-    ----------
-    memory_error : float
-        Largest relative deviation of the exponentials that the past is remembered by [-].
-    inversion_error : float
-        Estimated relative error of a creep compliance converted from a modulus [-].
-
-    Returns
-    -------
-    dict of str to str
-        Sentences by kind of doubt; empty if there is none.
+    """Warn of a creep compliance that deviates from the law as given; relative errors [-].
 
     Examples
     --------
@@ -128,22 +90,10 @@ def law_warnings(memory_error: float, inversion_error: float) -> dict[str, str]:
 
 
 def passivity_warnings(law: Law, end: float) -> dict[str, str]:
-    """Doubt about a measured law that would give energy back, and more than it was given.
+    """Warn of a measured law whose loss modulus is negative at some frequency.
 
-    A table of few steep rows leaves so much open between them that its loss modulus can be negative
-    at some frequency, which no material's is.
-
-    Parameters
-    ----------
-    law : Law
-        A law; only tables are looked at, since formulas are passive.
-    end : float
-        End of the run [s].
-
-    Returns
-    -------
-    dict of str to str
-        Sentences by kind of doubt; empty if there is none.
+    A table of few steep rows can be such between its rows, although no material gains energy.
+    Formulas are passive, so only tables are examined.
 
     Examples
     --------
@@ -155,7 +105,7 @@ def passivity_warnings(law: Law, end: float) -> dict[str, str]:
     if not isinstance(law, TabulatedCreep | TabulatedRelaxation) or end <= 0:
         return {}
     rows = [time for time in law.times if 0 < time <= end]
-    # A bend at the first row is felt at frequencies above it, too.
+    # A bend at the first row affects frequencies above it, too.
     frequencies = np.geomspace(1.0 / end, 10.0 / min([*rows, end / 10]), FREQUENCIES)
     modulus = law.complex_modulus(frequencies)
     part = modulus.imag / np.abs(modulus)

@@ -1,4 +1,4 @@
-"""Warnings about a coarse mesh, and the number of cells across a contact."""
+"""Warnings about a coarse mesh, and the mean chord of a contact."""
 
 from __future__ import annotations
 
@@ -9,29 +9,20 @@ from numpy.typing import NDArray
 
 from viscontact.contact.rim import mean_chords
 
-#: Fewer cells across the largest contact than this are doubtful, or refused.
+#: Fewer cells across the largest contact than these cause a warning, or an error.
 WARNING_CELLS, MIN_CELLS_ACROSS = 10, 4
 
 
-#: Fewer cells across the spots that a contact consists of, in the mean, are doubtful. Counted
-#: along grid lines, where a disc of d cells has a mean chord of pi/4 d: 4 are a disc of 5 cells.
+#: A smaller mean chord causes a warning. A disc of d cells has a mean chord of pi/4 d: 4 belong to
+#: a disc of 5 cells.
 WARNING_SPOT_CELLS = 4.0
 
 
 def mesh_warnings(cells_across: int, across_spots: float = math.inf) -> dict[str, str]:
-    """Doubt about a coarse mesh.
+    """Warn of few cells across the contact, or across the spots that it consists of.
 
-    Parameters
-    ----------
-    cells_across : int
-        Cells across the run's largest contact, along its shorter way.
-    across_spots : float
-        Cells across the spots that it consists of, from `cells_across_spots`.
-
-    Returns
-    -------
-    dict of str to str
-        Sentences by kind of doubt; empty if there is none.
+    `cells_across` counts along the shorter axis of the run's largest contact; `across_spots` comes
+    from `cells_across_spots`.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""What can be one period of a periodic surface, and what is refused there."""
+"""Checks of a periodic surface: shape and load must repeat with the period of the grid."""
 
 from __future__ import annotations
 
@@ -15,34 +15,20 @@ from viscontact.loads import LoadHistory
 from viscontact.loads.arguments import TAIL
 from viscontact.units.formatting import format_quantity
 
-#: Lengths that agree to this part of the period are one, however they were written down.
-SAME = 1e-6
+#: Relative difference below which a length equals the period.
+LENGTH_TOLERANCE = 1e-6
 
-#: A texture repeats itself if gaps a period apart differ by no more than this part of its depth.
-REPEATED = 1e-3
+#: Largest difference of gaps a period apart in a periodic texture, as a part of its depth.
+TEXTURE_TOLERANCE = 1e-3
 
 
 def check_period(
     indenter: Indenter, open_gap: NDArray[np.float64], grid: Grid, load: LoadHistory
 ) -> None:
-    """Refuse, on a periodic grid, what does not repeat itself or what no period can carry.
+    """Refuse a shape or a load that does not fit into the period of a periodic grid.
 
-    Parameters
-    ----------
-    indenter : Indenter
-        The shape; what of it lies within the grid is repeated.
-    open_gap : ndarray, shape (nx, ny)
-        Its gap on the grid [m].
-    grid : Grid
-        The period; nothing is refused on a grid that is none.
-    load : LoadHistory
-        The load.
-
-    Raises
-    ------
-    ValueError
-        If the load acts off centre or tilts, waves, dimples or a height map do not fit into the
-        period, or an approach would press the surfaces together everywhere.
+    A load must be centred and level, waves, dimples and height maps must fit into the period, and
+    an approach must not close the gap everywhere. `open_gap` is the gap on the grid [m].
 
     Examples
     --------
@@ -75,7 +61,7 @@ def check_period(
 
 
 def _parts(indenter: Indenter) -> Iterator[Indenter]:
-    """The shapes of a body, each where it lies."""
+    """Shapes of a combined body, each placed where it lies."""
     if isinstance(indenter, CombinedIndenter):
         for part in indenter.parts:
             yield from _parts(part)
@@ -86,6 +72,7 @@ def _parts(indenter: Indenter) -> Iterator[Indenter]:
 
 
 def _refuse_misfit(part: Indenter, grid: Grid) -> None:
+    """Refuse one shape of a body that does not repeat with the grid."""
     if isinstance(part, HeightMap):
         for name, lines, centres, period in zip(
             "xy", (part.x, part.y), (grid.x, grid.y), grid.size, strict=True
@@ -105,16 +92,16 @@ def _refuse_misfit(part: Indenter, grid: Grid) -> None:
 def _refuse_map(
     axis: str, lines: NDArray[np.float64], centres: NDArray[np.float64], period: float
 ) -> None:
-    """Refuse a map whose points, or the cells around them, do not make the period along an axis."""
+    """Refuse a map that is not as long as the period along an axis, or does not cover its cells."""
     span = float(lines[-1] - lines[0])
     whole = span * lines.size / (lines.size - 1)
-    if not any(math.isclose(period, each, rel_tol=SAME) for each in (span, whole)):
+    if not any(math.isclose(period, each, rel_tol=LENGTH_TOLERANCE) for each in (span, whole)):
         raise ValueError(
             f"grid.size: one period along {axis} must be as long as the height map, which repeats "
             f"itself over {format_quantity(whole, 'm', 9)} there ({lines.size} points), got "
             f"{format_quantity(period, 'm', 9)}"
         )
-    slack = SAME * period
+    slack = LENGTH_TOLERANCE * period
     if centres[0] < lines[0] - slack or centres[-1] > lines[-1] + slack:
         raise ValueError(
             f"grid.shape: the height map has {lines.size} points along {axis}, and a cell beside "
@@ -124,11 +111,12 @@ def _refuse_map(
 
 
 def _refuse_texture(part: Indenter, grid: Grid) -> None:
+    """Refuse waves or dimples of which the period does not hold a whole number."""
     here = part.gap(grid.x[:, None], grid.y[None, :])
     for axis, (name, period) in enumerate(zip("xy", grid.size, strict=True)):
         shift = np.where(np.arange(2) == axis, period, 0.0)
         there = part.gap(grid.x[:, None] + shift[0], grid.y[None, :] + shift[1])
-        if float(np.abs(there - here).max()) > REPEATED * float(here.max()):
+        if float(np.abs(there - here).max()) > TEXTURE_TOLERANCE * float(here.max()):
             raise ValueError(
                 "grid.size: the body does not repeat itself over "
                 f"{format_quantity(period, 'm', 9)} along {name}; one period must hold a whole "

@@ -1,4 +1,4 @@
-"""Doubts about what a grid does not see of a body: peaks between its points, and beyond them."""
+"""Warnings about what a grid misses of a body: peaks between its points, and parts beyond it."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ from viscontact.indenters import Indenter
 from viscontact.indenters.textures import CELLS_OF_A_WAVE
 from viscontact.units.formatting import format_quantity
 
-#: What may stand out from one point of the grid to the next, as a slope, over the mean strain
+#: Largest height between neighbouring points that is not reported, as a slope over the mean strain
 #: of the contact (approach / half width). Flattening a wave of amplitude h and length l takes a
-#: pressure of pi h / (l J) (Johnson 1985, Contact Mechanics, eq. 13.7); waves of two cells count.
-#: A sphere on 10 cells across is below it.
+#: pressure of pi h / (l J) (Johnson 1985, Contact Mechanics, eq. 13.7); waves of two cells count. A
+#: sphere on 10 cells across is below it.
 MISSED_PEAK = 0.1
 
 
-#: Where a body is looked for beyond the grid, as part of its size: evenly near it, then ever wider.
+#: Sample points beyond the grid, in sizes of the grid: even near it, then geometrically spaced.
 NEAR, FAR = np.linspace(0.0, 1.5, 25), np.geomspace(1.6, 30.0, 32)
 
-#: Rings of points beyond the grid, each of which is passed over where none of it can touch.
+#: Rings that the points beyond the grid are grouped in; a ring that cannot touch is skipped.
 RINGS = 16
 
 Points = tuple[NDArray[np.float64], NDArray[np.float64]]
@@ -35,20 +35,10 @@ Points = tuple[NDArray[np.float64], NDArray[np.float64]]
 
 @dataclass(frozen=True, eq=False)
 class Sampling:
-    """A body and the points at which a grid sees it.
-
-    Attributes
-    ----------
-    indenter : Indenter
-        The body.
-    open_gap : ndarray, shape (nx, ny)
-        Its initial gap on the grid [m], +inf outside the outline.
-    grid : Grid
-        The cells.
-    """
+    """A body, and its gap at the points of a grid."""
 
     indenter: Indenter
-    open_gap: NDArray[np.float64]
+    open_gap: NDArray[np.float64]  # initial gap, +inf outside the outline [m]
     grid: Grid
 
     @cached_property
@@ -62,7 +52,7 @@ class Sampling:
 
     @cached_property
     def _rings(self) -> NDArray[np.float64]:
-        """Of rings of points beyond the grid: largest distances along x and y, least gap [m]."""
+        """Largest distances along x and y and least gap of rings of points beyond the grid [m]."""
         x, y, gap = self.beyond
         (lx, ly), distances = self.grid.size, np.abs([x, y])
         outwards = np.argsort(np.maximum(distances[0] / lx, distances[1] / ly))
@@ -73,7 +63,7 @@ class Sampling:
     def reaches_beyond(self, motion: NDArray[np.float64], depth: float) -> bool:
         """Whether the moved body lies deeper than a depth [m] at a point outside the grid."""
         far_x, far_y, least = self._rings
-        # It is asked at every step, and nearly always no ring comes close.
+        # Called at every step; nearly always no ring comes close.
         deepest = motion[0] + abs(motion[1]) * far_x + abs(motion[2]) * far_y - least
         if (deepest <= depth).all():
             return False
@@ -82,7 +72,7 @@ class Sampling:
 
     @cached_property
     def missed(self) -> NDArray[np.float64]:
-        """How far a map stands out between the grid's points, or from one to the next [m].
+        """Height of a map's points over the interpolated grid, or over neighbouring points [m].
 
         As the amplitude of a wave of two cells; 0 for other bodies, whose tips and edges are meant.
         """
@@ -96,7 +86,7 @@ class Sampling:
                 (x, y), (self.grid.x, self.grid.y), self.grid.cell_size, strict=True
             )
         ]
-        # Outside the grid, and beside the body's end, nothing can be said.
+        # Not known outside the grid, and beside the end of the body.
         seen = scipy.ndimage.map_coordinates(
             np.nan_to_num(self.open_gap, posinf=np.nan), places, order=1, cval=np.nan
         )
@@ -111,6 +101,7 @@ class Sampling:
         return not self.missed.any()
 
     def _sampled_points(self) -> Iterator[Points]:
+        """Points near and far from the grid, and those of a height map."""
         lx, ly = self.grid.size
         one_side = np.concatenate([NEAR, FAR])
         part = np.concatenate([-one_side[:0:-1], one_side])
@@ -119,21 +110,10 @@ class Sampling:
 
 
 def map_warnings(missed: float, cell: float, strain: float) -> dict[str, str]:
-    """Doubt about a height map that is finer than the grid.
+    """Warn of a height map that is finer than the grid.
 
-    Parameters
-    ----------
-    missed : float
-        How far the map stands out between the grid's points within the contact [m].
-    cell : float
-        Edge of a cell, the longer one [m].
-    strain : float
-        Approach over the contact's half width [-].
-
-    Returns
-    -------
-    dict of str to str
-        Sentences by kind of doubt; empty if there is none.
+    `missed` is its largest height between the grid's points within the contact [m], `cell` the
+    longer edge of a cell [m], `strain` the approach over the contact's half width [-].
 
     Examples
     --------
@@ -157,23 +137,9 @@ def sampling_warnings(
     motion: NDArray[np.float64],
     displacement: NDArray[np.float64],
 ) -> dict[str, str]:
-    """Doubts about what the grid does not see of the body under load.
+    """Warn of parts of the body under load that the grid does not represent.
 
-    Parameters
-    ----------
-    sampling : Sampling
-        The body and the grid.
-    rim : Rim
-        The contact.
-    motion : ndarray, shape (3,)
-        Approach [m] and tilts [rad].
-    displacement : ndarray, shape (nx, ny)
-        Displacement of the surface [m].
-
-    Returns
-    -------
-    dict of str to str
-        Sentences by kind of doubt; empty if there is none.
+    The motion holds approach [m] and tilts [rad], the displacement that of the surface [m].
     """
     missed = 0.0
     if not sampling.sees_all:
@@ -184,7 +150,7 @@ def sampling_warnings(
     warnings = map_warnings(missed, cell, strain) | texture_warnings(sampling.indenter.period, cell)
     if sampling.grid.periodic:
         return warnings  # the next period is beside it, not the body
-    # Pressure is all within the grid, so displacement falls from its rim outwards.
+    # All pressure lies within the grid, so the displacement falls outwards from the grid's rim.
     rim_displacement = max(displacement[[0, -1]].max(), displacement[:, [0, -1]].max())
     if sampling.reaches_beyond(motion, rim_displacement * (1 + 1e-9)):
         warnings["beyond"] = (
@@ -195,26 +161,14 @@ def sampling_warnings(
 
 
 def texture_warnings(period: float, cell: float) -> dict[str, str]:
-    """Doubt about waves or dimples that are finer than the grid.
-
-    Parameters
-    ----------
-    period : float
-        Shortest length over which the body repeats itself, inf if it does not [m].
-    cell : float
-        Edge of a cell, the longer one [m].
-
-    Returns
-    -------
-    dict of str to str
-        Sentences by kind of doubt; empty if there is none.
+    """Warn of waves or dimples of a period [m] of too few cells [m].
 
     Examples
     --------
     >>> list(texture_warnings(1e-3, 2e-4)), list(texture_warnings(1e-3, 1e-4))
     (['texture'], [])
     """
-    # Ten cells exactly are not fewer for a rounding.
+    # Exactly ten cells are enough in spite of rounding.
     if period > (CELLS_OF_A_WAVE - 1e-6) * cell:
         return {}
     return {
@@ -227,13 +181,13 @@ def texture_warnings(period: float, cell: float) -> dict[str, str]:
 
 
 def _outside(grid: Grid, x: NDArray[np.float64], y: NDArray[np.float64]) -> Points:
-    """Those of the points that lie outside a grid."""
+    """The points that lie outside a grid."""
     lx, ly = grid.size
     outside = (np.abs(x) > lx / 2) | (np.abs(y) > ly / 2)
     return x[outside], y[outside]
 
 
 def _mesh(x: NDArray[np.float64], y: NDArray[np.float64]) -> Points:
-    """All points of a mesh, one after the other."""
+    """All points of a mesh, as flat arrays."""
     along, across = np.meshgrid(x, y, indexing="ij")
     return along.ravel(), across.ravel()

@@ -1,4 +1,4 @@
-"""Where pressure has no bound: at the end of a body, and at its points and ridges."""
+"""Singular pressure: at the end of a body, and at its points and ridges."""
 
 from __future__ import annotations
 
@@ -7,26 +7,19 @@ from numpy.typing import NDArray
 
 from viscontact.indenters import Indenter
 
-#: Samples in a cell, and those of a quarter of one and of three: a change of slope is a corner to
-#: the grid if so much of what lies within three cells lies within a quarter of one; of an even
-#: curvature a twelfth does, of a map's facets, a cell long each, a third.
+#: Samples in one cell, in a quarter of one and in three. A change of slope counts as a corner if
+#: this part of the change within three cells lies within a quarter of one; under even curvature a
+#: twelfth does, and a third at the facets of a map, each a cell long.
 SAMPLES, QUARTER, AROUND = 16, 4, 48
-CONCENTRATED = 0.5
+CORNER_SHARE = 0.5
 
-#: A corner counts from this angle on, as part of the strain that makes the pressure. Halving the
-#: cells adds E* angle ln(2)/(2 pi) to a peak of 2/pi E* strain then, which is 1 %.
-MILD = 0.06
+#: Smallest angle of a corner that counts, as a part of the strain of the pressure. Halving the
+#: cells then adds E* angle ln(2)/(2 pi), or 1 %, to a peak of 2/pi E* strain.
+MIN_ANGLE = 0.06
 
 
 def touches_end(open_gap: NDArray[np.float64], contact: NDArray[np.bool_]) -> bool:
-    """Whether a contact reaches a place where the indenter ends.
-
-    Parameters
-    ----------
-    open_gap : ndarray, shape (nx, ny)
-        Initial gap, +inf outside the outline [m].
-    contact : ndarray of bool, shape (nx, ny)
-        Cells under pressure.
+    """Whether a contact reaches a cell beside which the indenter ends (open gap +inf).
 
     Examples
     --------
@@ -53,23 +46,9 @@ def is_sharp(
 ) -> bool:
     """Whether a body has a point, a ridge or a corner near a place, towards the half-space.
 
-    Parameters
-    ----------
-    indenter : Indenter
-        The body.
-    place : tuple of float
-        Where pressure is largest [m].
-    reach : tuple of float
-        How far from there along x and y the point may lie [m].
-    cell : tuple of float
-        Edges of a cell [m]: what is rounded within a quarter of one is sharp to the grid.
-    strain : float
-        That makes the largest pressure, `strain_of`; angles are compared to it [-].
-
-    Returns
-    -------
-    bool
-        Whether the slope jumps there: theory's pressure is infinite, or as good as that.
+    The largest pressure lies at `place` [m], the point within `reach` of it along x and y [m]. A
+    rounding within a quarter of a cell [m] counts as sharp; angles are compared with `strain`, from
+    `strain_of` [-].
 
     Notes
     -----
@@ -86,18 +65,13 @@ def is_sharp(
     x, y = (_samples(*each) for each in zip(place, reach, cell, strict=True))
     gap = indenter.gap(x[:, None], y[None, :])
     gap = np.where(np.isinf(gap), np.nan, gap)  # where the body ends, nothing bends
-    return any(_angle(gap, axis, cell[axis] / SAMPLES) > MILD * strain for axis in (0, 1))
+    return any(_angle(gap, axis, cell[axis] / SAMPLES) > MIN_ANGLE * strain for axis in (0, 1))
 
 
 def strain_of(peak_pressure: float, compliance: float) -> float:
-    """Return the strain that a peak of pressure stands for: the approach over the half width.
+    """Strain (approach over half width) that belongs to a peak pressure by Hertz's theory [-].
 
-    Parameters
-    ----------
-    peak_pressure : float
-        Largest pressure [Pa].
-    compliance : float
-        Contact compliance, of which the contact modulus is the inverse [1/Pa].
+    The compliance is the inverse of the contact modulus [1/Pa].
 
     Notes
     -----
@@ -112,7 +86,7 @@ def strain_of(peak_pressure: float, compliance: float) -> float:
 
 
 def _samples(place: float, reach: float, cell: float) -> NDArray[np.float64]:
-    """Positions along an axis, so far that there is something around whatever is within reach."""
+    """Positions on an axis around a place, wide enough to compare slopes all over the reach [m]."""
     count = int(np.ceil(reach / cell * SAMPLES)) + AROUND // 2
     return np.asarray(place + np.arange(-count, count + 1) * cell / SAMPLES)
 
@@ -123,5 +97,5 @@ def _angle(gap: NDArray[np.float64], axis: int, step: float) -> float:
     aside = (AROUND - QUARTER) // 2
     around = slopes[AROUND:] - slopes[:-AROUND]
     close = (slopes[QUARTER:] - slopes[:-QUARTER])[aside : aside + len(around)]
-    is_corner = np.isfinite(around) & (close > CONCENTRATED * around)
+    is_corner = np.isfinite(around) & (close > CORNER_SHARE * around)
     return float(close[is_corner].max(initial=0.0))

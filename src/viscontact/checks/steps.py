@@ -1,4 +1,4 @@
-"""Doubts about a result: what a careful reader would ask before believing a number."""
+"""Warnings about time steps: too long for the law, for loading, or for unloading."""
 
 from __future__ import annotations
 
@@ -6,27 +6,17 @@ import numpy as np
 
 from viscontact.units.formatting import format_quantity
 
-#: The largest pressure may exceed the largest that is told by this part.
+#: Part by which the largest pressure may exceed the largest reported one.
 UNREPORTED_PEAK = 0.1
 
-#: Relative change of force or peak pressure that a step long against the law must not hide.
+#: Relative change of force or peak pressure over one long step that causes a warning.
 NOTABLE_CHANGE = 0.25
 
 
 def step_warnings(duration: float, change: float) -> dict[str, str]:
-    """Doubt about a time step too long for the law while the load or the pressure changes.
+    """Warn of a time step [s] too long for the law while load or pressure change.
 
-    Parameters
-    ----------
-    duration : float
-        Length of such a step [s].
-    change : float
-        Largest relative change of force and peak pressure over it.
-
-    Returns
-    -------
-    dict of str to str
-        Sentences by kind of doubt; empty if there is none.
+    `change` is the largest relative change of force and peak pressure over it [-].
 
     Examples
     --------
@@ -45,22 +35,10 @@ def step_warnings(duration: float, change: float) -> dict[str, str]:
 
 
 def touch_warnings(duration: float, share: float) -> dict[str, str]:
-    """Doubt about a load that grows from nothing in one step of a creeping body.
+    """Warn of a load on a creeping body that grows from zero in one step [s].
 
-    The contact grows with a root of the force, which a straight line through one step follows
-    badly: the pressure after it is off by a few per cent.
-
-    Parameters
-    ----------
-    duration : float
-        Length of the step [s].
-    share : float
-        Force at its end, over the largest of the history.
-
-    Returns
-    -------
-    dict of str to str
-        Sentences by kind of doubt; empty if there is none.
+    The contact grows with a root of the force, which one linear step follows badly: the pressure
+    after it is off by a few per cent. `share` is the force over the largest of the history [-].
 
     Examples
     --------
@@ -79,22 +57,10 @@ def touch_warnings(duration: float, share: float) -> dict[str, str]:
 
 
 def release_warnings(duration: float, share: float) -> dict[str, str]:
-    """Doubt about a contact of a creeping body that is lost in one step, as the load falls.
+    """Warn of a contact of a creeping body that is lost in one step [s] as the load falls.
 
-    The contact shrinks over it, and a straight line through one step gives the rim, which was left
-    early, a load for too long: the dent that stays is off by up to a third.
-
-    Parameters
-    ----------
-    duration : float
-        Length of the step [s].
-    share : float
-        How far force or approach falls over it, over the largest of the history.
-
-    Returns
-    -------
-    dict of str to str
-        Sentences by kind of doubt; empty if there is none.
+    Over one linear step the rim, which is left early, bears a load for too long: the remaining dent
+    is off by up to a third. `share` is the fall over the largest load of the history [-].
 
     Examples
     --------
@@ -112,38 +78,24 @@ def release_warnings(duration: float, share: float) -> dict[str, str]:
     }
 
 
-def unreported_peak_warnings(peak: float, time: float, told: float) -> dict[str, str]:
-    """Doubt about instants between which more has happened than at them.
-
-    Parameters
-    ----------
-    peak : float
-        Largest pressure over all steps [Pa].
-    time : float
-        When it was [s].
-    told : float
-        Largest pressure over the instants that were asked for [Pa].
-
-    Returns
-    -------
-    dict of str to str
-        Sentences by kind of doubt; empty if there is none.
+def unreported_peak_warnings(peak: float, time: float, reported: float) -> dict[str, str]:
+    """Warn of a peak pressure [Pa] between the requested times that exceeds the reported one.
 
     Examples
     --------
-    >>> list(unreported_peak_warnings(2e6, 0.3, told=1e6))
-    ['untold']
-    >>> unreported_peak_warnings(1e6, 0.3, told=1e6)
+    >>> list(unreported_peak_warnings(2e6, 0.3, reported=1e6))
+    ['unreported']
+    >>> unreported_peak_warnings(1e6, 0.3, reported=1e6)
     {}
     """
-    if peak <= (1 + UNREPORTED_PEAK) * told:
+    if peak <= (1 + UNREPORTED_PEAK) * reported:
         return {}
     return {
-        "untold": (
+        "unreported": (
             "between the instants asked for the peak pressure reaches "
             f"{format_quantity(peak, 'Pa')}, at t = {format_quantity(time, 's', 6)}, and "
-            f"{format_quantity(told, 'Pa')} is the largest that the result tells; ask for an "
-            "instant there, or for more steps"
+            f"{format_quantity(reported, 'Pa')} is the largest that the result holds; request a "
+            "time there, or more steps"
         )
     }
 
