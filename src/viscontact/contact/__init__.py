@@ -1,1 +1,1 @@
-"""The contact problem of one time step: domain, constraints, solver, contact edge."""
+"""Contact problem of one time step: domain, constraints, solver, rim of the contact."""

@@ -1,4 +1,4 @@
-"""Where a body ends, between the centres of a grid's cells."""
+"""Outline of a body between the cell centres of a grid."""
 
 from __future__ import annotations
 
@@ -10,40 +10,23 @@ from numpy.typing import NDArray
 from viscontact.grid import Grid
 from viscontact.indenters import Indenter
 
-#: Halvings of a cell that place the outline to rounding.
+#: Halvings of a cell, enough to locate the outline to rounding.
 BISECTIONS = 45
 
 
 @dataclass(frozen=True, eq=False)
 class Outline:
-    """Where the indenter's outline crosses the lines between neighbouring cell centres.
+    """Crossings of the indenter's outline with the lines between neighbouring cell centres.
 
-    Attributes
-    ----------
-    along_x : ndarray, shape (nx - 1, ny)
-        Distance of the crossing from the inner centre, in cells; NaN where there is none.
-    along_y : ndarray, shape (nx, ny - 1)
-        The same along y.
+    Distances from the inner centre, in cells; NaN where the outline does not cross.
     """
 
-    along_x: NDArray[np.float64]
-    along_y: NDArray[np.float64]
+    along_x: NDArray[np.float64]  # shape (nx - 1, ny)
+    along_y: NDArray[np.float64]  # shape (nx, ny - 1)
 
 
 def trace_outline(indenter: Indenter, grid: Grid) -> Outline:
-    """Find where an indenter's outline crosses the grid's lines, by bisection.
-
-    Parameters
-    ----------
-    indenter : Indenter
-        Its gap is +inf outside the outline.
-    grid : Grid
-        The cells.
-
-    Returns
-    -------
-    Outline
-        Crossings, NaN where a line does not leave the body.
+    """Find by bisection where an indenter's gap becomes +inf between cell centres.
 
     Examples
     --------
@@ -67,6 +50,7 @@ def _outline_crossings(
     x: NDArray[np.float64],
     y: NDArray[np.float64],
 ) -> NDArray[np.float64]:
+    """Crossings along the first axis, in cells from the centre inside the body."""
     crossings = np.full((inside.shape[0] - 1, inside.shape[1]), np.nan)
     i, j = np.nonzero(inside[:-1] != inside[1:])
     if not len(i):

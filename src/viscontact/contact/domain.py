@@ -1,4 +1,4 @@
-"""The half-space under a grid, under one mirrored half of it, and under patches of it."""
+"""Half-space operators on a grid: on all cells, on one symmetric part, and on patches."""
 
 from __future__ import annotations
 
@@ -16,46 +16,30 @@ from viscontact.halfspace.influence import influence_table
 from viscontact.halfspace.preconditioner import Preconditioner
 from viscontact.halfspace.spectral import PeriodicConvolution
 
-#: From pressure to displacement, on cells.
+#: Maps pressure to unit displacement on cells.
 Operator = Convolution | PeriodicConvolution
 
-#: Free cells kept around a contact in its patch, as a part of the contact's extent.
+#: Margin around a contact in its patch, as a part of the contact's extent.
 PATCH_MARGIN = 0.06
 
-#: A coarser half-space has at least so many cells each way.
+#: Fewest cells of a coarser domain along each axis.
 MIN_CELLS = 32
 
-#: A patch of more than this part of the grid saves nothing.
-WORTHWHILE = 0.8
+#: A patch of more than this part of the grid saves no time.
+MAX_PATCH_SHARE = 0.8
 
 
 @dataclass(frozen=True, eq=False)
 class Patch:
-    """A rectangular block of cells with the operators that live on it.
+    """Rectangular block of cells with its operators."""
 
-    Attributes
-    ----------
-    rows, columns : slice
-        Where it lies in the half-space's fields.
-    cell_area : float
-        Area of a cell [m²].
-    arm : float
-        Its longer edge, the measure of moments against forces [m].
-    convolution : Convolution or PeriodicConvolution
-        Deflection of the patch under a change of pressure on the patch, in single precision.
-    preconditioner : Preconditioner
-        Rough inverse of it.
-    plane : RigidPlane
-        Planes over the patch.
-    """
-
-    rows: slice
+    rows: slice  # position in the fields of the domain
     columns: slice
-    cell_area: float
-    arm: float
-    convolution: Operator
-    preconditioner: Preconditioner
-    plane: RigidPlane
+    cell_area: float  # [m²]
+    arm: float  # longer edge, which scales moments to forces [m]
+    convolution: Operator  # pressure to unit displacement, in single precision
+    preconditioner: Preconditioner  # approximate inverse of the convolution
+    plane: RigidPlane  # rigid motions over the patch
 
     def cut(self, field: NDArray[np.float64]) -> NDArray[np.float64]:
         """The patch's part of a field."""
@@ -67,26 +51,17 @@ class Patch:
 
 
 class ContactDomain:
-    """A grid on the half-space: the patch of all its cells, and smaller ones around contacts.
+    """Half-space under a grid, with operators on all cells and on patches around contacts.
 
-    Searching for the pressure on the contact's own patch, by changes convolved in single
-    precision, costs a fraction of what the whole grid does; what is found is convolved on the
-    whole grid in double precision and checked there. The last patch is kept, for a contact that
-    creeps stays in it for many steps. A problem that is even across x = 0 or y = 0 needs only the
-    cells beyond: fields are then `reduce_by_symmetry`-ed, and supports halved, before they are
-    used here. On a
-    periodic grid all cells are worked with: nothing is padded there, and the preconditioner is an
+    The search for the pressure runs on the contact's patch, by changes convolved in single
+    precision, at a fraction of the cost of the whole grid; its result is convolved and checked on
+    the whole grid in double precision (`convolution`). The last patch is kept, since a creeping
+    contact stays in it for many steps.
+
+    A problem that is even across x = 0 or y = 0 (`mirrored`) needs the cells beyond only: its
+    fields are reduced by `reduce_by_symmetry`, its constraints by `reduced_constraints`. A periodic
+    grid is not mirrored and has no patches: nothing is padded there, and the preconditioner is the
     exact inverse.
-
-    Parameters
-    ----------
-    grid : Grid
-        The cells that carry pressure and displacement.
-    mirrored : tuple of bool
-        Whether the problem is even across x = 0, and across y = 0; the grid must have an even
-        number of cells along those axes, and not be periodic.
-    transforms : Transforms, optional
-        Who transforms; the fastest that are installed when left out.
 
     Attributes
     ----------
@@ -130,7 +105,7 @@ class ContactDomain:
         self._last = self.whole
 
     def coarser(self) -> ContactDomain | None:
-        """The same region in cells twice as long and wide; None where they do not pair, or few."""
+        """Same region in cells twice as long and wide; None if their number is odd or too small."""
         if any(cells % 2 or cells < 2 * MIN_CELLS for cells in self.shape):
             return None
         nx, ny = self.grid.shape
@@ -138,12 +113,12 @@ class ContactDomain:
         return ContactDomain(halved, mirrored=self.mirrored, transforms=self._transforms)
 
     def reduce_by_symmetry(self, field: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The part of a field on the grid that is worked with."""
+        """The independent part of a field on the grid."""
         return np.ascontiguousarray(field[self._first_row :, self._first_column :])
 
     def expand_by_symmetry(self, field: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The field on the grid whose part is worked with, in memory of its own."""
-        if not any(self.mirrored):  # a view would keep the pair it is taken from
+        """The field on the whole grid of its independent part, in its own memory."""
+        if not any(self.mirrored):  # a view would keep the array it is taken from
             return field if field.base is None else field.copy()
         for axis in (0, 1):
             if self.mirrored[axis]:
@@ -152,11 +127,11 @@ class ContactDomain:
 
     @property
     def symmetry_count(self) -> int:
-        """How many times what is worked with makes the whole."""
+        """Number of mirror images that make up the whole grid."""
         return (1 + self.mirrored[0]) * (1 + self.mirrored[1])
 
     def reduced_constraints(self, constraints: Constraints) -> Constraints:
-        """What the part that is worked with has to carry of the whole body's load."""
+        """The body's constraints on the independent part of the grid."""
         if self.grid.periodic:
             return constraints.level()
         for axis in (0, 1):
@@ -165,17 +140,9 @@ class ContactDomain:
         return constraints
 
     def patch_around(self, cells: NDArray[np.bool_]) -> Patch:
-        """A patch that holds the given cells with some room to grow.
+        """Patch that holds the given cells with some room to grow.
 
-        Parameters
-        ----------
-        cells : ndarray of bool
-            Cells that it has to hold.
-
-        Returns
-        -------
-        Patch
-            The last one if it fits well, the whole if a patch would save little.
+        The last patch if it fits well, the whole grid if a patch would save little.
         """
         if self.grid.periodic or not cells.any():
             return self.whole
@@ -188,7 +155,7 @@ class ContactDomain:
             _widened(rows, self.shape[0], one_sided=self.mirrored[0]),
             _widened(columns, self.shape[1], one_sided=self.mirrored[1]),
         )
-        if _size(*roomy) > WORTHWHILE * cells.size:
+        if _size(*roomy) > MAX_PATCH_SHARE * cells.size:
             return self.whole
         fits = self._last.holds(_guarded(rows), _guarded(columns))
         if not fits or _size(self._last.rows, self._last.columns) > 1.3 * _size(*roomy):
@@ -197,18 +164,12 @@ class ContactDomain:
 
     @property
     def kept_patch(self) -> tuple[int, int, int, int]:
-        """First and last rows and columns, as slices have them, of the patch that is kept."""
+        """First and last rows and columns of the kept patch, for `keep_patch`."""
         rows, columns = self._last.rows, self._last.columns
         return rows.start, rows.stop, columns.start, columns.stop
 
     def keep_patch(self, span: tuple[int, int, int, int]) -> None:
-        """Keep the patch that another half-space over the same grid had kept.
-
-        Parameters
-        ----------
-        span : tuple of int
-            Its `kept_patch`.
-        """
+        """Keep the patch that another domain over the same grid had kept."""
         if span == self.kept_patch:
             return
         rows, columns = slice(*span[:2]), slice(*span[2:])
@@ -216,6 +177,7 @@ class ContactDomain:
         self._last = self.whole if is_whole else self._patch(rows, columns)
 
     def _patch(self, rows: slice, columns: slice) -> Patch:
+        """Patch on rows and columns of the domain."""
         grid = self.grid
         shape = (rows.stop - rows.start, columns.stop - columns.start)
         return Patch(
@@ -236,7 +198,7 @@ class ContactDomain:
         )
 
     def _operator(self, shape: tuple[int, int], *, single: bool) -> Operator:
-        """The operator over a block of cells, or over the whole of a period."""
+        """Convolution over a block of cells, or over the whole period."""
         transforms = self._transforms
         if self.grid.periodic:
             cell_size = self.grid.cell_size
@@ -257,12 +219,13 @@ def mirrored_axes(open_gap: NDArray[np.float64], even_load: tuple[bool, bool]) -
 
 
 def _span(occupied: NDArray[np.bool_] | np.bool_) -> slice:
+    """Smallest slice that holds the marked lines."""
     index = np.flatnonzero(occupied)
     return slice(int(index[0]), int(index[-1]) + 1)
 
 
 def _widened(span: slice, cells: int, *, one_sided: bool) -> slice:
-    """A margin at the free ends, then up to a length that is good to transform, in the grid."""
+    """Slice with a margin at its free ends, of a length that is fast to transform, in the grid."""
     extent = span.stop - span.start
     margin = max(3, int(np.ceil(PATCH_MARGIN * extent)))
     wanted = extent + (1 if one_sided else 2) * margin
@@ -273,12 +236,15 @@ def _widened(span: slice, cells: int, *, one_sided: bool) -> slice:
 
 
 def _guarded(span: slice) -> slice:
+    """Slice with one more line on both sides."""
     return slice(max(span.start - 1, 0), span.stop + 1)
 
 
 def _within(inner: slice, outer: slice) -> bool:
+    """Whether a slice lies within another."""
     return bool(outer.start <= inner.start and inner.stop <= outer.stop)
 
 
 def _size(rows: slice, columns: slice) -> int:
+    """Number of cells of a block."""
     return int((rows.stop - rows.start) * (columns.stop - columns.start))

@@ -1,8 +1,8 @@
-"""Equilibrium of one instant: pressure >= 0, gap >= 0, one of them zero everywhere.
+"""Contact equilibrium of one time step: p >= 0, g >= 0, p g = 0, with force and moment balances.
 
-Minimise ½ p·Kc p + p·g over p >= 0 subject to the body's force and moment balances. Multipliers
-of the balances are the rigid motion: approach and tilts. The search runs on the contact's own
-patch of the grid; what it finds is checked on the whole.
+The pressure minimises 1/2 p·J K p + p·g0 over p >= 0 subject to the balances, whose multipliers are
+the rigid motion: approach and tilts. The search (`conjugate_gradients`) runs on a patch around the
+contact; its result is checked on the whole grid.
 """
 
 from __future__ import annotations
@@ -17,48 +17,33 @@ from viscontact.contact.domain import ContactDomain
 from viscontact.contact.problem import ContactProblem, Guess
 from viscontact.contact.winkler import winkler_contact
 
+#: Search directions of one solve.
 MAX_ITERATIONS = 400
 
-#: How far a coarser grid's answer has to converge to start from.
+#: Tolerance of a solve on a coarser grid, whose result is only a first guess.
 NESTED_TOLERANCE = 1e-3
 
-#: Rounds of search and check. A second one is due where a contact outgrows its patch, or where the
-#: tolerance asks for more than single precision gives in one.
+#: Rounds of search and check. A second one is needed where a contact outgrows its patch, or where
+#: single precision does not meet the tolerance at once.
 MAX_ROUNDS = 20
 
 
 @dataclass(frozen=True, eq=False)
 class ContactSolution:
-    """What a solve found.
+    """Pressure and motion that a solve has found, with the residual of the contact conditions."""
 
-    Attributes
-    ----------
-    values : ndarray, shape (2, nx, ny)
-        Pressure [Pa], and unit_displacement by a fresh convolution [Pa m].
-    motion : ndarray, shape (3,)
-        Approach [m] and tilts [rad].
-    gap : ndarray, shape (nx, ny)
-        Gap [m], +inf where the body has no surface.
-    residual : float
-        Largest gap under pressure or penetration elsewhere, over the largest displacement.
-    iterations, convolutions : int
-        Search directions used, and convolutions (on patches or the whole grid) spent; those on
-        coarser grids, from which a solve without a guess starts, are not counted.
-    converged : bool
-        Whether residual and balances are within the tolerance.
-    """
-
+    #: Pressure [Pa] and unit displacement K p by a fresh convolution [Pa m]; shape (2, nx, ny).
     values: NDArray[np.float64]
-    motion: NDArray[np.float64]
-    gap: NDArray[np.float64]
-    residual: float
-    iterations: int
-    convolutions: int
-    converged: bool
+    motion: NDArray[np.float64]  # approach [m] and tilts [rad]
+    gap: NDArray[np.float64]  # +inf outside the body [m]
+    residual: float  # largest gap in contact or penetration over the largest displacement [-]
+    iterations: int  # search directions, without those on coarser grids
+    convolutions: int  # on patches or on all cells, without those on coarser grids
+    converged: bool  # residual and balances are within the tolerance
 
     @property
     def found(self) -> Guess:
-        """Both together, for another solve to start from."""
+        """The solution as a guess for another solve."""
         return Guess(self.values[0], self.values[1], self.motion)
 
 
@@ -70,46 +55,20 @@ def solve_contact(
     tolerance: float = 1e-6,
     max_iterations: int = MAX_ITERATIONS,
 ) -> ContactSolution:
-    """Pressure and rigid motion that satisfy contact and balance.
+    """Solve for the pressure and rigid motion that satisfy contact conditions and balances.
 
-    Parameters
-    ----------
-    problem : ContactProblem
-        Gap, compliance and constraints.
-    half_space : ContactDomain
-        Grid and operators.
-    guess : Guess, optional
-        Start; its unit_displacement must belong to its pressure. Negative pressure is cut off,
-        balances
-        are restored. The answer of a coarser grid when left out, and on the coarsest a foundation
-        of about the right stiffness.
-    tolerance : float
-        Bound on the relative residual of the returned pressure, and on the balances.
-    max_iterations : int
-        Give up after this many search directions.
-
-    Returns
-    -------
-    ContactSolution
-        With ``converged`` False if the iteration stagnated or ran out.
-
-    Notes
-    -----
-    After Polonsky & Keer (1999), with these departures: a preconditioner, Polak-Ribiere+
-    directions that are not reset when the contact set changes, the unit_displacement updated along
-    the direction instead of convolved again, and both moments balanced (in pressure itself: scaled
-    variables lose convergence).
-
-    References
-    ----------
-    I. A. Polonsky, L. M. Keer, Wear 231 (1999) 206.
+    The unit displacement of a guess must belong to its pressure; tension in it is cut off and its
+    balances are restored. Without a guess, or if it does not converge, the solve starts from the
+    solution on a coarser grid, and on the coarsest from a Winkler foundation. The tolerance bounds
+    the relative residual and the relative imbalance. If the iteration stagnates or uses up
+    `max_iterations`, the best pressure is returned with ``converged`` False.
     """
     found = None
     if guess is not None:
         found = _solve_from(guess, problem, half_space, tolerance, max_iterations)
         if found.converged:
             return found
-    # A guess can be worse than none, after a load has changed beyond recognition.
+    # After a large change of the load, a guess can be worse than none.
     start = _cold_start(problem, half_space)
     cold = _solve_from(start, problem, half_space, tolerance, max_iterations)
     if found is None:
@@ -129,17 +88,18 @@ def _solve_from(
     tolerance: float,
     max_iterations: int,
 ) -> ContactSolution:
-    """Search on patches until the whole grid agrees."""
+    """Search on patches until the residual on the whole grid meets the tolerance."""
     cells = start.pressure > 0
     iterations = convolutions = 0
     error = np.inf
     for _ in range(MAX_ROUNDS):
+        # Search on a patch around the contact, in single precision.
         patch = half_space.patch_around(cells)
         search = BoundedCG(problem.within(patch), patch, start.within(patch))
         search.run(tolerance, max_iterations - iterations)
         iterations += search.iterations
         convolutions += search.convolutions + 1
-        # Certify what is returned, by a fresh convolution: not what the recurrence believes.
+        # Check the returned pressure by a fresh convolution, not by the recurrence of the search.
         values = np.zeros((2, *half_space.shape))
         pressure, unit_displacement = values
         patch.cut(pressure)[...] = search.iterate.pressure
@@ -154,6 +114,7 @@ def _solve_from(
         stagnant = search.stagnated and checked.error > error / 2
         if converged or stagnant or iterations >= max_iterations:
             break
+        # The next patch holds the contact and all cells that the body still overlaps.
         error = checked.error
         cells = (pressure > 0) | (checked.gap < 0)
     return ContactSolution(
@@ -167,28 +128,30 @@ def _is_balanced(
     pressure: NDArray[np.float64],
     tolerance: float,
 ) -> bool:
+    """Whether force and moments of a pressure meet the constraints."""
     whole = half_space.whole
     off = problem.constraints.imbalance(whole.plane.sums(pressure) * whole.cell_area, whole.arm)
     return off <= tolerance
 
 
 def _cold_start(problem: ContactProblem, half_space: ContactDomain) -> Guess:
-    """What a coarser grid says, and at the bottom of these a foundation."""
+    """Nested iteration: the solution of a coarser grid, on the coarsest a Winkler foundation."""
     coarser = half_space.coarser()
     # A body may be too narrow to lie under any four cells.
     if coarser is None or not np.isfinite((coarsened := problem.coarsened()).open_gap).any():
         return _winkler_guess(problem, half_space)
     coarse = solve_contact(coarsened, coarser, tolerance=NESTED_TOLERANCE)
-    # Each cell's pressure on all four of it: smoother ways to hand it down, and finer tolerances,
-    # take more directions rather than fewer, as they blur the rim.
+    # Each coarse pressure on its four cells. Smoother interpolation, and finer tolerances, take
+    # more iterations rather than fewer, as they blur the rim.
     pressure = np.repeat(np.repeat(coarse.found.pressure, 2, axis=0), 2, axis=1)
-    # Fewer cells may not touch at all, or not carry where the fine ones do.
+    # The coarse cells may not touch at all, or not be able to carry the load.
     if not (coarse.converged and pressure.any()):
         return _winkler_guess(problem, half_space)
     return Guess(pressure, half_space.convolution.apply(pressure), coarse.found.motion)
 
 
 def _winkler_guess(problem: ContactProblem, half_space: ContactDomain) -> Guess:
+    """Balanced pressure on a Winkler foundation, as a first guess."""
     whole = half_space.whole
     pressure, motion = winkler_contact(
         problem.open_gap, problem.compliance, problem.constraints, whole.plane, whole.cell_area

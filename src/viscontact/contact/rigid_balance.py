@@ -1,4 +1,4 @@
-"""Force and moment balance: planes c0 + c1 x + c2 y over cells, and what holds the body."""
+"""Force and moment balances: constraints of the body, and planes c0 + c1 x + c2 y over cells."""
 
 from __future__ import annotations
 
@@ -11,40 +11,23 @@ from numpy.typing import NDArray
 
 from viscontact.loads import LoadPoint
 
-#: Variance of position [cells²] below which cells count as one, or as a line: no tilt is known.
+#: Variance of position [cells²] below which cells count as one, or as a line, without a known tilt.
 NO_EXTENT = 1e-9
 
 
 @dataclass(frozen=True)
 class Constraints:
-    """What holds the body: for each rigid motion either its resultant or the motion itself.
+    """Constraints of the body: for each rigid motion its resultant, or the motion itself."""
 
-    Attributes
-    ----------
-    resultants : tuple of (float or None)
-        Force [N] and moments [N m] of the pressure about the origin (integrals of p x and p y);
-        None where the motion is prescribed instead.
-    motions : tuple of float
-        Approach [m], tilt along x, tilt along y [rad]; used where the resultant is None.
-    """
-
+    #: Force [N] and moments [N m] about the origin (integrals of p x and p y); None where the
+    #: motion is prescribed.
     resultants: tuple[float | None, float | None, float | None]
+    #: Approach [m], tilts along x and y [rad]; used where the resultant is None.
     motions: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     @classmethod
     def of(cls, point: LoadPoint) -> Constraints:
-        """Constraints by a force at an eccentricity or a stage, with the tilts that are prescribed.
-
-        Parameters
-        ----------
-        point : LoadPoint
-            Force and eccentricities or approach, and tilts (None where free).
-
-        Returns
-        -------
-        Constraints
-            A prescribed motion takes the place of its balance.
-        """
+        """Constraints of a load: force and moments, or the prescribed approach and tilts."""
         force = point.force or 0.0  # none is prescribed under an approach, nor then a moment
         return cls(
             (
@@ -56,25 +39,19 @@ class Constraints:
         )
 
     def halved(self, axis: int) -> Constraints:
-        """Constraints of one half of a body that is even along an axis, so does not tilt along it.
-
-        Parameters
-        ----------
-        axis : {0, 1}
-            Across x = 0, or across y = 0.
-        """
+        """Constraints of one half of a body that is even along an axis, so is level along it."""
         halves = [None if each is None else each / 2 for each in self.resultants]
         motions = list(self.motions)
         halves[1 + axis], motions[1 + axis] = None, 0.0
         return Constraints((halves[0], halves[1], halves[2]), (motions[0], motions[1], motions[2]))
 
     def level(self) -> Constraints:
-        """Constraints of one period of a body, which cannot tilt: its neighbours would not fit."""
+        """Constraints of one period of a body, which cannot tilt."""
         return Constraints((self.resultants[0], None, None), (self.motions[0], 0.0, 0.0))
 
     @cached_property
     def free(self) -> NDArray[np.bool_]:
-        """Which of the three motions the balances determine."""
+        """The motions that the balances determine."""
         return np.array([resultant is not None for resultant in self.resultants])
 
     @cached_property
@@ -83,23 +60,14 @@ class Constraints:
         return np.array([resultant or 0.0 for resultant in self.resultants])
 
     def with_prescribed(self, motion: NDArray[np.float64]) -> NDArray[np.float64]:
-        """A motion with the prescribed components put in place."""
+        """A motion with its prescribed components set."""
         return np.where(self.free, motion, np.array(self.motions))
 
     def imbalance(self, sums: NDArray[np.float64], arm: float) -> float:
-        """Largest relative error of the balances.
+        """Largest relative error of the balances of resultants `sums` [N, N m, N m].
 
-        Parameters
-        ----------
-        sums : ndarray, shape (3,)
-            Resultants of a pressure [N, N m, N m].
-        arm : float
-            Length that turns a moment's error into a force's [m].
-
-        Returns
-        -------
-        float
-            Relative to the pressure's own resultant or the target, the larger.
+        Moments are divided by `arm` [m]; errors are relative to the force or its target, the
+        larger.
         """
         force = max(abs(self.targets[0]), abs(float(sums[0])), np.finfo(float).tiny)
         error = (sums - self.targets) / (force * np.array([1.0, arm, arm]))
@@ -109,15 +77,8 @@ class Constraints:
 class RigidPlane:
     """Planes c0 + c1 x + c2 y on a block of cells, and sums of fields against 1, x, y.
 
-    Parameters
-    ----------
-    x, y : ndarray
-        Cell centres [m].
-    cell_size : tuple of float
-        Edge lengths (dx, dy) of a cell [m].
-    mirrored : tuple of bool
-        Whether the cells stand for their mirror images across x = 0, and across y = 0, as well:
-        what is odd along that axis then sums up to 0.
+    `x` and `y` are cell centres [m]. Mirrored cells count for their mirror images across x = 0, or
+    y = 0, as well: sums that are odd along that axis vanish.
 
     Examples
     --------
@@ -135,13 +96,13 @@ class RigidPlane:
     ) -> None:
         self._x, self._y = x, y
         self._mirrored = mirrored
-        # In units of cells, so that "no extent along x" means the same on every grid.
+        # In units of cells, so that NO_EXTENT means the same on every grid.
         unit = np.array([1.0, 1 / cell_size[0], 1 / cell_size[1]])
         self._column, self._row = x * unit[1], y * unit[2]
         self._units = np.outer(unit, unit)
 
     def field(self, coefficients: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The plane c0 + c1 x + c2 y on the cells: a column for all of them if level along y."""
+        """The plane on the cells: one column for all of them if it is level along y."""
         along_x = coefficients[0] + coefficients[1] * self._x
         if coefficients[2] == 0:
             return np.asarray(along_x[:, None])
@@ -149,7 +110,7 @@ class RigidPlane:
 
     def sums(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
         """Sums of a field against 1, x and y."""
-        # Not as matrix products: BLAS would put threads to work, which cost more than they bring.
+        # Not as matrix products: BLAS would start threads, which cost more than they save.
         along_x = values.sum(axis=1)
         moment_x = 0.0 if self._mirrored[0] else along_x @ self._x
         moment_y = 0.0 if self._mirrored[1] else values.sum(axis=0) @ self._y
@@ -158,21 +119,10 @@ class RigidPlane:
     def inverse_gram(
         self, weight: NDArray[np.float64], free: NDArray[np.bool_]
     ) -> NDArray[np.float64]:
-        """Turn weighted sums against 1, x, y into the plane that has them.
+        """Pseudo-inverse of the weighted sums of (1, x, y) (1, x, y)ᵀ over the free coefficients.
 
-        Parameters
-        ----------
-        weight : ndarray, shape (nx, ny)
-            Non-negative weight of each cell.
-        free : ndarray of bool, shape (3,)
-            Which coefficients may differ from zero.
-
-        Returns
-        -------
-        ndarray, shape (3, 3)
-            Pseudo-inverse of the sums of weight (1, x, y) (1, x, y)ᵀ; where the cells determine
-            only some coefficients (one cell, or a line of cells) the others are of least norm
-            about the cells' centre.
+        Where the cells determine only some coefficients (one cell, or a line of cells) the others
+        are of least norm about the cells' centre.
         """
         return _inverse(self._moments(weight), free) * self._units
 
@@ -193,9 +143,9 @@ class RigidPlane:
 
 
 def _inverse(moments: tuple[float, ...], free: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """Rank-revealing inverse: the mean is eliminated first, if it is free, then the slopes.
+    """Rank-revealing inverse: eliminates the mean first, if it is free, then the slopes.
 
-    In plain numbers: it is called for every iteration, and arrays of three are slow.
+    In plain numbers, as it is called in every iteration, and arrays of three are slow.
     """
     n, x, y, xx, xy, yy = moments
     if n <= 0:
@@ -235,31 +185,16 @@ def restore_balance(
     cell_area: float,
     arm: float,
 ) -> NDArray[np.float64] | None:
-    """A pressure times a plane, so that force and moments are as wanted again.
+    """Multiply a pressure by a plane so that force and moments match the constraints again.
 
-    Parameters
-    ----------
-    pressure : ndarray, shape (nx, ny)
-        Non-negative pressure [Pa].
-    constraints : Constraints
-        The wanted resultants.
-    plane : RigidPlane
-        The planes of these cells.
-    cell_area : float
-        Area of a cell [m²].
-    arm : float
-        Length that turns a moment's error into a force's [m].
-
-    Returns
-    -------
-    ndarray or None
-        Non-negative balanced pressure; None if these cells cannot carry the resultants.
+    The result is non-negative; None if these cells cannot carry the resultants. `arm` [m] scales
+    moments as in `Constraints.imbalance`.
     """
     if not constraints.free.any():
         return pressure
     target = constraints.targets / cell_area
     for _ in range(20):
-        # A correction to 1, so that what no balance asks for stays as it is.
+        # A correction to 1, so that the factor is 1 where all balances are met.
         lacking = target - plane.sums(pressure)
         factor = plane.inverse_gram(pressure, constraints.free) @ lacking + np.array(
             [1.0, 0.0, 0.0]

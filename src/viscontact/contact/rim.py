@@ -1,9 +1,9 @@
-"""The rim of a contact, resolved below the cell size.
+"""Rim of a contact, located between cell centres.
 
-Counting cells makes area a jagged function of time. Just outside a smooth rim the gap opens as
-distance^(3/2), whatever the law and whether the contact grows or shrinks, so gap^(2/3) of the
-first two open cells of a grid line points at the rim; a polygon through these crossings encloses
-the contact. Where the body ends inside that cell, the rim is its outline.
+An area by counting cells is a jagged function of time. Just outside a smooth rim the gap opens as
+distance^(3/2), whatever the law and whether the contact grows or shrinks, so gap^(2/3) of the first
+two open cells of a grid line extrapolates to the rim. Polygons through these crossings enclose the
+contact. Where the body ends in that cell, the rim is its outline.
 """
 
 from __future__ import annotations
@@ -24,27 +24,19 @@ Place = tuple[NDArray[np.intp], NDArray[np.intp]]
 
 @dataclass(frozen=True, eq=False)
 class Rim:
-    """Cells in contact and where the rim crosses the lines between cell centres.
+    """Cells in contact, and crossings of the rim with the lines between cell centres.
 
-    Attributes
-    ----------
-    grid : Grid
-        The cells.
-    contact : ndarray of bool, shape (mx, my)
-        Cells under pressure, in the block around the contact.
-    along_x, along_y : ndarray
-        In that block: distance of the rim from the centre of the inner cell, in cells, as in
-        `Outline`; slightly negative where that cell's centre lies just outside.
-    rows, columns : ndarray of int
-        Where the block lies in the grid. On a periodic grid it may run on across the border; where
-        the contact does so all around, the block ends with the row that it begins with.
+    The fields cover a block around the contact. On a periodic grid it may cross the border; where
+    the contact does so all around, the block ends with the row that it begins with.
     """
 
     grid: Grid
-    contact: NDArray[np.bool_]
+    contact: NDArray[np.bool_]  # cells under pressure in the block
+    #: Distance from the inner centre, in cells, as in `Outline`; slightly negative where that
+    #: centre lies just outside.
     along_x: NDArray[np.float64]
     along_y: NDArray[np.float64]
-    rows: NDArray[np.intp]
+    rows: NDArray[np.intp]  # position of the block in the grid
     columns: NDArray[np.intp]
 
     @property
@@ -71,8 +63,8 @@ class Rim:
     def cells_across(self) -> int:
         """Rows or columns of cells that have contact, the fewer of the two.
 
-        Those along which the contact goes on without end, as it may on a periodic grid, do not
-        count: where it does so both ways, it is as many as the grid has.
+        An axis along which the contact continues through the whole period does not count; without
+        any other, it is the number of cells of the grid.
         """
         lines, counts = (self.rows, self.columns), self.grid.shape
         touched = [int(self.contact.any(axis=1 - axis).sum()) for axis in (0, 1)]
@@ -115,28 +107,16 @@ def trace_rim(
 ) -> Rim:
     """Locate the rim of a contact between cell centres.
 
-    Parameters
-    ----------
-    grid : Grid
-        The cells.
-    contact : ndarray of bool, shape (nx, ny)
-        Cells under pressure.
-    gap : ndarray, shape (nx, ny)
-        Gap [m], +inf outside the indenter's outline.
-    outline : Outline, optional
-        Where the body ends; the middle between centres is taken when left out.
-
-    Returns
-    -------
-    Rim
-        Its area is too small by about 1.3e-3, with a scatter of up to 2e-3, at 15 cells a radius;
-        the one falls in proportion to the cell size, the other faster.
+    The gap is +inf outside the body [m]; where the body ends, the rim is its outline, or the middle
+    between two centres if none is given. At 15 cells a radius, the area is too small by about
+    1.3e-3, which falls in proportion to the cell size, with a scatter of up to 2e-3, which falls
+    faster.
 
     Notes
     -----
-    The gap's law: Johnson (1985), Contact Mechanics, eq. 5.9's square root of pressure inside
-    a smooth rim goes with a distance^(3/2) opening outside. Only the gap is used, so no modulus
-    has to be chosen for a creeping body.
+    The square root of the pressure inside a smooth rim belongs to an opening of distance^(3/2)
+    outside (Johnson 1985, Contact Mechanics, eq. 5.9). Only the gap is used, so no modulus has to
+    be chosen for a creeping body.
 
     Examples
     --------
@@ -162,7 +142,7 @@ def trace_rim(
 
 
 def _block(contact: NDArray[np.bool_], axis: int) -> slice:
-    """The contact's span along an axis and the two open cells on both sides that show its rim."""
+    """The contact's span along an axis, and two open cells on both sides."""
     touched = np.flatnonzero(contact.any(axis=1 - axis))
     if len(touched) == 0:
         return slice(0, 2)
@@ -172,14 +152,14 @@ def _block(contact: NDArray[np.bool_], axis: int) -> slice:
 def _trace_around(
     grid: Grid, contact: NDArray[np.bool_], gap: NDArray[np.float64], outline: Outline | None
 ) -> Rim:
-    """Trace the rim of a contact that goes on across the border of its period."""
+    """Trace the rim of a contact that continues across the border of its period."""
     rows, columns = _turn(contact, axis=0), _turn(contact, axis=1)
-    # Two more cells each way, which tell the rim's place between those of the block.
+    # Two more cells on both sides, from which the rim in the block is extrapolated.
     wide = np.ix_(_beyond(rows, grid.shape[0]), _beyond(columns, grid.shape[1]))
     contact, gap = contact[wide], gap[wide]
     end_x = end_y = None
     if outline is not None:
-        # The border itself is where a body ends that reaches it: the middle between two centres.
+        # A body that reaches the border ends there, in the middle between two centres.
         end_x = np.pad(outline.along_x, ((0, 1), (0, 0)), constant_values=np.nan)[wide][:-1]
         end_y = np.pad(outline.along_y, ((0, 0), (0, 1)), constant_values=np.nan)[wide][:, :-1]
     along_x = _crossings(contact, gap, end_x, axis=0)[2:-2, 2:-2]
@@ -188,7 +168,7 @@ def _trace_around(
 
 
 def _turn(contact: NDArray[np.bool_], axis: int) -> NDArray[np.intp]:
-    """The lines of a contact and an open one on both sides, where none is open a whole turn."""
+    """Lines of a contact, and an open one on both sides unless it fills the period."""
     touched = np.flatnonzero(contact.any(axis=1 - axis))
     count = contact.shape[axis]
     if len(touched) == 0:
@@ -202,7 +182,7 @@ def _turn(contact: NDArray[np.bool_], axis: int) -> NDArray[np.intp]:
 
 
 def _beyond(lines: NDArray[np.intp], count: int) -> NDArray[np.intp]:
-    """Those lines, and the two before and behind them."""
+    """Given lines, and two more before and behind them."""
     return np.asarray((np.arange(-2, len(lines) + 2) + lines[0]) % count)
 
 
@@ -216,13 +196,13 @@ def _crossings(
     changes = contact[1:] != contact[:-1] if axis == 0 else contact[:, 1:] != contact[:, :-1]
     place = _places(changes)
     inside = contact[place]
-    # Outwards from the crossing: the first open cell, and the second.
+    # First and second open cell, outwards from the crossing.
     first = _shifted(place, axis, inside)
     second = _shifted(first, axis, np.where(inside, 1, -1))
     second[axis].clip(0, contact.shape[axis] - 1, out=second[axis])
     opening, far = gap[first], gap[second]
     near = np.maximum(opening, 0.0)
-    # Without a second, wider gap (a groove of one cell, the body's end) take the middle.
+    # The middle, if the second gap is not wider (a groove of one cell, the body's end).
     known = np.isfinite(far) & (far > near) & ~contact[second]
     ratio = np.divide(near, far, out=np.full(len(near), 0.5), where=known) ** (2 / 3)
     distance = np.where(known, ratio / (1 - np.where(known, ratio, 0.0)), 0.5)
@@ -237,7 +217,7 @@ def _crossings(
 
 
 def _shifted(place: Place, axis: int, by: NDArray[Any]) -> Place:
-    """Cells beside others along an axis."""
+    """Cells next to given cells along an axis."""
     rows, columns = place
     return (rows + by, columns) if axis == 0 else (rows, columns + by)
 
@@ -250,13 +230,13 @@ def _enclosed_squares(rim: Rim) -> float:
     i, j = _places((count & 3) != 0)  # neither none nor all four
     along_x, along_y = rim.along_x, rim.along_y
     edges = np.array([along_x[i, j], along_x[i, j + 1], along_y[i, j], along_y[i + 1, j]])
-    edges = np.fmin(np.fmax(edges, 0.0), 1.0)  # where nothing crosses, 0
+    edges = np.fmin(np.fmax(edges, 0.0), 1.0)  # NaN, no crossing, becomes 0
     u, v = edges[0] + edges[1], edges[2] + edges[3]
-    # One corner in: a triangle. A side in: a trapezium between the crossings of the two edges that
-    # leave it. One corner out: what is missing is a triangle.
+    # One corner inside: a triangle. Two neighbours: a trapezium between the crossings of the two
+    # edges that leave their side. Three: the square without a triangle.
     corners = count[i, j]
     enclosed = np.choose(corners - 1, [u * v / 2, (u + v) / 2, 1 - (1 - u) * (1 - v) / 2])
-    # Opposite corners in: two triangles, held apart.
+    # Opposite corners inside: two separate triangles.
     first = inside[i, j]
     apart = np.flatnonzero((corners == 2) & (first == inside[i + 1, j + 1]))
     if apart.size:
@@ -267,7 +247,7 @@ def _enclosed_squares(rim: Rim) -> float:
 
 
 def _places(where: NDArray[np.bool_]) -> Place:
-    """The rows and columns at which something is true; `np.nonzero` takes eight times as long."""
+    """Rows and columns of the true entries; `np.nonzero` takes eight times as long."""
     return np.divmod(np.flatnonzero(where), where.shape[1])
 
 
@@ -276,7 +256,8 @@ def _extent(contact: NDArray[np.bool_], crossings: NDArray[np.float64]) -> float
     touched = np.flatnonzero(contact.any(axis=1))
     if not touched.size:
         return 0.0
-    # None lies more than half a cell within, or a whole one beyond its inner centre: two rows tell.
+    # A crossing lies between half a cell inside and one outside of its inner centre: two rows
+    # contain the extreme ones.
     (from_first, first), (from_last, last) = (
         (max(int(row) - 1, 0), min(int(row) + 1, len(crossings))) for row in touched[[0, -1]]
     )

@@ -1,4 +1,9 @@
-"""A body on an elastic foundation (Winkler): balanced, cheap, and a fair start for iterations."""
+"""Winkler foundation as an initial guess: a balanced pressure on independent springs.
+
+The rigid motion minimises the convex energy 1/2 Σ max(overlap, 0)² - resultants·motion by a damped
+Newton method (three unknowns), with continuation in the stiffness of the foundation: a few cells
+under a stiff foundation do not determine the tilt, the many cells of a soft one do.
+"""
 
 from __future__ import annotations
 
@@ -7,15 +12,16 @@ from numpy.typing import NDArray
 
 from viscontact.contact.rigid_balance import Constraints, RigidPlane
 
-#: From one foundation to the next it stiffens by this factor.
+#: Factor from one stiffness of the continuation to the next.
 STIFFENING_FACTOR = 4.0
 
-#: Part of their stiffness that the last foundation's cells lend to the next.
+#: Stiffness that cells of the last foundation add to the Hessian, as a part of their own.
 REGULARISATION = 0.01
 
-#: Under this part of the deepest overlap before it has settled, a body is clear of the surface.
+#: Smaller overlaps, relative to the deepest before the tilts are found, count as no contact.
 SEPARATION_TOLERANCE = 1e-12
 
+#: Newton steps on one foundation.
 MAX_NEWTON = 40
 
 
@@ -26,42 +32,25 @@ def winkler_contact(
     plane: RigidPlane,
     cell_area: float,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Balanced pressure and rigid motion of a body pressed on independent springs.
+    """Balanced pressure [Pa] and rigid motion of a body on a Winkler foundation.
 
-    The springs' stiffness is matched to the half-space by the contact's own size.
-
-    Parameters
-    ----------
-    open_gap : ndarray, shape (nx, ny)
-        Gap without pressure and motion [m], +inf where there is no body.
-    compliance : float
-        Contact compliance [1/Pa].
-    constraints : Constraints
-        Wanted resultants or prescribed motions.
-    plane : RigidPlane
-        The planes of these cells.
-    cell_area : float
-        Area of a cell [m²].
-
-    Returns
-    -------
-    pressure : ndarray, shape (nx, ny)
-        Non-negative pressure [Pa], balanced wherever the resultants can be.
-    motion : ndarray, shape (3,)
-        Approach [m] and tilts [rad] with which nothing overlaps but what is pressed.
+    The stiffness of the springs is matched to the half-space by the size of the contact, 1/(J
+    sqrt(area)). `open_gap` [m] is +inf where there is no body, the compliance is J [1/Pa], the
+    motion approach [m] and tilts [rad].
     """
     given = constraints.with_prescribed(np.zeros(3))
     gap = open_gap - plane.field(given)
     if not constraints.free[0]:
-        # No force, no matter how stiff the foundation: it is only the tilts that settle.
+        # The approach is prescribed: only the tilts are unknown, whatever the stiffness.
         bearing = (gap < 0).astype(float)
         motion, overlap = _newton_solve(
             gap, np.zeros(3), np.zeros(3), plane, constraints.free, bearing
         )
-        # A body that tilts clear of the surface ends with rounding between them, and no contact.
+        # A body that tilts until it is clear of the surface leaves overlaps of rounding.
         overlap[overlap <= SEPARATION_TOLERANCE * -float(gap.min())] = 0.0
         cells = max(int((overlap > 0).sum()), 1)
         return overlap / (compliance * np.sqrt(cell_area * cells)), given + motion
+    # Stiffness from a guessed number of cells in contact, then from the number found.
     cells = 100
     for _ in range(2):
         stiffness = 1 / (compliance * np.sqrt(cell_area * cells))
@@ -78,27 +67,11 @@ def project_onto_balance(
     plane: RigidPlane,
     cell_area: float,
 ) -> NDArray[np.float64]:
-    """The non-negative pressure with the wanted resultants that is nearest to a given one.
+    """Nearest non-negative pressure [Pa] with the prescribed resultants.
 
-    A plane is added and tension cut off: the body settles on springs that are stressed already.
-
-    Parameters
-    ----------
-    pressure : ndarray, shape (nx, ny)
-        Pressure, tension among it [Pa].
-    cells : ndarray of bool, shape (nx, ny)
-        Cells that may carry pressure; together they must be able to carry the load.
-    constraints : Constraints
-        Wanted resultants; a plane has no part in motions that are prescribed.
-    plane : RigidPlane
-        The planes of these cells.
-    cell_area : float
-        Area of a cell [m²].
-
-    Returns
-    -------
-    ndarray, shape (nx, ny)
-        Pressure, zero on all other cells [Pa], balanced to a few digits at least.
+    A plane is added and tension cut off, as on springs that are already compressed. Only the given
+    `cells` carry pressure; together they must be able to carry the load. The balances hold to a few
+    digits at least.
 
     Examples
     --------
@@ -125,14 +98,10 @@ def _balanced(
     plane: RigidPlane,
     free: NDArray[np.bool_],
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Motion and overlap on a foundation, from a soft one to the wanted one by steps.
-
-    A few cells under a stiff foundation cannot say which way the body has to tilt; the many cells
-    of a softer one can.
-    """
+    """Motion and overlap on a foundation that is stiffened step by step to the final one."""
     solid = np.isfinite(gap)
     bearing = solid.astype(float)
-    # The first foundation is so soft that about half of the body would bear.
+    # The first foundation is so soft that about half of the body is in contact.
     depth = float(np.median(gap[solid]))
     softening = max(float(np.maximum(depth - gap, 0.0).sum() / target[0]), 1.0)
     motion = np.array([depth, 0.0, 0.0])
@@ -152,14 +121,15 @@ def _newton_solve(
     free: NDArray[np.bool_],
     bearing: NDArray[np.float64],
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Motion of least energy and its overlap: damped Newton on a convex function.
+    """Motion of least energy and its overlap, by a damped Newton method.
 
-    The cells that bore the body on a softer foundation lend a little stiffness, so that no
-    motion is ever without any.
+    The cells in contact on the last, softer foundation (`bearing`) add a little stiffness, so that
+    the Hessian is never singular.
     """
     energy, overlap = _energy(gap, motion, target, plane)
     for _ in range(MAX_NEWTON):
         inverse = plane.inverse_gram((overlap > 0) + REGULARISATION * bearing, free)
+        # Newton step, halved until the energy does not rise.
         newton, before = inverse @ (target - plane.sums(overlap)), energy
         for halving in range(20):
             moved = motion + newton / 2**halving
@@ -178,5 +148,6 @@ def _energy(
     target: NDArray[np.float64],
     plane: RigidPlane,
 ) -> tuple[float, NDArray[np.float64]]:
+    """Energy of a motion, over the stiffness, and the overlap [m]."""
     overlap = np.maximum(plane.field(motion) - gap, 0.0)
     return float(np.square(overlap).sum() / 2 - target @ motion), overlap
