@@ -32,6 +32,7 @@ from run import reference_convolution, seconds_of
 import viscontact as vc
 from viscontact.contact import conjugate_gradients, domain, equilibrium, winkler
 from viscontact.halfspace import convolution, preconditioner
+from viscontact.problem.problem import Problem
 from viscontact.simulation import stepper
 from viscontact.simulation.observer import Observer
 from viscontact.simulation.setup import prepare_run
@@ -180,7 +181,7 @@ class Counts:
 def counts_of(case: Case, tolerance: float) -> Counts:
     """Repeat the run, and count the memory traffic of its parts."""
     given = (case.indenter, case.material, case.load, case.grid, case.times)
-    run = prepare_run(*given, tolerance=tolerance)
+    run = prepare_run(Problem(*given, tolerance=tolerance))
     cell_count = np.prod(case.grid.shape) / 2 ** sum(run.mirrored)
     clocks = Clocks(counts_from=cell_count)  # bytes: an eighth of a field of doubles
     with clocks_around_parts(clocks), counted(clocks.count):

@@ -29,6 +29,7 @@ from published import estimate
 from scipy import fft
 
 from viscontact.fourier import fastest_transforms
+from viscontact.problem.problem import Problem
 from viscontact.simulation.setup import RunSetup, prepare_run
 from viscontact.simulation.state_generator import march_run
 
@@ -96,7 +97,7 @@ def run_between(case: Case, tolerance: float, library: str) -> float:
 
 def prepared(case: Case, tolerance: float, library: str) -> RunSetup:
     given = (case.indenter, case.material, case.load, case.grid, case.times)
-    return replace(prepare_run(*given, tolerance=tolerance), transforms=library)
+    return replace(prepare_run(Problem(*given, tolerance=tolerance)), transforms=library)
 
 
 def reference_alone(cells: tuple[int, int]) -> float:

@@ -31,6 +31,7 @@ import viscontact
 from viscontact.cli import main
 from viscontact.cli.run import execution
 from viscontact.grid import AutomaticGrid, Grid
+from viscontact.problem.problem import Problem
 from viscontact.results.variables import ERRORS
 from viscontact.runs import preparation
 from viscontact.runs.directory import recorder
@@ -234,8 +235,8 @@ def at_limits(campaign: Campaign, kind: str) -> None:
 
 def outgrown(*arguments: Any, **options: Any) -> RunSetup:
     """Prepare a run on an automatic grid that is too small."""
-    run = prepare_run(*arguments, **options).on(Grid((16, 16), (2e-3, 2e-3)))
-    return replace(run, automatic=AutomaticGrid())
+    run = prepare_run(Problem(*arguments, **options)).on(Grid((16, 16), (2e-3, 2e-3)))
+    return replace(run, problem=replace(run.problem, grid=AutomaticGrid()))
 
 
 def judge(mode: str, folder: Path, seed: int, *, growing: bool) -> None:

@@ -308,7 +308,11 @@ def test_bad_time_is_one_line_at_its_key(time: Any, said: str, tmp_path: Path) -
 
 def test_adaptive_run_keeps_ten_fields_spread_in_log_time(tmp_path: Path) -> None:
     case = read(tmp_path, time={"end": "10 s", "spacing": "adaptive"})
-    assert (len(case.fields), case.fields[0], case.fields[-1]) == (10, 0.0, 10.0)
+    assert (len(case.fields), case.fields[0], case.fields[-1]) == (
+        10,
+        0.0,
+        10.0,
+    )
     ratios = np.diff(np.log(np.array(case.fields[1:])))
     np.testing.assert_allclose(ratios, np.log(1000) / 8, rtol=1e-12)
     for fields in ("all", "none"):
@@ -327,7 +331,13 @@ def test_adaptive_run_has_its_fields_at_the_very_instants_asked_for(tmp_path: Pa
         # 0.1 s + 0.2 s, the end of the fall, is 0.30000000000000004 s in floating point
         output={"fields": ["0 s", "0.3 s", "7 s"]},
     )
-    arguments = (case.indenter, case.material, case.load, case.grid, case.times)
+    arguments = (
+        case.indenter,
+        case.material,
+        case.load,
+        case.grid,
+        case.times,
+    )
     ds = vc.simulate(*arguments, fields=case.fields)
     np.testing.assert_allclose(ds.field_time, [0.0, 0.3, 7.0], rtol=1e-12)
     assert ds.time[-1] == 10.0

@@ -13,6 +13,7 @@ from scipy.optimize import linprog
 
 import viscontact as vc
 from viscontact.checks.load_support import LoadSupport
+from viscontact.problem.problem import Problem
 from viscontact.simulation.setup import prepare_run
 
 BALL = vc.Sphere(1e-3)
@@ -31,14 +32,14 @@ ZENER = vc.Material(vc.Zener(1e6, 1e6, 1e6), 0.5)
 def test_a_tilt_that_presses_from_the_start_asks_for_an_instant_compliance(load):
     # x²/2R = tilt x: the tilted ball reaches tilt² R/2 = 0.2 um into the surface at approach 0.
     with pytest.raises(ValueError, match=r"tilted by 20 mrad along x .* begin with a smaller"):
-        prepare_run(BALL, POWER, load, GRID, [0.0, 1.0])
-    prepare_run(BALL, ZENER, load, GRID, [0.0, 1.0])
+        prepare_run(Problem(BALL, POWER, load, GRID, [0.0, 1.0]))
+    prepare_run(Problem(BALL, ZENER, load, GRID, [0.0, 1.0]))
 
 
 def test_a_tilted_stage_may_start_clear_of_a_law_without_instant_compliance():
     # Lifted by more than tilt² R/2 = 0.2 um the tilted ball does not touch.
     load = vc.ApproachHistory([0, 1], [-0.3e-6, 1e-6], tilt_x=0.02)
-    prepare_run(BALL, POWER, load, GRID, [0.0, 1.0])
+    prepare_run(Problem(BALL, POWER, load, GRID, [0.0, 1.0]))
 
 
 def test_a_swing_from_zero_to_zero_is_refused_where_its_crest_lies_outside_the_body():
@@ -47,12 +48,12 @@ def test_a_swing_from_zero_to_zero_is_refused_where_its_crest_lies_outside_the_b
     )
     assert swing.level_at([0.0, 1.0]).tolist() == [0.0, 0.0]
     with pytest.raises(ValueError, match="eccentricity"):
-        prepare_run(BALL, ZENER, swing, GRID, [0.0, 1.0])
+        prepare_run(Problem(BALL, ZENER, swing, GRID, [0.0, 1.0]))
 
 
 def test_a_run_that_chooses_its_steps_counts_on_remembering_many():
     # Five hundred steps and the first jump, each with a pressure and a deflection.
-    run = prepare_run(BALL, POWER, vc.ramp(1e-3, 1.0), GRID, vc.adaptive_times(10.0, 1e-3))
+    run = prepare_run(Problem(BALL, POWER, vc.ramp(1e-3, 1.0), GRID, vc.adaptive_times(10.0, 1e-3)))
     assert run.memory.fields_kept == 501
 
 

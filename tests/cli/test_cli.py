@@ -26,12 +26,12 @@ from viscontact.cli.results import figures
 from viscontact.cli.run import execution
 from viscontact.cli.terminal import progress
 from viscontact.errors import ConvergenceError
+from viscontact.problem.problem import Problem
 from viscontact.results.formatting import format_percent
 from viscontact.runs import resources
 from viscontact.runs.directory.progress_log import ProgressLog
 from viscontact.runs.processes.request import RunRequest
 from viscontact.simulation import stepper
-from viscontact.simulation.setup import prepare_run
 from viscontact.units.formatting import format_quantity
 
 SPHERE = """\
@@ -491,7 +491,7 @@ def test_forecast_counts_the_steps_within_swings_and_at_kinks() -> None:
     grid = vc.Grid((32, 32), (3e-3, 3e-3))
 
     def steps(load: vc.LoadHistory, times: Any = times) -> float:
-        return resources.step_count(prepare_run(vc.Sphere(0.01), material, load, grid, times))
+        return Problem(vc.Sphere(0.01), material, load, grid, times).step_count
 
     assert steps(vc.step(0.1)) == 2
     assert steps(vc.triangle(0.1, 1.0)) == 4

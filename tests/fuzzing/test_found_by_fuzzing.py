@@ -17,6 +17,7 @@ from viscontact.case import CaseError, read_case
 from viscontact.case.loads.sentences import read_sentences, split_sentences
 from viscontact.cli import main
 from viscontact.materials.cards import read_card
+from viscontact.problem.problem import Problem
 from viscontact.runs import preparation
 from viscontact.runs.forecast import forecast
 from viscontact.simulation.setup import prepare_run
@@ -187,9 +188,9 @@ def test_history_of_many_points_is_prepared_at_once(place: Any) -> None:
     times, force = np.linspace(0, 5, count), 1 + np.arange(count) % 7 / 7
     where = 1e-4 * np.sin(times) if place == "wandering" else place
     load = vc.ForceHistory(times, force, eccentricity_x=where)
-    run = prepare_run(vc.Sphere(0.01), RUBBER, load, None, [0.0, 5.0])
+    run = prepare_run(Problem(vc.Sphere(0.01), RUBBER, load, None, [0.0, 5.0]))
     # Hertz at the largest force and the compliance of the end, (1 - nu)/G = 1e-6 (1 - exp(-5)/2)
-    radius = (0.75 * force.max() * 0.01 * run.compliance(5.0)) ** (1 / 3)
+    radius = (0.75 * force.max() * 0.01 * run.problem.compliance(5.0)) ** (1 / 3)
     assert run.grid.size[1] / 2 == pytest.approx(1.3 * radius, rel=0.05)
 
 
@@ -268,7 +269,9 @@ def test_memory_that_is_announced_grows_with_the_steps() -> None:
     few, many = (
         forecast(
             prepare_run(
-                vc.Sphere(0.01), RUBBER, vc.step(1.0), vc.Grid((16, 16), (6e-3, 6e-3)), times
+                Problem(
+                    vc.Sphere(0.01), RUBBER, vc.step(1.0), vc.Grid((16, 16), (6e-3, 6e-3)), times
+                )
             )
         ).memory
         for times in (np.linspace(0, 1, 11), np.linspace(0, 1, 20_001))

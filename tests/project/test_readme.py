@@ -35,7 +35,13 @@ def test_the_case_is_read_and_runs(tmp_path: Path) -> None:
     path = tmp_path / "afm.yaml"
     path.write_text(block(WHAT_IT_DOES, "yaml"), encoding="utf-8")
     case = read_case(path)
-    ds = vc.simulate(case.indenter, case.material, case.load, times=case.times, fields="none")
+    ds = vc.simulate(
+        case.indenter,
+        case.material,
+        case.load,
+        times=case.times,
+        fields="none",
+    )
     assert float(ds.force.max()) == pytest.approx(1e-9, rel=1e-6)
     assert ds.outcome.values[-1] == vc.Outcome.NO_CONTACT
     # A creeping body does not give back all the work.

@@ -14,6 +14,7 @@ from runs.directory.test_recorder import finish, same_bits, stop_after
 from simulation.measured_swing import write_swing
 from simulation.test_march import differing, through_a_file
 from viscontact.grid import AutomaticGrid
+from viscontact.problem.problem import Problem
 from viscontact.runs.directory.recorded_run import Recorded
 from viscontact.runs.directory.recorder import RunRecord
 from viscontact.runs.single import labelled
@@ -35,35 +36,35 @@ COMPARED = (
 
 def growing(run: RunSetup) -> RunSetup:
     """The run as if its grid, which is too small, had been chosen for it."""
-    return replace(run, automatic=AutomaticGrid())
+    return replace(run, problem=replace(run.problem, grid=AutomaticGrid()))
 
 
 def sphere(grid: vc.Grid, **more: Any) -> RunSetup:
     """Held until it has crept, lifted, and pressed anew: what is remembered counts."""
     load = vc.ForceHistory([0, 1, 1.5, 3], [0.01, 0.05, 0.0, 0.2])
     given = {"times": vc.uniform_times(3.0, 12), "tolerance": TOLERANCE} | more
-    return prepare_run(vc.Sphere(0.01), ZENER, load, grid, **given)
+    return prepare_run(Problem(vc.Sphere(0.01), ZENER, load, grid, **given))
 
 
 def eccentric(grid: vc.Grid) -> RunSetup:
     """Not even across y, remembered step by step, and overrun along x first."""
     load = vc.ramp(0.1, 1.0, eccentricity_x=2e-4, eccentricity_y=2e-5)
     times = vc.uniform_times(2.0, 20)
-    return prepare_run(vc.Sphere(0.01), POWER, load, grid, times, tolerance=TOLERANCE)
+    return prepare_run(Problem(vc.Sphere(0.01), POWER, load, grid, times, tolerance=TOLERANCE))
 
 
 def staged(grid: vc.Grid) -> RunSetup:
     """Lifted off in between by an approach."""
     load = vc.ApproachHistory([0, 1, 1.3, 3], [0, 1e-5, 0, 3e-5])
     times = vc.uniform_times(3.0, 15)
-    return prepare_run(vc.Sphere(0.01), ZENER, load, grid, times, tolerance=TOLERANCE)
+    return prepare_run(Problem(vc.Sphere(0.01), ZENER, load, grid, times, tolerance=TOLERANCE))
 
 
 def jumping(grid: vc.Grid) -> RunSetup:
     """By a jump to far beyond the first grid: work is done on what had given way out there."""
     load = vc.ForceHistory([0, 1, 1, 2], [0.01, 0.02, 0.2, 0.2])
     return prepare_run(
-        vc.Sphere(0.01), ZENER, load, grid, vc.uniform_times(2.0, 8), tolerance=TOLERANCE
+        Problem(vc.Sphere(0.01), ZENER, load, grid, vc.uniform_times(2.0, 8), tolerance=TOLERANCE)
     )
 
 
@@ -231,7 +232,7 @@ def test_run_that_is_stopped_after_every_step_ends_in_the_same_bits(
     finish(RunRecord(recorded(tmp_path / "whole", fields)))
     stopped = recorded(tmp_path / "stopped", fields)
     stop_after(RunRecord(stopped), 1)
-    for instants in range(2, len(stopped.run.times)):
+    for instants in range(2, len(stopped.run.problem.instants)):
         stop_after(RunRecord.resume(stopped), instants)
     finish(RunRecord.resume(stopped))
     assert same_bits(tmp_path / "stopped", tmp_path / "whole")

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import viscontact as vc
+from viscontact.problem.problem import Problem
 from viscontact.runs.directory.npz_archive import read_plain, write_plain
 from viscontact.simulation.march import CompletedStep, March
 from viscontact.simulation.setup import RunSetup, prepare_run
@@ -36,37 +37,58 @@ def roller() -> vc.Roller:
 
 RUNS = {
     "series law, up, jump, away and back": lambda: prepare_run(
-        vc.Sphere(0.01), ZENER, UP_AND_DOWN, GRID, vc.uniform_times(5.0, 9)
+        Problem(vc.Sphere(0.01), ZENER, UP_AND_DOWN, GRID, vc.uniform_times(5.0, 9))
     ),
     "power law, eccentric roller": lambda: prepare_run(
-        roller(), POWER, vc.ramp(0.1, 1.0, eccentricity_x=1e-4), GRID, vc.uniform_times(2.0, 20)
+        Problem(
+            roller(), POWER, vc.ramp(0.1, 1.0, eccentricity_x=1e-4), GRID, vc.uniform_times(2.0, 20)
+        )
     ),
     "rough, off both axes": lambda: prepare_run(
-        rough(),
-        ZENER,
-        vc.step(0.02, eccentricity_x=5e-5, eccentricity_y=2e-5),
-        GRID,
-        vc.log_times(0.01, 3.0, 7),
+        Problem(
+            rough(),
+            ZENER,
+            vc.step(0.02, eccentricity_x=5e-5, eccentricity_y=2e-5),
+            GRID,
+            vc.log_times(0.01, 3.0, 7),
+        )
     ),
     "adaptive swing": lambda: prepare_run(
-        vc.Sphere(0.01), ZENER, vc.harmonic(0.1, 0.06, 2.0, 1), SMALL, vc.adaptive_times(2.2, 0.03)
+        Problem(
+            vc.Sphere(0.01),
+            ZENER,
+            vc.harmonic(0.1, 0.06, 2.0, 1),
+            SMALL,
+            vc.adaptive_times(2.2, 0.03),
+        )
     ),
     "adaptive power law in a soft start": lambda: prepare_run(
-        vc.Sphere(0.01), POWER, vc.ramp(0.1, 1.0), GRID, vc.adaptive_times(3.0, 0.03), fields=[2.0]
+        Problem(
+            vc.Sphere(0.01),
+            POWER,
+            vc.ramp(0.1, 1.0),
+            GRID,
+            vc.adaptive_times(3.0, 0.03),
+            fields=[2.0],
+        )
     ),
     "stage, contact lost": lambda: prepare_run(
-        vc.Sphere(0.01),
-        ZENER,
-        vc.ApproachHistory([0, 1, 1.3, 3], [0, 2e-5, 0, 1.6e-5]),
-        GRID,
-        vc.uniform_times(3.0, 15),
+        Problem(
+            vc.Sphere(0.01),
+            ZENER,
+            vc.ApproachHistory([0, 1, 1.3, 3], [0, 2e-5, 0, 1.6e-5]),
+            GRID,
+            vc.uniform_times(3.0, 15),
+        )
     ),
     "cycles of a triangle": lambda: prepare_run(
-        vc.Sphere(0.01),
-        ZENER,
-        vc.ForceHistory(np.arange(7.0), [0, 0.1, 0, 0.1, 0, 0.1, 0]),
-        GRID,
-        vc.uniform_times(6.0, 18),
+        Problem(
+            vc.Sphere(0.01),
+            ZENER,
+            vc.ForceHistory(np.arange(7.0), [0, 0.1, 0, 0.1, 0, 0.1, 0]),
+            GRID,
+            vc.uniform_times(6.0, 18),
+        )
     ),
 }
 

@@ -14,6 +14,7 @@ import viscontact as vc
 from viscontact import reference
 from viscontact.meshing import mesh_choice as meshes
 from viscontact.meshing.refinement import TRIAL_TOLERANCE_SHARE
+from viscontact.problem.problem import Problem
 from viscontact.simulation.setup import prepare_run
 
 STIFF = vc.Material(vc.Elastic(1e9), 0.4)
@@ -59,7 +60,7 @@ def test_elliptical_contacts_are_hertzs_within_what_is_asked_and_what_is_expecte
     cells = []
     for seed in seeds:
         indenter, load, truth = random_ellipse(seed)
-        run = prepare_run(indenter, STIFF, load, vc.AutomaticGrid(tolerance), [0.0])
+        run = prepare_run(Problem(indenter, STIFF, load, vc.AutomaticGrid(tolerance), [0.0]))
         (values,) = told(indenter, load, run.grid).T
         errors = np.abs(values / truth - 1)
         assert errors.max() <= tolerance, f"case {seed}: {errors}"
@@ -138,7 +139,7 @@ BY_DEFAULT = ("eccentric crowned roller", "tilted crowned roller", "wavy sphere"
 def test_a_much_finer_grid_agrees_within_the_tolerance(name):
     indenter, load, finer = CONTACTS[name]
     times = [3.0] if load.kinks[-1] > 3 else [0.0]
-    run = prepare_run(indenter, STIFF, load, None, times)
+    run = prepare_run(Problem(indenter, STIFF, load, None, times))
     assert tuple(run.mesh.errors) == QUANTITIES
     # Not whole multiples: their errors would be alike.
     shape = tuple(2 * round(1.08 * finer * count / 2) for count in run.grid.shape)
@@ -157,7 +158,7 @@ SHARP = {
 @pytest.mark.parametrize("name", SHARP)
 def test_a_singular_pressure_is_left_out_and_told(name):
     indenter, load = SHARP[name]
-    run = prepare_run(indenter, STIFF, load, None, [0.0])
+    run = prepare_run(Problem(indenter, STIFF, load, None, [0.0]))
     assert tuple(run.mesh.errors) == QUANTITIES[1:]
     assert math.prod(run.grid.shape) < 2**16
     result = vc.simulate(indenter, STIFF, load, None, [0.0], fields="none")
@@ -174,7 +175,7 @@ def test_a_singular_pressure_is_left_out_and_told(name):
 
 
 def test_a_smooth_contact_is_not_told_to_be_singular():
-    run = prepare_run(vc.Sphere(0.01), STIFF, vc.step(10.0), None, [0.0])
+    run = prepare_run(Problem(vc.Sphere(0.01), STIFF, vc.step(10.0), None, [0.0]))
     assert run.mesh.warnings == {}
 
 
@@ -194,7 +195,7 @@ def test_a_wave_has_ten_cells_and_a_map_no_more_than_it_has_points():
     steps = np.linspace(-1e-3, 1e-3, 41)
     heights = 1e-6 * np.random.default_rng(5).standard_normal((41, 41))
     rough = vc.HeightMap(steps, steps, heights)
-    mesh = prepare_run(rough, STIFF, vc.step(30.0), vc.AutomaticGrid(1e-3), [0.0]).mesh
+    mesh = prepare_run(Problem(rough, STIFF, vc.step(30.0), vc.AutomaticGrid(1e-3), [0.0])).mesh
     assert min(mesh.grid.cell_size) > 0.8 * 5e-5  # but for good sizes of transforms
     assert "steps of the height map" in mesh.warnings["map spacing"]
 
@@ -211,7 +212,7 @@ def test_what_cannot_be_reached_is_refused_with_what_can(monkeypatch):
 
 def test_a_contact_that_grows_out_of_all_proportion_is_told():
     fluid = vc.Material(vc.Maxwell(1e9, 1e9), 0.4)
-    run = prepare_run(vc.Paraboloid(0.01, 0.01), fluid, vc.step(1e-3), None, [0.0, 1e6])
+    run = prepare_run(Problem(vc.Paraboloid(0.01, 0.01), fluid, vc.step(1e-3), None, [0.0, 1e6]))
     assert math.prod(run.grid.shape) <= 1.1 * 2**18  # but for good sizes of transforms
     assert "much smaller when the load is first largest" in run.mesh.warnings["early"]
 
@@ -226,7 +227,7 @@ def test_expected_error_of_a_maps_peak_contains_what_its_facets_make():
     step = exact.semi_axis_x / 4
     lines = step * np.arange(-12, 13)
     known = vc.HeightMap(lines, lines, -ball.gap(lines[:, None], lines[None, :]))
-    mesh = prepare_run(known, STIFF, load, None, [0.0]).mesh
+    mesh = prepare_run(Problem(known, STIFF, load, None, [0.0])).mesh
     fine = vc.Grid((81, 81), (20.25 * step, 20.25 * step))
     (state,) = vc.march(known, STIFF, load, fine, [0.0])
     error = abs(state.peak_pressure / exact.peak_pressure - 1)
@@ -234,4 +235,4 @@ def test_expected_error_of_a_maps_peak_contains_what_its_facets_make():
     assert error < mesh.errors["peak_pressure"] < 5 * error
     assert "straight" in mesh.warnings["facets"]
     # A ball that is a ball has no facets.
-    assert "facets" not in prepare_run(ball, STIFF, load, None, [0.0]).mesh.warnings
+    assert "facets" not in prepare_run(Problem(ball, STIFF, load, None, [0.0])).mesh.warnings

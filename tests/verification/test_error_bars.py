@@ -17,6 +17,7 @@ import viscontact as vc
 from verification.exact_contacts import ExactRun, drawn
 from viscontact.accuracy.coarser_runs import history_of, march_coarser_run, plan_coarser_runs
 from viscontact.accuracy.error_bars import SINGULAR, error_bars, error_bars_from
+from viscontact.problem.problem import Problem
 from viscontact.simulation.setup import prepare_run
 from viscontact.simulation.state_generator import march_run
 
@@ -35,7 +36,7 @@ class Tally:
         given = drawn_run.arguments
         names = ("indenter", "material", "load", "grid", "times")
         positional = [given.pop(name) for name in names]
-        run = prepare_run(*positional, **given)
+        run = prepare_run(Problem(*positional, **given))
         history = history_of([state.without_fields() for state in march_run(run)])
         bars = error_bars(run, history).values
         for name, exact in drawn_run.exact(history["time"]).items():
@@ -114,7 +115,7 @@ BALL, LOAD, SIZE = vc.Paraboloid(0.01, 0.01), vc.step(0.1), 2.7e-3
 def pressed(cells: int, *, steps: int = 20, tolerance: float = 1e-7):
     grid = vc.Grid((cells, cells), (SIZE, SIZE))
     times = vc.uniform_times(4.0, steps)
-    run = prepare_run(BALL, RUBBER, LOAD, grid, times, tolerance=tolerance)
+    run = prepare_run(Problem(BALL, RUBBER, LOAD, grid, times, tolerance=tolerance))
     return run, history_of(list(march_run(run)))
 
 
@@ -150,7 +151,7 @@ def test_long_steps_widen_the_bars() -> None:
 
 def test_without_contact_what_is_zero_is_exact() -> None:
     grid, load = vc.Grid((30, 30), (SIZE, SIZE)), vc.ForceHistory([0, 1, 2, 3], [0.1, 0.1, 0, 0])
-    run = prepare_run(BALL, RUBBER, load, grid, vc.uniform_times(3.0, 24))
+    run = prepare_run(Problem(BALL, RUBBER, load, grid, vc.uniform_times(3.0, 24)))
     history = history_of(list(march_run(run)))
     bars = error_bars(run, history).values
     apart = history["time"] >= 2
@@ -248,7 +249,7 @@ def test_area_of_many_spots_changes_by_less_than_its_bar() -> None:
         found = []
         for count in (cells, 256):
             grid = vc.Grid((count, count), size, periodic=True)
-            run = prepare_run(rough, RUBBER, load, grid, [0.0], tolerance=1e-5)
+            run = prepare_run(Problem(rough, RUBBER, load, grid, [0.0], tolerance=1e-5))
             found.append((run, history_of(list(march_run(run)))))
         bar = error_bars(*found[0]).values["contact_area"][0]
         coarse, fine = (history["contact_area"][0] for _, history in found)
@@ -265,7 +266,7 @@ def test_width_at_a_rollers_sharp_ends_changes_by_less_than_its_bar() -> None:
         found = []
         for part in (1, 4):
             grid = vc.Grid((shape[0] * part, shape[1] * part), size)
-            run = prepare_run(roller, RUBBER, load, grid, [0.0])
+            run = prepare_run(Problem(roller, RUBBER, load, grid, [0.0]))
             found.append((run, history_of(list(march_run(run)))))
         bar = error_bars(*found[0]).values["contact_width"][0]
         coarse, fine = (history["contact_width"][0] for _, history in found)

@@ -14,6 +14,7 @@ from verification.creeping_bodies import BODIES
 from verification.indenting import deviation
 from verification.pressing import BALL, FORCE, RADIUS, grid_around, over_time
 from viscontact.materials.compliance import SeriesCompliance
+from viscontact.problem.problem import Problem
 from viscontact.simulation.setup import prepare_run
 from viscontact.time_integration import plan as choice
 from viscontact.time_integration.boltzmann_sum import BoltzmannSum
@@ -74,7 +75,7 @@ def test_a_sum_of_exponentials_is_as_good_as_it_says(name, monkeypatch):
     case = (BALL, body.material, load, grid, times)
 
     def marched():
-        plan = prepare_run(*case).memory
+        plan = prepare_run(Problem(*case)).memory
         return plan, list(vc.march(*case, tolerance=1e-10))
 
     exact, kept = marched()
@@ -99,7 +100,7 @@ def test_memory_of_ten_thousand_steps_is_bounded_and_says_so():
     grid = vc.Grid((256, 256), (1e-3, 1e-3))
     for steps in (3000, 10_000, 100_000):
         times = vc.uniform_times(1000.0, steps)
-        plan = prepare_run(BALL, body.material, vc.step(FORCE), grid, times).memory
+        plan = prepare_run(Problem(BALL, body.material, vc.step(FORCE), grid, times)).memory
         assert plan.fields_kept <= 40
         assert plan.error < 1e-6
         assert str(len(plan.memory((1,)).restart_data()["fields"])) in plan.method

@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.accuracy.looser_load import LongerStepsLoad
 from viscontact.checks.mesh import cells_across_spots
 from viscontact.checks.singularities import is_sharp, strain_of, touches_end
 from viscontact.errors import ConvergenceError, DomainError
@@ -16,10 +15,9 @@ from viscontact.grid import Grid
 from viscontact.materials.compliance import ContactCompliance
 from viscontact.results.variables import scalars_with_error
 from viscontact.simulation.march import March
-from viscontact.simulation.setup import RunSetup
+from viscontact.simulation.setup import RunSetup, plan_memory
 from viscontact.state import ContactState
-from viscontact.time_integration.fixed_steps import plan_steps, step_ends
-from viscontact.time_integration.plan import plan_hereditary_integral
+from viscontact.time_integration.fixed_steps import plan_steps
 
 #: Cells of the companions, in cells of the run, and whether they lie about the origin as the run's
 #: do: where a cell's centre was, there may be an edge between two.
@@ -100,13 +98,13 @@ def plan_coarser_runs(run: RunSetup, history: History) -> Iterator[CoarserRun]:
         out, and the bodies creep, one more with halved steps on the coarsest grid.
     """
     times = history["time"]
-    paces = _paces(len(plan_steps(times, run.load)))
+    paces = _paces(len(plan_steps(times, run.problem.load)))
     spacings = _spacings(float(history["cells_across"].max(initial=0.0)))
     for (spacing, alike), step_ratio in zip(reversed(spacings), reversed(paces), strict=True):
         kept = times[::-1][::step_ratio][::-1]
         yield _coarser_run(run, spacing, alike, float(step_ratio), kept)
-    if paces[-1] == 1 and _creeps(run.compliance, times):
-        instants = np.unique([0.0, *(step.time for step in plan_steps(times, run.load))])
+    if paces[-1] == 1 and _creeps(run.problem.compliance, times):
+        instants = np.unique([0.0, *(step.time for step in plan_steps(times, run.problem.load))])
         middles = (instants[1:] + instants[:-1]) / 2
         yield _coarser_run(run, *spacings[-1], 0.5, np.union1d(times, middles))
 
@@ -238,12 +236,12 @@ def _creeps(compliance: ContactCompliance, times: NDArray[np.float64]) -> bool:
 def _coarser_run(
     run: RunSetup, spacing: float, alike: bool, step_ratio: float, times: NDArray[np.float64]
 ) -> CoarserRun:
-    grid = coarser_grid(run.grid, spacing, alike)
-    load = run.load if step_ratio <= 1 else LongerStepsLoad(run.load, step_ratio)
-    coarse = replace(run.on(grid), times=times, load=load, adaptive=None, automatic=None)
-    numbers = 2 * coarse.open_gap.size // 2 ** sum(coarse.mirrored)
-    memory = plan_hereditary_integral(run.compliance, step_ends(plan_steps(times, load)), numbers)
-    return CoarserRun(spacing, step_ratio, replace(coarse, memory=memory))
+    coarse = run.on(coarser_grid(run.grid, spacing, alike))
+    problem = replace(
+        run.problem, grid=coarse.grid, times=times, fields="none", step_ratio=max(1.0, step_ratio)
+    )
+    memory = plan_memory(problem, coarse.open_gap, coarse.grid)
+    return CoarserRun(spacing, step_ratio, replace(coarse, problem=problem, memory=memory))
 
 
 def _peaks_at_point(coarser_run: CoarserRun, state: ContactState) -> bool:
@@ -252,5 +250,5 @@ def _peaks_at_point(coarser_run: CoarserRun, state: ContactState) -> bool:
     place = run.grid.largest_at(state.pressure)
     dx, dy = run.grid.cell_size
     cell = (dx / coarser_run.spacing, dy / coarser_run.spacing)
-    strain = strain_of(state.peak_pressure, float(run.compliance(state.time)))
-    return is_sharp(run.indenter, place, (1.5 * dx, 1.5 * dy), cell, strain)
+    strain = strain_of(state.peak_pressure, float(run.problem.compliance(state.time)))
+    return is_sharp(run.problem.indenter, place, (1.5 * dx, 1.5 * dy), cell, strain)

@@ -164,10 +164,11 @@ def error_bars(
     >>> import viscontact as vc
     >>> from viscontact.accuracy.coarser_runs import history_of
     >>> from viscontact.simulation.state_generator import march_run
+    >>> from viscontact.problem.problem import Problem
     >>> from viscontact.simulation.setup import prepare_run
     >>> rubber = vc.Material(vc.Elastic(1e6 / 3), poisson_ratio=0.5)
     >>> grid = vc.Grid((40, 40), (0.26, 0.26))
-    >>> run = prepare_run(vc.Paraboloid(0.75, 0.75), rubber, vc.step(2370.0), grid, [0.0])
+    >>> run = prepare_run(Problem(vc.Paraboloid(0.75, 0.75), rubber, vc.step(2370.0), grid, [0.0]))
     >>> history = history_of(list(march_run(run)))
     >>> bar = error_bars(run, history).values["approach"][0]
     >>> bool(abs(history["approach"][0] - (0.75 * 2370 / (4e6 / 3) / 0.75**0.5)**(2 / 3)) < bar)
@@ -259,7 +260,8 @@ def _bar(
         moving_maximum(np.divide(part, scale, out=nothing.copy(), where=scale > 0))
         for part in (by_cells, levels.by_steps)
     ]
-    solver = SOLVER_ERROR_FACTOR * run.tolerance + run.memory.error + run.compliance.inversion_error
+    solver = SOLVER_ERROR_FACTOR * run.problem.tolerance + run.memory.error
+    solver += run.problem.compliance.inversion_error
     bar = (parts[0] + np.nan_to_num(parts[1]) + solver) * scale
     bar = np.maximum(
         bar, _least_bar(run, name, by_cells > AGREEMENT_TOLERANCE * own, places, history)
@@ -282,7 +284,8 @@ def _least_bar(
         extent = np.nan_to_num(history[axis])
         slope = np.abs(history["approach"]) / np.maximum(extent, TINY)
         lever = extent if name.startswith("eccentricity") else slope
-        return np.asarray(np.where(extent > 0, SOLVER_ERROR_FACTOR * run.tolerance * lever, 0.0))
+        tolerance = SOLVER_ERROR_FACTOR * run.problem.tolerance
+        return np.asarray(np.where(extent > 0, tolerance * lever, 0.0))
     return 0.0
 
 
@@ -313,6 +316,6 @@ def _unbounded_peak(
 def _certainly_separated(run: RunSetup, history: History) -> NDArray[np.bool_]:
     """Where there is no contact, and none that is lost or made between two instants."""
     apart = np.asarray(history["peak_pressure"] == 0)
-    if run.load.control == "force":
+    if run.problem.load.control == "force":
         return apart
     return np.asarray(apart & ~(moving_maximum(~apart, 1) > 0))

@@ -6,52 +6,29 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import numpy as np
-from numpy.typing import NDArray
-
 from viscontact.case.document import Document
 from viscontact.case.error_messages import object_problem
 from viscontact.case.errors import CaseError, KeyPath
 from viscontact.case.yaml_source import with_overrides
 from viscontact.display import Displayable, DisplayableGroup
-from viscontact.grid import AutomaticGrid, Grid
-from viscontact.indenters import Indenter
-from viscontact.loads import LoadHistory
-from viscontact.materials.material import Material
+from viscontact.problem.problem import Problem
 from viscontact.run_files import CASE_NAME, PROGRESS_NAME, RESULT_NAME, STATE_NAME
-from viscontact.time_integration.requested_times import AdaptiveTimes
 from viscontact.units.formatting import format_quantity
 
 #: Files of a run beside its case; names with a leading dot are reserved as well.
 _RUN_NAMES = (CASE_NAME, RESULT_NAME, PROGRESS_NAME, STATE_NAME)
 
 
-@dataclass(frozen=True, eq=False)
-class Case(DisplayableGroup):
-    """Run that a case file describes, as objects and numbers in SI units.
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Case(DisplayableGroup, Problem):
+    """A contact problem that was read from a case file.
 
     Parameters
     ----------
     title : str
         Title of the run.
-    indenter : Indenter
-        The pressed body's shape.
-    material : Material
-        The half-space's material.
-    indenter_material : Material or None
-        The pressed body's material; None for a rigid one.
-    load : LoadHistory
-        Force or approach, eccentricity and prescribed tilts over time.
-    times : ndarray or AdaptiveTimes
-        Instants of the run, those of the fields among them [s], or the settings of adaptive ones.
-    grid : Grid, AutomaticGrid or None
-        The grid, or the settings of an automatic one; None where not given.
-    fields : str or tuple of float
-        ``"all"``, ``"none"``, or the instants whose fields are kept [s].
     errors : bool
         Whether the errors of the scalars are estimated.
-    tolerance : float
-        Relative error of pressure and balances.
     load_file : Path or None
         The CSV of the load history, if it has one.
     files : mapping of tuple to Path
@@ -65,15 +42,7 @@ class Case(DisplayableGroup):
     """
 
     title: str
-    indenter: Indenter
-    material: Material
-    indenter_material: Material | None
-    load: LoadHistory
-    times: NDArray[np.float64] | AdaptiveTimes
-    grid: Grid | AutomaticGrid | None
-    fields: str | tuple[float, ...]
     errors: bool
-    tolerance: float
     load_file: Path | None
     files: Mapping[KeyPath, Path]
     digests: Mapping[Path, bytes] = field(repr=False)
@@ -93,7 +62,7 @@ class Case(DisplayableGroup):
             "indenter material": self.indenter_material or "rigid",
             "load": self.load,
             "grid": self.grid or "automatic",
-            "steps": _steps_told(self.times),
+            "steps": _format_steps(self),
             "tolerance": f"{self.tolerance:g}",
         }
 
@@ -127,11 +96,9 @@ class Case(DisplayableGroup):
         return CaseError(object_problem(self.document, (), why))
 
 
-def _steps_told(times: NDArray[np.float64] | AdaptiveTimes) -> str:
-    if isinstance(times, AdaptiveTimes):
-        return (
-            f"chosen by their error, {times.tolerance:g} at most, up to "
-            f"{format_quantity(times.end, 's')}"
-        )
-    first, last = (format_quantity(float(instant), "s") for instant in times[[0, -1]])
-    return f"{times.size}, from {first} to {last}"
+def _format_steps(problem: Problem) -> str:
+    if problem.adaptive is not None:
+        end, tolerance = format_quantity(problem.adaptive.end, "s"), problem.adaptive.tolerance
+        return f"chosen by their error, {tolerance:g} at most, up to {end}"
+    first, last = (format_quantity(float(time), "s") for time in problem.instants[[0, -1]])
+    return f"{problem.instants.size}, from {first} to {last}"

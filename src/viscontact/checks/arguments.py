@@ -1,68 +1,37 @@
-"""What a run is refused for, before its first step."""
+"""Checks of a contact problem before its first step."""
 
 from __future__ import annotations
-
-from numbers import Integral
 
 import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.checks.load_support import LoadSupport
-from viscontact.grid import AutomaticGrid, Grid
-from viscontact.indenters import Indenter
+from viscontact.grid import Grid
 from viscontact.loads import LoadHistory
 from viscontact.loads.arguments import TAIL
-from viscontact.loads.largest_load import largest_load
-from viscontact.materials.compliance import ContactCompliance
-from viscontact.materials.material import Material
+from viscontact.problem.problem import Problem
 from viscontact.units.formatting import format_quantity
-from viscontact.units.numbers import as_real
 
 #: Instants at which a law is looked at before it is used, and a fall that is not rounding or the
 #: error of a conversion.
 CREEP_SAMPLES, NOTABLE_FALL = 200, 0.01
 
 
-def check_kinds(
-    indenter: object, material: object, load: object, grid: object, indenter_material: object
-) -> None:
-    """Refuse arguments that are not the nouns they should be, by name."""
-    wanted: list[tuple[str, object, tuple[type, ...], bool]] = [
-        ("indenter", indenter, (Indenter,), False),
-        ("material", material, (Material,), False),
-        ("load", load, (LoadHistory,), False),
-        ("grid", grid, (Grid, AutomaticGrid), True),
-        ("indenter_material", indenter_material, (Material,), True),
-    ]
-    for name, value, kinds, optional in wanted:
-        if not (isinstance(value, kinds) or (optional and value is None)):
-            named = " or ".join(kind.__name__ for kind in kinds)
-            raise ValueError(f"{name} must be of kind {named}, got {value!r}")
-
-
-def check_numbers(tolerance: object, threads: object) -> None:
-    """Refuse a tolerance or a number of threads out of range."""
-    number = as_real(tolerance)
-    if number is None or not 1e-13 <= number <= 1e-2:
-        raise ValueError(f"tolerance must lie between 1e-13 and 1e-2, got {tolerance!r}")
-    if not (isinstance(threads, Integral) and 1 <= int(threads) <= 1024):
-        raise ValueError(f"threads must be a whole number >= 1, and at most 1024, got {threads!r}")
-
-
-def check_magnitudes(
-    compliance: ContactCompliance, load: LoadHistory, grid: Grid | None, end: float
-) -> None:
+def check_magnitudes(problem: Problem) -> None:
     """Refuse magnitudes whose squares and quotients are no numbers; a search might never end."""
-    sizes = () if grid is None else grid.size
+    load, end = problem.load, problem.end
+    sizes = problem.grid.size if isinstance(problem.grid, Grid) else ()
     level = abs(load.largest_level)
-    magnitudes = [(f"load.{load.control}", level), ("material", compliance(end)), ("time", end)]
+    compliance = problem.compliance(end)
+    magnitudes = [(f"load.{load.control}", level), ("material", compliance), ("time", end)]
     for name, value in [*magnitudes, *(("grid.size", size) for size in sizes)]:
         if value and not 1e-30 <= value <= 1e30:
             raise ValueError(f"{name}: {value:.3g} in SI units is beyond what can be computed with")
 
 
-def check_creep(compliance: ContactCompliance, times: NDArray[np.float64]) -> None:
-    """Refuse a law that is no creep within the run [s]: no number, negative, or falling."""
+def check_creep(problem: Problem) -> None:
+    """Refuse a law that is no creep within the run: no number, negative, or falling."""
+    compliance, times = problem.compliance, problem.instants
     # A memory in exponentials is fitted to ten times the first step at least.
     end = max(float(times[-1]), 10 * float(np.diff(times).min(initial=times[-1])))
     # Steps between the instants asked for are as short as they like.
@@ -80,10 +49,10 @@ def check_creep(compliance: ContactCompliance, times: NDArray[np.float64]) -> No
         )
 
 
-def check_jumps(compliance: ContactCompliance, load: LoadHistory, end: float) -> None:
-    """Refuse a jump of the load within the run [s] that the law cannot follow."""
-    jumps = [jump for jump in load.jumps if jump <= end]
-    if jumps and compliance.instant == 0:
+def check_jumps(problem: Problem) -> None:
+    """Refuse a jump of the load within the run that the law cannot follow."""
+    jumps = [jump for jump in problem.load.jumps if jump <= problem.end]
+    if jumps and problem.compliance.instant == 0:
         raise ValueError(
             f"load: the load jumps at t = {format_quantity(jumps[0], 's', 6)} but the law has no "
             "instant compliance, so the surface could not follow; use a ramp, or give the law an "
@@ -91,12 +60,10 @@ def check_jumps(compliance: ContactCompliance, load: LoadHistory, end: float) ->
         )
 
 
-def check_touch(
-    compliance: ContactCompliance, open_gap: NDArray[np.float64], grid: Grid, load: LoadHistory
-) -> None:
+def check_touch(problem: Problem, open_gap: NDArray[np.float64], grid: Grid) -> None:
     """Refuse a clamped tilt that presses at time 0 already on a law that cannot follow."""
-    point = load.at(0.0)
-    if compliance.instant > 0 or point.approach is None:
+    point = problem.load.at(0.0)
+    if problem.compliance.instant > 0 or point.approach is None:
         return
     slopes = (point.tilt_x or 0.0) * grid.x[:, None], (point.tilt_y or 0.0) * grid.y[None, :]
     if (open_gap < point.approach + slopes[0] + slopes[1]).any():
@@ -108,14 +75,15 @@ def check_touch(
         )
 
 
-def check_balance(open_gap: NDArray[np.float64], grid: Grid, load: LoadHistory, end: float) -> None:
+def check_balance(problem: Problem, open_gap: NDArray[np.float64], grid: Grid) -> None:
     """Refuse a resultant that acts outside the hull of what can touch."""
     solid = np.isfinite(open_gap)
     if not solid.any():
         raise ValueError("grid: no cell lies under the indenter; use a finer or larger grid")
     # A point without load counts where the load grows from it or falls to it; a swing from zero
     # to zero has its load between.
-    swing = [largest_load(load, end)[0]] if np.isfinite(load.longest_step) else []
+    load, end = problem.load, problem.end
+    swing = [problem.largest_load[0]] if np.isfinite(load.longest_step) else []
     instants = np.unique([*load.kinks[load.kinks < end], *swing, end])
     levels = np.maximum(load.level_at(instants, side="left"), load.level_at(instants))
     before, after = np.append(0.0, levels[:-1]), np.append(levels[1:], 0.0)

@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.indenters.textures import CELLS_OF_A_WAVE
-from viscontact.loads import LoadHistory
-from viscontact.materials.compliance import ContactCompliance
 from viscontact.meshing.contact_extent import (
     MAX_CELLS,
     PointContact,
@@ -23,6 +21,7 @@ from viscontact.meshing.contact_extent import (
 from viscontact.meshing.height_map_error import facet_error
 from viscontact.meshing.refinement import PEAK, USUAL_ORDER, Resolution, refine_mesh
 from viscontact.meshing.trial_mesh import RIM_SCATTER, ElasticContact
+from viscontact.problem.problem import Problem
 from viscontact.units.formatting import format_quantity
 
 #: No more cells are spent on a contact that is small at first and large for most of the run.
@@ -73,27 +72,15 @@ class Mesh:
     warnings: dict[str, str]
 
 
-def choose_mesh(
-    indenter: Indenter,
-    compliance: ContactCompliance,
-    load: LoadHistory,
-    wish: AutomaticGrid,
-    end: float | None,
-) -> Mesh:
-    """Choose a grid for a run of which the bodies' compliance is known.
+def choose_mesh(problem: Problem, end: float | None) -> Mesh:
+    """Choose a grid for a contact problem.
 
     Parameters
     ----------
-    indenter : Indenter
-        Shape of the pressed body.
-    compliance : ContactCompliance
-        J(t) of both bodies together.
-    load : LoadHistory
-        Force or approach, eccentricity and prescribed tilts over time.
-    wish : AutomaticGrid
-        What is asked of the grid.
+    problem : Problem
+        The contact problem, with its requirements on the grid.
     end : float or None
-        Last instant of the run [s]; the load's last point, or the end of all creep, when None.
+        Last time of the run [s]; the load's last point, or the end of all creep, when None.
 
     Returns
     -------
@@ -106,6 +93,8 @@ def choose_mesh(
         If no end of the creep is known, no grid fits, or the tolerance would need millions of
         cells.
     """
+    indenter, load, compliance = problem.indenter, problem.load, problem.compliance
+    wish = problem.automatic_grid or AutomaticGrid()
     largest = largest_compliance(compliance, end)
     found = contacts_of_history(indenter, largest, load, end)
     highest = max(each.point.level for each in found)

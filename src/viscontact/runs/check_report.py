@@ -9,7 +9,6 @@ import numpy as np
 
 from viscontact.checks.half_space_theory import SINGULAR_KINDS
 from viscontact.checks.mesh import WARNING_CELLS
-from viscontact.loads.largest_load import largest_load
 from viscontact.meshing.elastic_estimate import ContactEstimate
 from viscontact.results.stated_errors import MESH_DEPENDENT
 from viscontact.runs.forecast import Forecast, forecast
@@ -81,7 +80,7 @@ def drawn_size(run: RunSetup) -> tuple[float, float]:
         beyond = np.linspace(1.0, FARTHEST_END, 400) * size[axis] / 2
         places = np.zeros((2, 2, beyond.size))
         places[axis] = -beyond, beyond
-        gap = run.indenter.gap(places[0], places[1])
+        gap = run.problem.indenter.gap(places[0], places[1])
         if np.isinf(gap[:, -1]).any() and np.isfinite(gap[:, 0]).any():
             last = beyond[np.flatnonzero(np.isfinite(gap).any(axis=0))[-1]]
             size[axis] = 2.1 * float(last)
@@ -100,7 +99,7 @@ def needs(prepared: PreparedRun, expected: Forecast) -> list[tuple[str, str]]:
     """
     run = prepared.run
     (nx, ny), (lx, ly), (dx, dy) = run.grid.shape, run.grid.size, run.grid.cell_size
-    chosen = " (automatic)" if run.automatic is not None else ""
+    chosen = " (automatic)" if run.problem.automatic_grid is not None else ""
     growing = "; more if the grid has to grow" if run.grows else ""
     period = ", periodic" if run.grid.periodic else ""
     free = f"of {_bytes(expected.available)} free"
@@ -112,7 +111,7 @@ def needs(prepared: PreparedRun, expected: Forecast) -> list[tuple[str, str]]:
         ),
         ("cell", f"{format_quantity(dx, 'm', 3)} x {format_quantity(dy, 'm', 3)}"),
         *_grid_error(run),
-        ("time steps", f"{_steps(run)}, up to t = {format_quantity(float(run.times[-1]), 's')}"),
+        ("time steps", f"{_steps(run)}, up to t = {format_quantity(run.problem.end, 's')}"),
         ("fields kept", _kept(prepared.case.fields)),
         ("memory", f"about {_bytes(expected.memory)} {free}{growing}"),
         ("run time", f"{_duration(expected.seconds)} on this machine"),
@@ -134,16 +133,17 @@ def _grid_error(run: RunSetup) -> list[tuple[str, str]]:
 
 def _when_largest(run: RunSetup) -> Iterator[str]:
     """When the load is largest, for which the cells were chosen; and what is so at other times."""
-    crest, point = largest_load(run.load, float(run.times[-1]))
-    kinks = run.load.kinks[run.load.kinks <= run.times[-1]]
-    instants = np.union1d(run.times, [*kinks, crest])
+    problem, load = run.problem, run.problem.load
+    crest, point = problem.largest_load
+    kinks = load.kinks[load.kinks <= problem.end]
+    instants = np.union1d(problem.instants, [*kinks, crest])
     # On the left of a jump, say, it is at one instant only.
-    is_largest = run.load.level_at(instants) >= LARGEST_LOAD_FRACTION * point.level
+    is_largest = load.level_at(instants) >= LARGEST_LOAD_FRACTION * point.level
     is_largest |= instants == crest
     first, last = (format_quantity(float(instants[is_largest][k]), "s", 3) for k in (0, -1))
     when = f" (t = {first} to {last})" if first != last else f" (t = {first})"
     comes = np.diff(is_largest.astype(int), prepend=0) > 0
-    if math.isfinite(run.load.longest_step) or np.count_nonzero(comes) > 1:
+    if math.isfinite(load.longest_step) or np.count_nonzero(comes) > 1:
         when = f" (first at t = {first})"
     yield f"at the largest load{'' if is_largest.all() else when}"
     if not is_largest[instants > 0].all():
@@ -151,9 +151,9 @@ def _when_largest(run: RunSetup) -> Iterator[str]:
 
 
 def _steps(run: RunSetup) -> str:
-    if run.adaptive is None:
-        return f"{len(run.times) - 1}"
-    return f"as needed for an error of {100 * run.adaptive.tolerance:g} %"
+    if run.problem.adaptive is None:
+        return f"{len(run.problem.instants) - 1}"
+    return f"as needed for an error of {100 * run.problem.adaptive.tolerance:g} %"
 
 
 def _kept(fields: str | Sequence[float]) -> str:
@@ -173,7 +173,7 @@ def expectations(prepared: PreparedRun, expected: Forecast) -> tuple[str, list[t
     expected : Forecast
         What was predicted of it.
     """
-    found, control = expected.estimate, prepared.run.load.control
+    found, control = expected.estimate, prepared.run.problem.load.control
     title = "What to expect, by a quick elastic solve on few cells:"
     if found is None:
         return title, []

@@ -1,8 +1,7 @@
-"""What a run will warn of, as far as it can be told before its first step."""
+"""Accuracy warnings that can be predicted before a run."""
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 
 import numpy as np
@@ -16,16 +15,17 @@ from viscontact.checks.half_space_theory import (
 from viscontact.checks.material import (
     data_warnings,
     early_warnings,
-    law_warnings,
-    passivity_warnings,
 )
 from viscontact.checks.sampling import Sampling, map_warnings, texture_warnings
 from viscontact.checks.singularities import strain_of
-from viscontact.checks.steps import release_warnings, touch_warnings
-from viscontact.materials.material import Material
 from viscontact.meshing.elastic_estimate import ContactEstimate
+from viscontact.problem.problem import Problem
 from viscontact.simulation.setup import RunSetup
-from viscontact.time_integration.fixed_steps import plan_steps
+from viscontact.simulation.warning_rules import (
+    contact_change_warnings,
+    geometry_of,
+    setup_warnings,
+)
 
 #: So many of a run's first instants are looked at for a load that comes before the data do.
 FIRST_INSTANTS = 200
@@ -51,26 +51,13 @@ def predicted_warnings(
         Sentences by kind of doubt, as a run would say them; empty if there is none. Those about
         a mesh that was given are left to who knows whether the grid fits.
     """
-    warnings = _material_warnings(run) | _step_warnings(run)
-    if run.mesh is not None:
-        warnings |= run.mesh.warnings
+    warnings = setup_warnings(run) | _range_warnings(run.problem) | _step_warnings(run.problem)
     return warnings if estimate is None else warnings | _contact_warnings(run, estimate, compliance)
 
 
-def _bodies(run: RunSetup) -> list[Material]:
-    return [body for body in (run.material, run.indenter_material) if body is not None]
-
-
 def _contact_warnings(run: RunSetup, found: ContactEstimate, compliance: float) -> dict[str, str]:
-    geometry = Geometry(
-        run.indenter,
-        found.open_gap,
-        found.rim.grid,
-        thickness=min(body.thickness or math.inf for body in _bodies(run)),
-        indenter_gives=run.indenter_material is not None,
-        predicted=True,
-    )
-    on_grid = Sampling(run.indenter, run.open_gap, run.grid)
+    geometry = geometry_of(run.problem, found.open_gap, found.rim.grid, predicted=True)
+    on_grid = Sampling(geometry.indenter, run.open_gap, run.grid)
     within_x = np.abs(run.grid.x - found.centre_x) <= found.length / 2
     within_y = np.abs(run.grid.y - found.centre_y) <= found.width / 2
     missed = float(on_grid.missed[np.ix_(within_x, within_y)].max(initial=0.0))
@@ -80,7 +67,7 @@ def _contact_warnings(run: RunSetup, found: ContactEstimate, compliance: float) 
         | body_warnings(geometry, found.rim)
         | _corner_warnings(run, geometry, found, compliance)
         | map_warnings(missed, max(run.grid.cell_size), strain)
-        | texture_warnings(run.indenter.period, max(run.grid.cell_size))
+        | texture_warnings(geometry.indenter.period, max(run.grid.cell_size))
     )
 
 
@@ -96,38 +83,31 @@ def _corner_warnings(
     return corner_warnings(replace(geometry, grid=grid), found.peak_place, strain, searched)
 
 
-def _material_warnings(run: RunSetup) -> dict[str, str]:
-    end = float(run.times[-1])
-    warnings = law_warnings(run.memory.error, run.compliance.inversion_error)
-    for body in _bodies(run):
-        warnings |= passivity_warnings(body.law, end)
-    first = max(body.known_from for body in _bodies(run))
-    kinks = run.load.kinks[run.load.kinks <= end]
-    instants = np.union1d(kinks, run.times[:FIRST_INSTANTS])
-    loaded = instants[run.load.level_at(instants) > 0] if first > 0 else instants[:0]
-    for time in loaded.tolist():
-        warnings = early_warnings(first, run.load, time) | warnings
-    return warnings | data_warnings(end, run.measured_until)
-
-
-def _step_warnings(run: RunSetup) -> dict[str, str]:
-    """Of given steps that take much of the load on or off at once; adaptive ones see to it."""
-    end, load = float(run.times[-1]), run.load
-    if run.adaptive is not None or run.compliance(end) == run.compliance.instant:
-        return {}
+def _range_warnings(problem: Problem) -> dict[str, str]:
+    """Warnings about a load outside the times on which the laws rest on data."""
+    load, end, first = problem.load, problem.end, problem.measured_from
+    instants = np.union1d(load.kinks[load.kinks <= end], problem.instants[:FIRST_INSTANTS])
+    loaded = instants[load.level_at(instants) > 0] if first > 0 else instants[:0]
     warnings: dict[str, str] = {}
-    steps = plan_steps(run.times, load)
+    for time in loaded.tolist():
+        warnings = early_warnings(first, load, time) | warnings
+    return warnings | data_warnings(end, problem.measured_until)
+
+
+def _step_warnings(problem: Problem) -> dict[str, str]:
+    """Warnings about given steps in which contact begins or ends; adaptive ones are short there."""
+    if problem.adaptive is not None:
+        return {}
+    load, steps = problem.load, problem.planned_steps
     times = np.array([step.time for step in steps])
     before_jumps = np.array([step.before_jump for step in steps])
-    # All at once: a load at a hundred thousand instants one by one takes seconds.
+    # In one call: a load at a hundred thousand times takes seconds one by one.
     levels = np.where(before_jumps, load.level_at(times, side="left"), load.level_at(times))
-    comes_or_goes = np.flatnonzero((levels[:-1] <= 0) != (levels[1:] <= 0)) + 1
-    for k in comes_or_goes.tolist():
-        step, before, after = steps[k], float(levels[k - 1]), float(levels[k])
-        if step.is_jump:
-            continue
-        if before <= 0:
-            warnings = touch_warnings(step.duration, after / load.largest_level) | warnings
-        elif load.control == "force":
-            warnings = release_warnings(step.duration, before / load.largest_level) | warnings
+    loaded = levels > 0
+    warnings: dict[str, str] = {}
+    for k in (np.flatnonzero(loaded[:-1] != loaded[1:]) + 1).tolist():
+        touches = bool(loaded[k])
+        if touches or load.control == "force":  # an approach above 0 may be without contact
+            found = contact_change_warnings(problem, steps[k], touched=not touches, touches=touches)
+            warnings = found | warnings
     return warnings

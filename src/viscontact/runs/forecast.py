@@ -12,11 +12,11 @@ from scipy import fft
 from viscontact.accuracy.coarser_runs import usual_coarsening
 from viscontact.grid import Grid
 from viscontact.loads import LoadPoint
-from viscontact.loads.largest_load import largest_load
 from viscontact.meshing.elastic_estimate import ContactEstimate, estimate_contact, estimate_period
+from viscontact.problem.problem import Problem
 from viscontact.runs.expected_warnings import predicted_warnings
 from viscontact.runs.free_memory import available_memory
-from viscontact.runs.resources import run_memory, step_count
+from viscontact.runs.resources import run_memory
 from viscontact.simulation.setup import RunSetup
 
 #: Plain convolutions' time that the first step and each later one take at tolerance 1e-6, and
@@ -86,14 +86,16 @@ def forecast(run: RunSetup, *, errors: bool = False) -> Forecast:
     Examples
     --------
     >>> import viscontact as vc
+    >>> from viscontact.problem.problem import Problem
     >>> from viscontact.simulation.setup import prepare_run
     >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
-    >>> run = prepare_run(vc.Sphere(0.01), rubber, vc.step(0.1), vc.Grid((64, 64), (2e-3, 2e-3)))
+    >>> grid = vc.Grid((64, 64), (2e-3, 2e-3))
+    >>> run = prepare_run(Problem(vc.Sphere(0.01), rubber, vc.step(0.1), grid))
     >>> round(forecast(run).estimate.length / 2 * 1e3, 1)  # Hertz: (3 W R / (16 G))**(1/3) mm
     0.6
     """
-    time, point = largest_load(run.load, float(run.times[-1]))
-    compliance, named = _representative_compliance(run, time)
+    time, point = run.problem.largest_load
+    compliance, named = _representative_compliance(run.problem, time)
     if point.level > 0:
         estimate = _estimate(run, compliance, point)
         extents, reach = (estimate.length, estimate.width), estimate.reach
@@ -118,20 +120,21 @@ def forecast(run: RunSetup, *, errors: bool = False) -> Forecast:
 
 def _estimate(run: RunSetup, compliance: float, point: LoadPoint) -> ContactEstimate:
     if run.grid.periodic:
-        return estimate_period(run.indenter, compliance, point, run.grid)
-    return estimate_contact(run.indenter, compliance, point)
+        return estimate_period(run.problem.indenter, compliance, point, run.grid)
+    return estimate_contact(run.problem.indenter, compliance, point)
 
 
-def _representative_compliance(run: RunSetup, time: float) -> tuple[float, str]:
-    if run.load.control == "force":
-        return float(run.compliance(run.times[-1])), "creep as at the end of the run"
-    if run.compliance.instant > 0:
-        return float(run.compliance.instant), "before any creep"
-    return float(run.compliance(time)), "creep as at that instant"
+def _representative_compliance(problem: Problem, time: float) -> tuple[float, str]:
+    compliance = problem.compliance
+    if problem.load.control == "force":
+        return float(compliance(problem.end)), "creep as at the end of the run"
+    if compliance.instant > 0:
+        return float(compliance.instant), "before any creep"
+    return float(compliance(time)), "creep as at that instant"
 
 
 def _seconds(run: RunSetup, *, errors: bool) -> float:
-    steps, each = step_count(run), _convolution_time(run.grid)
+    steps, each = run.problem.step_count, _convolution_time(run.grid)
     marches = [(steps, each)]
     if errors:
         marches += [

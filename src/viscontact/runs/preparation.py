@@ -48,17 +48,7 @@ def prepared(case: Case, threads: int = 1) -> PreparedRun:
 
 def _prepared_run(case: Case, threads: int) -> RunSetup:
     try:
-        return prepare_run(
-            case.indenter,
-            case.material,
-            case.load,
-            case.grid,
-            case.times,
-            indenter_material=case.indenter_material,
-            tolerance=case.tolerance,
-            fields=case.fields,
-            threads=threads,
-        )
+        return prepare_run(case, threads)
     except ValueError as error:
         raise case.error(str(error)) from error
 

@@ -9,8 +9,6 @@ from viscontact.grid import Grid
 from viscontact.materials.compliance import SeriesCompliance
 from viscontact.materials.material import Material
 from viscontact.simulation.setup import RunSetup
-from viscontact.time_integration.adaptive_steps import estimated_steps
-from viscontact.time_integration.fixed_steps import plan_steps
 
 #: Bytes of the program itself, and arrays of the grid's size that a run holds at a time and writes,
 #: both measured, of a body without mirror images; two arrays more for each term of the law. The
@@ -30,21 +28,8 @@ def run_memory(run: RunSetup) -> float:
     run : RunSetup
         A run that has been checked.
     """
-    kept = BYTES_PER_STEP * step_count(run)
+    kept = BYTES_PER_STEP * run.problem.step_count
     return needed_memory(run.grid, run.memory.fields_kept) + kept
-
-
-def step_count(run: RunSetup) -> float:
-    """Return the steps of a run, those at the load's kinks and within its swings among them.
-
-    Parameters
-    ----------
-    run : RunSetup
-        A run that has been checked; where it chooses its steps, those that are likely.
-    """
-    if run.adaptive is None:
-        return float(len(plan_steps(run.times, run.load)))
-    return estimated_steps(run.adaptive, run.load, run.compliance)
 
 
 def needed_memory(grid: Grid, fields_kept: int) -> float:

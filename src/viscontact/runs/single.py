@@ -17,6 +17,7 @@ from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.loads import LoadHistory
 from viscontact.materials.material import Material
+from viscontact.problem.problem import Problem
 from viscontact.results.dataset import field_axis, to_dataset
 from viscontact.results.enlarged_grid import enlargements
 from viscontact.simulation.provenance import run_attributes
@@ -24,7 +25,6 @@ from viscontact.simulation.setup import RunSetup, prepare_run
 from viscontact.simulation.state_generator import Progress, march_run
 from viscontact.state import ContactState
 from viscontact.time_integration.requested_times import AdaptiveTimes
-from viscontact.time_integration.run_times import field_instants
 
 
 def simulate(
@@ -114,20 +114,11 @@ def simulate(
     >>> round(float(ds.approach[-1] / ds.approach[0]), 2)  # (J(5 s)/J(0))**(2/3)
     1.58
     """
-    run = prepare_run(
-        indenter,
-        material,
-        load,
-        grid,
-        times,
-        indenter_material=indenter_material,
-        tolerance=tolerance,
-        fields=fields,
-        threads=threads,
-    )
+    problem = Problem(indenter, material, load, grid, times, indenter_material, tolerance, fields)
+    run = prepare_run(problem, threads)
     started = clock.perf_counter()
     states: list[ContactState] = []
-    keep = set(field_instants(fields, run.times).tolist())
+    keep = set(problem.field_instants.tolist())
     keeps_all = field_axis(fields) == "time"
     try:
         for state in march_run(run, progress):

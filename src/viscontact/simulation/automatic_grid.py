@@ -1,15 +1,15 @@
-"""The automatic grid, for those who want to see it before the run does."""
+"""Automatic grid of a run, without the run."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
-from viscontact.checks.arguments import check_kinds
 from viscontact.grid import GRID_QUANTITIES, AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.loads import LoadHistory
 from viscontact.materials.material import Material
 from viscontact.meshing.mesh_choice import choose_mesh
+from viscontact.problem.problem import Problem
 
 
 def auto_grid(
@@ -69,8 +69,5 @@ def auto_grid(
     (40, 40)
     """
     wish = AutomaticGrid(tolerance, quantities)
-    check_kinds(indenter, material, load, None, indenter_material)
-    compliance = material.contact_compliance()
-    if indenter_material is not None:
-        compliance = compliance + indenter_material.contact_compliance()
-    return choose_mesh(indenter, compliance, load, wish, end).grid
+    problem = Problem(indenter, material, load, wish, indenter_material=indenter_material)
+    return choose_mesh(problem, end).grid

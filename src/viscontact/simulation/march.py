@@ -56,10 +56,11 @@ class March:
     Examples
     --------
     >>> import viscontact as vc
+    >>> from viscontact.problem.problem import Problem
     >>> from viscontact.simulation.setup import prepare_run
     >>> rubber = vc.Material(vc.Zener(1e6, 1e6, 1e6), poisson_ratio=0.5)
     >>> grid = vc.Grid((32, 32), (2.4e-3, 2.4e-3))
-    >>> run = prepare_run(vc.Sphere(0.01), rubber, vc.step(0.1), grid, [0.0, 0.5, 1.0])
+    >>> run = prepare_run(Problem(vc.Sphere(0.01), rubber, vc.step(0.1), grid, [0.0, 0.5, 1.0]))
     >>> begun = March(run)
     >>> steps = iter(begun)
     >>> first = next(steps)
@@ -74,7 +75,7 @@ class March:
         self._run = run
         self._half_space = _half_space(run)
         self._stepper = Stepper(run, self._half_space)
-        self._steps = run.steps()
+        self._steps = run.problem.steps()
         self._observer = Observer(run)
         self._done = 0
         if restart_data is not None:
@@ -154,7 +155,7 @@ class March:
         if step.asked is None:
             return CompletedStep(trial.outcome, None, self._done, self._steps.left)
         self._done += 1
-        last = step.asked >= float(self._run.times[-1])
+        last = step.asked >= self._run.problem.end
         state = self._observer.add_warnings(state, last=last)
         return CompletedStep(trial.outcome, state, self._done, self._steps.left)
 
@@ -187,6 +188,6 @@ def _not_converged(run: RunSetup, step: Step, solution: ContactSolution) -> str:
     return (
         f"the contact solver stopped at t = {format_quantity(step.time, 's', 6)} with residual "
         f"{solution.residual:.2g} after {solution.iterations} iterations, short of "
-        f"the tolerance {run.tolerance:g}; likely causes: a resultant that hardly fits under the "
-        f"body, a grid too coarse for the contact, or a tolerance near rounding"
+        f"the tolerance {run.problem.tolerance:g}; likely causes: a resultant that hardly fits "
+        "under the body, a grid too coarse for the contact, or a tolerance near rounding"
     )

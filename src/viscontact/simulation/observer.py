@@ -9,12 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.checks.collector import WarningCollector
-from viscontact.checks.half_space_theory import Geometry, corner_warnings, geometry_warnings
+from viscontact.checks.half_space_theory import corner_warnings, geometry_warnings
 from viscontact.checks.material import (
     data_warnings,
     early_warnings,
-    law_warnings,
-    passivity_warnings,
 )
 from viscontact.checks.mesh import MIN_CELLS_ACROSS, cells_across_spots, mesh_warnings
 from viscontact.checks.singularities import strain_of
@@ -27,7 +25,7 @@ from viscontact.simulation.grid_enlargement import GridEnlargement
 from viscontact.simulation.load_cycles import LoadCycleWork
 from viscontact.simulation.setup import RunSetup
 from viscontact.simulation.step_solution import StepSolution
-from viscontact.simulation.step_warnings import loading_warnings
+from viscontact.simulation.warning_rules import geometry_of, loading_warnings, setup_warnings
 from viscontact.state import ContactState, Outcome
 from viscontact.time_integration.fixed_steps import Step
 from viscontact.time_integration.restart_data import RestartData
@@ -48,16 +46,11 @@ class Observer:
     def __init__(self, run: RunSetup) -> None:
         self._set_geometry(run)
         self._warnings = WarningCollector()
-        self._open = law_warnings(run.memory.error, run.compliance.inversion_error)
-        if run.mesh is not None:
-            self._open |= run.mesh.warnings
-        self._measured_from = max(body.known_from for body in run.bodies)
-        for body in run.bodies:
-            self._open |= passivity_warnings(body.law, float(run.times[-1]))
+        self._open = setup_warnings(run)
         self._work = 0.0
         self._before: StepSolution | None = None
         self._point: LoadPoint | None = None
-        self._cycles = LoadCycleWork(run.load.load_cycles)
+        self._cycles = LoadCycleWork(run.problem.load.load_cycles)
         self._largest_area, self._cells_at_largest = 0.0, 0
         self._largest: NDArray[np.bool_] | None = None  # the contact whose spots are not told yet
         self._spots_at_largest = 0.0
@@ -66,14 +59,8 @@ class Observer:
 
     def _set_geometry(self, run: RunSetup) -> None:
         self._run = run
-        self._outline = trace_outline(run.indenter, run.grid)
-        self._geometry = Geometry(
-            run.indenter,
-            run.open_gap,
-            run.grid,
-            thickness=min(body.thickness or math.inf for body in run.bodies),
-            indenter_gives=run.indenter_material is not None,
-        )
+        self._outline = trace_outline(run.problem.indenter, run.grid)
+        self._geometry = geometry_of(run.problem, run.open_gap, run.grid)
 
     def map_fields(self, run: RunSetup, onto: GridEnlargement) -> None:
         """Go on with the same run on a larger grid.
@@ -115,7 +102,7 @@ class Observer:
         if state.contact_area > self._largest_area:
             self._largest_area, self._cells_at_largest = state.contact_area, state.cells_across
             self._largest = contact
-        if state.peak_pressure > self._peak and step.time >= self._run.times[0]:
+        if state.peak_pressure > self._peak and step.time >= self._run.problem.instants[0]:
             self._peak, self._peak_time = state.peak_pressure, step.time
         self._before = instant
         return state
@@ -203,15 +190,14 @@ class Observer:
         return self._spots_at_largest
 
     def _collect_warnings(self, step: Step, instant: StepSolution, rim: Rim) -> None:
-        found = data_warnings(step.time, self._run.measured_until)
+        problem = self._run.problem
+        found = data_warnings(step.time, problem.measured_until)
         if instant.outcome is not Outcome.NO_CONTACT:
+            motion, displacement = instant.motion, instant.displacement
             found = self._corner_warnings(step.time, instant) | found
-            found = (
-                geometry_warnings(self._geometry, rim, instant.motion, instant.displacement) | found
-            )
-            found = (
-                early_warnings(self._measured_from, self._run.load, step.time, step.side) | found
-            )
+            found = geometry_warnings(self._geometry, rim, motion, displacement) | found
+            early = early_warnings(problem.measured_from, problem.load, step.time, step.side)
+            found = early | found
         found = loading_warnings(self._run, step, self._before, instant) | found
         self._open = found | self._open
 
@@ -222,7 +208,7 @@ class Observer:
             return {}
         self._peak_checked = peak
         place = self._run.grid.largest_at(instant.pressure)
-        strain = strain_of(peak, float(self._run.compliance(time)))
+        strain = strain_of(peak, float(self._run.problem.compliance(time)))
         return corner_warnings(self._geometry, place, strain)
 
     def _work_of(self, point: LoadPoint, instant: StepSolution) -> float:
@@ -237,7 +223,7 @@ class Observer:
         before, point_before = self._before, self._point
         self._point = point
         if before is None:  # every run starts with a jump
-            return self._run.compliance.instant * instant.energy
+            return self._run.problem.compliance.instant * instant.energy
         if point == point_before:
             travel = instant.motion - before.motion
             return float((before.resultants + instant.resultants) @ travel / 2)

@@ -1,4 +1,4 @@
-"""Describe a run as plain data: the attributes that its result carries."""
+"""Provenance of a result: the problem, versions and methods as plain data."""
 
 from __future__ import annotations
 
@@ -6,58 +6,37 @@ import json
 from typing import Any
 
 from viscontact import __version__
+from viscontact.grid import Grid
+from viscontact.problem.problem import Problem
 from viscontact.results.provenance import describe
 from viscontact.simulation.setup import RunSetup
 
 
 def run_attributes(run: RunSetup) -> dict[str, Any]:
-    """Attributes that every result of a run carries.
-
-    Parameters
-    ----------
-    run : RunSetup
-        The run.
-
-    Returns
-    -------
-    dict
-        Conventions, version, the case as JSON, tolerance, whose Fourier transforms, memory.
-    """
+    """Return the attributes that every result of a run carries."""
     return {
         "Conventions": "CF-1.11",
         "source": f"viscontact {__version__}",
         "version": __version__,
-        "case": json.dumps(describe_run(run)),
-        "tolerance": run.tolerance,
+        "case": json.dumps(describe_problem(run.problem, run.grid)),
+        "tolerance": run.problem.tolerance,
         "transforms": run.transforms,
         "memory": run.memory.method,
         "memory_error": run.memory.error,
-        "inversion_error": run.compliance.inversion_error,
+        "inversion_error": run.problem.compliance.inversion_error,
     }
 
 
-def describe_run(run: RunSetup) -> dict[str, Any]:
-    """Describe a whole run.
-
-    Parameters
-    ----------
-    run : RunSetup
-        The run.
-
-    Returns
-    -------
-    dict
-        Indenter, materials, load, grid (and what was asked of it if it is automatic), times [s]
-        and tolerance.
-    """
+def describe_problem(problem: Problem, grid: Grid) -> dict[str, Any]:
+    """Describe a contact problem, solved on a grid, as plain data."""
     return {
-        "indenter": describe(run.indenter),
-        "material": describe(run.material),
-        "indenter_material": describe(run.indenter_material),
-        "load": describe(run.load),
-        "grid": describe(run.grid),
-        "automatic": describe(run.automatic),
-        "times": describe(run.times),
-        "adaptive": describe(run.adaptive),
-        "tolerance": run.tolerance,
+        "indenter": describe(problem.indenter),
+        "material": describe(problem.material),
+        "indenter_material": describe(problem.indenter_material),
+        "load": describe(problem.load),
+        "grid": describe(grid),
+        "automatic": describe(problem.automatic_grid),
+        "times": describe(problem.instants),
+        "adaptive": describe(problem.adaptive),
+        "tolerance": problem.tolerance,
     }

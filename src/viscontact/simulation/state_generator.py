@@ -13,6 +13,7 @@ from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.loads import LoadHistory
 from viscontact.materials.material import Material
+from viscontact.problem.problem import Problem
 from viscontact.simulation.march import March
 from viscontact.simulation.setup import RunSetup, prepare_run
 from viscontact.state import ContactState
@@ -100,17 +101,8 @@ def march(
     >>> round(next(states).approach, 4)
     0.0133
     """
-    run = prepare_run(
-        indenter,
-        material,
-        load,
-        grid,
-        times,
-        indenter_material=indenter_material,
-        tolerance=tolerance,
-        fields=fields,
-        threads=threads,
-    )
+    problem = Problem(indenter, material, load, grid, times, indenter_material, tolerance, fields)
+    run = prepare_run(problem, threads)
     return march_run(run, progress)
 
 

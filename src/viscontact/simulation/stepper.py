@@ -104,7 +104,7 @@ class Stepper:
             (2, *half_space.shape)
         )  # of pressure and of unit_displacement
         self._force_memory = InternalVariables(run.memory.prony_approximation, (1,))
-        self._errors = TimeErrors(run.memory, run.load)
+        self._errors = TimeErrors(run.memory, run.problem.load)
         self._scale = 1e-12 * max(run.grid.cell_size)
         self._references: list[ElasticReference] = []
         self._motion = np.zeros(3)
@@ -158,7 +158,7 @@ class Stepper:
 
     def _step_problem(self, step: Step) -> StepProblem:
         """Ask the memories what the step will meet."""
-        point = self._run.load.at(step.time, side=step.side)
+        point = self._run.problem.load.at(step.time, side=step.side)
         response, force_response = (
             _response(each, step) for each in (self._memory, self._force_memory)
         )
@@ -205,7 +205,7 @@ class Stepper:
         guess = _guess(
             predict(self._reference_history(step), step.time, step_problem.drive), response
         )
-        tolerance = self._run.tolerance
+        tolerance = self._run.problem.tolerance
         solution = solve_contact(problem, self._half_space, guess, tolerance=tolerance)
         if not solution.converged:
             return solution, Outcome.NOT_CONVERGED
@@ -263,7 +263,7 @@ def _at_lowest_point(run: RunSetup, apart: ContactSolution) -> ContactSolution:
     part = np.linspace(-1.0, 1.0, 2 * TOUCH_SAMPLES + 1)
     x = run.grid.x[i] + part[:, None] * run.grid.cell_size[0]
     y = run.grid.y[j] + part[None, :] * run.grid.cell_size[1]
-    lowest = float((run.indenter.gap(x, y) - tilts[0] * x - tilts[1] * y).min())
+    lowest = float((run.problem.indenter.gap(x, y) - tilts[0] * x - tilts[1] * y).min())
     below = apart.motion[0] - lowest
     motion = apart.motion - np.array([below, 0.0, 0.0])
     return replace(apart, motion=motion, gap=apart.gap + below)

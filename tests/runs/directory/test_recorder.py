@@ -19,6 +19,7 @@ import xarray as xr
 import viscontact as vc
 from viscontact import fourier
 from viscontact.contact.equilibrium import ContactSolution
+from viscontact.problem.problem import Problem
 from viscontact.run_files import PROGRESS_NAME, STATE_NAME
 from viscontact.runs.directory.checkpoint import Checkpoint, load_checkpoint, save_checkpoint
 from viscontact.runs.directory.npz_archive import read_plain, write_plain
@@ -33,7 +34,7 @@ COUNT = 12
 def sphere_run(force: float = 0.1, count: int = COUNT) -> RunSetup:
     rubber = vc.Material(vc.Zener(1e6, 1e6, 1e6), poisson_ratio=0.5)
     grid, times = vc.Grid((24, 24), (2.4e-3, 2.4e-3)), np.linspace(0.0, 1.0, count)
-    return prepare_run(vc.Sphere(0.01), rubber, vc.step(force), grid, times)
+    return prepare_run(Problem(vc.Sphere(0.01), rubber, vc.step(force), grid, times))
 
 
 @pytest.fixture
@@ -156,7 +157,7 @@ def test_run_goes_on_to_the_same_bits(
     monkeypatch.setattr("viscontact.runs.directory.recorder.SHARE", 0.0)
     stop_after(RunRecord(recorded), instants)
     record = RunRecord.resume(recorded)
-    expected = (instants, recorded.run.times[instants - 1])
+    expected = (instants, recorded.run.problem.instants[instants - 1])
     assert record.resumed == record.saved == record.shown == expected
     finish(record)
     assert same_bits(recorded.directory, whole)

@@ -138,9 +138,9 @@ def _checked(request: RunRequest) -> Job:
         directory,
         directory.name,
         standing,
-        len(run.times) if run.adaptive is None else None,
-        float(run.times[-1]),
-        cells * (1.0 + resources.step_count(run)),
+        len(run.problem.instants) if run.problem.adaptive is None else None,
+        run.problem.end,
+        cells * (1.0 + run.problem.step_count),
         resources.run_memory(run),
     )
 

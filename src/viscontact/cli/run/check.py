@@ -59,7 +59,7 @@ def draw_body(
     file = picture or path.with_name(f"{path.stem}-indenter.png")
     size = drawn_size(run)
     options = {"size": size, "contact": contact, "width": width}
-    save(plot, file, plot.draw_indenter, run.indenter, **options)
+    save(plot, file, plot.draw_indenter, run.problem.indenter, **options)
 
 
 def _listed(rows: list[tuple[str, str]]) -> Table:

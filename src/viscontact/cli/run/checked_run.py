@@ -39,7 +39,7 @@ class CheckedRun:
     def made(self, instants: int, reached: float | None) -> str:
         """Describe the progress of the run, up to the instant reached [s]."""
         run = self.recorded.run
-        return progress_made(instants, reached, run.times.tolist(), run.adaptive)
+        return progress_made(instants, reached, run.problem.instants.tolist(), run.problem.adaptive)
 
 
 def checked_run(request: RunRequest) -> CheckedRun:

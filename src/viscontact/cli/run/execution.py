@@ -139,10 +139,10 @@ def _complete_march(checked: CheckedRun, record: RunRecord, interruption: Interr
     """March to the end and save everything; False after a request to stop."""
     recorded = checked.recorded
     run = recorded.run
-    total = None if run.adaptive else len(run.times)
+    total = None if run.problem.adaptive else len(run.problem.instants)
     with shown_progress(total, record.resumed.instants, quiet=checked.request.quiet) as progress:
         for state in record.steps(progress):
-            is_last = state is not None and state.time >= run.times[-1]
+            is_last = state is not None and state.time >= run.problem.end
             if interruption.requested and not is_last:
                 record.checkpoint()
                 return False
@@ -197,7 +197,7 @@ def _say_finished(checked: CheckedRun) -> None:
     remove_leftovers(directory)
     checked.say(
         f"{directory}: is finished already, up to t = "
-        f"{format_quantity(float(run.times[-1]), 's')}; --overwrite computes it anew"
+        f"{format_quantity(run.problem.end, 's')}; --overwrite computes it anew"
     )
 
 

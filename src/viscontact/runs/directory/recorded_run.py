@@ -21,7 +21,7 @@ from viscontact.runs.directory.result_validation import REMEDY
 from viscontact.runs.directory.result_writer import ResultWriter
 from viscontact.runs.directory.stored_result import stored_run
 from viscontact.simulation.march import March
-from viscontact.simulation.provenance import describe_run, run_attributes
+from viscontact.simulation.provenance import describe_problem, run_attributes
 from viscontact.simulation.setup import RunSetup
 from viscontact.time_integration.restart_data import RestartData
 
@@ -68,7 +68,7 @@ class Recorded:
     def case(self) -> dict[str, Any]:
         """The run in plain words: what must be the same to go on with it."""
         described = {
-            **describe_run(self.run),
+            **describe_problem(self.run.problem, self.run.grid),
             "fields": describe(self.fields),
             "errors": self.errors,
         }
@@ -80,7 +80,8 @@ class Recorded:
         """What the result is to hold."""
         about = {name: json.dumps(self.case[name]) for name in ("fields", "errors")}
         attributes = {"title": self.title, **run_attributes(self.run), **about}
-        return Contents(self.run.grid, self.run.times, self.fields, attributes, self.errors)
+        instants = self.run.problem.instants
+        return Contents(self.run.grid, instants, self.fields, attributes, self.errors)
 
     def by(self, transforms: str) -> Recorded:
         """The same by the Fourier transforms that it was begun with.

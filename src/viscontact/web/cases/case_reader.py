@@ -15,7 +15,7 @@ from viscontact.runs.check_report import expectations, needs, predicted, verdict
 from viscontact.runs.forecast import Forecast
 from viscontact.runs.free_memory import available_memory
 from viscontact.runs.preparation import PreparedRun, prepared
-from viscontact.runs.resources import run_memory, step_count
+from viscontact.runs.resources import run_memory
 from viscontact.web.cases.coarse import coarse_settings, without_cells
 from viscontact.web.workspace.folder import Folder, RunEntry
 from viscontact.web.workspace.naming import label_of, suggested_title
@@ -123,9 +123,9 @@ class CaseReader:
             quality=quality,
             created=clock.strftime("%Y-%m-%dT%H:%M:%SZ", clock.gmtime()),
             settings=settings,
-            instants=len(run.times) if run.adaptive is None else None,
-            end=float(run.times[-1]),
-            work=run.grid.shape[0] * run.grid.shape[1] * (1.0 + step_count(run)),
+            instants=len(run.problem.instants) if run.problem.adaptive is None else None,
+            end=run.problem.end,
+            work=run.grid.shape[0] * run.grid.shape[1] * (1.0 + run.problem.step_count),
             memory=run_memory(run),
             errors=case.errors,
         )
@@ -164,7 +164,7 @@ def filled(value: Any) -> Any:
 
 
 def _steps(found: PreparedRun) -> int | None:
-    return None if found.run.adaptive is not None else len(found.run.times) - 1
+    return None if found.run.problem.adaptive is not None else len(found.run.problem.instants) - 1
 
 
 def _data(case: Case) -> set[Path]:

@@ -14,7 +14,6 @@ from viscontact.plot.layout.page import Width
 from viscontact.runs.check_report import drawn_size
 from viscontact.runs.forecast import Forecast
 from viscontact.runs.preparation import PreparedRun
-from viscontact.time_integration.requested_times import AdaptiveTimes
 from viscontact.web.cases.case_reader import CaseReader
 from viscontact.web.workspace.problems import RequestError, case_problems
 
@@ -39,8 +38,8 @@ def _of_case(cases: CaseReader, text: str, what: str, width: Width | None) -> Fi
         if what == "indenter":
             return _indenter(*cases.forecast(text), width)
         if what == "load":
-            return draw_load(case.load, _end(case))
-        return _curves(_material(case, what), _end(case), width)
+            return draw_load(case.load, case.end)
+        return _curves(_material(case, what), case.end, width)
     except CaseError as error:
         raise case_problems(error, case.document.path) from error
     except ValueError as error:
@@ -80,8 +79,3 @@ def _material(case: Case, what: str) -> Material:
 
 def _curves(material: Material, end: float, width: Width | None) -> Figure:
     return creep_curve(material.law, np.geomspace(_BACK * end, end, _POINTS), width=width)
-
-
-def _end(case: Case) -> float:
-    times = case.times
-    return times.end if isinstance(times, AdaptiveTimes) else float(times[-1])

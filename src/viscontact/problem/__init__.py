@@ -1,0 +1,1 @@
+"""The contact problem that a run solves: bodies, load, grid, times and tolerances."""

@@ -1,0 +1,156 @@
+"""Contact problem: the bodies, what presses them, and what is requested of the solution."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from viscontact.grid import AutomaticGrid, Grid
+from viscontact.indenters import Indenter
+from viscontact.loads import LoadHistory, LoadPoint
+from viscontact.loads.largest_load import largest_load
+from viscontact.materials.compliance import ContactCompliance
+from viscontact.materials.material import Material
+from viscontact.time_integration.adaptive_steps import AdaptiveSteps, estimated_steps
+from viscontact.time_integration.fixed_steps import FixedSteps, Step, plan_steps
+from viscontact.time_integration.requested_times import AdaptiveTimes
+from viscontact.time_integration.run_times import field_instants, run_instants
+from viscontact.units.numbers import as_real
+
+#: Tolerances that are accepted: below, rounding decides; above, the result is no solution [-].
+FINEST_TOLERANCE, COARSEST_TOLERANCE = 1e-13, 1e-2
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """A contact problem as a user states it; what follows from it is computed once.
+
+    Attributes
+    ----------
+    indenter : Indenter
+        Shape of the pressed body.
+    material : Material
+        Material of the half-space.
+    load : LoadHistory
+        Force or approach, eccentricity and prescribed tilts over time.
+    grid : Grid, AutomaticGrid or None
+        Cells that carry the pressure, or requirements on a grid that the run chooses.
+    times : array_like, AdaptiveTimes or None
+        Times of the states [s], or requirements on steps that the run chooses.
+    indenter_material : Material or None
+        Material of the pressed body; None for a rigid one.
+    tolerance : float
+        Relative error of gap and balances at every step [-].
+    fields : {"all", "none"} or sequence of float
+        Times whose fields are kept [s].
+    step_ratio : float
+        Longest step through given times, in longest steps that the load allows [-].
+    """
+
+    indenter: Indenter
+    material: Material
+    load: LoadHistory
+    grid: Grid | AutomaticGrid | None = None
+    times: ArrayLike | AdaptiveTimes | None = None
+    indenter_material: Material | None = None
+    tolerance: float = 1e-6
+    fields: str | Sequence[float] = "all"
+    step_ratio: float = 1.0
+
+    def __post_init__(self) -> None:
+        for name, kinds, optional in (
+            ("indenter", (Indenter,), False),
+            ("material", (Material,), False),
+            ("load", (LoadHistory,), False),
+            ("grid", (Grid, AutomaticGrid), True),
+            ("indenter_material", (Material,), True),
+        ):
+            value = getattr(self, name)
+            if not (isinstance(value, kinds) or (optional and value is None)):
+                named = " or ".join(kind.__name__ for kind in kinds)
+                raise ValueError(f"{name} must be of kind {named}, got {value!r}")
+        number = as_real(self.tolerance)
+        if number is None or not FINEST_TOLERANCE <= number <= COARSEST_TOLERANCE:
+            raise ValueError(f"tolerance must lie between 1e-13 and 1e-2, got {self.tolerance!r}")
+        object.__setattr__(self, "tolerance", number)
+
+    @property
+    def bodies(self) -> tuple[Material, ...]:
+        """Materials of the bodies that deform."""
+        both = (self.material, self.indenter_material)
+        return tuple(body for body in both if body is not None)
+
+    @cached_property
+    def compliance(self) -> ContactCompliance:
+        """J(t) of both bodies together [1/Pa]."""
+        first, *others = (body.contact_compliance() for body in self.bodies)
+        return sum(others, start=first)
+
+    @property
+    def automatic_grid(self) -> AutomaticGrid | None:
+        """Requirements on the grid; None for a grid that was given."""
+        if isinstance(self.grid, Grid):
+            return None
+        return self.grid or AutomaticGrid()
+
+    @property
+    def adaptive(self) -> AdaptiveTimes | None:
+        """Requirements on steps that the run chooses; None for given times."""
+        return self.times if isinstance(self.times, AdaptiveTimes) else None
+
+    @cached_property
+    def instants(self) -> NDArray[np.float64]:
+        """Times of the states; of adaptive steps those that have to be met, the end last [s]."""
+        return run_instants(self.times, self.fields, self.load, self.compliance)
+
+    @cached_property
+    def field_instants(self) -> NDArray[np.float64]:
+        """Times whose fields are kept, among `instants` [s]."""
+        return field_instants(self.fields, self.instants)
+
+    @property
+    def end(self) -> float:
+        """Last time of the run [s]."""
+        return float(self.instants[-1])
+
+    @cached_property
+    def largest_load(self) -> tuple[float, LoadPoint]:
+        """When the load of the run is largest [s], and what it prescribes then."""
+        return largest_load(self.load, self.end)
+
+    @cached_property
+    def planned_steps(self) -> tuple[Step, ...]:
+        """Steps through the given times; not for adaptive ones."""
+        return plan_steps(self.instants, self.load, self.step_ratio)
+
+    @property
+    def step_count(self) -> float:
+        """Number of steps; where the run chooses them, the expected one."""
+        if self.adaptive is None:
+            return float(len(self.planned_steps))
+        return estimated_steps(self.adaptive, self.load, self.compliance)
+
+    def steps(self) -> FixedSteps | AdaptiveSteps:
+        """Return the steps from the start, none of them taken."""
+        if self.adaptive is None:
+            return FixedSteps(self.planned_steps)
+        return AdaptiveSteps(self.adaptive, self.instants, self.load, self.compliance)
+
+    @property
+    def measured_until(self) -> float:
+        """Last time on which the laws rest on data [s]; inf for formulas."""
+        return min(body.known_until for body in self.bodies)
+
+    @property
+    def measured_from(self) -> float:
+        """First time on which the laws rest on data [s]; 0 for formulas."""
+        return max(body.known_from for body in self.bodies)
+
+    @property
+    def thickness(self) -> float:
+        """Thickness of the thinnest body [m]; inf where none is given."""
+        return min(body.thickness or np.inf for body in self.bodies)
