@@ -1,4 +1,4 @@
-"""Shapes that press: each knows its initial gap to a plane, and nothing else."""
+"""Indenter shapes: each gives its initial gap to a plane."""
 
 from viscontact.indenters.chamfer import Chamfer
 from viscontact.indenters.crowns import CylindricalProfile, FullCrown, PartialCrown, TwoRadiiCrown

@@ -1,4 +1,4 @@
-"""The drop of a circular arc, without cancellation."""
+"""Drop of a circular arc below its tangent, without cancellation."""
 
 from __future__ import annotations
 
@@ -7,28 +7,12 @@ from numpy.typing import ArrayLike, NDArray
 
 
 def arc_drop(distance: ArrayLike, radius: ArrayLike) -> NDArray[np.float64]:
-    """Return how far a circular arc has dropped below its tangent.
+    """Drop R - sqrt(R² - s²) of an arc of radius R at the distance s >= 0 along its tangent [m].
 
-    Parameters
-    ----------
-    distance : array_like
-        Distance from the point of tangency, along the tangent, not negative [m].
-    radius : array_like
-        Radius of the arc [m]; where it is negative there is no arc.
+    +inf where the arc has ended (s > R), and everywhere for R < 0. It is computed as s² / (R +
+    sqrt((R - s) (R + s))): the difference loses all digits for s < 1e-8 R, and the factored root
+    keeps them for s near R.
 
-    Returns
-    -------
-    ndarray
-        R - sqrt(R² - s²), not negative; +inf where the arc has ended, s > R [m].
-
-    Notes
-    -----
-    The drop is computed as s² / (R + sqrt(R² - s²)), the same number; the difference itself
-    loses all its digits where s is below 1e-8 R. The root's argument is factored for the
-    same reason, for s near R.
-
-    Examples
-    --------
     >>> float(arc_drop(3.0, 5.0))
     1.0
     """
@@ -39,6 +23,6 @@ def arc_drop(distance: ArrayLike, radius: ArrayLike) -> NDArray[np.float64]:
     inside = s <= R
     s, R = s[inside], R[inside]
     height = R + np.sqrt((R - s) * (R + s))
-    # A point-like arc (R = s = 0) has no drop: 0/0 otherwise.
+    # An arc of radius 0 at s = 0 has no drop; the quotient is 0/0.
     drop[inside] = np.divide(s * s, height, out=np.zeros_like(s), where=height > 0)
     return drop

@@ -1,4 +1,4 @@
-"""Generating line of a roller whose ends are chamfered."""
+"""Roller profile with chamfered ends."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ class Chamfer(Profile):
 
     @property
     def _tangent(self) -> float:
-        """How much of either line the rounding takes [m]."""
+        """Length that the rounding takes off either line [m]."""
         return self.corner_radius * math.tan(self.angle / 2)
 
     def drop(self, x: ArrayLike, half_length: float) -> NDArray[np.float64]:

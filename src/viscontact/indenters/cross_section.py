@@ -1,4 +1,4 @@
-"""Cuts through an indenter, and where they run."""
+"""Vertical sections through an indenter, for drawings."""
 
 from __future__ import annotations
 
@@ -11,24 +11,19 @@ from scipy.optimize import minimize
 from viscontact.indenters import Indenter
 
 POINTS = 1601
-# An axis passes for touching the deepest level if it comes so near to it, of all heights drawn.
+# An axis touches the deepest level if its distance is below this part of all heights drawn.
 _TOUCHING = 1e-3
-# Halvings of a step that place an end to rounding.
+# Halvings of a step that locate an end to rounding.
 _BISECTIONS = 60
-# A section is drawn up to the height that so much of it stays below: ends may rise without end.
+# A section is drawn up to the height that this part of it is below: ends may rise without limit.
 SHOWN_PART, _ROOM = 0.96, 1.35
 
 
 @dataclass(frozen=True, eq=False)
 class Section:
-    """A cut through a body.
+    """Section through a body: positions along it and the gap there, NaN where there is no body [m].
 
-    Attributes
-    ----------
-    position, gap : ndarray
-        Along the cut, and the gap to the plane there, NaN where there is no body [m].
-    ends : tuple of float
-        Where the body ends within the drawing [m].
+    `ends` are the positions at which the body ends within the drawing [m].
     """
 
     position: NDArray[np.float64]
@@ -37,7 +32,7 @@ class Section:
 
     @property
     def top(self) -> float:
-        """Height up to which it is drawn [m]."""
+        """Height up to which the section is drawn [m]."""
         solid = self.gap[np.isfinite(self.gap)]
         shown = _ROOM * float(np.quantile(solid, SHOWN_PART)) if solid.size else 0.0
         extent = float(self.position[-1] - self.position[0])
@@ -50,19 +45,9 @@ def lines_through(
     y: NDArray[np.float64],
     gap: NDArray[np.float64],
 ) -> tuple[float, float]:
-    """Where sections run: along the axes if they touch the deepest level, else through its points.
+    """Choose x of the section along y and y of that along x [m]; 0 if the axis touches.
 
-    Parameters
-    ----------
-    indenter : Indenter
-        The body.
-    x, y, gap : ndarray
-        A mesh over the drawing, and the gap on it [m].
-
-    Returns
-    -------
-    x, y : float
-        Of the section along y and of that along x [m].
+    Otherwise they pass through the deepest points. `gap` is given on the mesh of `x` and `y` [m].
     """
     step = float(max(x[1] - x[0], y[1] - y[0]))
     at_x, at_y = _deepest(indenter, x, y, gap, step)
@@ -83,7 +68,7 @@ def _deepest(
     gap: NDArray[np.float64],
     step: float,
 ) -> tuple[float, float]:
-    """Deepest points of a body, the x and the y that are nearest to zero [m]."""
+    """Coordinates of the deepest points, the x and the y that are nearest to zero [m]."""
     i, j = np.nonzero(gap <= gap.min() + 1e-9 * step)
     at = float(x[i][np.abs(x[i]).argmin()]), float(y[j][np.abs(y[j]).argmin()])
     if gap.min() <= 1e-9 * step:
@@ -101,25 +86,9 @@ def _deepest(
 
 
 def cut(indenter: Indenter, extent: float, at: float, axis: int, points: int = POINTS) -> Section:
-    """Cut a body along an axis.
+    """Section through a body along an axis (0: x, 1: y), with the body's ends among its points.
 
-    Parameters
-    ----------
-    indenter : Indenter
-        The body.
-    extent : float
-        Length of the cut, around the origin [m].
-    at : float
-        Where it crosses the other axis [m].
-    axis : int
-        0 for a cut along x, 1 for one along y.
-    points : int, optional
-        How many, besides the ends of the body.
-
-    Returns
-    -------
-    Section
-        With its ends among the points.
+    `extent` is its length around the origin [m], `at` the other coordinate [m].
     """
     position = np.linspace(-extent / 2, extent / 2, points)
 

@@ -1,4 +1,4 @@
-"""Generating lines of rollers with sharp ends or with circular crowns."""
+"""Roller profiles with sharp ends or circular crowns."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from viscontact.units.numbers import check_fields
 
 @dataclass(frozen=True)
 class CylindricalProfile(Profile):
-    """A straight line with a sharp end.
+    """A straight profile with sharp ends.
 
     The roller's half length is half of the whole.
 

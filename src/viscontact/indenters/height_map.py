@@ -1,4 +1,4 @@
-"""A measured or generated surface."""
+"""Height map: a measured or generated surface on a rectangular mesh."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from viscontact.indenters.arguments import positions
 from viscontact.indenters.indenter import Indenter
 from viscontact.units.formatting import format_quantity
 
-#: Squares of gaps are still numbers that the solver can compare [m].
+#: Largest height, whose square is still a finite number [m].
 _HIGHEST = 1e30
 
 
@@ -57,7 +57,7 @@ class HeightMap(Indenter):
     holes: bool
 
     def __init__(self, x: ArrayLike, y: ArrayLike, height: ArrayLike, holes: bool = False) -> None:
-        # Written out, so that lists are welcome and arrays are what comes back.
+        # Written out, so that lists are accepted and arrays are stored.
         object.__setattr__(self, "x", _mesh_lines("x", x))
         object.__setattr__(self, "y", _mesh_lines("y", y))
         shape = (self.x.size, self.y.size)
@@ -69,7 +69,7 @@ class HeightMap(Indenter):
         x, y = positions(x, y)
         i, along_x, within_x = _locate(self.x, x)
         j, along_y, within_y = _locate(self.y, y)
-        # Depths are not negative and neither are the weights, so neither is the gap.
+        # Depths and weights are not negative, so neither is the gap.
         near = _between(self._depth(i, j), self._depth(i, j + 1), along_y)
         far = _between(self._depth(i + 1, j), self._depth(i + 1, j + 1), along_y)
         gap = _between(near, far, along_x)
@@ -91,7 +91,7 @@ class HeightMap(Indenter):
         return float(np.nanmax(self.height))
 
     def _depth(self, i: NDArray[np.intp], j: NDArray[np.intp]) -> NDArray[np.float64]:
-        """How far the heights at some mesh points lie below the highest [m]."""
+        """Depth of mesh points below the highest point [m]."""
         return self._highest - self.height[i, j]
 
     def __eq__(self, other: object) -> bool:
@@ -107,7 +107,7 @@ class HeightMap(Indenter):
 def _between(
     near: NDArray[np.float64], far: NDArray[np.float64], along: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Between two values, a part of the way along; a missing one counts if it has a weight."""
+    """Linear interpolation; a missing (NaN) value counts only where its weight is positive."""
     value = near * (1 - along) + far * along
     return np.where(along == 0, near, np.where(along == 1, far, value))
 
@@ -115,9 +115,9 @@ def _between(
 def _locate(
     lines: NDArray[np.float64], positions: ArrayLike
 ) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.bool_]]:
-    """Interval of each position, how far along it (0 to 1), and whether the map covers it."""
+    """Interval of each position, its fraction (0 to 1), and whether the map covers it."""
     positions = np.asarray(positions, dtype=np.float64)
-    # The grid's rim may lie on the map's, but for the rounding of a size written in other units.
+    # The grid's rim may coincide with the map's up to the rounding of a converted unit.
     slack = 1e-9 * (lines[-1] - lines[0])
     within = (positions >= lines[0] - slack) & (positions <= lines[-1] + slack)
     covered = np.clip(positions, lines[0], lines[-1])

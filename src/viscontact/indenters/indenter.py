@@ -1,4 +1,4 @@
-"""What every indenter offers: its gap, its place, and the sum with others."""
+"""Base class of indenters, sums of indenters, and rotated or shifted indenters."""
 
 from __future__ import annotations
 
@@ -164,16 +164,16 @@ class PlacedIndenter(Indenter):
     Parameters
     ----------
     body : Indenter
-        What is placed.
+        The indenter to be rotated and shifted.
     angle : float, optional
-        Angle that it is turned by, from +x towards +y [rad].
+        Angle of rotation, from +x towards +y [rad].
     x, y : float, optional
-        Where its origin comes to lie [m].
+        New position of its origin [m].
 
     Raises
     ------
     ValueError
-        If the body is no indenter, or a number is none.
+        If the body is not an indenter, or a number is not finite.
 
     Examples
     --------
@@ -198,21 +198,21 @@ class PlacedIndenter(Indenter):
 
     @property
     def _turn(self) -> tuple[float, float]:
-        """Cosine and sine of the angle; those of quarter turns to the last bit."""
+        """Cosine and sine of the angle; exact for quarter turns."""
         quarters = self.angle / (math.pi / 2)
         if abs(quarters) < 2**20 and quarters == round(quarters):
             return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[round(quarters) % 4]
         return math.cos(self.angle), math.sin(self.angle)
 
     def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
-        """Return the body's gap where it now stands; see `Indenter.gap`."""
+        """Return the gap of the rotated and shifted body; see `Indenter.gap`."""
         x, y = positions(x, y)
         cosine, sine = self._turn
         east, north = x - self.x, y - self.y
         return self.body.gap(cosine * east + sine * north, cosine * north - sine * east)
 
     def place(self, x: ArrayLike, y: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return where points of the body now lie [m]."""
+        """Return the rotated and shifted positions of points of the body [m]."""
         x, y = positions(x, y)
         cosine, sine = self._turn
         return self.x + cosine * x - sine * y, self.y + sine * x + cosine * y
@@ -230,7 +230,7 @@ class PlacedIndenter(Indenter):
 
     @property
     def sample_points(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Points of the body where it now stands [m]."""
+        """Points of the rotated and shifted body [m]."""
         return self.place(*self.body.sample_points)
 
     @property

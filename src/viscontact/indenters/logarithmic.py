@@ -1,4 +1,4 @@
-"""Generating lines that load evens out: logarithmic profiles, by the ways they are designed."""
+"""Logarithmic roller profiles (Lundberg, Johns & Gohar, Fujiwara & Kawase, ISO/TS 16281)."""
 
 from __future__ import annotations
 

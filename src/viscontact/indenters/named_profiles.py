@@ -1,4 +1,4 @@
-"""Profiles by their names: the front door to the nouns."""
+"""Roller profiles by name."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from viscontact.indenters.logarithmic import LogarithmicProfile
 from viscontact.indenters.profile import Profile
 from viscontact.indenters.tabulated import TabulatedProfile
 
-#: What makes a profile, by its name; of its arguments the roller has some.
+#: Constructors of profiles by name; some of their arguments come from the roller.
 PROFILES: dict[str, Callable[..., Profile]] = {
     "cylindrical": CylindricalProfile,
     "full": FullCrown,
@@ -32,30 +32,11 @@ PROFILES: dict[str, Callable[..., Profile]] = {
 
 
 def named_profile(name: str, of_roller: Mapping[str, Any], arguments: Mapping[str, Any]) -> Profile:
-    """Make a profile from its name and its arguments.
+    """Make the profile `name`, a key of `PROFILES`, from its arguments.
 
-    Parameters
-    ----------
-    name : str
-        A key of `PROFILES`.
-    of_roller : mapping
-        What the roller knows already, by the names of arguments: its lengths [m]; None for what
-        it does not.
-    arguments : mapping
-        The profile's own.
+    Arguments that the roller gives too, such as its lengths [m], are in `of_roller`, None where
+    they are unknown. ValueError if the name or an argument is unknown, missing or invalid.
 
-    Returns
-    -------
-    Profile
-        The profile.
-
-    Raises
-    ------
-    ValueError
-        If the name or an argument is unknown, one is missing, or makes no sense.
-
-    Examples
-    --------
     >>> named_profile("iso-16281", {"radius": 5e-3, "half_length": 6e-3}, {}).crown_ratio
     1.0
     """
@@ -85,25 +66,8 @@ def named_profile(name: str, of_roller: Mapping[str, Any], arguments: Mapping[st
 
 
 def profile_from_table(table: object) -> Profile:
-    """Make a profile from rows of (x, drop).
+    """Make a smooth `TabulatedProfile` from rows of (x, drop), shape (n, 2) [m].
 
-    Parameters
-    ----------
-    table : array_like, shape (n, 2)
-        Positions and drops, as for `TabulatedProfile` [m].
-
-    Returns
-    -------
-    Profile
-        Smooth between the points.
-
-    Raises
-    ------
-    ValueError
-        If it is no such table.
-
-    Examples
-    --------
     >>> float(profile_from_table([(0, 0), (1e-3, 0), (2e-3, 1e-6)]).drop(2e-3, 2e-3))
     1e-06
     """

@@ -1,4 +1,4 @@
-"""Bodies drawn by points: turned about z, or drawn along x."""
+"""Bodies defined by points: bodies of revolution and prismatic bodies."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class Revolved(Indenter):
     def __init__(
         self, r: ArrayLike, drops: ArrayLike, interpolation: Interpolation = "smooth"
     ) -> None:
-        # Written out, so that arrays are welcome and numbers that compare are kept.
+        # Written out, so that arrays are accepted and comparable numbers are stored.
         object.__setattr__(self, "r", numbers("Revolved: r", r))
         object.__setattr__(self, "drops", numbers("Revolved: drops", drops))
         object.__setattr__(self, "interpolation", interpolation)
@@ -109,7 +109,7 @@ class Swept(Indenter):
         half_length: float | None = None,
         interpolation: Interpolation = "smooth",
     ) -> None:
-        # Written out, so that arrays are welcome and numbers that compare are kept.
+        # Written out, so that arrays are accepted and comparable numbers are stored.
         object.__setattr__(self, "y", numbers("Swept: y", y))
         object.__setattr__(self, "drops", numbers("Swept: drops", drops))
         length = None if half_length is None else positive("Swept: half_length", half_length, "m")
@@ -130,7 +130,7 @@ class Swept(Indenter):
     def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
         """Return the drop of the section, +inf beyond the ends; see `Indenter.gap`."""
         x, y = positions(x, y)
-        # The mirrored half to the same bits.
+        # The mirrored half gives the same bits.
         across = np.abs(y) if self.y[0] == 0 else y
         drop = np.maximum(self._line(across) - min(self.drops), 0.0)
         end = np.inf if self.half_length is None else self.half_length

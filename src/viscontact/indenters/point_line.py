@@ -1,4 +1,4 @@
-"""A line through points: smooth between them, with kinks where they are asked for, or straight."""
+"""Curve through points: monotone cubics with kinks where given, or straight lines."""
 
 from __future__ import annotations
 
@@ -14,42 +14,23 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.units.formatting import format_quantity
 
-#: How a line runs from point to point.
+#: Interpolation between points.
 Interpolation = Literal["smooth", "linear"]
 INTERPOLATIONS: tuple[Interpolation, ...] = get_args(Interpolation)
 
-#: Drops and positions are lengths of bodies [m]: beyond it, it is a wrong unit.
+#: Largest length of a body [m]; a larger one has a wrong unit.
 _LARGEST = 1e30
 
 
 @dataclass(frozen=True)
 class TableLine:
-    """A line through points (position, drop), not defined outside them.
+    """Curve through points (position, drop) [m], +inf outside them; `name` is for messages.
 
-    Parameters
-    ----------
-    name : str
-        What the table is, for messages: "TabulatedProfile".
-    position : tuple of float
-        Positions, increasing; one that stands twice, with the same drop, is a kink [m].
-    drop : tuple of float
-        Drops at them [m].
-    interpolation : str
-        ``"smooth"``: cubics without overshoot between the points, with a continuous slope but at
-        kinks; ``"linear"``: straight from point to point.
+    Positions increase; one given twice, with the same drop, is a kink. ``"smooth"`` interpolation
+    uses the monotone cubics of Fritsch & Butland (1984), SIAM J. Sci. Stat. Comput. 5, 300-304:
+    between two points they stay between their drops, so the lowest drop is at a point.
+    ``"linear"`` is straight.
 
-    Raises
-    ------
-    ValueError
-        If the points are no line, or the interpolation is unknown.
-
-    Notes
-    -----
-    Smooth lines are those of Fritsch & Butland (1984), SIAM J. Sci. Stat. Comput. 5, 300-304:
-    between two points they stay between their drops, so that the lowest drop is a point's.
-
-    Examples
-    --------
     >>> roof = TableLine("roof", (0.0, 1.0, 1.0, 2.0), (0.0, 1.0, 1.0, 1.0), "smooth")
     >>> roof([0.5, 1.5, 2.5]).tolist()
     [0.5, 1.0, inf]
@@ -131,46 +112,20 @@ class TableLine:
 def mirrored(
     position: tuple[float, ...], drop: tuple[float, ...]
 ) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """Return both halves of a symmetric line that is given from its middle on.
+    """Complete a symmetric curve given from position 0 on [m]; a position 0 given twice is a tip.
 
-    Parameters
-    ----------
-    position, drop : tuple of float
-        The half, from position 0 on; a middle that stands twice is a tip [m].
-
-    Returns
-    -------
-    position, drop : tuple of float
-        The whole [m].
-
-    Examples
-    --------
     >>> mirrored((0.0, 1.0, 3.0), (0.0, 2.0, 4.0))[0]
     (-3.0, -1.0, 0.0, 1.0, 3.0)
     """
     left = tuple(-each for each in reversed(position[1:]))
-    # A middle that stands once is not doubled: there is no kink then.
+    # A middle given once is not doubled, so there is no kink.
     start = 0 if position[1] > 0 else 1
     return (*left, *position[start:]), (*reversed(drop[1:]), *drop[start:])
 
 
 def numbers(name: str, values: ArrayLike) -> tuple[float, ...]:
-    """Return a column of lengths as floats, or refuse what is none.
+    """Return a one-dimensional column of finite lengths [m] as floats, or raise ValueError.
 
-    Parameters
-    ----------
-    name : str
-        What they are, for the message: "TabulatedProfile: x".
-    values : array_like
-        One-dimensional [m].
-
-    Raises
-    ------
-    ValueError
-        If there is anything but finite numbers, or they are no column.
-
-    Examples
-    --------
     >>> numbers("TabulatedProfile: x", [0, 1])
     (0.0, 1.0)
     """

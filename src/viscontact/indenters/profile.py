@@ -1,4 +1,4 @@
-"""What every generating line of a roller offers."""
+"""Base class of roller profiles (generating lines)."""
 
 from __future__ import annotations
 

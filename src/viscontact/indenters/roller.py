@@ -1,4 +1,4 @@
-"""A roller or wheel lying along x: any generating line, round or parabolic across it."""
+"""Roller or wheel along x: any profile, circular or parabolic across it."""
 
 from __future__ import annotations
 
@@ -142,7 +142,7 @@ class Roller(Indenter):
 
 
 def _profile(given: object, lengths: dict[str, Any], arguments: dict[str, Any]) -> Profile | None:
-    """The profile that is described, None where the roller's own arguments say it."""
+    """The given profile, None where the roller's own arguments determine it."""
     if not isinstance(given, str) and arguments:
         raise TypeError(
             f"Roller got an unexpected argument {next(iter(arguments))!r}; arguments of a profile "

@@ -1,4 +1,4 @@
-"""Generating line of a roller through measured or designed points."""
+"""Roller profile through measured or designed points."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ class TabulatedProfile(Profile):
     def __init__(
         self, x: ArrayLike, drops: ArrayLike, interpolation: Interpolation = "smooth"
     ) -> None:
-        # Written out, so that arrays are welcome and numbers that compare are kept.
+        # Written out, so that arrays are accepted and comparable numbers are stored.
         object.__setattr__(self, "x", numbers("TabulatedProfile: x", x))
         object.__setattr__(self, "drops", numbers("TabulatedProfile: drops", drops))
         object.__setattr__(self, "interpolation", interpolation)
@@ -58,7 +58,7 @@ class TabulatedProfile(Profile):
                 "TabulatedProfile: x must begin with 0 (half a symmetric profile) or below it "
                 f"(the whole), got {format_quantity(self.x[0], 'm', 9)} first"
             )
-        # Refused now and as given, not mirrored and when it is first used.
+        # Checked now and as given, not when first used and mirrored.
         TableLine("TabulatedProfile", self.x, self.drops, interpolation)
 
     @property
@@ -76,7 +76,7 @@ class TabulatedProfile(Profile):
         """Return the drop below the highest point; see `Profile.drop`."""
         x = np.asarray(x, dtype=np.float64)
         left, right = self._ends(half_length)
-        # The mirrored half to the same bits.
+        # The mirrored half gives the same bits.
         drop = self._line(np.abs(x) if self._is_half else x) - self._line.lowest(left, right)
         return np.where((x >= left) & (x <= right), np.maximum(drop, 0.0), np.inf)
 

@@ -1,4 +1,4 @@
-"""Surfaces that repeat without end, to be laid over a shape: waves and dimples."""
+"""Periodic surface textures to be added to a shape: waviness and dimples."""
 
 from __future__ import annotations
 

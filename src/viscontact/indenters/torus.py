@@ -1,4 +1,4 @@
-"""A ring with a round section, pressed flat."""
+"""Torus: a ring with a circular section, pressed flat."""
 
 from __future__ import annotations
 

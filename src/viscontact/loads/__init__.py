@@ -1,4 +1,4 @@
-"""What presses the bodies together, over time."""
+"""Load histories: force or approach over time, eccentricity and tilt."""
 
 from viscontact.loads.approach import ApproachHistory
 from viscontact.loads.force import ForceHistory

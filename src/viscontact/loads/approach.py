@@ -1,4 +1,4 @@
-"""The approach history: a stage that moves as told, whatever force that takes."""
+"""Approach history: prescribed approach and tilts over time."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class ApproachHistory(PiecewiseHistory):
     The approach is 0 where the undeformed bodies just touch. Before the first point it is 0, or the
     first value where that is negative, and tilts have their first values; after the last one all
     is held. So a history that starts with an approach above 0 starts with a jump. Where the
-    approach is so small that nothing touches (a body withdrawn from its dent, say), force and
+    approach is too small for contact (a body withdrawn from its indentation, say), force and
     pressure are zero, and the contact may return later.
 
     Parameters
@@ -68,7 +68,7 @@ class ApproachHistory(PiecewiseHistory):
         tilt_x: ArrayLike | None = 0.0,
         tilt_y: ArrayLike | None = 0.0,
     ) -> None:
-        # Written out, so that lists are welcome and arrays are what comes back.
+        # Written out, so that lists are accepted and arrays are stored.
         instants = arguments.instants(times)
         values = arguments.values(ApproachHistory, "approach", approach, instants.size)
         levels = np.broadcast_to(values, instants.shape)
@@ -77,7 +77,7 @@ class ApproachHistory(PiecewiseHistory):
             object.__setattr__(self, item.name, value)
 
     def at(self, time: float, *, side: str = "right") -> LoadPoint:
-        """Return what is prescribed at an instant.
+        """Return the prescribed load at an instant.
 
         Parameters
         ----------
@@ -89,7 +89,7 @@ class ApproachHistory(PiecewiseHistory):
         Returns
         -------
         LoadPoint
-            Approach and tilts; the force is None, and follows.
+            Approach and tilts; the force is None.
 
         Raises
         ------

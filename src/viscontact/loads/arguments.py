@@ -1,4 +1,4 @@
-"""What a load history accepts as its points."""
+"""Checks of the points of load histories."""
 
 from __future__ import annotations
 
@@ -9,19 +9,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.units.numbers import unit_of
 
-#: What histories prescribe besides force or approach.
+#: Arguments of histories besides force and approach.
 TILTS = ("tilt_x", "tilt_y")
 TAIL = ("eccentricity_x", "eccentricity_y", *TILTS)
 
 
 def side_of_jump(side: str) -> Literal["left", "right"]:
-    """Return `side` if it names a side of a jump, or raise ValueError.
-
-    Examples
-    --------
-    >>> side_of_jump("left")
-    'left'
-    """
+    """Return `side` if it is "left" or "right", or raise ValueError."""
     if side == "left":
         return "left"
     if side == "right":
@@ -30,20 +24,10 @@ def side_of_jump(side: str) -> Literal["left", "right"]:
 
 
 def instants(times: ArrayLike) -> NDArray[np.float64]:
-    """Return the instants of a history's points, read-only, shape (n,) [s].
+    """Return the times of a history's points, read-only, shape (n,) [s].
 
-    Parameters
-    ----------
-    times : array_like
-        Instants, not decreasing, from 0 on, at most two alike in a row [s].
+    They must not decrease, be negative, or come three times.
 
-    Raises
-    ------
-    ValueError
-        If they are anything else.
-
-    Examples
-    --------
     >>> instants([0, 1, 1]).tolist()
     [0.0, 1.0, 1.0]
     """
@@ -94,12 +78,7 @@ def refuse_both(
     eccentricity: float | NDArray[np.float64] | None,
     tilt: float | NDArray[np.float64] | None,
 ) -> None:
-    """Raise ValueError if an axis has both a prescribed tilt and an eccentricity.
-
-    Examples
-    --------
-    >>> refuse_both("x", 0.001, None)
-    """
+    """Raise ValueError if an axis has both a prescribed tilt and an eccentricity."""
     if tilt is not None and np.any(eccentricity):
         raise ValueError(
             f"tilt_{axis} and eccentricity_{axis} contradict each other: a prescribed tilt "
@@ -109,24 +88,8 @@ def refuse_both(
 
 
 def numbers(name: str, given: ArrayLike | None, unit: str) -> NDArray[np.float64]:
-    """Return finite numbers of any shape as a read-only copy.
+    """Return finite numbers of any shape as a read-only copy, or raise ValueError.
 
-    Parameters
-    ----------
-    name : str
-        The argument's name.
-    given : array_like
-        What the user gave.
-    unit : str
-        The unit the numbers are taken in.
-
-    Raises
-    ------
-    ValueError
-        If a value is a boolean, a text, None, NaN, infinite or anything else.
-
-    Examples
-    --------
     >>> numbers("times", [0, 2], "s").tolist()
     [0.0, 2.0]
     """

@@ -1,4 +1,4 @@
-"""The force history: force, eccentricity and prescribed tilt over time."""
+"""Force history: force, eccentricity and prescribed tilts over time."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ class ForceHistory(PiecewiseHistory):
         tilt_x: ArrayLike | None = None,
         tilt_y: ArrayLike | None = None,
     ) -> None:
-        # Written out, so that lists are welcome and arrays are what comes back.
+        # Written out, so that lists are accepted and arrays are stored.
         instants = arguments.instants(times)
         tail = arguments.tail(
             ForceHistory,
@@ -85,7 +85,7 @@ class ForceHistory(PiecewiseHistory):
             object.__setattr__(self, item.name, value)
 
     def at(self, time: float, *, side: str = "right") -> LoadPoint:
-        """Return what is prescribed at an instant.
+        """Return the prescribed load at an instant.
 
         Parameters
         ----------

@@ -1,4 +1,4 @@
-"""A force or an approach that swings about a mean."""
+"""Harmonic load history: a force or an approach that oscillates about a mean."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from viscontact.loads.force import NEGLIGIBLE
 from viscontact.loads.history import Control, Cycle, LoadHistory, LoadPoint
 from viscontact.units.numbers import finite
 
-#: Steps of a cycle when nothing finer is asked for. A line through a 128th of a sine misses it by
-#: 2e-4 of the amplitude in the mean, and the loss of a cycle under it comes out to some 6e-4.
+#: Default steps of a cycle. Linear interpolation over 1/128 of a sine has a mean error of 2e-4 of
+#: the amplitude, and the loss of a cycle an error of about 6e-4.
 STEPS_PER_CYCLE = 128
 
 
@@ -24,14 +24,14 @@ _LEVEL_UNITS = {"force": "N", "approach": "m"}  # by the value of `control`
 
 @dataclass(frozen=True, kw_only=True)
 class HarmonicHistory(LoadHistory):
-    """A level that swings, mean + amplitude sin(2 π t/period + phase), then stays where it is.
+    """Harmonic load, mean + amplitude sin(2 π t/period + phase), constant after the last cycle.
 
     Made by `harmonic`.
 
     Attributes
     ----------
     control : {"force", "approach"}
-        What swings.
+        The prescribed quantity.
     mean, amplitude : float
         Mean and amplitude [N or m]; a force is never negative.
     period : float
@@ -63,7 +63,7 @@ class HarmonicHistory(LoadHistory):
         return self.cycles * self.period
 
     def at(self, time: float, *, side: str = "right") -> LoadPoint:
-        """Return what is prescribed at an instant [s], after a jump or before it ("left")."""
+        """Return the prescribed load at an instant [s], after a jump or before it ("left")."""
         level = float(self.level_at(finite("time", time, "s"), side=side))
         return LoadPoint(
             force=level if self.control == "force" else None,
@@ -78,7 +78,7 @@ class HarmonicHistory(LoadHistory):
         """Return the force [N] or the approach [m] at many instants [s], any shape."""
         instants = arguments.numbers("times", times, "s")
         turns = np.minimum(instants, self.end) / self.period
-        # Whole turns are taken off first: sin(2 π n) is not 0 in floating point.
+        # Whole cycles are subtracted first: sin(2 π n) is not 0 in floating point.
         angle = 2 * math.pi * (turns - np.floor(turns)) + self.phase
         level = self.mean + self.amplitude * np.sin(angle)
         started = instants >= 0 if arguments.side_of_jump(side) == "right" else instants > 0

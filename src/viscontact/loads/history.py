@@ -1,4 +1,4 @@
-"""What every load history answers: what is prescribed when, where it turns, and its cycles."""
+"""Base class of load histories: prescribed values, kinks, jumps, cycles."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ Control = Literal["force", "approach"]
 
 @dataclass(frozen=True)
 class LoadPoint:
-    """What is prescribed at one instant.
+    """Load prescribed at one instant.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ class LoadPoint:
 
     @property
     def level(self) -> float:
-        """What presses: the force [N] or, where that is prescribed, the approach [m].
+        """Prescribed force [N] or, where that is None, approach [m].
 
         Examples
         --------
@@ -82,7 +82,7 @@ class LoadHistory(Displayable, ABC):
 
     @abstractmethod
     def at(self, time: float, *, side: str = "right") -> LoadPoint:
-        """Return what is prescribed at an instant [s], after a jump or before it ("left")."""
+        """Return the prescribed load at an instant [s], after a jump or before it ("left")."""
 
     @abstractmethod
     def level_at(self, times: ArrayLike, *, side: str = "right") -> NDArray[np.float64]:
@@ -96,16 +96,16 @@ class LoadHistory(Displayable, ABC):
     @property
     @abstractmethod
     def kinks(self) -> NDArray[np.float64]:
-        """All distinct instants where the history changes its course, increasing [s]."""
+        """All distinct times of kinks and jumps of the history, increasing [s]."""
 
     @property
     @abstractmethod
     def jumps(self) -> NDArray[np.float64]:
-        """Those of the kinks where something jumps under load, increasing [s]."""
+        """Kinks at which the load jumps, increasing [s]."""
 
     @property
     def longest_step(self) -> float:
-        """Longest step, up to the last kink, over which a line follows the history well [s]."""
+        """Longest step up to the last kink on which the history is nearly linear [s]."""
         return math.inf
 
     @property
@@ -115,7 +115,7 @@ class LoadHistory(Displayable, ABC):
 
     @property
     def stops(self) -> NDArray[np.float64]:
-        """Instants that every run has to hit: kinks, and the ends of cycles, increasing [s]."""
+        """Instants at which every run has a step: kinks and ends of cycles, increasing [s]."""
         ends = [time for cycle in self.load_cycles for time, _ in cycle]
         return np.unique(np.concatenate([self.kinks, ends]))
 

@@ -8,29 +8,16 @@ import numpy as np
 
 from viscontact.loads.history import LoadHistory, LoadPoint
 
-#: A load that swings shows its crest within so many of its longest steps.
+#: A harmonic load reaches its maximum within this many of its longest steps.
 CYCLE_SAMPLES = 128
 
 
 def largest_load(load: LoadHistory, end: float) -> tuple[float, LoadPoint]:
-    """Return when a load is largest, and what it prescribes there.
+    """Return the time [s] of the largest load up to the time `end` [s], and the load there.
 
-    Parameters
-    ----------
-    load : LoadHistory
-        The load.
-    end : float
-        Later instants do not count [s].
+    The time is a kink, the end, or a step within the first oscillations; at a jump it is the side
+    with the larger load.
 
-    Returns
-    -------
-    time : float
-        One of its kinks, the end, or a step within its first swings [s].
-    point : LoadPoint
-        What is prescribed there, on the side of a jump where it is more.
-
-    Examples
-    --------
     >>> from viscontact.loads import harmonic
     >>> largest_load(harmonic(mean=2.0, amplitude=1.0, period=4.0, cycles=4), end=16.0)[0]
     1.0

@@ -1,4 +1,4 @@
-"""Histories that are linear in time between points, with jumps."""
+"""Piecewise linear load histories with jumps."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The usual histories: step, ramp, triangle, harmonic."""
+"""Standard load histories: step, ramp, triangle, harmonic."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from viscontact.loads.history import Control
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import finite, unit_of, whole
 
-#: A harmonic load of more cycles than this is a mistake: each takes dozens of steps.
+#: Upper limit on the cycles of a harmonic load; each takes dozens of steps.
 MOST_CYCLES = 100_000
 
 
@@ -26,7 +26,7 @@ def step(
     tilt_x: float | None = None,
     tilt_y: float | None = None,
 ) -> ForceHistory | ApproachHistory:
-    """Return a force or an approach put on at time 0 at once, then held.
+    """Return a force or an approach applied suddenly at time 0, then held.
 
     Parameters
     ----------
@@ -165,14 +165,14 @@ def harmonic(
     tilt_x: float | None = None,
     tilt_y: float | None = None,
 ) -> HarmonicHistory:
-    """Return a force or an approach that swings about a mean, then stays where it is.
+    """Return a force or an approach that oscillates about a mean, then stays constant.
 
     Parameters
     ----------
     mean : float
         Mean force, not less than the amplitude [N].
     amplitude : float
-        Amplitude of the swing, of the force [N] or with `approach` of the approach [m].
+        Amplitude of the force [N] or, with `approach`, of the approach [m].
     period : float
         Time of a cycle, positive [s].
     cycles : int
@@ -187,8 +187,8 @@ def harmonic(
     Returns
     -------
     HarmonicHistory
-        Exact at every instant. It starts with a jump unless its first level is zero. Runs step
-        it at least 128 times a cycle, whatever instants are asked for.
+        Exact at every instant. It starts with a jump unless its first level is zero. Runs take
+        at least 128 steps a cycle, whatever the requested instants.
 
     Raises
     ------
