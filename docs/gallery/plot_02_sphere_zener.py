@@ -66,5 +66,5 @@ final = (3 * force * radius / (4 * 4 * 5e6)) ** (1 / 3)
 hertz_peak = 3 * force / (2 * np.pi * final**2)
 ours = float(ds.peak_pressure[-1])
 
-print(f"peak pressure in the end: {ours / 1e6:.4f} MPa, Hertz {hertz_peak / 1e6:.4f} MPa")
+print(f"final peak pressure: {ours / 1e6:.4f} MPa, Hertz {hertz_peak / 1e6:.4f} MPa")
 assert abs(ours / hertz_peak - 1) < 2e-3

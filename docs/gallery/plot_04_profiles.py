@@ -63,7 +63,7 @@ for axes, time in zip(panels, (0.0, 1000.0), strict=True):
     hertz = reference.hertz_line(line_load, radius, here)
     even = {"color": "k", "linestyle": "--", "linewidth": 0.8, "label": "even (Hertz)"}
     axes.axhline(hertz.peak_pressure / 1e6, **even)
-    axes.set(xlabel="x [mm]", title=f"after {time:g} s" if time else "at once", ylim=(0, 140))
+    axes.set(xlabel="x [mm]", title=f"after {time:g} s", ylim=(0, 140))
 panels[0].set_ylabel("pressure [MPa]")
 panels[1].legend(frameon=False, loc="upper left", bbox_to_anchor=(1, 1))
 

@@ -36,7 +36,7 @@ if __name__ == "__main__":
     runs = vc.simulate_many(recipes, workers=2)
 
     figure, axes = plt.subplots(figsize=(4.8, 3.2), layout="constrained")
-    for index, label, colour in ((0, "at once", "#440154"), (-1, "after 200 s", "#d98c00")):
+    for index, label, colour in ((0, "after 0 s", "#440154"), (-1, "after 200 s", "#d98c00")):
         approach = np.array([float(ds.approach[index]) for ds in runs])
         axes.loglog(forces, approach * 1e3, "o", color=colour, label=label)
         # A line of slope 2/3 through the first point.
