@@ -157,7 +157,7 @@ def test_slip_in_a_profile_is_told_at_its_key(case: Path, setting: str, said: st
     [
         (
             "x [mm],z [um]\n0,0\n6,8\n",
-            "the columns x and drop (or height) are wanted, as 'x [mm], d",
+            "the columns x and drop (or height) are needed, as 'x [mm], d",
         ),
         ("x [mm],drop [um],height [um]\n0,0,0\n6,8,8\n", "the columns x and drop (or height) are"),
         ("x [mm],drop\n0,0\n6,8\n", "column 'drop': has no unit"),

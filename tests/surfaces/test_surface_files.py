@@ -181,7 +181,7 @@ def test_npz_carries_its_units(tmp_path: Path) -> None:
     assert surface.periodic
     np.savez(file, a=HEIGHTS, b=HEIGHTS)
     with pytest.raises(
-        ValueError, match=r"channel: map\.npz is to hold an array 'height'; .* a, b"
+        ValueError, match=r"channel: map\.npz must hold an array 'height'; it has a, b"
     ):
         vc.read_surface(file, spacing=1e-6, height_unit="m")
     assert vc.read_surface(file, spacing=1e-6, height_unit="m", channel="b").shape == (12, 8)

@@ -159,7 +159,7 @@ def _exact_response(record: IndentationRecord, given: str, material: Material) -
 
 def _apparent_modulus(record: IndentationRecord, poisson_ratio: float | None) -> float:
     """Shear modulus of the best-fitting elastic body [Pa]."""
-    # Any Poisson's ratio serves to start from.
+    # Any Poisson's ratio suffices for a starting value.
     nu = 0.4 if poisson_ratio is None else poisson_ratio
     d, F = record.approach, record.force
     unit = record.elastic_force(np.maximum(d, 0.0))  # for a contact modulus of 1 Pa
@@ -179,7 +179,7 @@ def _descended(residuals: Callable[[Array], Array], shape: Candidate) -> tuple[A
     if not np.isfinite(tried[best]):
         residuals(starts[best])  # raises the error
     start = starts[best]
-    penalty = residuals(start)  # kept where the solution ends, so that no step leads there
+    penalty = residuals(start)  # exceeded where there is no solution
 
     def guarded(free: Array) -> Array:
         try:

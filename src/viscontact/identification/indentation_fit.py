@@ -15,7 +15,7 @@ from viscontact.units.formatting import format_quantity
 
 Array = NDArray[np.float64]
 
-_TOUCH = 0.05  # of the largest force: less may be scatter without contact
+_TOUCH = 0.05  # of the largest force: smaller ones may be scatter without contact
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -22,7 +22,7 @@ from viscontact.laws import Shift, TabulatedShift
 Array = NDArray[np.float64]
 
 _OWNER = "build_master_curve"
-# Scatter may put a warmer set a little behind a colder one where the curves are almost level.
+# Tolerance for a warmer set that is slower than a colder one by scatter.
 _SCATTER = np.log(10.0) / 3
 
 
@@ -37,7 +37,7 @@ class MasterCurve(Displayable):
     reference_temperature : float
         The temperature it holds at [K].
     isotherms : tuple of Isotherm
-        The sets it is made of, from cold to warm.
+        Its sets, from cold to warm.
     factors : ndarray, shape (sets,)
         Shift factor a_T of each set: everything takes a_T times as long as at the reference [-].
     mismatches : ndarray, shape (sets - 1,) or None

@@ -10,8 +10,8 @@ from scipy.optimize import isotonic_regression, minimize_scalar
 
 Array = NDArray[np.float64]
 
-_SAMPLES = 200  # along the overlap; the curves between the measured points are straight
-_NEIGHBOURHOOD = np.log(10.0) / 2  # the least mismatch is sought half a decade to either side
+_SAMPLES = 200  # points along the overlap; the curves are linear between measured points
+_NEIGHBOURHOOD = np.log(10.0) / 2  # search range: half a decade to either side
 _SCANNED = 41
 
 

@@ -146,7 +146,7 @@ def fit_relaxation(
     poisson_ratio, bulk_modulus
         As in `fit_creep`.
     fluid : bool, optional
-        Whether everything relaxes, with no modulus left in the end.
+        Whether the equilibrium modulus is zero.
     terms, excess, tolerance
         As in `fit_creep`.
 

@@ -36,8 +36,8 @@ class IndentationRecord(Displayable):
     Raises
     ------
     ValueError
-        If a value is not finite or a time falls, naming its row; if lengths differ; if nothing
-        is pressed; if the indenter is another one.
+        If a value is not finite or a time falls, naming its row; if lengths differ; if there
+        is no contact; if the indenter is another one.
 
     Examples
     --------
@@ -74,7 +74,7 @@ class IndentationRecord(Displayable):
             )
         if not (columns["approach"].max() > 0 and columns["force"].max() > 0):
             raise ValueError(
-                "IndentationRecord: nothing is pressed: approach and force must be positive "
+                "IndentationRecord: no contact: approach and force must be positive "
                 "somewhere; both are positive when the bodies are pressed together"
             )
         for name, column in columns.items():

@@ -14,7 +14,7 @@ from viscontact.laws.time_temperature import GAS_CONSTANT
 
 # Starting values: the universal constants.
 _UNIVERSAL = (17.44, 51.6)
-_LARGEST_C2 = 1e5  # [K]; a rule this straight is one exponential at any temperature
+_LARGEST_C2 = 1e5  # [K]; with a larger one the rule is an exponential
 
 
 @dataclass(frozen=True)

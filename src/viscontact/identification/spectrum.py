@@ -96,8 +96,8 @@ def parsimonious_spectrum(observed: Observed, *, excess: float, tolerance: float
     """
     dense = dense_spectrum(observed)
     enough = max(excess * dense.residual, tolerance)
-    # More terms never fit worse, so the fewest are found by halving. As many as the dense fit
-    # has are enough: they start from its times.
+    # More terms never fit worse, so the fewest are found by bisection. The number of terms of the
+    # dense fit is sufficient.
     too_few, many = -1, dense.times.size
     best = dense
     while many - too_few > 1:
@@ -159,7 +159,7 @@ def _strengths(observed: Observed, times: Array) -> tuple[Spectrum, Array]:
     """Spectrum of the best non-negative strengths at given times, and the residuals."""
     columns = observed.columns(times)
     lengths = np.maximum(np.linalg.norm(columns, axis=0), np.finfo(np.float64).tiny)
-    # NNLS refuses a matrix without columns, which is a fluid without terms.
+    # NNLS refuses a matrix without columns, that of a fluid without terms.
     solved = nnls(columns / lengths, observed.weights)[0] if lengths.size else lengths
     strengths = solved / lengths
     residuals = columns @ strengths - observed.weights

@@ -157,7 +157,7 @@ class AxisymmetricContact:
         parts = levels * np.diff(arcsine(np.minimum(places, distance), distance), axis=-1)
         parts += slopes * np.diff(self.profile.inner_integral(places, distance), axis=-1)
         u: Values = 2 / math.pi * np.sum(parts, axis=-1)
-        # On the axis all of it comes from s = 0.
+        # On the axis u(0) = v(0).
         return np.where(distance[..., 0] == 0, v[0], u)[()]
 
     def _with_front(self, t: float, v: Array) -> tuple[Array, Array]:

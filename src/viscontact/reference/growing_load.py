@@ -8,7 +8,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.reference.hereditary import TimeFunction, accumulated, averaged, evaluate
+from viscontact.reference.hereditary import TimeFunction, evaluate
+from viscontact.reference.lag_means import lag_mean
 
 
 class GrowingLoad(Protocol):
@@ -66,15 +67,6 @@ class RampedLoad:
         self, creep_compliance: TimeFunction, times: NDArray[np.float64]
     ) -> NDArray[np.float64]:
         """Integral of J(t - t') dW(t') at each time: F/T times that of J over [t - T, t] [m²]."""
-        mean = np.empty_like(times)
-        long_held = times > 2 * self.duration
-        # Long after the ramp the difference of two integrals from 0 would lose its digits.
-        early = times[~long_held]
-        if early.size:
-            since_held = np.maximum(early - self.duration, 0.0)
-            both = accumulated(creep_compliance, np.stack([early, since_held]))
-            mean[~long_held] = (both[0] - both[1]) / self.duration
-        mean[long_held] = averaged(
-            creep_compliance, times[long_held] - self.duration, self.duration
-        )
-        return self.force * mean
+        since_held = np.maximum(times - self.duration, 0.0)
+        mean = lag_mean(creep_compliance)(since_held.ravel(), times.ravel()).reshape(times.shape)
+        return self.force * mean * (times - since_held) / self.duration

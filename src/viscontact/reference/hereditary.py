@@ -94,22 +94,11 @@ def accumulated(function: TimeFunction, times: ArrayLike) -> NDArray[np.float64]
 
 
 def averaged(
-    function: TimeFunction, starts: NDArray[np.float64], length: float
-) -> NDArray[np.float64]:
-    """Mean over [start, start + length] [s] of a function smooth in log t; each start >= length.
-
-    >>> print(f"{averaged(np.square, np.array([3.0]), 3.0)[0]:.10f}")
-    21.0000000000
-    """
-    return averaged_between(function, starts, starts + length)
-
-
-def averaged_between(
     function: TimeFunction, starts: NDArray[np.float64], ends: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """Mean over intervals [s] that begin no earlier than their length; the value where it is 0.
 
-    >>> print(averaged_between(np.square, np.array([3.0, 3.0]), np.array([6.0, 3.0])).round(10))
+    >>> print(averaged(np.square, np.array([3.0, 3.0]), np.array([6.0, 3.0])).round(10))
     [21.  9.]
     """
     times = starts[..., None] + (ends - starts)[..., None] / 2 * (1 + _GAUSS)

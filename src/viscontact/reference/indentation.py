@@ -155,7 +155,7 @@ def _marched(
         try:
             return rods, list(march(rods, steps, law))
         except OutgrownError:
-            deepest *= 1.05  # its bound is that of a contact which only grows
+            deepest *= 1.05  # the bound holds for growing contacts only
 
 
 @dataclass(frozen=True)

@@ -16,8 +16,8 @@ from viscontact.reference.rods import Rods, RodState, Step, solve_at_approach, s
 
 Array = NDArray[np.float64]
 
-_NO_FORCE = 1e-12  # of the history's largest: what is less counts as none
-_RING = 1e-6  # of the deepest approach: a rod that is open wider inside the contact is a ring's
+_NO_FORCE = 1e-12  # of the largest force of the history: a smaller one counts as zero
+_RING = 1e-6  # of the largest approach: a wider opening inside the contact makes it a ring
 
 
 @dataclass(frozen=True)
@@ -27,8 +27,8 @@ class LoadSteps:
     # ends of the steps [s] and the approach [m] or force [N] there; equal times are a jump
     times: Array
     load: Array
-    by_approach: bool  # whether the load is an approach
-    given: NDArray[np.intp]  # which steps end at the instants of the caller
+    by_approach: bool  # True if the load is an approach
+    given: NDArray[np.intp]  # indices of the steps that end at the given times
 
 
 def load_steps(times: Array, load: Array, *, by_approach: bool, substeps: int) -> LoadSteps:
@@ -215,6 +215,6 @@ def _work(rods: Rods, before: RodState, after: RodState, duration: float) -> flo
     advance = after.approach - before.approach
     if duration > 0:
         return (before.force + after.force) / 2 * advance
-    # Under a jump each rod is a spring, which meets the indenter on the way.
+    # In a jump each rod is a spring, in contact for part of the step.
     mean = (before.chi + after.chi) / 2 * after.share
     return rods.sum(mean) * advance

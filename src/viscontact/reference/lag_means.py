@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from viscontact.reference.hereditary import (
     TimeFunction,
     accumulated,
-    averaged_between,
+    averaged,
     evaluate,
 )
 
@@ -33,10 +33,10 @@ def lag_mean(creep_compliance: TimeFunction) -> LagMean:
     def mean(start: NDArray[np.float64], end: NDArray[np.float64]) -> NDArray[np.float64]:
         length = end - start
         means = np.empty_like(length)
-        # Near lag 0 the function is anything a power of the lag may be; further away the
-        # difference of two integrals from 0 would lose its digits.
+        # Near lag 0 the function may behave as any power of the lag; further away the
+        # difference of two integrals from 0 would lose accuracy.
         late = (start >= length) & (start > 0) | (length == 0)
-        means[late] = averaged_between(creep_compliance, start[late], end[late])
+        means[late] = averaged(creep_compliance, start[late], end[late])
         early = ~late
         if early.any():
             both = accumulated(creep_compliance, np.stack([end[early], start[early]]))

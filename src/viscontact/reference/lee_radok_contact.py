@@ -202,9 +202,8 @@ class LeeRadokContact:
         self, r: NDArray[np.float64], t: NDArray[np.float64]
     ) -> NDArray[np.float64]:
         """Last instant before the growing contact reaches each distance r, else 0 [s]."""
-        # Bisection on the logarithm of time, since the instant may lie decades before t. The
-        # lower bound is given: there s is 0 exactly, while a little later it is already the
-        # square root of that little.
+        # Bisection on the logarithm of time, since the instant may be decades before t. The lower
+        # bound is returned: there s is exactly 0, while it rises as a square root right after it.
         earliest = np.full_like(t, -60.0)
         before, after = earliest, np.zeros_like(t)
         for _ in range(50):

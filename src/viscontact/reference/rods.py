@@ -149,8 +149,8 @@ def _front(rods: Rods, step: Step, excess: Array, wanted: Array, reached: int) -
     last, begin, end = reached - 1, rods.depths[reached - 1], rods.depths[reached]
     if step.instant > 0:
         return float(begin + (end - begin) * wanted[last] / (wanted[last] - wanted[reached]))
-    # Without instant compliance the load a free rod would need says little of its opening; that
-    # falls to 0 towards the front by itself.
+    # Without instant compliance the load of a free rod does not determine its opening, which
+    # falls to 0 towards the front.
     beyond = min(reached + 1, len(excess) - 1)
     slope = 1.0
     if beyond > reached:
@@ -169,7 +169,7 @@ def solve_at_force(rods: Rods, step: Step, force: float, guess: float) -> RodSta
     high = np.inf if np.isfinite(rods.profile.edge) else max(low, float(rods.depths[-1]))
     if force == 0:
         parted = solve_at_approach(rods, step, low)
-        # Rounding would leave a trace of load on the rod that is about to part.
+        # Without rounding residuals on the last rod in contact.
         return replace(
             parted, wanted=np.minimum(parted.wanted, 0.0), reached=0, front=0.0, force=0.0
         )

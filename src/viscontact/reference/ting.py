@@ -76,7 +76,7 @@ class TingHump:
         now, a, b = times[out], low[out], high[out]
         for _ in range(_HALVINGS):
             middle = (a + b) / 2
-            pressed = self._path_load(middle, now) > 0  # touched then, still pressed now
+            pressed = self._path_load(middle, now) > 0  # in contact since then
             a, b = np.where(pressed, middle, a), np.where(pressed, b, middle)
         high[out] = np.where(a > 0, (a + b) / 2, 0.0)
         return high.reshape(np.shape(t))[()]

@@ -143,7 +143,7 @@ class TingCycles:
         touched = b * self.profile.depth(s) / self.peak
         lost = self._parted(touched, 0)
         for k in range(1, cycle + 1):
-            touched = 4 * k * b - lost  # as deep during loading as it was when lost
+            touched = 4 * k * b - lost  # contact begins at the approach at which it was lost
             lost = self._parted(touched, k)
         return touched, lost
 

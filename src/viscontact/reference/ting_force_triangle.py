@@ -154,7 +154,7 @@ class TingForceTriangle:
             a = float(np.cbrt(self._cube(np.float64(instant))))
             return decay * 2 / (3 * a * self.radius) * cube_rate
 
-        # The cube of a variable takes the root out of the beginning.
+        # The substitution t = x³ removes the singularity at the beginning.
         corners = sorted({max(then, corner) for corner in (then, self.rise, self.widest)})
         parts = [
             quad(lambda x: 3 * x**2 * slope(x**3), low ** (1 / 3), high ** (1 / 3), epsrel=1e-12)[0]

@@ -15,7 +15,7 @@ from viscontact.units.parsing import parse_unit
 def read_array(path: Path, units: Units, channel: str | None) -> Surface:
     """Read a map from an NPY or NPZ file, heights [x, y]; `channel` names an array of an NPZ."""
     try:
-        # No pickles: a file of data must not run anything.
+        # No pickles: a data file must not execute code.
         with path.open("rb") as file:
             found: Any = np.load(file, allow_pickle=False)
             arrays = {} if isinstance(found, np.ndarray) else {k: found[k] for k in found.files}
@@ -60,7 +60,7 @@ def _chosen(path: Path, arrays: dict[str, Any], channel: str | None) -> Any:
     if channel not in arrays:
         wanted = "an array 'height'" if channel is None else f"the array {channel!r}"
         raise ValueError(
-            f"channel: {path.name} is to hold {wanted}; there are {', '.join(arrays) or 'none'}"
+            f"channel: {path.name} must hold {wanted}; it has {', '.join(arrays) or 'none'}"
         )
     return arrays[channel]
 

@@ -31,7 +31,7 @@ def cropped(
     Returns
     -------
     Surface
-        The points within; its middle is its origin, and it is periodic no more.
+        The points within, centred at the origin, and not periodic.
 
     Raises
     ------
@@ -67,7 +67,7 @@ def _within(surface: Surface, axis: int, part: tuple[float, float] | None) -> sl
     if last - first < 2:
         raise ValueError(
             f"crop: {name} keeps {last - first} points, {format_quantity(spacing, 'm')} apart; at "
-            "least 2 are wanted"
+            "least 2 are needed"
         )
     return slice(first, last)
 

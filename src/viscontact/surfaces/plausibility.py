@@ -95,7 +95,7 @@ def _hollow(surface: Surface) -> str | None:
     if rest > (1 - FORM_SHARE) * surface.rms_height**2:
         return None
     low, high = sorted((form[2, 0], form[0, 2]))
-    if low < -0.1 * high:  # a cap, or a saddle, which has its own way to touch
+    if low < -0.1 * high:  # a cap or a saddle
         return None
     return (
         f"{surface.name} is hollow: it would touch along its border first; if it was stored "
@@ -145,5 +145,5 @@ def _steep(surface: Surface) -> str | None:
     return (
         f"{surface.name} has an rms slope of {format_number(surface.rms_slope, 2)}: small-strain "
         "theory is not meant for such slopes; is the unit of the heights right "
-        "(height_factor:), or is a filter wanted?"
+        "(height_factor:), or is a filter needed?"
     )

@@ -17,7 +17,7 @@ from viscontact.units.numbers import as_real
 Array = NDArray[np.float64]
 Filter = Literal["mean", "gaussian", "spline"]
 
-#: ISO 16610-21: a wave of the cutoff's length is passed at half its height.
+#: ISO 16610-21: a wave of the cutoff wavelength is transmitted at half its height.
 ALPHA = math.sqrt(math.log(2) / math.pi)
 
 #: Cutoff of the Gaussian filter in cells: of waves of two cells, the shortest that the new mesh
@@ -27,7 +27,7 @@ CUTOFF_CELLS = 4.0
 #: Weights below this part of the largest are left out.
 _NEGLIGIBLE = 1e-12
 
-#: Points of a mesh that no map needs.
+#: Upper limit on the points of a mesh.
 _MOST_POINTS = 2**26
 
 
@@ -163,7 +163,7 @@ def _matrix(
     wide = math.ceil(reach / spacing) + 1
     points = np.rint(middle).astype(np.intp)[:, np.newaxis] + np.arange(-wide, wide + 1)
     values = weight((points - middle[:, np.newaxis]) * spacing)
-    # Rounding leaves slivers of cells that only touch.
+    # Without rounding residuals of cells that only touch.
     within = values > _NEGLIGIBLE * values.max()
     within &= True if surface.periodic else (points >= 0) & (points < old)
     rows = np.broadcast_to(np.arange(new)[:, np.newaxis], points.shape)

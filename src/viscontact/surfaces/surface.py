@@ -14,7 +14,7 @@ from viscontact.units.numbers import as_real
 
 Array = NDArray[np.float64]
 
-#: Heights farther from their reference are no lengths of bodies [m].
+#: Upper limit on heights above their reference [m].
 _LARGEST = 1e6
 
 

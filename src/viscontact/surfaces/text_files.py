@@ -113,7 +113,7 @@ def _on_mesh(name: str, axis: str, position: Array) -> tuple[NDArray[np.intp], f
     extent = float(lines[-1] - lines[0])
     if extent == 0:
         return np.zeros(position.shape, dtype=np.intp), 0.0
-    # Positions are rounded in files: steps much smaller than the usual one are none.
+    # Positions are rounded in files: much smaller steps than the median are rounding.
     steps = np.diff(lines)
     count = max(round(extent / float(np.median(steps[steps > _CLOSE * steps.max()]))), 1)
     step = extent / count

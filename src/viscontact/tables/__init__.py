@@ -2,10 +2,16 @@
 
 from viscontact.tables.lines import read_line
 from viscontact.tables.names import QUANTITIES
-from viscontact.tables.numbers import decimal_number, looks_like_number
 from viscontact.tables.reader import read_table
 from viscontact.tables.table import Table
-from viscontact.tables.text import Row, read_rows, read_text, require_file
+from viscontact.tables.text import (
+    Row,
+    decimal_number,
+    looks_like_number,
+    read_rows,
+    read_text,
+    require_file,
+)
 
 __all__ = [
     "QUANTITIES",

@@ -9,8 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from viscontact.tables.names import QUANTITIES, Data, Meaning, known_names, meaning
-from viscontact.tables.numbers import looks_like_number
-from viscontact.tables.text import Row
+from viscontact.tables.text import Row, looks_like_number
 from viscontact.units.dimensions import DIMENSIONS
 from viscontact.units.parsing import Scale, parse_scale
 
@@ -138,7 +137,7 @@ def _meaning(source: str, heading: _Heading, given: Mapping[str, str | None]) ->
             quantity = given[name]
             return None if quantity is None else Meaning(quantity, stated.data if stated else None)
     if stated is None:
-        # What is nearly a known name is a slip, not another column.
+        # Nearly a known name: a misspelling, not another column.
         near = difflib.get_close_matches(heading.name.lower(), known_names(), n=1, cutoff=0.85)
         if near:
             raise ValueError(

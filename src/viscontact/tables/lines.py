@@ -9,7 +9,7 @@ from pathlib import Path
 from viscontact.tables.reader import read_table
 from viscontact.tables.text import read_rows
 
-#: How far a point lies below a level, or as an instrument measures it above one.
+#: Signs of the levels: a drop is positive downwards, a measured height upwards.
 _LEVELS = {"drop": 1.0, "height": -1.0}
 
 
@@ -47,7 +47,7 @@ def read_line(path: str | PathLike[str], along: str) -> tuple[list[float], list[
     levels = [name for name in names.values() if name in _LEVELS]
     if along not in names.values() or len(levels) != 1:
         raise ValueError(
-            f"{path.name}: the columns {along} and drop (or height) are wanted, as '{along} [mm], "
+            f"{path.name}: the columns {along} and drop (or height) are needed, as '{along} [mm], "
             f"drop [um]', got {', '.join(map(repr, names)) or 'none'}"
         )
     wanted = {along, levels[0]}

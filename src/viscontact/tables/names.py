@@ -8,7 +8,7 @@ from typing import Literal
 
 Data = Literal["deviatoric", "shear", "uniaxial"]
 
-#: The quantities a table can hold, with what their unit measures; None for those without a unit.
+#: Quantities of a table, and the dimension of their unit; None for those without a unit.
 QUANTITIES: dict[str, str | None] = {
     "time": "time",
     "angular_frequency": "angular frequency",
@@ -47,7 +47,7 @@ class Meaning:
     logarithm: float | None = None
 
 
-# One letter means one thing in capitals and another without.
+# Symbols are case-sensitive.
 _SYMBOLS = {
     **dict.fromkeys(("t", "ξ"), Meaning("time")),
     "f": Meaning("frequency"),

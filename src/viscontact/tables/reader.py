@@ -11,9 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.tables.header import Column, Header, read_header
-from viscontact.tables.numbers import decimal_number
 from viscontact.tables.table import Table, read_only
-from viscontact.tables.text import Row, read_rows
+from viscontact.tables.text import Row, decimal_number, read_rows
 
 
 def read_table(path: str | PathLike[str], columns: Mapping[str, str | None] | None = None) -> Table:
@@ -91,7 +90,7 @@ def _values(source: str, header: Header, rows: list[Row]) -> NDArray[np.float64]
 
 
 def _require_width(source: str, width: int, row: Row) -> None:
-    # Empty cells at the end are what a spreadsheet leaves behind.
+    # Spreadsheets export empty cells at the end.
     if len(row.cells) < width or any(row.cells[width:]):
         raise ValueError(
             f"{source}:{row.line} has {len(row.cells)} entries, the header {width}; decimal commas "

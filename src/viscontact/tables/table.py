@@ -15,7 +15,7 @@ from viscontact.units.temperatures import in_celsius
 
 Array = NDArray[np.float64]
 
-# Chambers hold a temperature to some tenths of a kelvin, and tests step it by several.
+# Chambers keep a temperature within some tenths of a kelvin; tests change it by several.
 _SAME_TEMPERATURE, _WIDEST_SET = 1.0, 5.0
 
 
@@ -148,7 +148,7 @@ class Table:
         )
 
     def ascending(self, quantity: str) -> Table:
-        """Return the table from its end, if a column falls from row to row; else itself.
+        """Return the table in reverse order if a column falls from row to row; else unchanged.
 
         Instruments that begin with the slowest cycle write their rows so. Rows in no order are
         left as they are.

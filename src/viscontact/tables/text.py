@@ -1,10 +1,11 @@
-"""Text files of instruments: encoding, separators, and rows of cells."""
+"""Text files of instruments: encoding, separators, rows of cells, and numbers in them."""
 
 from __future__ import annotations
 
 import csv
 import difflib
 import io
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from os import PathLike
@@ -15,6 +16,8 @@ _LARGEST_FILE, _MOST_ROWS = 50_000_000, 1_000_000
 
 _COMMENTS = ("#", "%", "//")
 _BYTE_ORDER_MARKS = ((b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"), (b"", "utf-8-sig"))
+_NUMBER = re.compile(r"[+-]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][+-]?\d+)?")
+_NOT_FINITE = re.compile(r"[+-]?(?:nan|inf|infinity)", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
@@ -38,7 +41,7 @@ def read_rows(path: Path) -> list[Row]:
     Returns
     -------
     list of Row
-        With cells of different number as they come.
+        Rows, which may have different numbers of cells.
 
     Raises
     ------
@@ -87,9 +90,9 @@ def require_file(path: str | PathLike[str]) -> Path:
             raise ValueError(f"{path}: is a directory; name the file in it")
         if not path.exists():
             raise ValueError(f"no such file {path}{_nearest(path)}")
-        if not path.is_file():  # a device may have no end
+        if not path.is_file():  # a device may be endless
             raise ValueError(f"{path}: is no file")
-    except (OSError, ValueError) as error:  # ValueError: the name holds what no name can
+    except (OSError, ValueError) as error:  # ValueError: invalid characters in the name
         if str(error).startswith((f"{path}: ", "no such file ")):
             raise
         raise ValueError(f"cannot read {str(path)!r}: {error}") from error
@@ -132,10 +135,60 @@ def read_text(path: Path) -> str:
     return text
 
 
+def looks_like_number(cell: str) -> bool:
+    """Return True for a cell that is a number rather than a name or a unit.
+
+    Examples
+    --------
+    >>> looks_like_number("0,5"), looks_like_number("nan"), looks_like_number("1/MPa")
+    (True, True, False)
+    """
+    return bool(_NUMBER.fullmatch(cell) or _NOT_FINITE.fullmatch(cell))
+
+
+def decimal_number(cell: str, mark: str) -> str:
+    """Return the digits of a number with a decimal point, or raise ValueError.
+
+    Parameters
+    ----------
+    cell : str
+        Text of the cell.
+    mark : str
+        The decimal mark of the file: a point or a comma.
+
+    Returns
+    -------
+    str
+        The same number as Python writes it.
+
+    Raises
+    ------
+    ValueError
+        If it is empty, text, not finite, or written with the other mark.
+
+    Examples
+    --------
+    >>> decimal_number("-0,5e3", ",")
+    '-0.5e3'
+    """
+    if not cell:
+        raise ValueError("the cell is empty; fill it in or leave the row out")
+    if _NOT_FINITE.fullmatch(cell):
+        raise ValueError(f"must be a finite number, got {cell!r}")
+    if mark == "," and "." in cell and re.fullmatch(r"[\d.,eE+-]+", cell):
+        raise ValueError(
+            f"got {cell!r} in a file of decimal commas; write one decimal mark and no thousands "
+            "separators"
+        )
+    if not _NUMBER.fullmatch(cell):
+        raise ValueError(f"{cell[:40]!r} is not a number")
+    return cell.replace(",", ".")
+
+
 def _nearest(path: Path) -> str:
     try:
         names = [entry.name for entry in path.parent.iterdir()]
-    except (OSError, ValueError):  # no such folder, or none that may be read
+    except (OSError, ValueError):  # no such folder, or not readable
         return ""
     near = difflib.get_close_matches(path.name, names, n=1)
     return f"; did you mean '{path.parent / near[0]}'?" if near else ""
@@ -143,7 +196,7 @@ def _nearest(path: Path) -> str:
 
 def _decoded(data: bytes) -> str | None:
     marked = next(encoding for mark, encoding in _BYTE_ORDER_MARKS if data.startswith(mark))
-    # Latin-1 last: it reads anything.
+    # Latin-1 last: it accepts all bytes.
     encodings = (marked,) if marked == "utf-16" else (marked, "cp1252", "latin-1")
     for encoding in encodings:
         try:
@@ -154,7 +207,7 @@ def _decoded(data: bytes) -> str | None:
 
 
 def _separator(header: str) -> str:
-    # A semicolon goes before a comma: commas may then be in names and numbers.
+    # A semicolon takes precedence over a comma, which may then be part of names and numbers.
     return next((mark for mark in "\t;," if mark in header), ",")
 
 

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
 
-#: Errors below this are the solver's tolerance, and follow no power of the cell size.
+#: Errors below this are due to the solver's tolerance and have no order.
 SOLVED = 1e-8
 
 

@@ -28,7 +28,7 @@ _FLAT_CROSSED = full_contact_pressure(_HEIGHT, MODULUS, wavelength_x=_WAVE, wave
 _PARTS = (0.2, 0.3, 0.4, 0.5, 0.6, 0.7)
 
 _CREEPING = Material(Zener(0.35 * MODULUS, 0.35 * MODULUS, 3.5 * MODULUS), poisson_ratio=0.3)
-_INSTANTS = np.append(0.0, np.geomspace(0.1, 40.0, 40))  # s, retarded by 10 s
+_INSTANTS = np.append(0.0, np.geomspace(0.1, 40.0, 40))  # [s]; retardation time 10 s
 
 
 def _strip(cells: int) -> Grid:

@@ -16,7 +16,7 @@ CASES: tuple[Case, ...] = (
     *periodic.CASES,
 )
 
-#: Called before each case with the case, how many are done, and how many there are.
+#: Called before each case with the case, the number done and the total.
 Progress = Callable[[Case, int, int], None]
 
 

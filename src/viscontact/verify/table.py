@@ -18,7 +18,7 @@ HEADINGS = (
     *("error", "bound", "order", ""),
 )
 
-#: Kinds of files that a table is written to.
+#: Suffixes of the files of a table.
 SUFFIXES = (".md", ".csv")
 
 

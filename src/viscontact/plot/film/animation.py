@@ -14,8 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.plot.film.sheet import Sheet, new_sheet
 from viscontact.plot.histories.history import draw_scalars, drawn_scalars, needed_variables
-from viscontact.plot.histories.span import within_span
-from viscontact.plot.histories.time_axis import BEFORE_FIRST, suits_log_time
+from viscontact.plot.histories.time_axis import BEFORE_FIRST, suits_log_time, within_span
 from viscontact.plot.layout import style
 from viscontact.plot.layout.error_band import peak_note
 from viscontact.plot.layout.page import Width, page_width

@@ -11,8 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
-from viscontact.plot.histories.span import within_span
-from viscontact.plot.histories.time_axis import scale_time
+from viscontact.plot.histories.time_axis import scale_time, within_span
 from viscontact.plot.layout import style
 from viscontact.plot.layout.error_band import band_key, draw_band, limit_axis_to_curves
 from viscontact.plot.layout.page import Width, page_width

@@ -12,8 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.loads import ApproachHistory
 from viscontact.plot.histories.exact_history import ExactHistory, exact_history, exact_label
-from viscontact.plot.histories.span import within_span
-from viscontact.plot.histories.time_axis import scale_time
+from viscontact.plot.histories.time_axis import scale_time, within_span
 from viscontact.plot.layout import style
 from viscontact.plot.layout.page import NARROW, Width, page_width
 from viscontact.results.recorded_case import recorded_object

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
-from viscontact.plot.histories.span import within_span
+from viscontact.plot.histories.time_axis import within_span
 from viscontact.plot.layout import style
 from viscontact.plot.layout.error_band import Band, band_key, draw_band
 from viscontact.plot.layout.page import Width, page_width

@@ -1,4 +1,4 @@
-"""Time axis: linear, or logarithmic from the instant of loading."""
+"""Time axis: its span, and its scale, linear or logarithmic from the instant of loading."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.ticker import NullFormatter
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from viscontact.units.formatting import ReadableUnit
+from viscontact.units.formatting import ReadableUnit, format_quantity
 
 #: Relative change of a constant load, and share of the time from which on it is held: the rest is
 #: creep, which is even in log time.
@@ -20,6 +20,29 @@ _STEADY, _SOON = 1e-5, 0.05
 _DECADE = 10.0
 #: Length of a logarithmic time axis before the first step, against the rest of it.
 BEFORE_FIRST = 0.2
+
+
+def within_span(
+    run: xr.Dataset, variables: Iterable[str], times: ArrayLike | None, figure: str, name: str
+) -> xr.Dataset:
+    """Cut variables over time to a span [s], with two instants or more; None for the whole run.
+
+    >>> run = xr.Dataset({"force": ("time", [0.0, 1.0, 2.0])}, coords={"time": [0.0, 1.0, 2.0]})
+    >>> within_span(run, ["force"], [0.0, 1.5], "history", "").force.values.tolist()
+    [0.0, 1.0]
+    """
+    span = run["time"].values if times is None else np.atleast_1d(np.asarray(times, dtype=float))
+    if span.size == 0 or not np.all(np.isfinite(span)):
+        raise ValueError(f"{figure}: times must be finite numbers of seconds, got {times!r}")
+    inside = (run["time"] >= span.min()) & (run["time"] <= span.max())
+    shown = run[list(variables)].isel(time=np.flatnonzero(inside))
+    if shown.sizes["time"] < 2:
+        raise ValueError(
+            f"{figure}: needs at least two steps to draw a line, got {shown.sizes['time']} between "
+            f"{format_quantity(span.min(), 's')} and "
+            f"{format_quantity(span.max(), 's')}{f' in {name}' if name else ''}"
+        )
+    return shown
 
 
 def scale_time(
