@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from viscontact import Grid
 from viscontact.results.variables import FIELDS, SCALARS
-from viscontact.runs.directory.result_spec import Contents
+from viscontact.runs.directory.netcdf_layout import Contents
 from viscontact.runs.directory.result_writer import ResultWriter
 from viscontact.state import ContactState, Outcome
 

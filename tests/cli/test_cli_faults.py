@@ -430,7 +430,7 @@ def test_directory_that_cannot_be_written_to_is_refused(
         elif call == "lock":
             patched.setattr("viscontact.cli.run.run_directory.locked", locking)
         else:
-            patched.setattr("viscontact.runs.directory.double_buffer.created", refusing)
+            patched.setattr("viscontact.runs.directory.result_writer.created", refusing)
         assert main(["run", "case.yaml"]) == 2
     [line] = said_in_lines(capsys)
     assert "Read-only file system" in line

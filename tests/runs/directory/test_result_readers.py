@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from viscontact.runs.directory import double_buffer, result_writer
-from viscontact.runs.directory.result_spec import Contents
+from viscontact.runs.directory import result_writer
+from viscontact.runs.directory.netcdf_layout import Contents
 from viscontact.runs.directory.result_writer import ResultWriter
 from written_states import GRID, SOME, TIMES, begun, faults_of, names, resumed, state, write
 
@@ -73,23 +73,6 @@ def test_reader_goes_on_with_what_it_has_opened(
     assert names(path) == [NAME, "seen.nc"]
 
 
-def test_file_system_without_second_names_will_do(
-    path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def refuse(*_: object) -> None:
-        raise PermissionError(errno.EPERM, "Operation not permitted")
-
-    monkeypatch.setattr(os, "link", refuse)
-    with begun(path) as writer:
-        for row in range(len(TIMES)):
-            writer.append(state(row))
-            assert writer.publish()
-            assert faults_of(path, row + 1, SOME) == []
-        writer.finish()
-    assert faults_of(path, len(TIMES), SOME) == []
-    assert names(path) == [NAME]
-
-
 def _holding(monkeypatch: pytest.MonkeyPatch) -> list[Path]:
     """Let files be held as on Windows, where nothing takes the place of an open file."""
     held: list[Path] = []
@@ -101,7 +84,7 @@ def _holding(monkeypatch: pytest.MonkeyPatch) -> list[Path]:
         replace(source, target)
 
     monkeypatch.setattr(os, "replace", replacing)
-    monkeypatch.setattr(double_buffer, "MAY_BE_HELD", True)
+    monkeypatch.setattr(result_writer, "MAY_BE_HELD", True)
     monkeypatch.setattr(result_writer, "PAUSE", 0.0)
     return held
 
@@ -146,7 +129,7 @@ def test_directory_that_may_not_be_written_is_no_reader(
     path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     held = _holding(monkeypatch)
-    monkeypatch.setattr(double_buffer, "MAY_BE_HELD", False)
+    monkeypatch.setattr(result_writer, "MAY_BE_HELD", False)
     with begun(path) as writer:
         write(writer, 3)
         held.append(path)

@@ -16,7 +16,7 @@ import xarray as xr
 import viscontact as vc
 from viscontact.results.variables import FIELDS, SCALARS
 from viscontact.runs.directory import result_writer
-from viscontact.runs.directory.result_spec import Contents
+from viscontact.runs.directory.netcdf_layout import Contents
 from viscontact.runs.directory.result_writer import ResultWriter
 from written_states import GRID, SOME, TIMES, begun, faults_of, names, resumed, state, write
 

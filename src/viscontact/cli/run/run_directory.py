@@ -13,7 +13,7 @@ from viscontact.case.reader import digest
 from viscontact.case.yaml_source import parse
 from viscontact.cli.terminal.messages import refuse
 from viscontact.run_files import CASE_NAME, PROGRESS_NAME, RESULT_NAME, STATE_NAME
-from viscontact.runs.directory.atomic_files import replace
+from viscontact.runs.directory.atomic_files import put_in_place
 from viscontact.runs.directory.checkpoint import is_checkpoint
 from viscontact.runs.directory.lock import DirectoryInUse, locked
 from viscontact.runs.directory.progress_log import is_course
@@ -128,7 +128,7 @@ def _write(path: Path, content: bytes) -> None:
     try:
         with fresh.open("xb") as file:
             file.write(content)
-        replace(fresh, path)
+        put_in_place(fresh, path)
     except BaseException:
         with suppress(OSError):
             fresh.unlink()

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import errno
 import os
-from contextlib import suppress
 from pathlib import Path
+
+#: Windows does not replace a file that a program has open.
+MAY_BE_HELD = os.name == "nt"
 
 
 def flush_to_disk(path: Path) -> None:
@@ -46,7 +48,7 @@ def flush_directory(directory: Path) -> None:
         os.close(descriptor)
 
 
-def replace(fresh: Path, path: Path) -> None:
+def put_in_place(fresh: Path, path: Path) -> None:
     """Put a file in another one's place, all at once and durably.
 
     Parameters
@@ -64,45 +66,3 @@ def replace(fresh: Path, path: Path) -> None:
     flush_to_disk(fresh)
     fresh.replace(path)
     flush_directory(path.parent)
-
-
-def swap(fresh: Path, path: Path, aside: Path) -> bool:
-    """Put a file in another one's place, and that one in its.
-
-    Parameters
-    ----------
-    fresh : Path
-        The new file, closed and complete.
-    path : Path
-        Its place; at any moment the old file or the new one is there.
-    aside : Path
-        A name for the time between, in the same directory; what has it is removed.
-
-    Returns
-    -------
-    bool
-        Whether the old file now has the name of the new one; False where the file system knows
-        no second names, and the old file is gone.
-
-    Raises
-    ------
-    PermissionError
-        On Windows, while a program has the file open that is there.
-    """
-    flush_to_disk(fresh)
-    aside.unlink(missing_ok=True)
-    try:
-        os.link(path, aside)
-    except OSError:
-        fresh.replace(path)
-        flush_directory(path.parent)
-        return False
-    try:
-        fresh.replace(path)
-    except BaseException:
-        with suppress(OSError):
-            aside.unlink()
-        raise
-    aside.replace(fresh)
-    flush_directory(path.parent)
-    return True

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from viscontact import __version__
-from viscontact.runs.directory.atomic_files import replace
+from viscontact.runs.directory.atomic_files import put_in_place
 from viscontact.runs.directory.npz_archive import outline_of, read_plain, write_plain
 from viscontact.runs.directory.result_validation import REMEDY
 from viscontact.time_integration.restart_data import RestartData
@@ -66,7 +66,7 @@ def save_checkpoint(path: Path, checkpoint: Checkpoint) -> None:
         with fresh.open("xb") as file:
             # Not `asdict`, which would copy every array.
             write_plain(file, vars(checkpoint))
-        replace(fresh, path)
+        put_in_place(fresh, path)
     except BaseException:
         fresh.unlink(missing_ok=True)
         raise

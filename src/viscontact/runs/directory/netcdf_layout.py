@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.grid import Grid
+from viscontact.results.dataset import field_axis
 from viscontact.results.enlarged_grid import on_wider
 from viscontact.results.variables import (
     COORDINATES,
@@ -24,6 +25,7 @@ from viscontact.results.variables import (
     scalar_attributes,
 )
 from viscontact.state import ContactState
+from viscontact.time_integration.run_times import field_instants
 
 #: Memory that rows on their way from one file to another may take [bytes].
 BLOCK = 2**23
@@ -80,6 +82,47 @@ class Layout:
         """Return how many rows a file of this layout has."""
         lengths = [len(file.dimensions[axis]) if axis else 0 for axis in ("time", self.axis)]
         return Extent(*lengths)
+
+
+@dataclass(frozen=True, eq=False)
+class Contents:
+    """Quantities, grid and instants that the result of a run is to hold.
+
+    Attributes
+    ----------
+    grid : Grid
+        Grid of the fields when the run begins.
+    times : ndarray
+        Instants of the run [s].
+    fields : "all", "none" or sequence of float
+        Instants [s] whose fields are kept.
+    attributes : mapping
+        Global attributes.
+    errors : bool
+        Whether there will be errors of the scalars.
+    """
+
+    grid: Grid
+    times: NDArray[np.float64]
+    fields: str | Sequence[float] = "all"
+    attributes: Mapping[str, Any] = field(default_factory=dict)
+    errors: bool = False
+
+    @property
+    def kept(self) -> frozenset[float]:
+        """Instants whose fields are kept, among those known before the run [s]."""
+        return frozenset(field_instants(self.fields, self.times).tolist())
+
+    def layout(self, grid: Grid) -> Layout:
+        """Return the layout of the result's file for some grid of the fields.
+
+        Examples
+        --------
+        >>> grid = Grid((4, 4), (1.0, 1.0))
+        >>> Contents(grid, np.array([0.0, 1.0]), fields=[1.0]).layout(grid).axis
+        'field_time'
+        """
+        return Layout(grid, field_axis(self.fields) if self.kept else None, self.errors)
 
 
 def created(path: Path, layout: Layout, attributes: Mapping[str, Any]) -> netCDF4.Dataset:
@@ -216,51 +259,30 @@ def write_fields(file: netCDF4.Dataset, layout: Layout, row: int, state: Contact
         The state, on the grid of the layout or a smaller one.
     """
     for name in FIELDS:
-        field = getattr(state, name)
-        file.variables[name][row] = on_wider(name, field, state.grid, layout.grid)
+        values = on_wider(name, getattr(state, name), state.grid, layout.grid)
+        file.variables[name][row] = values
     if layout.axis not in (None, "time"):
         file.variables[layout.axis][row] = state.time
 
 
 def copy_rows(
-    source: netCDF4.Dataset,
-    target: netCDF4.Dataset,
-    layout: Layout,
-    begin: Extent,
-    end: Extent,
-    *,
-    wider: Grid | None = None,
+    source: netCDF4.Dataset, target: netCDF4.Dataset, layout: Layout, grid: Grid, extent: Extent
 ) -> None:
-    """Copy rows from one result to another of the same layout, a few at a time.
-
-    Parameters
-    ----------
-    source, target : netCDF4.Dataset
-        From where, and where to; the second one open for appending.
-    layout : Layout
-        Their layout.
-    wider : Grid, optional
-        Grid of the second one; that of the layout when left out.
-    begin, end : Extent
-        The first rows to be copied, and those behind the last.
-    """
+    """Copy the first rows of a result of some layout to one on a grid that is at least as large."""
     for name, (_, dimensions) in layout.columns.items():
         if dimensions[0] in ("x", "y"):
             continue
-        along_fields = name in FIELDS or name == layout.axis != "time"
-        first, last = (where.field_rows if along_fields else where.rows for where in (begin, end))
-        if name not in FIELDS:
-            for rows in _blocks(first, last, ()):
-                target.variables[name][rows] = source.variables[name][rows]
-            continue
-        grid = wider or layout.grid
-        for rows in _blocks(first, last, grid.shape):
-            fields = on_wider(name, source.variables[name][rows], layout.grid, grid)
-            target.variables[name][rows] = fields
+        is_field = name in FIELDS
+        last = extent.field_rows if is_field or name == layout.axis != "time" else extent.rows
+        for rows in _blocks(last, grid.shape if is_field else ()):
+            values = source.variables[name][rows]
+            if is_field:
+                values = on_wider(name, values, layout.grid, grid)
+            target.variables[name][rows] = values
 
 
-def _blocks(first: int, last: int, shape: tuple[int, ...]) -> Iterator[slice]:
+def _blocks(last: int, shape: tuple[int, ...]) -> Iterator[slice]:
     """Yield rows in pieces that fit into the memory meant for them."""
     size = max(1, BLOCK // (8 * int(np.prod(shape))))
-    for row in range(first, last, size):
+    for row in range(0, last, size):
         yield slice(row, min(row + size, last))

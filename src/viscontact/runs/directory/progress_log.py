@@ -5,18 +5,18 @@ from __future__ import annotations
 import json
 import math
 import os
+from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any, Self
 
 from viscontact.results.variables import SCALARS
-from viscontact.runs.directory.closing import Closing
 from viscontact.state import ContactState, Outcome
 
 #: How much of a file is read at once [bytes].
 BLOCK = 2**16
 
 
-class ProgressLog(Closing):
+class ProgressLog(AbstractContextManager["ProgressLog"]):
     r"""A file with a line of JSON for each state.
 
     A line holds the instant, all scalars of the result in SI units by their names there, the
@@ -145,6 +145,9 @@ class ProgressLog(Closing):
     def close(self) -> None:
         """Close the file; further calls do nothing."""
         self._file.close()
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
 
 
 def is_course(path: Path) -> bool:

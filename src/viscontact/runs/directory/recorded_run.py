@@ -14,11 +14,10 @@ from viscontact.results.provenance import describe
 from viscontact.run_files import PROGRESS_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.checkpoint import Checkpoint, is_checkpoint, load_checkpoint
 from viscontact.runs.directory.differences import Difference, differences
-from viscontact.runs.directory.double_buffer import hidden_copies
+from viscontact.runs.directory.netcdf_layout import Contents
 from viscontact.runs.directory.progress_log import ProgressLog
-from viscontact.runs.directory.result_spec import Contents
 from viscontact.runs.directory.result_validation import REMEDY
-from viscontact.runs.directory.result_writer import ResultWriter
+from viscontact.runs.directory.result_writer import ResultWriter, working_files
 from viscontact.runs.directory.stored_result import stored_run
 from viscontact.simulation.march import March
 from viscontact.simulation.provenance import describe_problem, run_attributes
@@ -259,5 +258,5 @@ def remove_traces(directory: Path) -> None:
     if is_checkpoint(directory / STATE_NAME):
         (directory / STATE_NAME).unlink()
     (directory / f".{STATE_NAME}.new").unlink(missing_ok=True)
-    for copy in hidden_copies(directory / RESULT_NAME):
-        copy.unlink(missing_ok=True)
+    for file in working_files(directory / RESULT_NAME):
+        file.unlink(missing_ok=True)

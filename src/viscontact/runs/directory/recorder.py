@@ -175,6 +175,7 @@ class RunRecord:
                 # The log must not be behind the state, not even after a power cut.
                 self._lines.flush_to_disk()
                 self._save()
+                self._writer.reopen()
         now = clock.monotonic()
         self._due = now + max(PAUSE, SHARE * (now - began))
 

@@ -7,7 +7,6 @@ from typing import Any
 
 import netCDF4
 import numpy as np
-from numpy.typing import NDArray
 
 from viscontact.grid import Grid
 from viscontact.runs.directory.netcdf_layout import Extent, Layout, opened
@@ -15,41 +14,23 @@ from viscontact.runs.directory.netcdf_layout import Extent, Layout, opened
 REMEDY = "start the run anew with --overwrite"
 
 
-def sound_times(path: Path, layout: Layout, extent: Extent) -> NDArray[np.float64]:
-    """Return the instants of a result, once it is certain that a run can go on with it.
-
-    Parameters
-    ----------
-    path : Path
-        The result.
-    layout : Layout
-        The layout it has to have.
-    extent : Extent
-        The rows it has to have at least.
-
-    Returns
-    -------
-    ndarray
-        Its instants, those beyond that extent included [s].
+def check_result(path: Path, layout: Layout, extent: Extent) -> None:
+    """Refuse a result that cannot be resumed: damaged, of another layout, or with fewer rows.
 
     Raises
     ------
     ValueError
-        If it cannot be read, has another layout, or fewer rows.
+        With the reason and a remedy.
     """
     if not path.is_file():
         raise ValueError(f"{path} is not there, so the run cannot go on; {REMEDY}")
     try:
         with opened(path, "r") as file:
-            fault = _fault(file, layout, extent)
-            times = np.array([]) if fault else _times(file, layout)
+            fault = _fault(file, layout, extent) or _fault_of_scalars(file, layout, extent)
     except (OSError, RuntimeError, ValueError) as error:
         raise ValueError(f"{path} cannot be read as a netCDF result ({error}); {REMEDY}") from error
-    if not fault and not (np.diff(times[: extent.rows]) > 0).all():
-        fault = "its times do not increase"
     if fault:
         raise ValueError(f"{path} is not the result of this run so far: {fault}; {REMEDY}")
-    return times
 
 
 def stored_grid(path: Path, grid: Grid) -> Grid:
@@ -71,7 +52,7 @@ def stored_grid(path: Path, grid: Grid) -> Grid:
         with opened(path, "r") as file:
             return grid.widened((len(file.dimensions["x"]), len(file.dimensions["y"])))
     except (OSError, RuntimeError, ValueError, KeyError):
-        return grid  # what is wrong with it is told by `sound_times`
+        return grid  # what is wrong with it is reported by `check_result`
 
 
 def _fault(file: netCDF4.Dataset, layout: Layout, extent: Extent) -> str:
@@ -95,9 +76,9 @@ def _fault(file: netCDF4.Dataset, layout: Layout, extent: Extent) -> str:
     return ""
 
 
-def _times(file: netCDF4.Dataset, layout: Layout) -> NDArray[np.float64]:
-    """Read every scalar once, so that what is damaged is known now."""
+def _fault_of_scalars(file: netCDF4.Dataset, layout: Layout, extent: Extent) -> str:
     for name, (_, dimensions) in layout.columns.items():
         if len(dimensions) == 1:
-            file.variables[name][:]
-    return np.array(file.variables["time"][:])
+            file.variables[name][:]  # raises where it is damaged
+    times = file.variables["time"][: extent.rows]
+    return "" if (np.diff(times) > 0).all() else "its times do not increase"

@@ -1,10 +1,11 @@
-"""The result of a run, written while it goes on."""
+"""Result of a run on disk, written while the run continues."""
 
 from __future__ import annotations
 
+import shutil
 import time as clock
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager, suppress
+from contextlib import AbstractContextManager, contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, Self
@@ -15,47 +16,64 @@ from numpy.typing import NDArray
 
 from viscontact.accuracy.error_bars import ErrorBars
 from viscontact.grid import Grid
-from viscontact.runs.directory.closing import Closing
-from viscontact.runs.directory.double_buffer import TwoCopies
+from viscontact.results.enlarged_grid import enlargement
+from viscontact.runs.directory.atomic_files import MAY_BE_HELD, put_in_place
 from viscontact.runs.directory.netcdf_layout import (
+    Contents,
     Extent,
+    Layout,
+    copy_rows,
+    created,
+    opened,
     read_scalars,
     write_errors,
     write_fields,
     write_scalars,
 )
-from viscontact.runs.directory.result_spec import Contents
-from viscontact.runs.directory.result_validation import sound_times, stored_grid
-from viscontact.runs.directory.run_account import NOTHING_YET, Account
+from viscontact.runs.directory.result_validation import check_result, stored_grid
 from viscontact.state import ContactState
 
 #: Rows of scalars that wait in memory at most.
 WAITING = 4096
-#: How often, and after how long [s], the last publication is tried where the place is held.
+#: Number and distance [s] of the attempts to replace a result that another program holds open.
 TRIES, PAUSE = 40, 0.25
-START: Mapping[str, Any] = {"rows": 0, "field_rows": 0, **NOTHING_YET}
+#: Position of a writer before its first row.
+START: Mapping[str, Any] = {
+    **{"rows": 0, "field_rows": 0},
+    **{"warnings": (), "wall_time": 0.0, "cells": None, "enlarged": ()},
+}
 
 
-class ResultWriter(Closing):
-    """A result that grows by a state at a time and can be read at any moment.
+def working_files(path: Path) -> tuple[Path, Path]:
+    """Return the hidden files of a result: the one written to, and the one before an enlargement.
 
-    Rows are written to a hidden working copy; `publish` closes it and puts it in the place of the
-    result, whose file becomes the working copy and is brought up to date. So the name of the
-    result stands for a closed and complete netCDF-4 file at every moment, whatever happens to the
-    process or to the power: HDF5 tears a file that is open for writing when it is killed, and
-    locks it against readers.
+    Examples
+    --------
+    >>> [file.name for file in working_files(Path("result.nc"))]
+    ['.result.nc.working', '.result.nc.smaller']
+    """
+    return path.with_name(f".{path.name}.working"), path.with_name(f".{path.name}.smaller")
+
+
+class ResultWriter(AbstractContextManager["ResultWriter"]):
+    """Writer of a result that grows by one state at a time and can be read at any moment.
+
+    Rows are written to a hidden working file. `publish` closes it and renames it to the result;
+    a copy of that becomes the next working file. So the result is a closed and complete netCDF-4
+    file at every moment, whatever happens to the process or to the power: HDF5 leaves a file
+    incomplete that is open for writing when its process is killed, and locks it against readers.
 
     Parameters
     ----------
     path : path
-        The result. What is there stays as it is until the first `publish`.
+        The result. An existing file stays until the first `publish`.
     contents : Contents
-        What it is to hold. A state on a wider grid has it laid out anew.
+        What it is to hold. A state on a larger grid has the file laid out anew.
 
     Notes
     -----
     Global attributes of its own: `warnings` and `grid_enlarged`, a line each; `wall_time` [s],
-    summed over resumptions; `complete`, 1 once the run is over.
+    summed over resumptions; `complete`, 1 once the run is finished.
 
     Examples
     --------
@@ -74,82 +92,63 @@ class ResultWriter(Closing):
     ([2.0, 2.0], 1)
     """
 
+    _layout: Layout
+
     def __init__(self, path: str | Path, contents: Contents) -> None:
-        self._set_up(Path(path), contents, START, contents.grid)
+        self._set_up(Path(path), contents, START)
+        self._layout = contents.layout(contents.grid)
         with self._writing():
-            self._copies.begin(self._all_attributes())
+            self._create()
 
     @classmethod
     def resume(cls, path: str | Path, contents: Contents, position: Mapping[str, Any]) -> Self:
-        """Go on with a result from a position.
+        """Continue a result from the `position` of an earlier process when it published.
 
-        Parameters
-        ----------
-        path : path
-            The result. Rows it has beyond the position are written again as they come.
-        contents : Contents
-            What it is to hold, as before.
-        position : dict
-            The `position` of an earlier process when it published.
-
-        Returns
-        -------
-        ResultWriter
-            The next state to be appended is the one after the position.
+        Rows that the result has beyond that are dropped at the next publication.
 
         Raises
         ------
         ValueError
-            If the result cannot be read, is another run's, or has fewer rows than that.
+            If the result cannot be read, is of another run, or has fewer rows than that.
         """
         writer = cls.__new__(cls)
-        # It may be ahead of the position, on a wider grid.
-        so_far = Account(contents.grid, position).grid
-        writer._set_up(Path(path), contents, position, stored_grid(Path(path), so_far))
-        there = sound_times(writer._path, writer._layout, writer._done)
-        writer._ahead = there[writer._done.rows :].tolist()
-        writer._copies.take_over(writer._done)
+        writer._set_up(Path(path), contents, position)
+        # The result may be ahead of the position, on a larger grid.
+        writer._layout = contents.layout(stored_grid(Path(path), writer.grid))
+        check_result(writer._path, writer._layout, writer._done)
+        with writer._writing():
+            writer._create(writer._path, writer._layout)
         return writer
 
-    def _set_up(
-        self, path: Path, contents: Contents, position: Mapping[str, Any], laid_out: Grid
-    ) -> None:
+    def _set_up(self, path: Path, contents: Contents, position: Mapping[str, Any]) -> None:
+        self._path, self._contents = path, contents
+        self._working, self._smaller = working_files(path)
+        self._open: netCDF4.Dataset | None = None
         self._done = Extent(position["rows"], position["field_rows"])
-        self._kept = contents.kept
-        self._account = Account(contents.grid, position)
-        self._path, self._layout = path, contents.layout(laid_out)
-        self._copies = TwoCopies(path, self._layout)
-        self._attributes = {**contents.attributes, "complete": np.int32(0)}
+        self._published: Extent | None = None
+        self._complete = False
+        self.grid = contents.grid.widened(tuple(position["cells"] or contents.grid.shape))
+        self._started: float = clock.monotonic() - position["wall_time"]
+        self._warnings, self._enlarged = list(position["warnings"]), list(position["enlarged"])
         # States without fields, of rows from `_written` on.
         self._waiting: list[ContactState] = []
         self._written = self._done.rows
         self._failed = False
-        # Instants of the rows that an earlier process has published beyond the position.
-        self._ahead: list[float] = []
+        self._kept = contents.kept
 
     @property
     def position(self) -> dict[str, Any]:
-        """Where the writer stands: what `resume` takes, once `publish` has returned True.
-
-        Returns
-        -------
-        dict
-            Plain data: ``rows`` and ``field_rows``, how many there are, and an account of the run
-            so far.
-        """
+        """Plain data from which `resume` continues, once `publish` has returned True."""
         return {
-            "rows": self._done.rows,
-            "field_rows": self._done.field_rows,
-            **self._account.position,
+            **self._done._asdict(),
+            "warnings": list(self._warnings),
+            "wall_time": clock.monotonic() - self._started,
+            "cells": list(self.grid.shape),
+            "enlarged": list(self._enlarged),
         }
 
     def append(self, state: ContactState) -> None:
-        """Add a state; it is safe after the next `publish`.
-
-        Parameters
-        ----------
-        state : ContactState
-            The next state of the run.
+        """Add the next state of the run; it is safe after the next `publish`.
 
         Raises
         ------
@@ -158,43 +157,45 @@ class ResultWriter(Closing):
             resumed from there.
         """
         rows, field_rows = self._done
-        self._follow(state.time)
         self._make_room(state.grid)
         if self._layout.axis == "time" or state.time in self._kept:
             with self._writing():
-                write_fields(self._copies.file, self._layout, field_rows, state)
+                write_fields(self._file(), self._layout, field_rows, state)
             field_rows += 1
         # What an interruption here has left does not count.
         self._waiting[rows - self._written :] = [state.without_fields()]
-        self._account.add(state)
+        if state.grid != self.grid:
+            self._enlarged.append(enlargement(state.time, self.grid, state.grid))
+            self.grid = state.grid
+        self._warnings += state.warnings
         self._done = Extent(rows + 1, field_rows)
         if len(self._waiting) >= WAITING:
             with self._writing():
-                self._write_waiting(self._copies.file)
+                self._write_waiting()
 
     def publish(self) -> bool:
-        """Put all states so far in the place of the result, at once and durably.
+        """Replace the result by one with all states so far, at once and durably.
 
         Returns
         -------
         bool
-            Whether they are there; False if a program that reads the result holds its place, as
-            happens on Windows: then the next time has to do, and `position` is not reached yet.
+            False if another program holds the result, as happens on Windows: then `position` is
+            not reached yet.
 
         Raises
         ------
         OSError
             If that fails; the result is as it was published last.
         """
-        return self._copies.published == self._done or self._publish()
+        return self._published == self._done or self._publish()
 
-    @property
-    def grid(self) -> Grid:
-        """Grid of the last state, the widest so far."""
-        return self._account.grid
+    def reopen(self) -> None:
+        """Make the working file for the next rows, as the next `append` does otherwise."""
+        with self._writing():
+            self._file()
 
     def history(self) -> dict[str, NDArray[np.float64]]:
-        """Return all scalars so far, and their instants, as they are written.
+        """Return all scalars and instants so far.
 
         Raises
         ------
@@ -202,30 +203,22 @@ class ResultWriter(Closing):
             If they cannot be written.
         """
         with self._writing():
-            self._write_waiting(self._copies.file)
-            found = read_scalars(self._copies.file)
-        return {name: values[: self._done.rows] for name, values in found.items()}
+            self._write_waiting()
+            return read_scalars(self._file())
 
     def finish(self, bars: ErrorBars | None = None) -> None:
-        """Publish for the last time, as complete, and remove the working copy.
-
-        Parameters
-        ----------
-        bars : ErrorBars, optional
-            Errors of the scalars, of all rows.
+        """Publish the complete result, with the errors of its scalars, and close it.
 
         Raises
         ------
         OSError
             If that fails; the result is as it was published last.
         """
-        if self._ahead:
-            self._cut()
         if bars is not None:
             with self._writing():
-                write_errors(self._copies.file, bars.values)
-            self._account.add_warning(bars.warnings)
-        self._attributes["complete"] = np.int32(1)
+                write_errors(self._file(), bars.values)
+            self._warnings += bars.warnings
+        self._complete = True
         for _ in range(TRIES):
             if self._publish():
                 break
@@ -238,53 +231,92 @@ class ResultWriter(Closing):
         self.close()
 
     def close(self) -> None:
-        """Give up what is not published; never fails, and further calls do nothing."""
-        with suppress(OSError):
-            self._copies.discard()
+        """Discard what is not published; never fails, and further calls do nothing."""
+        # On a full disk the rows that HDF5 still holds cannot be written.
+        with suppress(OSError, RuntimeError):
+            self._close()
+        for file in (self._working, self._smaller):
+            with suppress(OSError):
+                file.unlink(missing_ok=True)
 
-    def _follow(self, time: float) -> None:
-        """Keep step with the rows that are there already; what differs ends there."""
-        if self._ahead and self._ahead[0] != time:
-            self._cut()
-        del self._ahead[:1]
+    def __exit__(self, *_: object) -> None:
+        self.close()
 
-    def _cut(self) -> None:
-        with self._writing():
-            self._write_waiting(self._copies.file)
-            self._copies.cut(self._done, self._all_attributes())
-        self._ahead = []
+    def _create(self, source: Path | None = None, layout: Layout | None = None) -> None:
+        """Create the working file, with the rows so far of another file of some layout."""
+        self.close()
+        try:
+            self._open = file = created(self._working, self._layout, self._attributes)
+            if source is not None and layout is not None:
+                with opened(source, "r") as stored:
+                    copy_rows(stored, file, layout, self._layout.grid, self._done)
+        except BaseException:
+            self.close()
+            raise
 
     def _make_room(self, grid: Grid) -> None:
-        """Lay the file out anew if the run has enlarged its grid beyond that of the file."""
-        room = self._layout.grid.shape
+        """Lay the working file out anew if the grid of the run has outgrown that of the file."""
+        room, layout = self._layout.grid.shape, self._layout
         if grid.shape[0] <= room[0] and grid.shape[1] <= room[1]:
             return
-        layout = replace(self._layout, grid=grid)
         with self._writing():
-            self._write_waiting(self._copies.file)
-            self._copies.widen(layout, self._done, self._all_attributes())
-        self._layout, self._ahead = layout, []
+            self._write_waiting()
+            self._close()
+            self._layout = replace(layout, grid=grid)
+            self._working.replace(self._smaller)
+            self._open = larger = created(self._working, self._layout, self._attributes)
+            with opened(self._smaller, "r") as smaller:
+                copy_rows(smaller, larger, layout, grid, self._done)
+            self._smaller.unlink()
 
     def _publish(self) -> bool:
         with self._writing():
-            file = self._copies.file
-            self._write_waiting(file)
-            for name, value in self._all_attributes().items():
+            self._write_waiting()
+            file = self._file()
+            for name, value in self._attributes.items():
                 # What is written again leaves a hole in the file.
                 if name not in file.ncattrs() or not np.array_equal(file.getncattr(name), value):
                     file.setncattr(name, value)
-            return self._copies.publish(self._done)
+            self._close()
+            try:
+                put_in_place(self._working, self._path)
+                self._published = self._done
+            except PermissionError:
+                if not MAY_BE_HELD:
+                    raise
+                self._open = opened(self._working, "a")
+        return self._open is None
 
-    def _all_attributes(self) -> dict[str, Any]:
-        return {**self._attributes, **self._account.attributes}
+    @property
+    def _attributes(self) -> dict[str, Any]:
+        return {
+            **self._contents.attributes,
+            "complete": np.int32(self._complete),
+            "warnings": "\n".join(self._warnings),
+            "grid_enlarged": "\n".join(self._enlarged),
+            "wall_time": clock.monotonic() - self._started,
+        }
 
-    def _write_waiting(self, file: netCDF4.Dataset) -> None:
-        write_scalars(file, self._written, self._waiting[: self._done.rows - self._written])
+    def _write_waiting(self) -> None:
+        waiting = self._waiting[: self._done.rows - self._written]
+        write_scalars(self._file(), self._written, waiting)
         self._written, self._waiting = self._done.rows, []
+
+    def _close(self) -> None:
+        file, self._open = self._open, None
+        if file is not None:
+            file.close()
+
+    def _file(self) -> netCDF4.Dataset:
+        if self._open is None:
+            self._working.unlink(missing_ok=True)
+            shutil.copyfile(self._path, self._working)
+            self._open = opened(self._working, "a")
+        return self._open
 
     @contextmanager
     def _writing(self) -> Iterator[None]:
-        """Let nothing be written any more once that has failed: a torn copy is not published."""
+        """Refuse to write after a failure: a torn working file must not be published."""
         if self._failed:
             raise OSError(f"{self._path} could not be written before; resume the run from it")
         self._failed = True

@@ -19,7 +19,7 @@ from pydantic import TypeAdapter
 
 from viscontact.case.data_file import is_plain_name
 from viscontact.run_files import CASE_NAME
-from viscontact.runs.directory.atomic_files import replace
+from viscontact.runs.directory.atomic_files import put_in_place
 from viscontact.web.workspace.problems import RequestError
 
 _FILES, _RUNS, _GIVEN, _RUN = "files", "runs", "given", "run"
@@ -193,7 +193,7 @@ def _write(path: Path, content: bytes) -> None:
     fresh = path.with_name(f".{secrets.token_hex(6)}.new")  # requests may write at the same time
     try:
         fresh.write_bytes(content)
-        replace(fresh, path)
+        put_in_place(fresh, path)
     finally:
         with suppress(OSError):  # exists only after a failure
             fresh.unlink()
