@@ -111,6 +111,7 @@ BENCHMARKS = {
     "memory": "memory.py",
     "long-runs": "long_runs.py",
     "start-up": "start_up.py",
+    "storing": "storing.py",
 }
 
 TASKS = {

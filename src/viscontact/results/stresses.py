@@ -80,7 +80,8 @@ def section_stresses(
     below = _usual_depths(results) if depths is None else np.atleast_1d(np.asarray(depths, float))
     pressure = _chosen(results["pressure"], times)
     grid = recorded_grid(results)
-    found = [stress_on_section(field, grid, below, ratio, x=x, y=y) for field in pressure.values]
+    fields = (np.asarray(field, dtype=np.float64) for field in pressure.values)
+    found = [stress_on_section(field, grid, below, ratio, x=x, y=y) for field in fields]
     return _labelled(results, pressure, found, below, "x" if x is None else "y")
 
 

@@ -71,6 +71,24 @@ def test_result_holds_every_bit_at_each_publication(
     assert names(path) == [NAME]
 
 
+@pytest.mark.parametrize(("tolerance", "kind"), [(1e-6, "f4"), (6e-7, "f4"), (5e-7, "f8")])
+def test_fields_are_stored_in_the_precision_that_the_tolerance_needs(
+    tolerance: float, kind: str, path: Path
+) -> None:
+    contents = Contents(GRID, TIMES, "all", tolerance=tolerance)
+    with ResultWriter(path, contents) as writer:
+        writer.append(state(0))
+        writer.finish()
+    with netCDF4.Dataset(str(path)) as file:
+        for name in FIELDS:
+            assert file.variables[name].dtype == kind
+            found = file.variables[name][0].filled()
+            np.testing.assert_array_equal(found, getattr(state(0), name).astype(kind))
+        assert file.variables["approach"].dtype == "f8"
+    if kind == "f4":
+        assert np.finfo(kind).eps / 2 <= tolerance / 10
+
+
 def test_result_describes_itself(path: Path) -> None:
     with begun(path) as writer:
         write(writer, 5)

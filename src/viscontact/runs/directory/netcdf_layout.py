@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
@@ -29,6 +29,8 @@ from viscontact.time_integration.run_times import field_instants
 
 #: Memory that rows on their way from one file to another may take [bytes].
 BLOCK = 2**23
+#: Tolerance from which fields are stored in single precision, which rounds by a tenth of it.
+SINGLE_PRECISION = 10 * 2.0**-24
 
 
 class Extent(NamedTuple):
@@ -58,11 +60,14 @@ class Layout:
         The dimension over which fields are kept, ``time`` or ``field_time``; None without fields.
     errors : bool
         Whether there is room for the errors of the scalars, which are NaN until they are known.
+    kind : str
+        NumPy's name of the type of the fields.
     """
 
     grid: Grid
     axis: str | None
     errors: bool = False
+    kind: str = "f8"
 
     @property
     def columns(self) -> dict[str, tuple[Variable, tuple[str, ...]]]:
@@ -76,7 +81,9 @@ class Layout:
         if self.axis != "time":
             found[self.axis] = (Variable("s", "time of the stored fields"), (self.axis,))
         axes = (self.axis, "x", "y")
-        return found | {name: (variable, axes) for name, variable in FIELDS.items()}
+        return found | {
+            name: (replace(variable, kind=self.kind), axes) for name, variable in FIELDS.items()
+        }
 
     def extent_of(self, file: netCDF4.Dataset) -> Extent:
         """Return how many rows a file of this layout has."""
@@ -100,6 +107,8 @@ class Contents:
         Global attributes.
     errors : bool
         Whether there will be errors of the scalars.
+    tolerance : float
+        Relative error of the pressure, from which the precision of the fields follows.
     """
 
     grid: Grid
@@ -107,6 +116,7 @@ class Contents:
     fields: str | Sequence[float] = "all"
     attributes: Mapping[str, Any] = field(default_factory=dict)
     errors: bool = False
+    tolerance: float = 0.0
 
     @property
     def kept(self) -> frozenset[float]:
@@ -122,7 +132,9 @@ class Contents:
         >>> Contents(grid, np.array([0.0, 1.0]), fields=[1.0]).layout(grid).axis
         'field_time'
         """
-        return Layout(grid, field_axis(self.fields) if self.kept else None, self.errors)
+        axis = field_axis(self.fields) if self.kept else None
+        kind = "f4" if self.tolerance >= SINGLE_PRECISION else "f8"
+        return Layout(grid, axis, self.errors, kind)
 
 
 def created(path: Path, layout: Layout, attributes: Mapping[str, Any]) -> netCDF4.Dataset:
@@ -163,10 +175,12 @@ def created(path: Path, layout: Layout, attributes: Mapping[str, Any]) -> netCDF
 def _create(
     file: netCDF4.Dataset, name: str, variable: Variable, dimensions: tuple[str, ...]
 ) -> None:
-    options: dict[str, Any] = {"fill_value": np.nan} if variable.kind == "f8" else {}
+    options: dict[str, Any] = {"fill_value": np.nan} if variable.kind in ("f4", "f8") else {}
     if name in FIELDS:
-        chunks = (1, *(len(file.dimensions[axis]) for axis in dimensions[1:]))
-        options |= {"zlib": True, "complevel": 1, "shuffle": True, "chunksizes": chunks}
+        options["chunksizes"] = (1, *(len(file.dimensions[axis]) for axis in dimensions[1:]))
+    if name == "pressure":
+        # Most of it is 0. Gap and displacement hardly shrink, at many times the cost of writing.
+        options |= {"zlib": True, "complevel": 1, "shuffle": True}
     file.createVariable(name, variable.kind, dimensions, **options).setncatts(variable.attributes)
 
 

@@ -79,8 +79,10 @@ class Recorded:
         """What the result is to hold."""
         about = {name: json.dumps(self.case[name]) for name in ("fields", "errors")}
         attributes = {"title": self.title, **run_attributes(self.run), **about}
-        instants = self.run.problem.instants
-        return Contents(self.run.grid, instants, self.fields, attributes, self.errors)
+        grid, problem = self.run.grid, self.run.problem
+        return Contents(
+            grid, problem.instants, self.fields, attributes, self.errors, problem.tolerance
+        )
 
     def by(self, transforms: str) -> Recorded:
         """The same by the Fourier transforms that it was begun with.

@@ -1,0 +1,82 @@
+"""Cost of storing a run, beside the cost of marching it.
+
+The shipped roller of 512 x 128 cells in 150 steps is marched without any output, recorded with
+scalars only, and recorded with the fields of all steps; the three take turns. Storing is what a
+recorded run takes more than the march alone, errors of the scalars not included.
+
+    python benchmarks/storing.py [--repeat 3] [--steps 150] [--cells 512 128]
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import time
+from collections.abc import Callable
+from importlib.resources import as_file, files
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from viscontact.case import read_case
+from viscontact.runs.directory.recorded_run import Recorded
+from viscontact.runs.directory.recorder import RunRecord
+from viscontact.runs.preparation import prepared
+from viscontact.simulation.setup import RunSetup
+from viscontact.simulation.state_generator import march_run
+
+
+def roller(steps: int, cells: tuple[int, int]) -> RunSetup:
+    settings = [f"time.steps={steps}", f"grid.shape={list(cells)}"]
+    with as_file(files("viscontact.examples") / "roller-dogbone-e05.yaml") as path:
+        return prepared(read_case(path, settings)).run
+
+
+def march(run: RunSetup) -> int:
+    for _ in march_run(run):
+        pass
+    return 0
+
+
+def record(run: RunSetup, fields: str) -> int:
+    """Record a run in a directory of its own; return the size of the result [bytes]."""
+    with TemporaryDirectory() as folder:
+        recording = RunRecord(Recorded(Path(folder), run, fields))
+        for _ in recording.steps():
+            pass
+        recording.finish()
+        return (Path(folder) / "result.nc").stat().st_size
+
+
+def measured(act: Callable[[], int]) -> tuple[float, float, float, int]:
+    """User, system and wall time [s] of one call, and what it returns."""
+    before, began = os.times(), time.perf_counter()
+    size = act()
+    wall, after = time.perf_counter() - began, os.times()
+    return after.user - before.user, after.system - before.system, wall, size
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--repeat", type=int, default=3)
+    parser.add_argument("--steps", type=int, default=150)
+    parser.add_argument("--cells", type=int, nargs=2, default=(512, 128))
+    given = parser.parse_args()
+    run = roller(given.steps, tuple(given.cells))
+    ways: dict[str, Callable[[], int]] = {
+        "march": lambda: march(run),
+        "record, no fields": lambda: record(run, "none"),
+        "record, all fields": lambda: record(run, "all"),
+    }
+    best = {name: (float("inf"), 0.0, 0.0, 0) for name in ways}
+    for _ in range(given.repeat):
+        for name, way in ways.items():
+            best[name] = min(best[name], measured(way))
+    marching = best["march"][0]
+    print(f"{'':20}user s  system s  wall s  storing/marching (user)    MB")
+    for name, (user, system, wall, size) in best.items():
+        ratio = (user - marching) / marching
+        print(f"{name:18}{user:8.2f}{system:10.2f}{wall:8.2f}{ratio:25.2f}{size / 1e6:8.1f}")
+
+
+if __name__ == "__main__":
+    main()
