@@ -153,7 +153,7 @@ def test_what_is_shown_is_small_whole_and_asks_for_nothing(noun: Any) -> None:
     assert not re.search(r"https?:|url\(|@import|src=|href=|<script|<style", page)
     assert not re.search(r"\b(nan|inf|None|SI)\b", _text(root), re.IGNORECASE)
     drawn = len(list(root.iter("svg")))
-    bare = vc.Elastic | vc.AutomaticGrid | vc.LogarithmicProfile
+    bare = vc.Elastic | vc.Grid | vc.AutomaticGrid | vc.LogarithmicProfile
     assert (drawn == 0) == isinstance(noun, bare | vc.WLF | vc.Arrhenius | vc.TabulatedShift)
     paths = " ".join(path.get("d", "") for path in root.iter("path"))
     numbers = [float(number) for number in re.findall(r"-?[\d.]+|nan|inf", paths)]

@@ -24,7 +24,7 @@ from viscontact.notebook.measurements import (
     record_card,
 )
 from viscontact.notebook.result_card import result_card
-from viscontact.notebook.shapes import grid_drawings, indenter_drawings
+from viscontact.notebook.shapes import indenter_drawings
 from viscontact.notebook.surface_map import surface_card
 from viscontact.results.accessor import ResultAccessor
 from viscontact.results.argument_table import argument_rows, in_plain_words
@@ -167,4 +167,4 @@ def _drawn(noun: Displayable) -> list[Element]:
         return law_drawings(noun if isinstance(noun, Law) else noun.law)
     if isinstance(noun, LoadHistory):
         return load_drawings(noun)
-    return grid_drawings(noun) if isinstance(noun, Grid) else []
+    return []

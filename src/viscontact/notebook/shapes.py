@@ -8,12 +8,10 @@ from xml.etree.ElementTree import Element
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.grid import Grid
 from viscontact.indenters import Indenter
 from viscontact.indenters.cross_section import Section, cut, lines_through
-from viscontact.notebook.html import element
 from viscontact.notebook.svg_axes import linear
-from viscontact.notebook.svg_panel import ROOM, WIDTH, Mark, panel
+from viscontact.notebook.svg_panel import ROOM, Mark, panel
 
 _POINTS, _MESH = 241, 121
 #: Of the smallest radius of curvature: bodies are drawn where their gap is below it.
@@ -23,8 +21,6 @@ _DECADES, _TRIALS = (-9, 2), 24
 #: Bodies without any length of their own are drawn over this [m]; they look alike at any size.
 _ANY_EXTENT = 1e-3
 _PERIODS = 3
-#: Lines of a grid are drawn so far apart at least, and all of it in so much room [px].
-_LEAST_MESH, _ROOM = 7.0, (206.0, 120.0)
 
 
 def indenter_drawings(indenter: Indenter) -> list[Element]:
@@ -40,7 +36,7 @@ def indenter_drawings(indenter: Indenter) -> list[Element]:
     list of Element
         Two drawings; one where both would be alike; none if no part of the body is found.
     """
-    along, across = drawn_size(indenter)
+    along, across = natural_size(indenter)
     x, y = (np.linspace(-extent / 2, extent / 2, _MESH) for extent in (along, across))
     gap = indenter.gap(x[:, None], y)
     if not np.isfinite(gap).any():
@@ -53,7 +49,7 @@ def indenter_drawings(indenter: Indenter) -> list[Element]:
     return [_section(first, "x", "along x"), _section(second, "y", "along y")]
 
 
-def drawn_size(indenter: Indenter) -> tuple[float, float]:
+def natural_size(indenter: Indenter) -> tuple[float, float]:
     """Choose how much of a body is worth drawing, along x and y around the origin [m].
 
     Parameters
@@ -66,7 +62,7 @@ def drawn_size(indenter: Indenter) -> tuple[float, float]:
     A cap an eighth of the radius high:
 
     >>> from viscontact.indenters import Sphere
-    >>> [round(extent, 3) for extent in drawn_size(Sphere(radius=1.0))]
+    >>> [round(extent, 3) for extent in natural_size(Sphere(radius=1.0))]
     [0.968, 0.968]
     """
     found = [_reach(indenter, axis) for axis in (0, 1)]
@@ -76,59 +72,6 @@ def drawn_size(indenter: Indenter) -> tuple[float, float]:
     reaches = [reach if math.isfinite(reach) else fallback for reach in found]
     # A body that is far longer than wide looks so in numbers; one of no height is no drawing.
     return 2 * reaches[0], 2 * reaches[1]
-
-
-def grid_drawings(grid: Grid) -> list[Element]:
-    """Draw a grid in its true proportions, with some of its lines.
-
-    Parameters
-    ----------
-    grid : Grid
-        The grid.
-
-    Returns
-    -------
-    list of Element
-        One drawing.
-    """
-    scale = min(room / extent for room, extent in zip(_ROOM, grid.size, strict=True))
-    width, height = (max(scale * extent, 6.0) for extent in grid.size)
-    every = [
-        math.ceil(cells * _LEAST_MESH / extent)
-        for cells, extent in zip(grid.shape, (width, height), strict=True)
-    ]
-    columns = [width * i / grid.shape[0] for i in range(0, grid.shape[0] + 1, every[0])]
-    rows = [height * j / grid.shape[1] for j in range(0, grid.shape[1] + 1, every[1])]
-    lines = "".join(
-        [f"M{7 + x:.1f},22v{height:.1f}" for x in columns]
-        + [f"M7,{22 + y:.1f}h{width:.1f}" for y in rows]
-    )
-    shown = " × ".join(str(each) for each in every)
-    head = "the cells" if max(every) == 1 else f"lines every {shown} cells"
-    border = {"stroke_dasharray": "5 3"} if grid.periodic else {}
-    frame = element(
-        "rect",
-        **{"x": "7", "y": "22", "width": f"{width:.1f}", "height": f"{height:.1f}"},
-        fill="none",
-        stroke="currentColor",
-        stroke_width="1.6",
-        **border,
-    )
-    return [
-        element(
-            "svg",
-            element("text", head, x="6", y="13", font_weight="600"),
-            element("path", d=lines, stroke="currentColor", stroke_opacity="0.4", fill="none"),
-            frame,
-            viewBox=f"0 0 {WIDTH} {height + 30:.0f}",
-            width=str(WIDTH),
-            height=f"{height + 30:.0f}",
-            role="img",
-            aria_label="the grid",
-            style="font:11px system-ui,sans-serif;max-width:100%",
-            fill="currentColor",
-        )
-    ]
 
 
 def _reach(indenter: Indenter, axis: int) -> float:

@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterator
 from functools import partial
 from xml.etree.ElementTree import Element
 
-import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
@@ -17,12 +16,9 @@ from viscontact.notebook.html import element
 from viscontact.notebook.shapes import indenter_drawings
 from viscontact.plot import creep_curve, draw_indenter
 from viscontact.plot.layout.saving import as_svg
+from viscontact.plot.materials.creep import curve_times
 from viscontact.report.recorded_surface import is_left_out, recorded_surface
 from viscontact.results.recorded_case import case_of, recorded_object
-
-#: A law is drawn from so much earlier than the end on [-]: how it comes to where the run begins.
-_BACK = 1e-4
-_POINTS = 300
 
 
 def geometry(ds: xr.Dataset) -> Element:
@@ -121,8 +117,7 @@ def _curves(ds: xr.Dataset, part: str) -> Figure:
     instants = ds["time"].values
     positive = instants[instants > 0]
     end = float(positive.max(initial=0.0)) or 1.0
-    first = min(float(positive.min(initial=end)), _BACK * end)
-    return creep_curve(law, np.geomspace(first, end, _POINTS))
+    return creep_curve(law, curve_times(end, float(positive.min(initial=end))))
 
 
 def _drawn(draw: Callable[[], Figure], about: str) -> Element:

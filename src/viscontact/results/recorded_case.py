@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import json
 from typing import Any
 
@@ -11,13 +12,21 @@ from viscontact.grid import Grid
 from viscontact.results.provenance import rebuild
 
 
+@functools.lru_cache(maxsize=8)
+def parse_case(text: str) -> dict[str, Any]:
+    """Parse the attribute ``case`` of a result; ValueError if it is no JSON object."""
+    case = json.loads(text)
+    if not isinstance(case, dict):
+        raise ValueError("the recorded case is no JSON object")
+    return case
+
+
 def case_of(ds: xr.Dataset) -> dict[str, Any]:
-    """Return the case that a result keeps; empty where it keeps none."""
+    """The case that a result keeps, not to be changed; empty where it keeps none."""
     try:
-        case = json.loads(str(ds.attrs.get("case", "")))
+        return parse_case(str(ds.attrs.get("case", "")))
     except ValueError:
         return {}
-    return case if isinstance(case, dict) else {}
 
 
 def recorded_poisson_ratio(results: xr.Dataset) -> float:

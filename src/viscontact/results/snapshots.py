@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
 
 import numpy as np
 import xarray as xr
@@ -144,10 +143,18 @@ def snapshot_reader(results: xr.Dataset) -> Callable[[int], Snapshot]:
     callable
         From the number of a stored instant to the fields at it.
     """
-    body_end, periodic = _body_end(results), recorded_grid(results).periodic
+    grid = recorded_grid(results)
+    body_end = _body_end(results, grid)
 
     def read(index: int) -> Snapshot:
-        return replace(_snapshot(results, index), body_end=body_end, periodic=periodic)
+        dimension = _time_dimension(results)
+        fields = results[["pressure", "gap"]].isel({dimension: index})
+        pressure, gap = (
+            np.asarray(fields[name].transpose("x", "y").values, dtype=np.float64)
+            for name in ("pressure", "gap")
+        )
+        x, y = results["x"].values, results["y"].values
+        return Snapshot(float(fields[dimension]), x, y, pressure, gap, body_end, grid.periodic)
 
     return read
 
@@ -195,7 +202,7 @@ def _in_contact(results: xr.Dataset, instants: NDArray[np.float64]) -> NDArray[n
     return np.asarray(peak.values > 0, dtype=np.bool_)
 
 
-def _body_end(results: xr.Dataset) -> Outline | None:
+def _body_end(results: xr.Dataset, grid: Grid) -> Outline | None:
     # Only a body that ends has an infinite gap beside it.
     # The last is known on all of the grid, should that have been enlarged meanwhile.
     last = results["gap"].isel({_time_dimension(results): -1}).values
@@ -205,20 +212,7 @@ def _body_end(results: xr.Dataset) -> Outline | None:
         indenter = recorded_object(results, "indenter", "snapshot")
     except ValueError:  # a measured surface is not kept with the result
         return None
-    x, y = results["x"].values, results["y"].values
-    size = (float(x[1] - x[0]) * x.size, float(y[1] - y[0]) * y.size)
-    return trace_outline(indenter, Grid((x.size, y.size), size))
-
-
-def _snapshot(results: xr.Dataset, index: int) -> Snapshot:
-    dimension = _time_dimension(results)
-    fields = results[["pressure", "gap"]].isel({dimension: index})
-    pressure, gap = (
-        np.asarray(fields[name].transpose("x", "y").values, dtype=np.float64)
-        for name in ("pressure", "gap")
-    )
-    x, y = results["x"].values, results["y"].values
-    return Snapshot(float(fields[dimension]), x, y, pressure, gap)
+    return trace_outline(indenter, grid)
 
 
 def _nearest(stored: NDArray[np.float64], times: ArrayLike, figure: str) -> Sequence[int]:

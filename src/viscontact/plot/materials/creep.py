@@ -18,6 +18,9 @@ from viscontact.units.formatting import readable_unit
 
 _NAME = "creep"
 
+#: Four decades show how the law gets to where the run begins [-]; points of a curve.
+_EARLIEST, _POINTS = 1e-4, 300
+
 
 def creep(
     results: xr.Dataset, *, times: ArrayLike | None = None, width: Width | None = None
@@ -105,9 +108,7 @@ def compare_creep(
     positive = span[span > 0]
     if positive.size == 0 or not np.all(np.isfinite(span)):
         raise ValueError(f"{_NAME}: times must be finite with one above 0 s, got {times!r}")
-    # Four decades show how the law gets to where the run begins.
-    first = min(float(positive.min()), float(positive.max()) / 1e4)
-    return _curves(laws, np.geomspace(first, positive.max(), 300), width)
+    return _curves(laws, curve_times(float(positive.max()), float(positive.min())), width)
 
 
 def creep_curve(law: Law, times: ArrayLike, *, width: Width | None = None) -> Figure:
@@ -148,6 +149,17 @@ def creep_curve(law: Law, times: ArrayLike, *, width: Width | None = None) -> Fi
             f"{_NAME}: times must be at least two, above 0 s and increasing, got {times!r}"
         )
     return _curves({"": law}, instants, width)
+
+
+def curve_times(end: float, first: float = np.inf) -> NDArray[np.float64]:
+    """Times up to the end of a run at which its law is drawn, from the first or earlier [s].
+
+    Examples
+    --------
+    >>> curve_times(10.0)[[0, -1]].round(6).tolist()
+    [0.001, 10.0]
+    """
+    return np.geomspace(min(first, _EARLIEST * end), end, _POINTS)
 
 
 def _curves(laws: Mapping[str, Law], times: NDArray[np.float64], width: Width | None) -> Figure:

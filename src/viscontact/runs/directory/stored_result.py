@@ -9,6 +9,7 @@ from typing import Any
 
 import netCDF4
 
+from viscontact.results.recorded_case import parse_case
 from viscontact.runs.directory.netcdf_layout import opened
 
 
@@ -58,6 +59,7 @@ def stored_run(path: Path) -> StoredRun:
 def _case(file: netCDF4.Dataset) -> dict[str, Any] | None:
     if not {"case", "fields"} <= set(file.ncattrs()):
         return None
-    case, fields = (json.loads(str(file.getncattr(name))) for name in ("case", "fields"))
+    case = parse_case(str(file.getncattr("case")))
+    fields = json.loads(str(file.getncattr("fields")))
     errors = json.loads(str(file.getncattr("errors"))) if "errors" in file.ncattrs() else False
     return {**case, "fields": fields, "errors": errors}

@@ -2,23 +2,20 @@
 
 from __future__ import annotations
 
-import numpy as np
 from matplotlib.figure import Figure
 
 from viscontact.case import Case, CaseError, Parts
 from viscontact.materials.material import Material
 from viscontact.notebook.curves import law_span
-from viscontact.notebook.shapes import drawn_size as default_size
+from viscontact.notebook.shapes import natural_size
 from viscontact.plot import creep_curve, draw_indenter, draw_load
 from viscontact.plot.layout.page import Width
+from viscontact.plot.materials.creep import curve_times
 from viscontact.runs.check_report import drawn_size
 from viscontact.runs.forecast import Forecast
 from viscontact.runs.preparation import PreparedRun
 from viscontact.web.cases.case_reader import CaseReader
 from viscontact.web.workspace.problems import RequestError, case_problems
-
-#: First time of a law's curve as a part of the end [-], and its number of points.
-_BACK, _POINTS = 1e-4, 300
 
 
 def drawing(cases: CaseReader, text: str, what: str, width: Width | None = None) -> Figure:
@@ -50,7 +47,7 @@ def _alone(parts: Parts, what: str, width: Width | None) -> Figure | None:
     """Drawing of a valid part of an invalid case, over a range of its own."""
     try:
         if what == "indenter" and parts.indenter is not None:
-            return draw_indenter(parts.indenter, default_size(parts.indenter), width=width)
+            return draw_indenter(parts.indenter, natural_size(parts.indenter), width=width)
         if what == "load" and parts.load is not None:
             end = parts.end or float(parts.load.kinks[-1])
             return draw_load(parts.load, end)
@@ -78,4 +75,4 @@ def _material(case: Case, what: str) -> Material:
 
 
 def _curves(material: Material, end: float, width: Width | None) -> Figure:
-    return creep_curve(material.law, np.geomspace(_BACK * end, end, _POINTS), width=width)
+    return creep_curve(material.law, curve_times(end), width=width)
