@@ -11,7 +11,6 @@ from numpy.testing import assert_allclose
 
 import viscontact as vc
 from viscontact.case import CaseError, read_material, shipped_material
-from viscontact.case.materials.library import MATERIALS
 from viscontact.laws import SeriesLaw
 from viscontact.materials import library
 from viscontact.materials.library.points import Points, read_points
@@ -84,7 +83,7 @@ def test_points_lie_where_the_constants_rest_on_something(name: str) -> None:
 
 def test_the_two_readings_of_pmma_are_what_they_were() -> None:
     # As `case/materials/library.py` held them before there were files, digit for digit.
-    paper, kumar = MATERIALS["pmma-paper"], MATERIALS["pmma-kumar-2004"]
+    paper, kumar = (library.entry(name).material for name in ("pmma-paper", "pmma-kumar-2004"))
     assert (paper["instant"], paper["data"]) == ("5.545e-4 / MPa", "deviatoric")
     assert paper["amplitudes"] == ["6.17e-5 / MPa", "8.38e-5 / MPa"]
     assert paper["times"] == ["10 s", "133.868808567604 s"]
