@@ -1,4 +1,4 @@
-"""The uniform rectangular grid that carries pressure and displacement, or the wish for one."""
+"""Uniform rectangular grid of pressure and displacement, and automatic grids."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from viscontact.display import Displayable
 from viscontact.units.numbers import as_real, positive, whole
 
-#: What a mesh can be chosen for.
+#: Quantities that a mesh can be chosen for.
 GRID_QUANTITIES = ("peak_pressure", "contact_area", "approach")
 
-#: The tolerances that a mesh can be chosen for.
+#: Range of tolerances of an automatic mesh.
 FINEST, COARSEST = 1e-4, 0.5
 
 
@@ -30,8 +30,8 @@ class Grid(Displayable):
     size : tuple of float
         Extents (lx, ly) of the whole grid [m].
     periodic : bool, optional
-        Whether the grid is one period of a surface that repeats itself without end, both ways;
-        otherwise it is a part of a half-space that is free beside it.
+        Whether the grid is one period of a surface that is periodic along x and y; otherwise it
+        is a part of a half-space without load outside.
 
     Raises
     ------
@@ -91,7 +91,7 @@ class Grid(Displayable):
         return _centres(self.shape[1], self.size[1])
 
     def largest_at(self, field: NDArray[np.float64]) -> tuple[float, float]:
-        """Where a field over this grid is largest.
+        """Position of the largest value of a field over this grid.
 
         Parameters
         ----------
@@ -112,12 +112,12 @@ class Grid(Displayable):
         return float(self.x[i]), float(self.y[j])
 
     def widened(self, shape: tuple[int, int]) -> Grid:
-        """The same cells, and more of them around.
+        """Grid with additional cells around the same ones.
 
         Parameters
         ----------
         shape : tuple of int
-            Numbers of cells, no fewer than now, and even where they are even now.
+            Numbers of cells, not smaller than now, and larger by even numbers.
 
         Returns
         -------
@@ -127,7 +127,7 @@ class Grid(Displayable):
         Raises
         ------
         ValueError
-            If the old cells would not be cells any more, or the period another one.
+            If the old cells would not be preserved, or the period would change.
 
         Examples
         --------
@@ -149,7 +149,7 @@ class Grid(Displayable):
     def embed(
         self, field: NDArray[np.float64], wider: Grid, beyond: float = 0.0
     ) -> NDArray[np.float64]:
-        """A field over this grid as one over a wider one.
+        """Embed a field over this grid in a wider one.
 
         Parameters
         ----------
@@ -158,12 +158,12 @@ class Grid(Displayable):
         wider : Grid
             This grid, `widened`.
         beyond : float
-            What it is outside this grid.
+            Its value outside this grid.
 
         Returns
         -------
         ndarray
-            The field where this grid has cells.
+            The field over the wider grid.
 
         Examples
         --------
@@ -180,14 +180,14 @@ class Grid(Displayable):
 
 @dataclass(frozen=True)
 class AutomaticGrid(Displayable):
-    """A grid to be chosen by the run itself, fine enough for the tolerance asked for.
+    """A grid chosen by the run, fine enough for a tolerance.
 
     Parameters
     ----------
     tolerance : float, optional
         Relative error of the named quantities that the mesh may cause, between 1e-4 and 0.5 [-].
     quantities : sequence of str, optional
-        What has to be that exact: of ``"peak_pressure"``, ``"contact_area"``, ``"approach"``.
+        Quantities with this accuracy: ``"peak_pressure"``, ``"contact_area"``, ``"approach"``.
 
     Raises
     ------
@@ -252,17 +252,10 @@ def height_over_neighbours(gap: NDArray[np.float64], axis: int) -> NDArray[np.fl
 
 
 def is_even(field: NDArray[np.float64], axis: int) -> bool:
-    """Whether a field's second half mirrors its first along an axis, to the bit.
+    """Test whether a field's second half mirrors its first along an axis exactly.
 
-    Parameters
-    ----------
-    field : ndarray
-        On an even number of cells, or it has no halves.
-    axis : int
-        The axis.
+    False for an odd number of cells.
 
-    Examples
-    --------
     >>> is_even(np.array([[1.0, 2.0], [1.0, 2.0]]), 0), is_even(np.array([[1.0, 2.0]]), 1)
     (True, False)
     """

@@ -1,4 +1,4 @@
-"""Linear viscoelastic laws: creep compliance Phi(t) and relaxation modulus G(t) in shear."""
+"""Linear viscoelastic creep laws: compliance Phi(t) and shear modulus G(t)."""
 
 from viscontact.laws.creep_table import TabulatedCreep
 from viscontact.laws.fractional_maxwell import FractionalMaxwell

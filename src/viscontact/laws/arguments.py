@@ -1,4 +1,4 @@
-"""What material laws accept as arguments: numbers, series, and how a body gives in volume."""
+"""Checks of the arguments of material laws."""
 
 from __future__ import annotations
 

@@ -63,7 +63,7 @@ class CreepFunction(ABC):
         Raises
         ------
         ValueError
-            If a time is negative or NaN, or if the modulus starts with a Dirac impulse, as beside
+            If a time is negative or NaN, or if the modulus starts with a Dirac impulse, as of
             a dashpot alone. That of a spring-pot is inf at 0 only.
         """
         return _over_times(self._relaxation, t)

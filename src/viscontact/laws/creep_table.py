@@ -1,4 +1,4 @@
-"""A law as measured in creep: a table of compliance over time."""
+"""Creep law given by a measured table of compliance over time."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class TabulatedCreep(Law):
-    """A measured creep compliance Phi, used as it is at the table's own times.
+    """Measured creep compliance Phi at the times of a table, without a fit.
 
     Parameters
     ----------
@@ -53,7 +53,7 @@ class TabulatedCreep(Law):
     -----
     Between the rows Phi is the monotone cubic in ln t through them (`LogCurve`); up to the first
     positive time after a row at 0 it is straight in t. The relaxation modulus is the inverse of
-    that curve by numbers (`volterra`), with an `inversion_error`.
+    that curve, computed numerically (`volterra`), with an `inversion_error`.
 
     Examples
     --------
@@ -172,7 +172,7 @@ class TabulatedCreep(Law):
 
     @property
     def creep_error(self) -> float:
-        """Of Phi, which is measured: 0 [-]."""
+        """Estimated relative error of Phi, which is measured: 0 [-]."""
         return 0.0
 
     @property

@@ -1,7 +1,7 @@
-"""Two spring-pots in series.
+"""Fractional Maxwell law: two spring-pots in series.
 
-A spring-pot stands between spring and dashpot: its stress is G τ^a times the a-th derivative of
-the strain in time, 0 <= a <= 1.
+The stress of a spring-pot is G τ^a times the a-th derivative of the strain in time, 0 <= a <= 1:
+between a spring and a dashpot.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The standard solid with a spring-pot in place of its dashpot."""
+"""Fractional Zener law: a standard solid with a spring-pot as its dashpot."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class FractionalZener(Law):
-    """A spring beside a spring in series with a spring-pot: the fractional standard solid.
+    """Fractional standard solid: a spring parallel to a spring and a spring-pot in series.
 
     G(t) = G_e + (G_g - G_e) E_a(-(t/τ)^a) with the Mittag-Leffler function E_a.
 
@@ -156,7 +156,7 @@ class FractionalZener(Law):
         )
 
     def _creep(self, t: Floats) -> Floats:
-        # At the end of time the product would be inf times 0.
+        # At infinite time the product would be inf times 0.
         final = 0.5 / self.equilibrium_modulus if self.equilibrium_modulus > 0 else math.inf
         ended = np.isinf(t)
         return np.where(ended, final, self._delayed(np.where(ended, 0.0, t), 1.0))

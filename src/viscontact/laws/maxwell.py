@@ -1,4 +1,4 @@
-"""Laws without delay: a spring, and a spring in series with a dashpot."""
+"""Elastic and Maxwell laws: a spring; a spring and a dashpot in series."""
 
 from __future__ import annotations
 

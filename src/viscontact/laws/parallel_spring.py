@@ -1,4 +1,4 @@
-"""A body of any law with a spring beside it."""
+"""A law in parallel with a spring."""
 
 from __future__ import annotations
 
@@ -15,15 +15,16 @@ from viscontact.laws.interconversion.volterra import onset
 from viscontact.laws.law import Law, slowing
 from viscontact.units.numbers import check_fields
 
-# The march begins this far ahead of the first creep that counts, to have settled by then.
+# Ratio of the first node to the onset of creep, so that the start-up error has decayed by then.
 _AHEAD = 1e-3
-# A law without data is looked at for so many decades after it has crept as much as the spring.
+# Decades over which the error is estimated of a law without data, after it has crept as much as
+# the spring.
 _DECADES = 6
 
 
 @dataclass(frozen=True)
 class BesideSpring(Law):
-    """A law and a spring side by side: both are sheared alike, and their stresses add.
+    """A law in parallel with a spring: equal strains, and the stresses add.
 
     Parameters
     ----------
@@ -35,7 +36,7 @@ class BesideSpring(Law):
     Raises
     ------
     ValueError
-        If the law is none, or the modulus is not positive and finite.
+        If the law is not one, or the modulus is not positive and finite.
 
     Notes
     -----
@@ -50,7 +51,7 @@ class BesideSpring(Law):
 
     Examples
     --------
-    A Maxwell body beside a spring is a Zener body:
+    A Maxwell body in parallel with a spring is a Zener body:
 
     >>> from viscontact.laws import Maxwell
     >>> pair = BesideSpring(Maxwell(1e6, 1e6), 1e6)
@@ -72,17 +73,17 @@ class BesideSpring(Law):
 
     @property
     def measured_until(self) -> float:
-        """Last time on which the law beside the spring rests on data [s]."""
+        """Last time on which the law rests on data [s]."""
         return self.law.measured_until
 
     @property
     def inversion_error(self) -> float:
-        """Estimated relative error of what is solved by numbers, creep or relaxation [-]."""
+        """Estimated relative error of the numerical solution, creep or relaxation [-]."""
         return max(self._error, self.law.inversion_error)
 
     @property
     def creep_error(self) -> float:
-        """Of Phi alone, which is solved by numbers from that of the law [-]."""
+        """Estimated relative error of Phi alone, solved numerically from that of the law [-]."""
         return max(self._error, self.law.creep_error)
 
     @cached_property
@@ -102,7 +103,7 @@ class BesideSpring(Law):
 
     @cached_property
     def _onset(self) -> float:
-        """Time up to which the pair is as good as elastic [s]."""
+        """Time up to which the pair is nearly elastic [s]."""
         spring = 1 / self.shear_modulus
         if self._compliance(np.zeros(1))[0] > 0:
             return onset(self._compliance)
@@ -135,7 +136,7 @@ class BesideSpring(Law):
         return np.asarray(share * early + (1 - share) * late) / 2
 
     def _of_springs(self, compliance: Floats) -> Floats:
-        """Return the compliance of two springs: early, all is as good as elastic."""
+        """Return the compliance of two springs in parallel, valid at early times."""
         return np.asarray(compliance / (1 + self.shear_modulus * compliance))
 
     def _relaxation(self, t: Floats) -> Floats:

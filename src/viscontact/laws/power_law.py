@@ -1,4 +1,4 @@
-"""Creep as a power of time, with or without an instant part."""
+"""Power-law creep, with or without instant compliance."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class PowerLaw(Law):
     Parameters
     ----------
     compliance : float
-        What has crept at the reference time, J > 0 [1/Pa].
+        Delayed compliance at the reference time, J > 0 [1/Pa].
     exponent : float
         n, above 0 and up to 1 [-].
     reference_time : float

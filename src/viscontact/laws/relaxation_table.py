@@ -1,4 +1,4 @@
-"""A law as measured in relaxation: a table of modulus over time."""
+"""Creep law given by a measured table of relaxation modulus over time."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class TabulatedRelaxation(Law):
-    """A measured shear relaxation modulus G, used as it is at the table's own times.
+    """Measured shear relaxation modulus G at the times of a table, without a fit.
 
     Parameters
     ----------
@@ -52,7 +52,7 @@ class TabulatedRelaxation(Law):
     -----
     Between the rows G is the monotone cubic in ln t through them (`LogCurve`); up to the first
     positive time after a row at 0 it is straight in t. The creep compliance is half the inverse
-    of that curve by numbers (`volterra`), with an `inversion_error`.
+    of that curve, computed numerically (`volterra`), with an `inversion_error`.
 
     Examples
     --------

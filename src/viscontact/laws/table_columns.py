@@ -1,4 +1,4 @@
-"""Columns of a measured law, checked: what is wrong is refused with its row and column."""
+"""Checks of the columns of a measured law; errors name the row and the column."""
 
 from __future__ import annotations
 
@@ -14,18 +14,10 @@ from viscontact.units.numbers import finite
 def measured(
     owner: str, column: str, times: Sequence[float], values: Sequence[float], unit: str, trend: int
 ) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """Return times [s] and values of a table as tuples, the values ever growing or ever falling.
+    """Return times [s] and values of a table as checked tuples; rows are counted from 0.
 
-    Parameters
-    ----------
-    owner, column : str
-        Class and field, as an error names them. Rows are counted from 0.
-    times, values : sequence of float
-        The columns.
-    unit : str
-        Of the values.
-    trend : int
-        +1 if the values may not fall, -1 if they may not grow.
+    `owner` and `column` are class and field, for messages; `unit` is that of the values, and
+    `trend` +1 if they may not fall, -1 if they may not grow.
     """
     t = _column(f"{owner}.times", times, "s")
     v = _column(f"{owner}.{column}", values, unit)
@@ -44,7 +36,7 @@ def measured(
 
 
 def check_left(owner: str, compliance: Sequence[float], volumetric: float) -> None:
-    """Check that a tensile compliance leaves some in shear when 1/(9K) [1/Pa] is taken off."""
+    """Check that a tensile compliance exceeds its volumetric part 1/(9K) [1/Pa]."""
     for row, value in enumerate(compliance):
         if volumetric > 0 and value <= volumetric:
             raise ValueError(
@@ -65,7 +57,7 @@ def _check_times(owner: str, t: tuple[float, ...]) -> None:
     for row, time in enumerate(t):
         if time < 0:
             raise ValueError(f"{owner}.times, row {row}: must be >= 0 s, got {time!r} s")
-        # Times one rounding apart have one logarithm, and cannot be told apart either.
+        # Times one rounding apart have equal logarithms, which cannot be distinguished.
         if row and (time <= t[row - 1] or (t[row - 1] > 0 and math.log(time / t[row - 1]) == 0)):
             raise ValueError(
                 f"{owner}.times, row {row}: must be after row {row - 1}, got {time!r} s after "
@@ -77,7 +69,7 @@ def _check_values(
     owner: str, column: str, t: tuple[float, ...], v: tuple[float, ...], unit: str, trend: int
 ) -> None:
     for row, value in enumerate(v):
-        # A body may creep from nothing; a modulus of nothing is no body.
+        # A compliance may start at 0; a modulus of 0 is not allowed.
         if value < 0 or (value == 0 and not (trend > 0 and t[row] == 0)):
             raise ValueError(f"{owner}.{column}, row {row}: must be positive, got {value!r} {unit}")
         if row and trend * (value - v[row - 1]) < 0:

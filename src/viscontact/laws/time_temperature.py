@@ -1,4 +1,4 @@
-"""Time-temperature superposition: how much slower everything goes at another temperature.
+"""Time-temperature superposition: shift factors by WLF, Arrhenius or a table.
 
 A thermorheologically simple body has one law, Phi_r(t), at a reference temperature; at
 temperature T it is Phi_r(t/a_T), with one shift factor a_T for all its times. All temperatures
@@ -43,8 +43,8 @@ class Shift(Displayable, ABC):
         Returns
         -------
         float or ndarray
-            How many times longer everything takes than at the reference temperature [-], of the
-            shape of `temperature`: above 1 where it is colder.
+            Ratio of all times to those at the reference temperature [-], of the shape of
+            `temperature`: above 1 where it is colder.
 
         Raises
         ------
@@ -75,7 +75,7 @@ class Shift(Displayable, ABC):
 
 @dataclass(frozen=True)
 class WLF(Shift):
-    """The rule of Williams, Landel and Ferry, for polymers above their glass transition.
+    """Williams-Landel-Ferry (WLF) equation, for polymers above their glass transition.
 
     Parameters
     ----------
@@ -121,7 +121,7 @@ class WLF(Shift):
         too_cold = ~(self.c2 + above > 0)
         if too_cold.any():
             raise ValueError(
-                f"WLF: must be asked above T_r - C_2 = {self.reference_temperature - self.c2:.6g} "
+                f"WLF: must be used above T_r - C_2 = {self.reference_temperature - self.c2:.6g} "
                 f"K, where its shift factor is infinite, got {temperature[too_cold].flat[0]:.6g} "
                 "K; use Arrhenius or a table of factors below the glass transition"
             )
@@ -130,7 +130,7 @@ class WLF(Shift):
 
 @dataclass(frozen=True)
 class Arrhenius(Shift):
-    """The rule of Arrhenius: one activation energy at all temperatures.
+    """Arrhenius equation: one activation energy at all temperatures.
 
     Parameters
     ----------
@@ -168,7 +168,7 @@ class Arrhenius(Shift):
 
 @dataclass(frozen=True)
 class TabulatedShift(Shift):
-    """Shift factors as they were measured, with straight lines in ln a_T between them.
+    """Measured shift factors, linear in ln a_T between them.
 
     Parameters
     ----------
@@ -237,7 +237,7 @@ class TabulatedShift(Shift):
         outside = ~((first <= temperature) & (temperature <= last))
         if outside.any():
             raise ValueError(
-                f"{self._OWNER}: must be asked between {first:.6g} and {last:.6g} K, got "
+                f"{self._OWNER}: must be used between {first:.6g} and {last:.6g} K, got "
                 f"{temperature[outside].flat[0]:.6g} K; WLF and Arrhenius hold beyond a table"
             )
         return np.asarray(np.interp(temperature, self.temperatures, np.log(self.factors)))

@@ -1,4 +1,4 @@
-"""From a tensile test to shear: what Poisson's ratio or the bulk modulus makes of D and E."""
+"""Conversion of tensile compliances D and moduli E to shear, by ν or K."""
 
 from __future__ import annotations
 
@@ -10,11 +10,10 @@ from viscontact.units.numbers import positive
 
 
 class Uniaxial(NamedTuple):
-    """The conversion Phi(t) = factor (D(t) - volumetric) of a tensile compliance D.
+    """Conversion Phi(t) = factor (D(t) - volumetric) of a tensile compliance D.
 
     With a constant Poisson's ratio, Phi = (1 + ν) D. With an elastic bulk modulus K,
-    D = (2/3) Phi + 1/(9K), so Phi = (3/2) (D - 1/(9K)): only the instant part of D changes by
-    more than the factor.
+    D = (2/3) Phi + 1/(9K), so Phi = (3/2) (D - 1/(9K)): the volumetric part is instant.
     """
 
     factor: float

@@ -1,4 +1,4 @@
-"""Laws with one Kelvin unit, a spring beside a dashpot, which delays a part of the creep."""
+"""Zener and Burgers laws: with a Kelvin unit, a spring and a dashpot in parallel."""
 
 from __future__ import annotations
 

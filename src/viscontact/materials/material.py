@@ -1,4 +1,4 @@
-"""A material: a creep law in shear and how the body gives in volume, as one compliance."""
+"""Material: a creep law in shear with a constant Poisson's ratio or an elastic bulk modulus."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from viscontact.units.numbers import check_fields, store
 
 @dataclass(frozen=True)
 class Material(Displayable):
-    """A linear viscoelastic material: creep in shear, and what its volume does.
+    """A linear viscoelastic material: a creep law in shear, and ν or the bulk modulus.
 
     Parameters
     ----------
@@ -32,11 +32,11 @@ class Material(Displayable):
         Elastic bulk modulus K > 0 [Pa]: Poisson's ratio then varies in time with the law.
         Exactly one of the two must be given.
     measured_until : float, optional
-        Last time that the law was measured or fitted at [s]; a run that goes beyond warns. A
-        table knows its own.
+        Last time at which the law was measured or fitted [s]; longer runs issue a warning. A
+        table has its own.
     thickness : float, optional
-        Of the body, from its surface to what it rests on [m]. It is computed as a half-space all
-        the same; a contact whose half width exceeds a fifth of it is warned of.
+        Thickness of the body [m]. Used for a warning only, if the half width of the contact
+        exceeds a fifth of it: the body is still modelled as a half-space.
 
     Raises
     ------
@@ -85,7 +85,7 @@ class Material(Displayable):
         Returns
         -------
         ContactCompliance
-            J(t) [1/Pa]; exact, but for an elastic bulk modulus with a law that is no series.
+            J(t) [1/Pa]; exact unless the bulk modulus is elastic and the law is not a series.
 
         Notes
         -----
@@ -95,8 +95,8 @@ class Material(Displayable):
 
             s L[J] = (3K + 4G~) / (4 G~ (3K + G~)) = 1/(4 G~) + (3/4) / (3K + G~).
 
-        The first part is Phi/2, as 1/G~ = 2 s L[Phi]. The second is a spring 3K beside the
-        law, which creeps as a series if the law is one, and is interconverted by numbers if not.
+        The first part is Phi/2, as 1/G~ = 2 s L[Phi]. The second is a spring 3K in
+        parallel with the law, a series if the law is one, and else interconverted numerically.
 
         Examples
         --------
@@ -127,12 +127,11 @@ class Material(Displayable):
 
 
 def _beside_spring(creep: SeriesCompliance, stiffness: float) -> SeriesCompliance:
-    """Return the creep of a body whose load is shared by a spring beside it.
+    """Return the creep series of a body in parallel with a spring of stiffness 1/c.
 
-    With C = s L[creep] and the spring's compliance c = 1/stiffness, side by side they have
-    1/(1/c + 1/C) = c - c²/(c + C). The fraction is a relaxation function: that of the same body
-    with the spring in series. This holds for a body without instant compliance as well, whose
-    own relaxation modulus is not a series.
+    With C = s L[creep], both have 1/(1/c + 1/C) = c - c²/(c + C). The fraction is the relaxation
+    function of the same body with the spring in series, which is a series even if the body has no
+    instant compliance and its own relaxation modulus is none.
     """
     c = 1.0 / stiffness
     in_series = relaxation_from_creep(

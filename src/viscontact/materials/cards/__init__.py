@@ -1,4 +1,4 @@
-"""Material cards of finite-element programs: Abaqus and Ansys, read and written."""
+"""Material cards of finite-element programs (Abaqus, Ansys): readers and writers."""
 
 from viscontact.materials.cards.abaqus_reader import read_abaqus
 from viscontact.materials.cards.abaqus_writer import write_abaqus

@@ -1,4 +1,4 @@
-"""Abaqus cards, read."""
+"""Reader of Abaqus material cards."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from viscontact.tables import read_text
 
 _TEST_DATA = ("SHEAR TEST DATA", "VOLUMETRIC TEST DATA", "COMBINED TEST DATA")
 _READ = ("ELASTIC", "VISCOELASTIC", "TRS", *_TEST_DATA)
-# What follows the materials of a whole model.
+# Keywords that end the materials of a whole model.
 _BEYOND = ("STEP", "PART", "ASSEMBLY", "NODE", "ELEMENT", "BOUNDARY", "SURFACE INTERACTION",
            "INITIAL CONDITIONS", "SOLID SECTION", "END PART", "END ASSEMBLY")  # fmt: skip
 _TIMES = ("PRONY", "CREEP TEST DATA", "RELAXATION TEST DATA", "FREQUENCY DATA")
@@ -24,7 +24,7 @@ _TIMES = ("PRONY", "CREEP TEST DATA", "RELAXATION TEST DATA", "FREQUENCY DATA")
 
 @dataclass
 class _Section:
-    """The blocks of one material, as they are collected."""
+    """Blocks of one material, while they are collected."""
 
     name: str
     where: str

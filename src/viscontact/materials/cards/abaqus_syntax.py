@@ -1,4 +1,4 @@
-"""The syntax of Abaqus input files: keyword lines, data lines, comments."""
+"""Syntax of Abaqus input files: keyword lines, data lines, comments."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from viscontact.materials.cards.numbers import card_number
 
 @dataclass(frozen=True)
 class DataLine:
-    """One data line: where it stands, for messages, and its fields."""
+    """One data line: its place, for messages, and its fields."""
 
     where: str
     fields: tuple[str, ...]
 
     def numbers(self, least: int, most: int) -> list[float]:
-        """Return the fields as numbers, an empty one as 0, filled up with 0 to `most`.
+        """Return the fields as numbers, an empty one as 0, padded with 0 to `most`.
 
         ValueError if there are fewer than `least` or more than `most`.
         """
@@ -29,18 +29,9 @@ class DataLine:
 
 @dataclass(frozen=True)
 class Block:
-    """One keyword with its parameters and data lines.
+    """One keyword, such as ``SHEAR TEST DATA``, with its parameters and data lines.
 
-    Parameters
-    ----------
-    where : str
-        File and line, for messages.
-    keyword : str
-        In capitals, without the star: ``SHEAR TEST DATA``.
-    parameters : dict of str to str
-        By name in capitals, with the values as they stand.
-    data : tuple of DataLine
-        The lines below it.
+    `where` is file and line, for messages; names of keyword and parameters are in capitals.
     """
 
     where: str
@@ -49,9 +40,9 @@ class Block:
     data: tuple[DataLine, ...]
 
     def choice(self, name: str, options: tuple[str, ...], default: str) -> str:
-        """Return the value of a parameter that is one of several words.
+        """Return the value of a parameter that has one of several words, which may be abbreviated.
 
-        ValueError if it is another one. Words may be cut short, as Abaqus allows.
+        ValueError if it has another value.
         """
         given = self.parameters.get(name)
         if given is None:
@@ -67,28 +58,12 @@ class Block:
 
 
 def read_blocks(source: str, text: str) -> list[Block]:
-    r"""Split an input file into keyword blocks.
+    r"""Split the text of an input file into keyword blocks; `source` is its name, for messages.
 
-    Parameters
-    ----------
-    source : str
-        Name of the file, for messages.
-    text : str
-        Its text.
-
-    Returns
-    -------
-    list of Block
-        In the file's order.
-
-    Notes
-    -----
     Abaqus 2016 Analysis User's Guide, section 1.2.1, "Input syntax rules": a keyword line begins
     with one star and continues on the next line if it ends with a comma; two stars begin a
-    comment; case and blanks do not matter, but for what stands in quotation marks.
+    comment; case and blanks are ignored, except in quotation marks.
 
-    Examples
-    --------
     >>> [block] = read_blocks("p.inp", "*Elastic, moduli=INSTANTANEOUS\n** why\n 3e3, .5\n")
     >>> block.keyword, block.parameters, block.data[0].fields
     ('ELASTIC', {'MODULI': 'INSTANTANEOUS'}, ('3e3', '.5'))
@@ -100,7 +75,7 @@ def read_blocks(source: str, text: str) -> list[Block]:
         content = line.strip()
         if not content or content.startswith("**"):
             continue
-        if heading.endswith(","):  # the keyword line goes on
+        if heading.endswith(","):  # the keyword line continues
             heading += content
         elif content.startswith("*"):
             _close(blocks, place, heading, data)
@@ -127,7 +102,7 @@ def _split_outside_quotes(heading: str) -> list[str]:
     """Split at commas that an even number of quotation marks follows."""
     pieces = heading.split('"')
     last = len(pieces) - 1
-    # No text file that is read has a NUL, so that it can stand for where to cut.
+    # Text files contain no NUL, so it can mark where to split.
     marked = [p if (last - k) % 2 else p.replace(",", "\0") for k, p in enumerate(pieces)]
     return '"'.join(marked).split("\0")
 

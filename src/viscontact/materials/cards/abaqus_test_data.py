@@ -1,4 +1,4 @@
-"""Test data in Abaqus cards: normalised creep and relaxation, as measured."""
+"""Normalised creep and relaxation test data in Abaqus cards."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from viscontact.materials.cards.card import CardUnits
 from viscontact.materials.cards.prony_terms import Moduli, with_volume
 from viscontact.materials.material import Material
 
-# What a card's digits leave of two equal values.
+# Relative difference of two equal values written with a card's digits.
 _ROUNDING = 1e-9
 
 
@@ -24,38 +24,15 @@ def tested_material(
     units: CardUnits,
     notes: list[str],
 ) -> Material:
-    """Return the material of a card with test data.
+    """Return the material of a card with test data, as a table law.
 
-    Parameters
-    ----------
-    block : Block
-        ``*VISCOELASTIC``.
-    tests : list of Block
-        ``*SHEAR TEST DATA`` and ``*VOLUMETRIC TEST DATA``, or ``*COMBINED TEST DATA``.
-    creep : bool
-        Whether they are of creep; else of relaxation.
-    moduli : Moduli
-        Elastic constants.
-    units : CardUnits
-        Of the numbers.
-    notes : list of str
-        Told here what is not used.
+    `tests` are the blocks ``*SHEAR TEST DATA`` and ``*VOLUMETRIC TEST DATA``, or ``*COMBINED TEST
+    DATA``, of creep or of relaxation. The law is G_0 g_R(t) as modulus [Pa], or j_S(t)/(2 G_0) as
+    creep compliance [1/Pa]; both normalised functions start at 1. Data that are not used are added
+    to `notes`. ValueError if shear data are missing or invalid, or the bulk modulus relaxes
+    differently.
 
-    Returns
-    -------
-    Material
-        With the table as the law: G_0 g_R(t) as modulus, or j_S(t)/(2 G_0) as creep
-        compliance; both are 1 at once.
-
-    Raises
-    ------
-    ValueError
-        If shear data are missing or are no such function, or the bulk modulus relaxes in
-        another way.
-
-    Notes
-    -----
-    Abaqus fits a Prony series to the data; here they are used as they are. Abaqus 2016 Keywords
+    Abaqus fits a Prony series to the data; here they are not fitted. Abaqus 2016 Keywords
     Reference Guide, ``*SHEAR TEST DATA``, ``*COMBINED TEST DATA``: lines of j_S or g_R and t > 0,
     with the long-term value in SHRINF.
     """
@@ -90,7 +67,7 @@ def _infinite(block: Block) -> float | None:
 
 
 def _left(block: Block, infinite: float | None, creep: bool, moduli: Moduli) -> float:
-    """Return g_R at the end of time; 1 where nobody asks."""
+    """Return g_R at infinite time; 1 where it is not needed."""
     if moduli.instantaneous:
         return 1.0
     if infinite is None:
@@ -110,7 +87,7 @@ def _law(
     infinite: float | None,
     notes: list[str],
 ) -> TabulatedCreep | TabulatedRelaxation:
-    # Normalised functions are 1 at once.
+    # Normalised functions start at 1.
     relative = [1.0, *(value for value, _ in shear)]
     times = [0.0, *(time * units.time for _, time in shear)]
     ends = infinite is not None and math.isclose(infinite, relative[-1], rel_tol=_ROUNDING)

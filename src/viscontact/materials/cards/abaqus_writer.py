@@ -1,4 +1,4 @@
-"""Abaqus cards, written."""
+"""Writer of Abaqus material cards."""
 
 from __future__ import annotations
 
@@ -142,7 +142,7 @@ def _line(*numbers: float) -> str:
 
 
 def _label(name: str) -> str:
-    """Return a name as Abaqus takes it: 1 to 80 characters, in quotation marks if they are odd."""
+    """Return a name valid in Abaqus: 1 to 80 characters, in quotation marks where necessary."""
     if not 1 <= len(name) <= 80 or not re.fullmatch(r"[ -~]+", name) or '"' in name:
         raise ValueError(
             f"a material's name in Abaqus has 1 to 80 plain characters, no quotation marks, got "
@@ -152,6 +152,6 @@ def _label(name: str) -> str:
 
 
 def _ascii(words: str) -> str:
-    # Abaqus takes nothing else in an input file.
+    # Abaqus accepts only these characters in an input file.
     plain = words.replace("°", "deg").replace("µ", "u").replace("μ", "u")
     return plain.encode("ascii", "replace").decode()

@@ -1,4 +1,4 @@
-"""Ansys cards, read."""
+"""Reader of Ansys material cards."""
 
 from __future__ import annotations
 

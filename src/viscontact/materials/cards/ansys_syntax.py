@@ -1,4 +1,4 @@
-"""The syntax of Ansys APDL: commands of fields, a line each."""
+"""Syntax of Ansys APDL files: commands with fields, one per line."""
 
 from __future__ import annotations
 
@@ -12,16 +12,9 @@ _ASSIGNMENT = re.compile(r"(?P<name>[A-Za-z]\w{0,31})\s*=\s*(?P<value>[^,=]+)")
 
 @dataclass(frozen=True)
 class Command:
-    """One command.
+    """One command, such as ``TBDATA`` (name in capitals), with its fields, parameters substituted.
 
-    Parameters
-    ----------
-    where : str
-        File and line, for messages.
-    name : str
-        In capitals, as ``TBDATA``.
-    fields : tuple of str
-        What follows it, parameters put in.
+    `where` is file and line, for messages.
     """
 
     where: str
@@ -29,11 +22,11 @@ class Command:
     fields: tuple[str, ...]
 
     def word(self, place: int) -> str:
-        """Return a field from 0, in capitals; empty if it is not there."""
+        """Return a field, counted from 0, in capitals; empty if it is missing."""
         return self.fields[place].upper() if place < len(self.fields) else ""
 
     def number(self, place: int, default: float | None = None) -> float:
-        """Return a field as a number; ValueError if it is none, or empty without a default."""
+        """Return a field as a number; ValueError if it is not one, or empty without a default."""
         text = self.word(place)
         if not text and default is not None:
             return default
@@ -41,29 +34,13 @@ class Command:
 
 
 def read_commands(source: str, text: str) -> list[Command]:
-    r"""Split an APDL file into commands.
+    r"""Split the text of an APDL file into commands; `source` is its name, for messages.
 
-    Parameters
-    ----------
-    source : str
-        Name of the file, for messages.
-    text : str
-        Its text.
+    Mechanical APDL Command Reference: an exclamation mark begins a comment, a dollar sign another
+    command on the same line, fields are separated by commas, and case is ignored. Scalar
+    parameters that are set to a number (``E0=1000``) are substituted where a field is their name;
+    expressions are not evaluated.
 
-    Returns
-    -------
-    list of Command
-        In the file's order.
-
-    Notes
-    -----
-    Mechanical APDL Command Reference: an exclamation mark begins a comment, a dollar sign
-    another command on the same line, fields are separated by commas, and case does not matter.
-    Scalar parameters that are set to a number (``E0=1000``) are put in where they stand alone in
-    a field; nothing is computed.
-
-    Examples
-    --------
     >>> [command] = read_commands("p.mac", "E0=3e3 ! modulus\nmp,ex,1,e0 $")
     >>> command.name, command.fields
     ('MP', ('ex', '1', '3e3'))

@@ -1,4 +1,4 @@
-"""The data of an Ansys model that belong to one material."""
+"""Data of an Ansys model by material number."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _PROPERTIES = ("EX", "PRXY", "NUXY")
 
 @dataclass
 class DataTable:
-    """One ``TB`` table, as it is filled: its command and its values by place from 1."""
+    """One ``TB`` table: its command and its values by place, from 1."""
 
     command: Command
     values: dict[int, float] = field(default_factory=dict)
@@ -26,7 +26,7 @@ class DataTable:
         return self.command.word(4)
 
     def row(self, count: int) -> list[float]:
-        """Return the first values, those not given 0; ValueError if there are more."""
+        """Return the first values, 0 where none is given; ValueError if there are more."""
         if any(value for place, value in self.values.items() if place > count):
             raise ValueError(
                 f"{self.command.where}: TB,{self.command.word(0)} has more than {count} values"
@@ -34,12 +34,12 @@ class DataTable:
         return [self.values.get(place, 0.0) for place in range(1, count + 1)]
 
     def put(self, command: Command) -> None:
-        """Take the values of a TBDATA."""
+        """Add the values of a TBDATA."""
         if self.temperatures > 1:
             raise ValueError(
                 f"{command.where}: values at several temperatures are not read; keep one TBTEMP"
             )
-        # Without a place they go behind the last.
+        # Without a place they follow the last value.
         place = command.number(0, default=max(self.values, default=0) + 1)
         if place not in range(1, _MOST_VALUES + 1):
             raise ValueError(
@@ -52,7 +52,7 @@ class DataTable:
 
 @dataclass
 class Numbered:
-    """What belongs to one material number."""
+    """Data of one material number."""
 
     where: str
     properties: dict[str, tuple[str, float]] = field(default_factory=dict)
@@ -61,22 +61,9 @@ class Numbered:
 
 
 def collect(commands: list[Command]) -> dict[int, Numbered]:
-    """Sort commands by material number.
+    """Sort commands by material number, in the order of their first mention.
 
-    Parameters
-    ----------
-    commands : list of Command
-        A file's.
-
-    Returns
-    -------
-    dict of int to Numbered
-        In the order of their first mention.
-
-    Raises
-    ------
-    ValueError
-        If a property depends on temperature, a table is there twice, or data stand alone.
+    ValueError if a property depends on temperature, a table is repeated, or data have no table.
     """
     found: dict[int, Numbered] = {}
     table: DataTable | None = None

@@ -1,4 +1,4 @@
-"""Ansys cards, written."""
+"""Writer of Ansys material cards."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from viscontact.materials.cards.card import Card, CardUnits, card_units, in_unit
 from viscontact.materials.cards.numbers import card_digits
 from viscontact.materials.cards.prony_terms import Terms, relative
 
-# What Ansys takes: values in one TBDATA, and pairs in one table.
+# Limits of Ansys: values in one TBDATA, and pairs in one table.
 _IN_A_LINE, _MOST_PAIRS = 6, 100
 
 

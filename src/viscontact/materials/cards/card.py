@@ -1,4 +1,4 @@
-"""What a material card says, and the units that it does not say."""
+"""A material card with its units."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ from viscontact.units.parsing import Scale, parse_scale, parse_unit
 
 @dataclass(frozen=True)
 class Card(Displayable):
-    """A material as a finite-element program has it.
+    """A material of a finite-element program.
 
     Parameters
     ----------
     name : str
         Its name, or with Ansys its number.
     material : Material
-        The law in shear, and what the volume does.
+        The law in shear, with Poisson's ratio or bulk modulus.
     shift : WLF, Arrhenius or TabulatedShift, optional
         How its times shift with temperature; the law holds at the reference temperature.
     notes : tuple of str, optional
-        What stood in the file and was not used.
+        Data of the file that are not used.
 
     Examples
     --------
@@ -41,16 +41,10 @@ class Card(Displayable):
 
 @dataclass(frozen=True)
 class CardUnits:
-    """The units of a card's numbers, of which its program knows nothing.
+    """Units of a card's numbers, which the card does not state.
 
-    Parameters
-    ----------
-    modulus, time : float
-        How many pascals, and how many seconds, its units are.
-    temperature : Scale or None
-        Its unit of temperature, if that is known.
-    words : str
-        The same in words, for a comment in the card.
+    `modulus` and `time` are factors to Pa and s, `temperature` the scale if it is known, `words`
+    the same in words, for a comment in the card.
     """
 
     modulus: float
@@ -69,27 +63,8 @@ class CardUnits:
 
 
 def card_units(modulus_unit: str, time_unit: str, temperature_unit: str | None) -> CardUnits:
-    """Return the units of a card.
+    """Return the units of a card from words such as ``"MPa"``, ``"s"`` and ``"degC"``.
 
-    Parameters
-    ----------
-    modulus_unit, time_unit : str
-        Such as ``"MPa"`` and ``"s"``.
-    temperature_unit : str or None
-        Such as ``"degC"``.
-
-    Returns
-    -------
-    CardUnits
-        The same as factors.
-
-    Raises
-    ------
-    ValueError
-        If one is not a unit of that kind.
-
-    Examples
-    --------
     >>> card_units("MPa", "ms", None).time
     0.001
     """
@@ -105,8 +80,6 @@ def card_units(modulus_unit: str, time_unit: str, temperature_unit: str | None) 
 def in_unit(kelvins: float, scale: Scale) -> float:
     """Return a temperature [K] as a number in another unit.
 
-    Examples
-    --------
     >>> in_unit(298.15, Scale(1.0, 273.15))
     25.0
     """

@@ -1,4 +1,4 @@
-"""Numbers in the cards of programs that are written in Fortran."""
+"""Numbers in Fortran format, as in material cards."""
 
 from __future__ import annotations
 
@@ -8,17 +8,8 @@ _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?")
 
 
 def card_number(where: str, text: str) -> float:
-    """Return the number in a field, or raise ValueError.
+    """Return the number in a field, whose exponent may begin with E or D, or raise ValueError.
 
-    Parameters
-    ----------
-    where : str
-        For the message.
-    text : str
-        The field; a D may stand for the E of the exponent.
-
-    Examples
-    --------
     >>> card_number("card:1", "1.5D-3")
     0.0015
     """
@@ -31,17 +22,8 @@ def card_number(where: str, text: str) -> float:
 
 
 def card_digits(value: float, widest: int = 20) -> str:
-    """Write a number with as many digits as a field takes, at most those that it has.
+    """Write a number with all its digits, or as many as fit in `widest` characters.
 
-    Parameters
-    ----------
-    value : float
-        The number.
-    widest : int
-        Most characters of a field.
-
-    Examples
-    --------
     >>> card_digits(0.1), card_digits(1.2345678901234567e-05)
     ('0.1', '1.23456789012346e-05')
     """

@@ -1,7 +1,7 @@
-"""Relative Prony terms and two elastic constants: what Abaqus and Ansys both make laws of.
+"""Relative Prony terms and elastic constants, from which Abaqus and Ansys cards define laws.
 
-With G_0 the modulus at once, G(t) = G_0 [1 - sum g_i (1 - exp(-t/τ_i))], and likewise the bulk
-modulus with k_i. The elastic constants E and ν belong to the modulus at once, or to the one
+With the instant modulus G_0, G(t) = G_0 [1 - sum g_i (1 - exp(-t/τ_i))], and likewise the bulk
+modulus with k_i. The elastic constants E and ν are those of the instant modulus, or of the one
 left after all relaxation, G_inf = G_0 (1 - sum g_i).
 """
 
@@ -13,25 +13,13 @@ from dataclasses import dataclass
 from viscontact.laws import Elastic, Law, RelaxationSeries, SeriesLaw
 from viscontact.materials.material import Material
 
-# What a card's digits leave of a sum that is 1.
+# Difference from 1 of a sum written with a card's digits.
 _ROUNDING = 1e-12
 
 
 @dataclass(frozen=True)
 class Moduli:
-    """The elastic constants of a card.
-
-    Parameters
-    ----------
-    where : str
-        Where they stand, for messages.
-    youngs_modulus : float
-        E [Pa].
-    poisson_ratio : float
-        nu [-].
-    instantaneous : bool
-        Whether they hold at once; else after all relaxation.
-    """
+    """Elastic constants of a card, E [Pa] and ν [-], instantaneous or after all relaxation."""
 
     where: str
     youngs_modulus: float
@@ -59,7 +47,7 @@ class Moduli:
         return math.inf if nu == 0.5 else self.youngs_modulus / (3 * (1 - 2 * nu))
 
     def at_once(self, left: float) -> float:
-        """Return the shear modulus at once [Pa], when the part `left` of it does not relax."""
+        """Return the instant shear modulus [Pa], of which the part `left` does not relax."""
         if self.instantaneous:
             return self.shear
         if not left > 0:
@@ -72,15 +60,7 @@ class Moduli:
 
 @dataclass(frozen=True)
 class Terms:
-    """Relative terms of a card, in shear or in volume.
-
-    Parameters
-    ----------
-    weights : tuple of float
-        g_i or k_i [-].
-    times : tuple of float
-        τ_i [s].
-    """
+    """Relative terms of a card in shear or volume: weights g_i or k_i [-], times τ_i [s]."""
 
     weights: tuple[float, ...] = ()
     times: tuple[float, ...] = ()
@@ -93,7 +73,7 @@ class Terms:
 
     @property
     def active(self) -> frozenset[tuple[float, float]]:
-        """Weights and times of the terms that do relax."""
+        """Weights and times of the terms that relax."""
         pairs = zip(self.weights, self.times, strict=True)
         return frozenset((weight, time) for weight, time in pairs if weight > 0)
 
@@ -104,15 +84,7 @@ class Terms:
 
 
 def checked_terms(where: str, weights: list[float], times: list[float]) -> Terms:
-    """Return relative terms; ValueError unless they are those of a body that relaxes.
-
-    Parameters
-    ----------
-    where : str
-        For messages.
-    weights, times : list of float
-        g_i or k_i [-], and τ_i [s].
-    """
+    """Return relative terms [-] with times [s]; ValueError unless they describe relaxation."""
     for i, (weight, time) in enumerate(zip(weights, times, strict=True), start=1):
         if not 0 <= weight <= 1:
             raise ValueError(
@@ -135,31 +107,10 @@ def checked_terms(where: str, weights: list[float], times: list[float]) -> Terms
 def relaxing_material(moduli: Moduli, shear: Terms, bulk: Terms) -> Material:
     """Return the material of a card with Prony terms.
 
-    Parameters
-    ----------
-    moduli : Moduli
-        Elastic constants.
-    shear, bulk : Terms
-        What relaxes of the shear and of the bulk modulus.
+    Poisson's ratio is constant if bulk and shear modulus relax alike, the bulk modulus is elastic
+    if only shear relaxes; ValueError for any other relaxation of the bulk modulus. Terms in shear
+    alone do *not* mean a constant Poisson's ratio: it grows while G falls.
 
-    Returns
-    -------
-    Material
-        With Poisson's ratio constant if both relax alike, with an elastic bulk modulus if only
-        shear does.
-
-    Raises
-    ------
-    ValueError
-        If the bulk modulus relaxes in any other way.
-
-    Notes
-    -----
-    Terms in shear alone do *not* mean a constant Poisson's ratio: the bulk modulus stays what
-    it is, and the ratio grows while G falls.
-
-    Examples
-    --------
     >>> moduli = Moduli("card", 3e6, 0.5, instantaneous=True)
     >>> relaxing_material(moduli, Terms((0.25,), (10.0,)), Terms()).law
     RelaxationSeries(equilibrium=750000.0, moduli=(250000.0,), times=(10.0,))
@@ -172,19 +123,7 @@ def relaxing_material(moduli: Moduli, shear: Terms, bulk: Terms) -> Material:
 
 
 def with_volume(law: Law, moduli: Moduli, *, relaxes: bool, alike: bool) -> Material:
-    """Return the material of a law; ValueError unless the volume relaxes as shear does or not.
-
-    Parameters
-    ----------
-    law : Law
-        The law in shear.
-    moduli : Moduli
-        Elastic constants.
-    relaxes : bool
-        Whether the bulk modulus relaxes.
-    alike : bool
-        Whether it does so as the shear modulus does.
-    """
+    """Return the material of a law; ValueError if the volume relaxes, but unlike shear."""
     if moduli.poisson_ratio == 0.5 or (relaxes and alike):
         return Material(law, moduli.poisson_ratio)
     if relaxes:
@@ -197,15 +136,7 @@ def with_volume(law: Law, moduli: Moduli, *, relaxes: bool, alike: bool) -> Mate
 
 @dataclass(frozen=True)
 class Relative:
-    """A material in a card's terms: elastic constants, and what relaxes of them.
-
-    Parameters
-    ----------
-    moduli : Moduli
-        Instantaneous or long-term constants.
-    shear, bulk : Terms
-        What relaxes.
-    """
+    """A material in a card's terms: elastic constants, and the relaxing parts of both moduli."""
 
     moduli: Moduli
     shear: Terms
@@ -213,25 +144,10 @@ class Relative:
 
 
 def relative(material: Material, *, instantaneous: bool) -> Relative:
-    """Return a material in a card's terms.
+    """Return a material in a card's terms, with instantaneous or long-term elastic constants.
 
-    Parameters
-    ----------
-    material : Material
-        Of a law that is a series.
-    instantaneous : bool
-        Whether its elastic constants are to be those at once, or long-term ones.
-
-    Returns
-    -------
-    Relative
-        The same material.
-
-    Raises
-    ------
-    ValueError
-        If its law is no series or has no modulus at once, or if long-term constants of a
-        fluid are asked for.
+    ValueError if its law is not a series, has no instant modulus, or is a fluid, which has no
+    long-term constants.
     """
     law = material.law
     if not isinstance(law, SeriesLaw):

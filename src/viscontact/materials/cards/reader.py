@@ -1,4 +1,4 @@
-"""Cards of either program, told by what stands in them."""
+"""Reader of Abaqus and Ansys cards, distinguished by their content."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The contact compliance J(t): the one function of time through which a contact sees the bodies."""
+"""Contact compliance J(t), the function of time by which a contact depends on the materials."""
 
 from viscontact.materials.compliance.base import ContactCompliance
 from viscontact.materials.compliance.of_law import LawCompliance

@@ -1,4 +1,4 @@
-"""The contact compliance of a body that follows any creep law."""
+"""Contact compliance of a body with any creep law."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A contact compliance that is a finite sum of exponentials."""
+"""Contact compliance that is a finite sum of exponentials."""
 
 from __future__ import annotations
 
@@ -71,12 +71,12 @@ class SeriesCompliance(ContactCompliance):
 
     @property
     def term_count(self) -> int:
-        """How many terms creep: the exponentials, and the flow if there is any."""
+        """Number of exponentials, plus one for steady flow."""
         return len(self.times) + (self.fluidity > 0)
 
     @property
     def settled_after(self) -> float:
-        """Five of the slowest times [s]; a fluid's is the time of doubling its instant part."""
+        """Five of the longest times [s]; of a fluid, including instant/fluidity."""
         times = self.times.tolist()
         if self.fluidity > 0 and self.instant > 0:
             times.append(self.instant / self.fluidity)

@@ -1,4 +1,4 @@
-"""The sum of compliances: two bodies, or shear and volume of one."""
+"""Sum of contact compliances, of two bodies or of shear and volume of one."""
 
 from __future__ import annotations
 

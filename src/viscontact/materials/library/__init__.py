@@ -1,6 +1,6 @@
-"""The shipped library of materials: a YAML file each, with source, range and measured points.
+"""Library of materials: one YAML file each, with source, range and measured points.
 
-`README.md` beside the files says what an entry holds, and what was refused and why.
+`README.md` in this folder describes the content of an entry, and which data were not accepted.
 """
 
 from viscontact.materials.library.entry import Entry, entry, names

@@ -1,4 +1,4 @@
-"""The files of the library, read when asked for."""
+"""Entries of the material library, read on demand."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ from ruamel.yaml import YAML
 from viscontact.materials.library.points import Points, read_points
 from viscontact.units.parsing import parse_quantity
 
-#: They lead the list: the paper's material in its two readings.
+#: First in the list: the paper's material in its two versions.
 _FIRST = ("pmma-paper", "pmma-kumar-2004")
 
 
 @dataclass(frozen=True, eq=False)
 class Entry:
-    """One material of the library and all that is known of it.
+    """One material of the library with its sources.
 
     Parameters
     ----------
     name, family, title : str
-        What it is called, what it belongs to, what it is.
+        Its name, family of materials, and title.
     source, cite : str
         Authors, year, title, journal or repository, table or file; and in a few words.
     temperature, test : str
@@ -69,7 +69,7 @@ def names() -> tuple[str, ...]:
     Returns
     -------
     tuple of str
-        The paper's material in its two readings first, then by the alphabet.
+        The paper's material in its two versions first, then in alphabetical order.
 
     Examples
     --------
@@ -93,7 +93,7 @@ def entry(name: str) -> Entry:
     Returns
     -------
     Entry
-        What its file says.
+        The content of its file.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Values that a source prints or measures, in the convention of its test."""
+"""Measured or printed values of a source, in the convention of its test."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ class Points:
         ``creep_compliance``, ``relaxation_modulus``, ``storage_modulus``, ``loss_modulus`` or
         ``loss_tangent``.
     what : str
-        Where they are from.
+        Their source.
     at : ndarray
         Times [s], or angular frequencies [rad/s] of the last three quantities.
     values : ndarray
         Values as Phi [1/Pa], as shear moduli [Pa] or as ratios, whatever the source's
         convention was.
     tolerance : float
-        Largest relative departure of the law from them; why so much is said in the file.
+        Largest relative deviation of the law from them; the file gives the reason.
     """
 
     quantity: str
@@ -47,7 +47,7 @@ class Points:
         return self.quantity in _OVER_TIME
 
     def of_law(self, law: Law) -> NDArray[np.float64]:
-        """Return what a law has in their place.
+        """Return the quantity of a law at `at`, in the unit of `values`.
 
         Parameters
         ----------
@@ -77,25 +77,11 @@ class Points:
 
 
 def read_points(given: dict[str, Any], poisson_ratio: float | None) -> Points:
-    """Read the points of an entry's file.
+    """Read the points of an entry's file, and convert them to shear.
 
-    Parameters
-    ----------
-    given : dict
-        ``quantity``, ``what``, ``data``, ``times`` or ``angular_frequencies``, ``values`` and
-        ``tolerance``, the numbers in SI units.
-    poisson_ratio : float or None
-        Of the material, if it is constant: tensile values need it.
-
-    Returns
-    -------
-    Points
-        The same, in shear.
-
-    Raises
-    ------
-    ValueError
-        If a key or a convention is not known, or lengths differ.
+    `given` has ``quantity``, ``what``, ``data``, ``times`` or ``angular_frequencies``, ``values``
+    and ``tolerance``, in SI units; tensile values need a constant Poisson's ratio. ValueError if a
+    key or a convention is unknown, or lengths differ.
     """
     quantity = given["quantity"]
     if quantity not in _QUANTITIES:
@@ -114,7 +100,7 @@ def read_points(given: dict[str, Any], poisson_ratio: float | None) -> Points:
 
 
 def _compliance_factor(data: str, poisson_ratio: float | None) -> float:
-    """How many times Phi a compliance of this convention is."""
+    """Ratio of a compliance of this convention to Phi."""
     if data == "uniaxial":
         if poisson_ratio is None:
             raise ValueError("data: uniaxial needs a constant poisson_ratio in the material")
