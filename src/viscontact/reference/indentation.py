@@ -232,8 +232,8 @@ def clustered_times(corners: ArrayLike, count: int) -> NDArray[np.float64]:
     Returns
     -------
     ndarray, shape ((n - 1) count + 1,)
-        The instants; near a corner their distance from it goes with the third power of their
-        number, which makes the approach t^(2/3) under a rising force a smooth function [s].
+        The instants; near a corner their distance from it is proportional to the third power of
+        their number, which makes the approach t^(2/3) under a rising force a smooth function [s].
 
     Examples
     --------

@@ -23,7 +23,7 @@ def lee_radok_step(
     creep_compliance: TimeFunction,
     relaxation_modulus: TimeFunction,
 ) -> LeeRadokContact:
-    """Contact of a sphere with a viscoelastic half-space under a force applied at once and held.
+    """Contact of a sphere with a viscoelastic half-space under a suddenly applied, constant force.
 
     Parameters
     ----------

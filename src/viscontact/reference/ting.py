@@ -16,7 +16,7 @@ from viscontact.reference.profiles import ConeProfile, SphereProfile
 
 Array = NDArray[np.float64]
 GrowingProfile: TypeAlias = SphereProfile | ConeProfile
-"""An indenter whose contact grows with the approach."""
+"""Indenter whose contact grows with the approach."""
 
 _HALVINGS = 50
 

@@ -59,7 +59,7 @@ class WavyContact:
     def approach(self) -> float:
         """Approach of the waves to the mean plane of the surface, Δ r (1 - ln r), r = p̄/p* [m].
 
-        By integration: a strip more of pressure acts as flat punches a period λ apart do, whose
+        By integration: an increment of pressure acts as flat punches at distance λ do, whose
         stiffness is dp̄/dδ = -π E*/(2 λ ln sin(π a/λ)).
         """
         return self.amplitude * self.ratio * (1 - math.log(self.ratio))

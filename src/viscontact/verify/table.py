@@ -86,7 +86,7 @@ def write_table(results: Sequence[Result], path: Path) -> None:
     Raises
     ------
     ValueError
-        If the suffix is another one.
+        If the suffix is not one of these.
 
     Examples
     --------

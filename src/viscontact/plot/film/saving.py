@@ -55,7 +55,7 @@ def save_film(
     Raises
     ------
     ValueError
-        If the suffix is another one, or the encoder of MP4 is not installed.
+        If the suffix is not one of these, or the encoder of MP4 is not installed.
     OSError
         If the file cannot be written.
 

@@ -137,7 +137,7 @@ def _draw_section(
         xlabel=unit.label(along),
         ylabel=height.label("Gap"),
     )
-    # The middle of an even mesh is zero but for a rounding.
+    # The middle of an even mesh is zero up to rounding.
     # Three digits leave room for the exaggeration.
     where = length(place, digits=3) if abs(place) > 1e-6 * section.position[-1] else "0"
     style.add_heading(axes, f"along {along}, at {fixed} = {where}")

@@ -128,7 +128,7 @@ def _ends(sections: tuple[Section, Section]) -> Iterator[str]:
 
 
 def _places(section: Section) -> str:
-    # The middle of an even mesh is zero but for a rounding.
+    # The middle of an even mesh is zero up to rounding.
     least = 1e-6 * float(section.position[-1])
     ends = [end if abs(end) > least else 0.0 for end in section.ends]
     if len(ends) == 2 and abs(ends[0] + ends[1]) <= 1e-9 * ends[1]:

@@ -35,7 +35,7 @@ def indenter(
     -------
     matplotlib.figure.Figure
         As `draw_indenter` draws it, on the part of the surface that the grid covers: the gap
-        before anything is pressed.
+        before contact.
 
     Raises
     ------

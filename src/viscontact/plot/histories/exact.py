@@ -47,8 +47,8 @@ def exact(
     matplotlib.figure.Figure
         Contact radius, approach (force, where the approach is given) and peak pressure over
         time: computed values as markers, lines for Hertz's solution on an elastic
-        half-space, Lee and Radok's for a step or ramp that is held, Ting's otherwise. In a panel
-        of its own the difference, in percent of the largest exact value drawn.
+        half-space, Lee and Radok's for a step or ramp that is held, Ting's otherwise. In a separate
+        panel the difference, in percent of the largest exact value drawn.
 
     Raises
     ------

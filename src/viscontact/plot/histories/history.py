@@ -6,7 +6,6 @@ from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 import xarray as xr
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
@@ -15,8 +14,8 @@ from viscontact.plot.histories.time_axis import scale_time, within_span
 from viscontact.plot.layout import style
 from viscontact.plot.layout.error_band import (
     Band,
-    band_key,
     draw_band,
+    legend_entries,
     limit_axis_to_curves,
     peak_note,
 )
@@ -88,7 +87,7 @@ def compare_histories(
     Returns
     -------
     matplotlib.figure.Figure
-        One panel a quantity, one line a run, and a band around it where its error is known.
+        One panel per quantity, one line per run, and a band around it where its error is known.
 
     Raises
     ------
@@ -200,10 +199,7 @@ def _draw(
 
 def _add_key(figure: Figure, panels: list[Axes], names: list[str], bands: list[Band]) -> None:
     """Legend of several runs, and of error bands."""
-    entries: list[tuple[Artist, str]] = []
-    if len(names) > 1:
-        entries += zip(panels[0].get_lines(), names, strict=True)
-    entries += band_key(bands, style.FAINT if len(names) > 1 else style.LINE)
+    entries = legend_entries(panels[0].get_lines(), names, bands)
     if not entries:
         return
     figure.legend(

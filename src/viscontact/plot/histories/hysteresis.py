@@ -7,14 +7,13 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.plot.histories.time_axis import within_span
 from viscontact.plot.layout import style
-from viscontact.plot.layout.error_band import Band, band_key, draw_band
+from viscontact.plot.layout.error_band import Band, draw_band, legend_entries
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.results.stated_errors import stated_error
 from viscontact.results.variables import error_name
@@ -86,7 +85,7 @@ def compare_hysteresis(
     Returns
     -------
     matplotlib.figure.Figure
-        One line a run, with bands for the errors of approach and force where they are known.
+        One line per run, with bands for the errors of approach and force where they are known.
 
     Raises
     ------
@@ -130,7 +129,10 @@ def compare_hysteresis(
         _add_arrows(axes, x, y, look)
     axes.set(xlabel=x_unit.label("Approach"), ylabel=y_unit.label("Force"))
     _frame(axes)
-    _add_key(axes, list(shown), bands)
+    entries = legend_entries(axes.get_lines(), list(shown), bands)
+    if entries:
+        handles, labels = zip(*entries, strict=True)
+        style.add_legend(axes, handles, labels, loc="best")
     return figure
 
 
@@ -157,17 +159,6 @@ def _draw_bands(
         way = np.append(part, part[-1] + 1)[: x.size - int(part[0])]
         bands.append(draw_band(axes, x[way], y[way], error[way], colour, sideways=sideways))
     return [band for band in bands if band is not None]
-
-
-def _add_key(axes: Axes, names: list[str], bands: list[Band]) -> None:
-    """Legend of several runs, and of error bands."""
-    entries: list[tuple[Artist, str]] = []
-    if len(names) > 1:
-        entries += zip(axes.get_lines(), names, strict=True)
-    entries += band_key(bands, style.FAINT if len(names) > 1 else style.LINE)
-    if entries:
-        handles, labels = zip(*entries, strict=True)
-        style.add_legend(axes, handles, labels, loc="best")
 
 
 def _add_arrows(

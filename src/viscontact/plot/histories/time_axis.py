@@ -57,7 +57,7 @@ def scale_time(
     start = min(float(instant[0]) for instant in instants)
     end = max(float(instant[-1]) for instant in instants)
     first = min((float(t) for instant in instants for t in instant if t > 0), default=end)
-    # A few instants of a long run may lie close together.
+    # A few instants of a long run may be within a decade.
     on_log = all(map(suits_log_time, runs.values())) and end >= _DECADE * first
     for axes in panels:
         if on_log:

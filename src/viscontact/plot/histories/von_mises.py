@@ -79,7 +79,7 @@ def compare_von_mises(
     Returns
     -------
     matplotlib.figure.Figure
-        As `von_mises_history`, one line a run.
+        As `von_mises_history`, one line per run.
 
     Raises
     ------

@@ -108,6 +108,15 @@ def band_key(bands: Sequence[Band], colour: str) -> list[tuple[Artist, str]]:
     return [(shade, BAND if everywhere else BAND_IN_PARTS)]
 
 
+def legend_entries(
+    lines: Sequence[Artist], names: Sequence[str], bands: Sequence[Band]
+) -> list[tuple[Artist, str]]:
+    """Legend entries of several runs by name, and of error bands."""
+    several = len(names) > 1
+    runs = zip(lines, names, strict=True) if several else ()
+    return [*runs, *band_key(bands, style.FAINT if several else style.LINE)]
+
+
 def limit_axis_to_curves(axes: Axes, *curves: ArrayLike) -> None:
     """Limit the vertical axis, so that no band extends far beyond the curves."""
     values = np.concatenate([np.ravel(np.asarray(curve, dtype=np.float64)) for curve in curves])

@@ -33,7 +33,7 @@ def save_figure(figure: Figure, path: str | PathLike[str]) -> None:
     Raises
     ------
     ValueError
-        If the suffix is another one.
+        If the suffix is not one of these.
     OSError
         If the file cannot be written.
 
@@ -69,7 +69,7 @@ def require_suffix(path: str | PathLike[str], suffixes: Sequence[str]) -> str:
     Raises
     ------
     ValueError
-        If the file has another one.
+        If the file has a different suffix.
 
     Examples
     --------

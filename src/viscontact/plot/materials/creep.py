@@ -77,7 +77,7 @@ def compare_creep(
     Returns
     -------
     matplotlib.figure.Figure
-        As `creep_curve` draws it, one line a run. The modulus is left out if one of the laws has
+        As `creep_curve` draws it, one line per run. The modulus is left out if one of the laws has
         no instant compliance.
 
     Raises

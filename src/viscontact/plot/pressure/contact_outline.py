@@ -106,12 +106,12 @@ def compare_contact_outlines(
     Returns
     -------
     matplotlib.figure.Figure
-        One outline a run, named with the instant.
+        One outline per run, named with the instant.
 
     Raises
     ------
     ValueError
-        If there are no runs, one of them cannot be drawn, or several instants are asked for.
+        If there are no runs, one of them cannot be drawn, or several instants are given.
 
     Examples
     --------

@@ -51,7 +51,7 @@ def pressure_profile(
     Returns
     -------
     matplotlib.figure.Figure
-        One line an instant.
+        One line per instant.
 
     Raises
     ------
@@ -113,7 +113,7 @@ def compare_pressure_profiles(
     Returns
     -------
     matplotlib.figure.Figure
-        Panels with common axes, one line a run.
+        Panels with common axes, one line per run.
 
     Raises
     ------
@@ -154,7 +154,7 @@ def compare_pressure_profiles(
             positions, values = _in_contact(*_section(snapshot, along, at))
             axes.plot(length(positions), pressure(values), **look)
         _frame(axes, everything, along, length, pressure)
-        style.add_heading(axes, _instants_drawn(at_instant))
+        style.add_heading(axes, _instants_label(at_instant))
         style.add_heading(axes, peak_note(runs.values(), [instants[column]]), aside=True)
     for axes in panels[:-1]:
         axes.set_xlabel("")
@@ -169,7 +169,7 @@ def _section(
     return (snapshot.with_border(1) if snapshot.periodic else snapshot).section(along, at)
 
 
-def _instants_drawn(snapshots: Mapping[str, Snapshot]) -> str:
+def _instants_label(snapshots: Mapping[str, Snapshot]) -> str:
     instants = sorted({snapshot.time for snapshot in snapshots.values()})
     return "t = " + ", ".join(time_labels(instants))
 
@@ -196,7 +196,7 @@ def _limits(snapshots: list[Snapshot], along: Literal["x", "y"]) -> tuple[float,
 def _in_contact(
     positions: NDArray[np.float64], pressure: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Mask of the pressed points and the zeros at the contact's ends."""
+    """Positions, and pressure with NaN outside the contact but for the zeros at its ends."""
     pressed = pressure > 0
     near = pressed | np.append(pressed[1:], False) | np.append(False, pressed[:-1])
     return positions, np.where(near, pressure, np.nan)

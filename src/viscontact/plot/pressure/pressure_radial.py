@@ -49,7 +49,7 @@ def pressure_radial(
     matplotlib.figure.Figure
         Markers for the computed cells next to the x axis. For a sphere or round paraboloid
         under a step or a ramp also lines for Lee and Radok's hereditary integral, and below
-        the difference in percent of the exact peak at that instant, but for cells less
+        the difference in percent of the exact peak at that instant, except for cells less
         than a cell from the rim, over which the pressure is far from linear.
 
     Raises
@@ -105,7 +105,7 @@ def _require_round(results: xr.Dataset, snapshots: list[Snapshot]) -> None:
     kind = type(indenter).__name__
     if not _is_round(indenter, max(s.extent()[1] for s in snapshots if s.touching)):
         raise ValueError(
-            f"{_NAME}: needs a body of revolution, got a {kind} that is none; "
+            f"{_NAME}: needs a body of revolution, got a {kind} that is not; "
             "draw pressure-profile instead"
         )
     offset = np.hypot(results["eccentricity_x"].values, results["eccentricity_y"].values)
