@@ -16,6 +16,8 @@ from pydantic import ValidationError
 
 import viscontact as vc
 from viscontact.case import CaseError, case_schema, read_case
+from viscontact.case.loads import load_table
+from viscontact.case.materials import measured_laws
 from viscontact.case.time_grid_output import Cells
 from viscontact.units.parsing import parse_quantity
 
@@ -454,3 +456,30 @@ def test_an_automatic_grid_is_asked_for_in_words(grid, wish):
 def test_grids_that_are_half_given_are_refused(grid, complaint):
     with pytest.raises(ValidationError, match=re.escape(complaint)):
         Cells(**grid)
+
+
+def test_every_data_file_of_a_case_is_parsed_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "creep.csv").write_text(
+        "time [s], creep_compliance [1/MPa]\n0.1, 1\n1, 2\n10, 3\n", encoding="utf-8"
+    )
+    (tmp_path / "load.csv").write_text("time [s], force [N]\n0, 0\n1, 5\n", encoding="utf-8")
+    text = (
+        "indenter: {shape: sphere, radius: 5 mm}\n"
+        "material: {law: table, file: creep.csv, quantity: creep_compliance, data: shear,\n"
+        "  poisson_ratio: 0.4}\n"
+        "load: {kind: history, file: load.csv}\n"
+        "time: {end: 1 s, steps: 4}\n"
+    )
+    parsed: list[str] = []
+    for module in (measured_laws, load_table):
+        original = module.read_table
+
+        def counting(path: Any, *args: Any, read: Any = original) -> Any:
+            parsed.append(Path(path).name)
+            return read(path, *args)
+
+        monkeypatch.setattr(module, "read_table", counting)
+    read_case(written(tmp_path, text))
+    assert sorted(parsed) == ["creep.csv", "load.csv"]

@@ -92,8 +92,8 @@ def read_parts(text: str, path: str | PathLike[str]) -> Parts:
 
     return Parts(
         part("indenter", _SHAPES, combined),
-        part("material", _MATERIAL, lambda found: found.build()),
-        part("indenter_material", _MATERIAL, lambda found: found.build()),
+        part("material", _MATERIAL, lambda found: found.built),
+        part("indenter_material", _MATERIAL, lambda found: found.built),
         part("load", _LOAD, load),
         part("time", _TIME, lambda found: float(found.end)),
     )

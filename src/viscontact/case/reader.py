@@ -121,11 +121,11 @@ def _case(document: Document, found: CaseFile) -> Case:
     return Case(
         title=found.title,
         indenter=combined(found.indenter),
-        material=found.material.build(),
+        material=found.material.built,
         load=found.history(),
         grid=found.grid.build() if found.grid else None,
         times=with_instants(times, fields),
-        indenter_material=of_indenter.build() if of_indenter else None,
+        indenter_material=of_indenter.built if of_indenter else None,
         tolerance=found.tolerance,
         fields=fields,
         errors=found.output.errors,

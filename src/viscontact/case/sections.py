@@ -45,7 +45,9 @@ class CaseFile(Section):
     def history(self) -> LoadHistory:
         """Return the load; a mean pressure acts on the area of the grid."""
         cells = self.grid.build() if self.grid else None
-        return self.load.build(cells.area if isinstance(cells, Grid) else 1.0)
+        if self.load.is_by_pressure and isinstance(cells, Grid):
+            return self.load.build(cells.area)
+        return self.load.built
 
 
 def case_schema() -> dict[str, Any]:

@@ -57,7 +57,7 @@ def shipped_material(name: str) -> Material:
         raise ValueError(
             f"no shipped material is called {name!r}{hint} There are {', '.join(library.names())}"
         )
-    return _Alone.model_validate({"material": name}).material.build()
+    return _Alone.model_validate({"material": name}).material.built
 
 
 def read_material(path: str | PathLike[str]) -> Material:
@@ -84,7 +84,7 @@ def read_material(path: str | PathLike[str]) -> Material:
         raise CaseError(
             f"{path}: holds no material; a case file has a section material: with its law"
         )
-    return _alone(document, document.path.parent).build()
+    return _alone(document, document.path.parent).built
 
 
 def read_section(section: Mapping[str, Any], place: str | PathLike[str]) -> Medium:

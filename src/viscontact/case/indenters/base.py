@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Mapping
+from functools import cached_property
 from pathlib import Path
 
 from pydantic import Field, model_validator
@@ -28,9 +29,14 @@ class Shape(Section):
     def build(self) -> indenters.Indenter:
         """Return the indenter in its own coordinates."""
 
+    @cached_property
+    def built(self) -> indenters.Indenter:
+        """The indenter in its own coordinates, built once: its file is read once."""
+        return self.build()
+
     def placed(self) -> indenters.Indenter:
         """Return the indenter, rotated and then moved."""
-        shape = self.build()
+        shape = self.built
         if self.rotation:
             shape = shape.rotated(self.rotation)
         if self.offset_x or self.offset_y:
@@ -51,7 +57,7 @@ class Shape(Section):
     def _accepted(self) -> Shape:
         # Errors of the constructor are reported among the problems of the file.
         try:
-            self.build()
+            _ = self.built
         except ValueError as error:
             raise ValueError(str(error).removesuffix(_OF_PYTHON)) from error
         return self

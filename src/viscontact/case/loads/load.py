@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Sequence
+from functools import cached_property
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -49,6 +50,11 @@ class Load(Section):
     def build(self, area: float = 1.0) -> LoadHistory:
         """Return the history; a mean pressure acts on the given area [m²]."""
 
+    @cached_property
+    def built(self) -> LoadHistory:
+        """The history, built once: its file is read once. A mean pressure acts on 1 m²."""
+        return self.build()
+
     @property
     def table(self) -> Path | None:
         """File of the history, if there is one."""
@@ -68,7 +74,7 @@ class Load(Section):
     @model_validator(mode="after")
     def _accepted(self) -> Load:
         # Errors of the constructor are reported among the problems of the file.
-        self.build()
+        _ = self.built
         return self
 
 

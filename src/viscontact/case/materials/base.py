@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Mapping
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -48,6 +49,11 @@ class Medium(Section):
     @abstractmethod
     def build_law(self) -> Law:
         """Return the creep law."""
+
+    @cached_property
+    def built(self) -> Material:
+        """The material, built once: its file is read once."""
+        return self.build()
 
     def build(self) -> Material:
         """Return the material at the temperature of the run."""
@@ -98,5 +104,5 @@ class Medium(Section):
     @model_validator(mode="after")
     def _accepted(self) -> Medium:
         # Errors of the constructors are reported among the problems of the file.
-        self.build()
+        _ = self.built
         return self

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from functools import cached_property
 from pathlib import Path
 from typing import Any, Literal
 
@@ -171,8 +172,9 @@ class CardLaw(FromFile):
 
     def build_law(self) -> Law:
         """Return the card's law."""
-        return self.build().law
+        return self.built.law
 
+    @cached_property
     def card(self) -> Card:
         """Return the card of the file."""
         self._require_units()
@@ -190,14 +192,14 @@ class CardLaw(FromFile):
     @property
     def notes(self) -> tuple[str, ...]:
         """Notes on contents of the card that are not used."""
-        return self.card().notes
+        return self.card.notes
 
     def build(self) -> Material:
         """Return the card's material, at the run's temperature."""
         for key in ("poisson_ratio", "bulk_modulus"):
             if getattr(self, key) is not None:
                 raise ValueError(f"{key}: is given in the card; leave it out")
-        card = self.card()
+        card = self.card
         if card.shift is not None and self.shift is not None:
             raise ValueError("shift: is given in the card; leave it out")
         return self._at_temperature(

@@ -15,7 +15,7 @@ from viscontact.laws import Law
 class Springs(Medium):
     """Law of elements with shear moduli, or with uniaxial ones for `data: uniaxial`."""
 
-    built: ClassVar[Any]  # the law's class; from_shear and from_uniaxial differ in arguments
+    law_class: ClassVar[Any]  # the law's class; from_shear and from_uniaxial differ in arguments
 
     shear_modulus: Modulus | None = Field(default=None, description="instantaneous shear modulus")
     youngs_modulus: Modulus | None = Field(
@@ -29,9 +29,9 @@ class Springs(Medium):
         """Return the law, from shear or uniaxial moduli."""
         others = {name: getattr(self, name) for name in self._others()}
         if self._is_uniaxial():
-            law = self.built.from_uniaxial(self.youngs_modulus, **others, **self._in_volume)
+            law = self.law_class.from_uniaxial(self.youngs_modulus, **others, **self._in_volume)
         else:
-            law = self.built.from_shear(self.shear_modulus, **others)
+            law = self.law_class.from_shear(self.shear_modulus, **others)
         assert isinstance(law, Law)
         return law
 
@@ -55,7 +55,7 @@ class Springs(Medium):
 class Elastic(Springs):
     """A spring."""
 
-    built = laws.Elastic
+    law_class = laws.Elastic
 
     law: Literal["elastic"]
 
@@ -63,7 +63,7 @@ class Elastic(Springs):
 class Maxwell(Springs):
     """A spring and a dashpot in series."""
 
-    built = laws.Maxwell
+    law_class = laws.Maxwell
 
     law: Literal["maxwell"]
     viscosity: Viscosity = Field(description="of the dashpot")
@@ -72,7 +72,7 @@ class Maxwell(Springs):
 class Zener(Springs):
     """A spring in series with a Kelvin unit, the standard linear solid."""
 
-    built = laws.Zener
+    law_class = laws.Zener
 
     law: Literal["zener"]
     delayed_modulus: Modulus = Field(description="of the Kelvin unit's spring")
@@ -82,7 +82,7 @@ class Zener(Springs):
 class Burgers(Springs):
     """A Maxwell and a Kelvin unit in series."""
 
-    built = laws.Burgers
+    law_class = laws.Burgers
 
     law: Literal["burgers"]
     viscosity: Viscosity = Field(description="of the Maxwell unit, the steady flow")
@@ -93,7 +93,7 @@ class Burgers(Springs):
 class FractionalMaxwell(Springs):
     """A spring (or a spring-pot) in series with a spring-pot."""
 
-    built = laws.FractionalMaxwell
+    law_class = laws.FractionalMaxwell
 
     law: Literal["fractional-maxwell"]
     time: Duration = Field(description="time at which both elements have the same strain")
@@ -106,7 +106,7 @@ class FractionalMaxwell(Springs):
 class FractionalZener(Springs):
     """The standard linear solid with a spring-pot in place of its dashpot."""
 
-    built = laws.FractionalZener
+    law_class = laws.FractionalZener
 
     law: Literal["fractional-zener"]
     equilibrium_modulus: ModulusOrZero = Field(

@@ -146,7 +146,7 @@ def _from_card(path: Path, typed: MaterialOptions) -> MaterialDisplay:
         **typed.given(*keys, "poisson_ratio", "bulk_modulus"),
     }
     found = _read(path, section)
-    card = found.card()
+    card = found.card
     return MaterialDisplay(
         str(path), found.build(), card_name=card.name, shift=card.shift, notes=found.notes
     )
