@@ -1,14 +1,13 @@
-"""Fourier and cosine transforms along one axis: the only place that knows who computes them.
+"""Fourier and cosine transforms along one axis, by SciPy or ducc0.
 
-SciPy does it everywhere; `ducc0` does it in less than half the time where it is installed
+SciPy is always there; `ducc0` takes less than half the time where it is installed
 (``pip install viscontact[fast]``; it is under the GPL, and so never required). The two agree to
-rounding, not to the bit, so a run stays with the one that it began with.
+rounding, not to the bit, so a run keeps the library that it began with.
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -20,15 +19,12 @@ try:
 except ImportError:
     ducc0 = None
 
-#: Lines that a library may transform at once: of single numbers in the widest registers there are.
-BUNCH = 16
-
 #: Real or complex fields, in single or double precision.
 Field = NDArray[Any]
 
 
 class Transforms(ABC):
-    """Transforms of fields along an axis, by some library; those back undo those forth.
+    """Transforms of fields along an axis by one library, forward and inverse.
 
     Each returns its result, which may lie in the array that was given for it.
 
@@ -70,7 +66,7 @@ class Transforms(ABC):
 
 
 class SciPyTransforms(Transforms):
-    """By SciPy, in double and single precision.
+    """Transforms by SciPy, in double and single precision.
 
     Examples
     --------
@@ -108,7 +104,7 @@ class SciPyTransforms(Transforms):
 
 
 class DuccTransforms(Transforms):
-    """By `ducc0`, in no memory but what it is given."""
+    """Transforms by `ducc0`, which allocates no memory for fields."""
 
     name = "ducc0"
 
@@ -153,71 +149,6 @@ class DuccTransforms(Transforms):
         return spectrum
 
 
-class SharedTransforms(Transforms):
-    """On several threads, to the bits of one.
-
-    A library transforms lines in bunches, and those that are left over one by one, which may round
-    otherwise. So each thread gets whole bunches, and what is left goes to one.
-
-    Parameters
-    ----------
-    several, one : Transforms
-        The same library's on several threads, and on one.
-    """
-
-    def __init__(self, several: Transforms, one: Transforms) -> None:
-        super().__init__(several.threads)
-        self.name = several.name
-        self._several, self._one = several, one
-
-    def real_forth(self, field: Field, into: Field, axis: int) -> Field:
-        """Into an array; see `Transforms.real_forth`."""
-        return self._shared(
-            axis, into, lambda by, lines: by.real_forth(field[lines], into[lines], axis)
-        )
-
-    def real_back(self, spectrum: Field, spare: Field, axis: int) -> Field:
-        """Into the spare array; see `Transforms.real_back`."""
-        return self._shared(
-            axis, spare, lambda by, lines: by.real_back(spectrum[lines], spare[lines], axis)
-        )
-
-    def complex_forth(self, field: Field, axis: int) -> Field:
-        """In place; see `Transforms.complex_forth`."""
-        return self._shared(axis, field, lambda by, lines: by.complex_forth(field[lines], axis))
-
-    def complex_back(self, spectrum: Field, axis: int) -> Field:
-        """In place; see `Transforms.complex_back`."""
-        return self._shared(
-            axis, spectrum, lambda by, lines: by.complex_back(spectrum[lines], axis)
-        )
-
-    def cosine_forth(self, field: Field, axis: int) -> Field:
-        """In place; see `Transforms.cosine_forth`."""
-        return self._shared(axis, field, lambda by, lines: by.cosine_forth(field[lines], axis))
-
-    def cosine_back(self, spectrum: Field, axis: int) -> Field:
-        """In place; see `Transforms.cosine_back`."""
-        return self._shared(axis, spectrum, lambda by, lines: by.cosine_back(spectrum[lines], axis))
-
-    def _shared(
-        self,
-        axis: int,
-        into: Field,
-        transform: Callable[[Transforms, tuple[slice, slice]], Field],
-    ) -> Field:
-        count, every = into.shape[1 - axis], slice(None)
-        whole = count - count % (BUNCH * self.threads)
-        for part, by in ((slice(0, whole), self._several), (slice(whole, count), self._one)):
-            if part.stop == part.start:
-                continue
-            lines = (part, every) if axis == 1 else (every, part)
-            result = transform(by, lines)
-            if not np.may_share_memory(result, into[lines]):
-                into[lines] = result
-        return into
-
-
 def fastest_transforms() -> str:
     """Return the name of the fastest transforms that are installed.
 
@@ -230,14 +161,7 @@ def fastest_transforms() -> str:
 
 
 def transforms_by(name: str, threads: int = 1) -> Transforms:
-    """Return the transforms of a library.
-
-    Parameters
-    ----------
-    name : {"scipy", "ducc0"}
-        The library.
-    threads : int
-        Threads of one transform.
+    """Return the transforms of a library, "scipy" or "ducc0", on some threads.
 
     Raises
     ------
@@ -249,16 +173,13 @@ def transforms_by(name: str, threads: int = 1) -> Transforms:
     >>> transforms_by("scipy").name
     'scipy'
     """
-    if threads > 1:
-        several = DuccTransforms if name == DuccTransforms.name else SciPyTransforms
-        return SharedTransforms(several(threads), transforms_by(name))
     if name == SciPyTransforms.name:
-        return SciPyTransforms()
+        return SciPyTransforms(threads)
     if name != DuccTransforms.name:
         raise ValueError(f"no Fourier transforms are called {name!r}; known are scipy and ducc0")
     if ducc0 is None:
         raise ValueError("ducc0 is not installed; install it: pip install viscontact[fast]")
-    return DuccTransforms()
+    return DuccTransforms(threads)
 
 
 def as_reals(spectrum: Field) -> Field:
@@ -273,21 +194,9 @@ def as_reals(spectrum: Field) -> Field:
 
 
 def fill_of_order_one(block: Field, field: NDArray[np.float64]) -> float:
-    """Put a field into a block, by its largest value into one of single precision.
+    """Copy a field into a block, and return the factor that it was divided by.
 
-    That has few exponents.
-
-    Parameters
-    ----------
-    block : ndarray
-        Where to; of any precision.
-    field : ndarray
-        The field, of the same shape.
-
-    Returns
-    -------
-    float
-        By what it was divided; 1 for zeros, and in double precision.
+    In single precision, with its few exponents, that is its largest value; else 1.
 
     Examples
     --------

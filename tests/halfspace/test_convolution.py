@@ -74,8 +74,8 @@ def test_applying_does_not_touch_its_argument_nor_what_it_returned_before():
 
 @pytest.mark.parametrize("library", ["scipy", "ducc0"])
 @pytest.mark.parametrize("threads", [2, 3, 4])
-def test_threads_change_no_bit(threads, library):
-    """Whatever number of lines a library transforms at once, and how many it is then left with."""
+def test_threads_change_transforms_by_rounding_only(threads, library):
+    """A library transforms lines in bunches, and the remaining ones one by one: other rounding."""
     if library == "ducc0":
         pytest.importorskip("ducc0")
     random = np.random.default_rng(3)
@@ -93,7 +93,8 @@ def test_threads_change_no_bit(threads, library):
                     even = by.cosine_back(by.cosine_forth(pairs, 1 - axis), 1 - axis)
                     both.append([there, back, onwards.copy(), even])
                 for one, several in zip(*both, strict=True):
-                    assert np.array_equal(one, several)
+                    rounding = 20 * np.finfo(number).eps * np.abs(one).max()
+                    assert np.abs(several - one).max() <= rounding
 
 
 @pytest.mark.parametrize("single", [False, True])
