@@ -1,6 +1,6 @@
-"""What notebooks and terminals show of nouns and results: small drawings and tables.
+"""Display of objects and results in notebooks and terminals: small drawings and tables.
 
-Nouns ask for it by themselves (`viscontact.display`). Drawings are SVG written by hand, so that
+Objects call it by themselves (`viscontact.display`). Drawings are SVG written by hand, so that
 they need no plotting library, take the colours of the page around them, and stay small.
 """
 

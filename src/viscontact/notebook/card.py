@@ -1,4 +1,4 @@
-"""What a noun shows: a title, drawings, and a table of names and values."""
+"""Card of an object: a title, drawings, and a table of names and values."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ Rows = Sequence[tuple[str, ...]]
 
 @dataclass(frozen=True)
 class Card:
-    """A part of what is shown.
+    """Title, table and drawings of one object.
 
     Attributes
     ----------
     title : str
-        What it is.
+        Heading of the card.
     rows : sequence of tuple of str
         The table: names, and one value or more of each.
     drawings : sequence of Element
-        Beside it.
+        To the left of the table.
     heads : tuple of str
         Above the columns of values; none for a single one.
     lead : str
@@ -53,7 +53,7 @@ class Card:
         return "\n".join(line.rstrip() for line in filter(None, [self.title, self.lead, *lines]))
 
     def element(self) -> Element:
-        """Make the drawings, and the table beside them."""
+        """The card in HTML: drawings, and the table to their right."""
         title = element("div", self.title, style="font-weight:600;margin:2px 0")
         lead = element("div", self.lead, style="margin:0 0 4px;max-width:60em")
         head = (
@@ -68,23 +68,12 @@ class Card:
 
 
 def as_html(cards: Iterable[Card]) -> str:
-    """Write cards, one below the other, as a piece of HTML.
-
-    Parameters
-    ----------
-    cards : iterable of Card
-        What is shown.
-    """
+    """Write cards, one below the other, as a piece of HTML."""
     return written(element("div", *(card.element() for card in cards), class_="viscontact"))
 
 
 def as_text(cards: Iterable[Card]) -> str:
     """Write the tables of cards for a terminal.
-
-    Parameters
-    ----------
-    cards : iterable of Card
-        What is shown.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Nouns as cards: of a part of a case, or of a whole one."""
+"""Cards of objects: of a part of a case, or of a whole one."""
 
 from __future__ import annotations
 
@@ -34,13 +34,13 @@ from viscontact.units.formatting import format_quantity
 
 
 def display_html(noun: Displayable) -> str:
-    """Return a noun as a piece of HTML: small drawings beside a table.
+    """Return the display of an object in HTML: small drawings and a table.
 
     Parameters
     ----------
     noun : Displayable
         Indenter, law, material, load, grid, case, surface, record, fit, master curve, material
-        card, or what a result has as ``ds.viscontact``.
+        card, or ``ds.viscontact`` of a result.
 
     Returns
     -------
@@ -51,13 +51,13 @@ def display_html(noun: Displayable) -> str:
 
 
 def display_text(noun: Displayable) -> str:
-    """Return a noun as a table for a terminal.
+    """Return the display of an object as a table for a terminal.
 
     Parameters
     ----------
     noun : Displayable
         Indenter, law, material, load, grid, case, surface, record, fit, master curve, material
-        card, or what a result has as ``ds.viscontact``.
+        card, or ``ds.viscontact`` of a result.
 
     Examples
     --------
@@ -100,7 +100,7 @@ def _material_card(card: MaterialCard) -> Card:
 
 
 def _found(noun: Displayable) -> Iterator[Displayable]:
-    """What measurements and files hold that can be used: laws, materials, shift rules."""
+    """Laws, materials and shift rules in fits and material cards."""
     if isinstance(noun, Fit):
         yield noun.law
     elif isinstance(noun, IndentationFit):
@@ -109,7 +109,7 @@ def _found(noun: Displayable) -> Iterator[Displayable]:
         yield from (part for part in (noun.material, noun.shift) if part is not None)
 
 
-#: Nouns that hold numbers by the thousand, which no table of arguments tells.
+#: Objects with thousands of numbers, which need a card of their own.
 _MEASURED: dict[type[Displayable], Callable[[Any], Card]] = {
     Surface: surface_card,
     IndentationRecord: record_card,
@@ -130,15 +130,17 @@ def _sentence_case(name: str) -> str:
 
 
 def _rows(noun: Displayable) -> list[tuple[str, ...]]:
-    told = list(argument_rows(describe(noun)))
+    arguments = list(argument_rows(describe(noun)))
     own = _name_of(noun)
-    rows: list[tuple[str, ...]] = [row for row in told if row not in (("shape", own), ("law", own))]
-    known = {value for _, value in told}
+    rows: list[tuple[str, ...]] = [
+        row for row in arguments if row not in (("shape", own), ("law", own))
+    ]
+    known = {value for _, value in arguments}
     return [*rows, *(row for row in _following(noun) if row[1] not in known)]
 
 
 def _following(noun: Displayable) -> Iterator[tuple[str, str]]:
-    """What follows from the arguments and is asked for as often."""
+    """Quantities that follow from the arguments: cell size, radii of curvature."""
     if isinstance(noun, Grid):
         yield "cell", " × ".join(format_quantity(extent, "m") for extent in noun.cell_size)
     if isinstance(noun, Indenter):
@@ -156,7 +158,7 @@ def _following(noun: Displayable) -> Iterator[tuple[str, str]]:
 def _drawings(noun: Displayable) -> list[Element]:
     try:
         return _drawn(noun)
-    except ValueError:  # of a user's own noun, say, where it is not defined: the table is left
+    except ValueError:  # a user's own object may not be defined everywhere
         return []
 
 

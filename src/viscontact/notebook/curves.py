@@ -17,17 +17,17 @@ from viscontact.notebook.svg_panel import ORANGE, Mark, panel
 from viscontact.results.provenance import describe
 
 _POINTS = 121
-#: A formula is drawn over its own times and so many times shorter and longer ones.
+#: A formula is drawn over its own times, and times shorter and longer by this factor.
 _AROUND = 100.0
-#: Of a harmonic load so many cycles are drawn, with so many points each.
+#: Number of cycles of a harmonic load that are drawn, and points of each.
 _MOST_CYCLES, _POINTS_OF_CYCLE = 5, 48
-#: What is held after the last point of a history is drawn over this part of its time.
+#: The level after the last point of a history is drawn over this part of its time.
 _HELD = 0.25
 #: The drawing begins by so much of its length earlier.
 _BEFORE = 0.05
 #: Beyond this ratio of last to first compliance its axis is logarithmic.
 _DECADES = 20.0
-#: Of a long table so many rows are drawn as points.
+#: Number of rows of a long table that are drawn as points.
 _MOST_DOTS = 40
 #: Names of arguments that are times.
 _TIMES = ("times", "time", "reference_time")
@@ -35,19 +35,7 @@ _PHI, _G = ("creep compliance Φ", "1/Pa"), ("relaxation modulus G", "Pa")
 
 
 def law_drawings(law: Law) -> list[Element]:
-    """Draw creep compliance and relaxation modulus of a law over logarithmic time.
-
-    Parameters
-    ----------
-    law : Law
-        The law.
-
-    Returns
-    -------
-    list of Element
-        The two curves; that alone which a table gives, the other takes an interconversion; none
-        of an elastic law.
-    """
+    """Draw creep compliance and relaxation modulus of a law over log time; none if elastic."""
     if isinstance(law, Elastic):
         return []
     span = law_span(law)
@@ -63,11 +51,6 @@ def law_drawings(law: Law) -> list[Element]:
 
 def law_span(law: Law) -> tuple[float, float]:
     """Return the first and the last time worth drawing, whole decades [s].
-
-    Parameters
-    ----------
-    law : Law
-        The law.
 
     Examples
     --------
@@ -87,18 +70,7 @@ def law_span(law: Law) -> tuple[float, float]:
 
 
 def load_drawings(load: LoadHistory) -> list[Element]:
-    """Draw force or approach over time.
-
-    Parameters
-    ----------
-    load : LoadHistory
-        The history.
-
-    Returns
-    -------
-    list of Element
-        One drawing.
-    """
+    """Draw force or approach over time."""
     times, levels, end = _course(load)
     low, high = float(levels.min(initial=0.0)), float(levels.max(initial=0.0))
     if low == high:

@@ -1,4 +1,4 @@
-"""HTML made of elements, so that whatever users have named can only be text."""
+"""HTML made of elements, so that users' names are always escaped."""
 
 from __future__ import annotations
 
@@ -9,20 +9,6 @@ from xml.etree.ElementTree import Element, tostring
 
 def element(name: str, *content: str | Element | None, **attributes: str) -> Element:
     """Make an element of HTML.
-
-    Parameters
-    ----------
-    name : str
-        Its tag.
-    *content : str, Element or None
-        What it holds, in order; None holds nothing.
-    **attributes : str
-        Its attributes; ``class_`` stands for ``class``, ``data_x`` for ``data-x``.
-
-    Returns
-    -------
-    Element
-        The element.
 
     Examples
     --------
@@ -40,38 +26,12 @@ def element(name: str, *content: str | Element | None, **attributes: str) -> Ele
 
 
 def written(made: Element) -> str:
-    """Write an element as HTML.
-
-    Parameters
-    ----------
-    made : Element
-        From `element`.
-
-    Returns
-    -------
-    str
-        Its source, everything escaped that could be taken for markup.
-    """
+    """Write an element as HTML."""
     return tostring(made, encoding="unicode", method="html")
 
 
 def as_script(data: Any) -> str:
-    r"""Write data as JSON that can stand in a script of a page.
-
-    Parameters
-    ----------
-    data : object
-        Plain data.
-
-    Returns
-    -------
-    str
-        JSON in which no text can end the script.
-
-    Raises
-    ------
-    ValueError
-        If a number is not finite: JSON knows none.
+    r"""Write data as JSON that is safe inside a script of a page: no text can end the script.
 
     Examples
     --------
@@ -79,7 +39,7 @@ def as_script(data: Any) -> str:
     '{"title":"\\u003c/script>"}'
     """
     text = json.dumps(data, separators=(",", ":"), allow_nan=False, ensure_ascii=False)
-    # Both begin what could end a script; neither stands in JSON but in texts.
+    # Both begin what could end a script; in JSON they occur in texts only.
     return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
 
 

@@ -1,4 +1,4 @@
-"""What was measured and identified as cards: data as dots, what was found in them as a line."""
+"""Cards of measurements and fits: data as dots, the identified law as a line."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from viscontact.units.temperatures import in_celsius
 
 Floats = NDArray[np.float64]
 
-#: Of a column so many rows are drawn as dots, and a curve in so many points.
+#: Number of rows that are drawn as dots, and of points of a curve.
 _DOTS, _POINTS = 40, 121
 #: Beyond this ratio of largest to smallest value the axis is logarithmic.
 _DECADES = 20.0
@@ -28,13 +28,7 @@ _UNITS = {"compliance": "1/Pa", "modulus": "Pa", "storage": "Pa", "loss": "Pa"}
 
 
 def record_card(record: IndentationRecord) -> Card:
-    """Make the card of an indentation record.
-
-    Parameters
-    ----------
-    record : IndentationRecord
-        What was measured.
-    """
+    """Make the card of an indentation record."""
     rows = [
         ("indenter", in_plain_words(type(record.indenter).__name__)),
         ("rows", str(record.times.size)),
@@ -50,13 +44,7 @@ def record_card(record: IndentationRecord) -> Card:
 
 
 def fit_card(fit: Fit) -> Card:
-    """Make the card of a series fitted to measured values.
-
-    Parameters
-    ----------
-    fit : Fit
-        The fit.
-    """
+    """Make the card of a series fitted to measured values."""
     oscillates = "storage" in fit.measured
     parts = {name: float(np.sqrt(np.mean(each**2))) for name, each in fit.residuals.items()}
     rows = [
@@ -80,13 +68,7 @@ def fit_card(fit: Fit) -> Card:
 
 
 def indentation_fit_card(fit: IndentationFit) -> Card:
-    """Make the card of a law fitted to an indentation record.
-
-    Parameters
-    ----------
-    fit : IndentationFit
-        The fit.
-    """
+    """Make the card of a law fitted to an indentation record."""
     level = f"{fit.confidence:.0%}".replace("%", " %")
     rows = [("law", in_plain_words(type(fit.law).__name__))]
     for (name, value), unit in zip(fit.parameters.items(), fit.units, strict=True):
@@ -106,13 +88,7 @@ def indentation_fit_card(fit: IndentationFit) -> Card:
 
 
 def isotherm_card(isotherm: Isotherm) -> Card:
-    """Make the card of what a test measured at one temperature.
-
-    Parameters
-    ----------
-    isotherm : Isotherm
-        The set.
-    """
+    """Make the card of a test at one temperature."""
     points = isotherm.points
     rows = [
         ("temperature", _celsius(isotherm.temperature)),
@@ -127,13 +103,7 @@ def isotherm_card(isotherm: Isotherm) -> Card:
 
 
 def master_curve_card(curve: MasterCurve) -> Card:
-    """Make the card of a master curve.
-
-    Parameters
-    ----------
-    curve : MasterCurve
-        The curve.
-    """
+    """Make the card of a master curve."""
     oscillates = curve.isotherms[0].oscillates
     rows = [
         ("reference temperature", _celsius(curve.reference_temperature)),
@@ -183,7 +153,7 @@ def _scatter(
     marks = []
     for index, (at, values) in enumerate(sets):
         some = _some(at.size, max(4, _DOTS // len(sets)))
-        # Sets beside each other are told apart.
+        # Neighbouring sets differ.
         colour = BLUE if index % 2 else ORANGE
         marks.append(Mark(at[some], values[some], "dots", colour))
     if curve is not None:

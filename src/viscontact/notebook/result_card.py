@@ -1,4 +1,4 @@
-"""A result as a card: what was found, in a sentence, a table, and two small drawings."""
+"""Card of a result: a headline, a table, and two small drawings."""
 
 from __future__ import annotations
 
@@ -19,18 +19,12 @@ from viscontact.units.formatting import format_quantity
 
 Floats = NDArray[np.float64]
 
-#: A contact no longer along y than so many times its extent along x is round, but for a cell.
+#: Up to this ratio of its extents along y and x a contact counts as round.
 ROUND = 1.05
 
 
 def result_card(ds: xr.Dataset) -> Card:
-    """Make the card of a result.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        What ``simulate`` or ``open_results`` returned; of any other dataset it says so.
-    """
+    """Make the card of a result."""
     labels = labels_in(Place.CARD)
     missing = [name for name in ("time", *labels) if name not in ds.variables]
     if missing:
@@ -55,8 +49,8 @@ def _title(ds: xr.Dataset) -> str:
 
 
 def _warnings(ds: xr.Dataset) -> list[tuple[str, str]]:
-    told = [line for line in str(ds.attrs.get("warnings", "")).splitlines() if line.strip()]
-    return [("warnings", f"{len(told)}, in ds.attrs['warnings']")] if told else []
+    lines = [line for line in str(ds.attrs.get("warnings", "")).splitlines() if line.strip()]
+    return [("warnings", f"{len(lines)}, in ds.attrs['warnings']")] if lines else []
 
 
 def _drawings(ds: xr.Dataset) -> list[Element]:
@@ -86,7 +80,7 @@ def _time(instants: Floats) -> Scale:
 
 
 def _section(ds: xr.Dataset) -> list[Element]:
-    """Pressure along the longer way of the contact, at the first and last instant that has it."""
+    """Pressure along the longer extent of the contact, at the first and last stored instant."""
     if "pressure" not in ds:
         return []
     over = str(ds["pressure"].dims[0])

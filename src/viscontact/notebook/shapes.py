@@ -16,7 +16,7 @@ from viscontact.notebook.svg_panel import ROOM, Mark, panel
 _POINTS, _MESH = 241, 121
 #: Of the smallest radius of curvature: bodies are drawn where their gap is below it.
 _CAP = 1 / 8
-#: Where bodies may end: powers of ten [m], and how many places are tried in each.
+#: Range in which the end of a body is searched: powers of ten [m], and steps in each.
 _DECADES, _TRIALS = (-9, 2), 24
 #: Bodies without any length of their own are drawn over this [m]; they look alike at any size.
 _ANY_EXTENT = 1e-3
@@ -24,18 +24,7 @@ _PERIODS = 3
 
 
 def indenter_drawings(indenter: Indenter) -> list[Element]:
-    """Draw sections through the deepest point of a body, along x and along y.
-
-    Parameters
-    ----------
-    indenter : Indenter
-        The body.
-
-    Returns
-    -------
-    list of Element
-        Two drawings; one where both would be alike; none if no part of the body is found.
-    """
+    """Draw sections through the deepest point of a body, along x and y; one if they are alike."""
     along, across = natural_size(indenter)
     x, y = (np.linspace(-extent / 2, extent / 2, _MESH) for extent in (along, across))
     gap = indenter.gap(x[:, None], y)
@@ -50,12 +39,7 @@ def indenter_drawings(indenter: Indenter) -> list[Element]:
 
 
 def natural_size(indenter: Indenter) -> tuple[float, float]:
-    """Choose how much of a body is worth drawing, along x and y around the origin [m].
-
-    Parameters
-    ----------
-    indenter : Indenter
-        The body.
+    """Extents along x and y, around the origin, over which a body is drawn by default [m].
 
     Examples
     --------
@@ -75,13 +59,13 @@ def natural_size(indenter: Indenter) -> tuple[float, float]:
 
 
 def _reach(indenter: Indenter, axis: int) -> float:
-    """How far from the origin a body is drawn along an axis [m]; inf where nothing tells."""
+    """Distance from the origin to which a body is drawn along an axis [m]; inf if unknown."""
     places = np.logspace(*_DECADES, (_DECADES[1] - _DECADES[0]) * _TRIALS + 1)
     gap = np.fmin(*(_along(indenter, sign * places, axis) for sign in (1.0, -1.0)))
     solid = np.flatnonzero(np.isfinite(gap))
     if not solid.size:
         return math.inf
-    # The first place beyond the end leaves some room beside it.
+    # The first place beyond the end leaves a margin.
     end = math.inf if solid[-1] == places.size - 1 else float(places[solid[-1] + 1])
     radius = indenter.radius_of_curvature
     if not math.isfinite(radius):
@@ -95,7 +79,7 @@ def _reach(indenter: Indenter, axis: int) -> float:
 
 
 def _where(indenter: Indenter, height: float, low: float, high: float, axis: int) -> float:
-    """Where the gap comes to a height, between two places [m]."""
+    """Position between two others where the gap reaches a height [m]."""
     for _ in range(40):
         middle = (low + high) / 2
         gap = min(float(_along(indenter, np.array([s * middle]), axis)[0]) for s in (1.0, -1.0))

@@ -1,4 +1,4 @@
-"""A measured surface as a card: its heights as a small map, a section, and what is known of it."""
+"""Card of a measured surface: heights as a small map, a section, and its roughness."""
 
 from __future__ import annotations
 
@@ -18,21 +18,16 @@ from viscontact.units.formatting import format_number, format_quantity
 
 Floats = NDArray[np.float64]
 
-#: The map's room, and the least side of what is drawn in one tone [px].
+#: Size of the map, and the least side of an area of one tone [px].
 _ROOM, _LEAST = (206.0, 120.0), 5.0
-#: From low to high; what is not known stays empty.
+#: From low to high; unknown heights stay empty.
 _TONES = (0.12, 0.3, 0.5, 0.7, 0.95)
-#: Of a section so many points are drawn.
+#: Number of points of a section.
 _POINTS = 240
 
 
 def surface_card(surface: Surface) -> Card:
     """Make the card of a measured surface.
-
-    Parameters
-    ----------
-    surface : Surface
-        The surface.
 
     Examples
     --------
@@ -98,7 +93,7 @@ def _map(surface: Surface) -> Element:
 
 
 def _means(heights: Floats, counts: list[int]) -> Floats:
-    """Means of the known heights over so many parts along x and y; NaN where there is none."""
+    """Means of the known heights over a number of parts along x and y; NaN where unknown."""
     known = np.isfinite(heights)
     sums, numbers = np.where(known, heights, 0.0), known.astype(np.float64)
     for axis, count in enumerate(counts):

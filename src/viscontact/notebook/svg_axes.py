@@ -1,4 +1,4 @@
-"""Axes of small drawings: what they span, in which unit, and their ticks."""
+"""Axes of small drawings: range, unit and ticks."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Scale:
     logarithmic: bool = False
 
     def place(self, values: ArrayLike) -> NDArray[np.float64]:
-        """Return where values lie along the axis, from 0 to 1.
+        """Positions of values along the axis, from 0 to 1.
 
         Parameters
         ----------
@@ -57,14 +57,8 @@ def linear(quantity: str, unit: str, low: float, high: float, most: int = 4) -> 
 
     Parameters
     ----------
-    quantity : str
-        What it shows.
-    unit : str
-        Its SI unit.
     low, high : float
         Its ends, `low` below `high` [SI].
-    most : int, optional
-        Ticks at most, about.
 
     Examples
     --------
@@ -89,12 +83,8 @@ def logarithmic(
 
     Parameters
     ----------
-    quantity, unit : str
-        What it shows, and its SI unit.
     low, high : float
         Its ends, 0 < `low` < `high` [SI].
-    each_with_unit : bool, optional
-        Whether ticks are written with units of their own, as it suits times, or in one unit.
 
     Examples
     --------

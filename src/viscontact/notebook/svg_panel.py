@@ -17,7 +17,7 @@ from viscontact.notebook.svg_axes import Scale
 Floats = NDArray[np.float64]
 _Path = list[tuple[float, float]]
 
-#: Blue and orange that are told apart by everybody, on white and on black.
+#: Blue and orange that colour-blind readers distinguish, on white and on black.
 BLUE, ORANGE = "#2f80c3", "#d9661f"
 WIDTH, _HEIGHT = 222, 158
 _LEFT, _RIGHT, _TOP, _BOTTOM = 46, 12, 24, 36
@@ -67,21 +67,8 @@ def panel(
 
     Parameters
     ----------
-    heading : str
-        What is shown.
-    x, y : Scale
-        The axes.
-    marks : iterable of Mark
-        What is drawn; what lies beyond the axes is cut off.
-    aside : str, optional
-        A remark at the right.
     height : int, optional
         Of the whole drawing [px].
-
-    Returns
-    -------
-    Element
-        The drawing, 222 px wide.
     """
     frame = _Frame(x, y, height)
     parts = [part for mark in marks for part in frame.drawn(mark)]

@@ -1,4 +1,4 @@
-"""How accurate a run is, by its own account."""
+"""Accuracy of a run as the report states it: errors, balance, steps, cells."""
 
 from __future__ import annotations
 
@@ -16,19 +16,7 @@ from viscontact.units.formatting import format_quantity
 
 
 def error_rows(ds: xr.Dataset) -> list[tuple[str, ...]]:
-    """Return the table of results and their errors.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result.
-
-    Returns
-    -------
-    list of tuple of str
-        Name with unit; first, last and largest value, each with its error; the largest error over
-        the run, with its part of the largest value; when it is.
-    """
+    """Return the table of results and their errors."""
     return [
         (f"{row.title} [{row.unit}]", row.first, row.last, row.largest, _worst(row), row.when)
         for row in summary_rows(ds)
@@ -36,13 +24,7 @@ def error_rows(ds: xr.Dataset) -> list[tuple[str, ...]]:
 
 
 def accuracy_lines(ds: xr.Dataset) -> Iterator[tuple[str, str]]:
-    """Yield what else is known of a run's accuracy, name and account.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result.
-    """
+    """Yield further statements on a run's accuracy: title and text."""
     residual = ds["residual"].values
     tolerance = float(ds.attrs.get("tolerance", math.nan))
     asked = "" if math.isnan(tolerance) else f"; asked for: {tolerance:.1e}"

@@ -22,36 +22,18 @@ from viscontact.results.recorded_case import case_of, recorded_object
 
 
 def geometry(ds: xr.Dataset) -> Element:
-    """Draw the indenter, with the largest contact shaded.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result.
-    """
+    """Drawing of the indenter, with the largest contact shaded."""
     wide = _drawn(partial(_indenter, ds), "Sections through the indenter, and its plan")
     return _both(wide, partial(_small_sections, ds))
 
 
 def is_drawn_from_fields(ds: xr.Dataset) -> bool:
-    """Tell whether the geometry is what the grid saw of it: maps are not kept with results.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result.
-    """
+    """Whether the geometry is drawn from the fields: measured maps are not stored in results."""
     return is_left_out(case_of(ds).get("indenter"))
 
 
 def materials(ds: xr.Dataset) -> Iterator[tuple[str, Element]]:
-    """Yield the curves of each creeping body: whose they are, and the drawing.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result.
-    """
+    """Yield the curves of each creeping body: whose they are, and the drawing."""
     bodies = {"material": "Half-space", "indenter_material": "Indenter"}
     for part, title in bodies.items():
         if case_of(ds).get(part) is not None or part == "material":
@@ -62,7 +44,7 @@ def materials(ds: xr.Dataset) -> Iterator[tuple[str, Element]]:
 
 def _indenter(ds: xr.Dataset) -> Figure:
     indenter, x, y = _body(ds), ds["x"].values, ds["y"].values
-    # What fields tell is known at the cells' centres, and not beyond.
+    # Fields are known at the cells' centres, and not beyond.
     cells = (x.size - 1, y.size - 1) if is_drawn_from_fields(ds) else (x.size, y.size)
     size = float(x[1] - x[0]) * cells[0], float(y[1] - y[0]) * cells[1]
     length, width = (float(ds[name].max()) for name in ("contact_length", "contact_width"))
@@ -100,7 +82,7 @@ def _both(wide: Element, small: Callable[[], list[Element]]) -> Element:
 
 
 def _middle(ds: xr.Dataset) -> tuple[float, float]:
-    """Middle of the contact where it is largest, as far as stored fields tell."""
+    """Middle of the largest contact of the stored fields [m]; the origin without fields."""
     if "pressure" not in ds:
         return 0.0, 0.0
     over = ds["pressure"].dims[0]

@@ -22,28 +22,16 @@ Floats = NDArray[np.float64]
 #: A curve that varies by less than this part is drawn as the constant it is.
 _CONSTANT = 1e-6
 #: An axis goes beyond its curve by so much of the curve's span or, if more, of its largest value:
-#: one wild error is not to flatten what there is to see.
+#: one very large error does not flatten the curve.
 _SPAN, _SIZE = 1.0, 0.5
-#: The instant 0 stands so many decades before the first step on a logarithmic axis.
+#: Decades between the instant 0 and the first step on a logarithmic axis.
 _BEFORE = 0.5
 #: Below this ratio of last to first step there is nothing to spread.
 _LEAST_RATIO = 30.0
 
 
 def time_axis(ds: xr.Dataset) -> dict[str, Any]:
-    """Return the axis of time, linear and, where steps are spread over decades, logarithmic.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result.
-
-    Returns
-    -------
-    dict
-        Unit and positions on both axes, ticks of the second, and which to begin with. On the
-        logarithmic axis the instant 0 stands half a decade before the first step.
-    """
+    """Return the axis of time, linear and, where steps are spread over decades, logarithmic."""
     instants = np.asarray(ds["time"].values, dtype=np.float64)
     unit = readable_unit("s", instants)
     axis: dict[str, Any] = {"unit": unit.symbol, "linear": rounded(unit(instants)), "log": None}
@@ -124,7 +112,7 @@ def _hover(ds: xr.Dataset, values: Floats, errors: Floats, units: str) -> list[s
 
 
 def _note(errors: Floats, values: Floats) -> str:
-    """What the band does not say."""
+    """Remark on errors that the band does not show."""
     given = np.isfinite(values)
     marked, unknown = int(np.isposinf(errors).sum()), int(np.isnan(errors[given]).sum())
     if marked:

@@ -1,4 +1,4 @@
-"""What a run was given, what it is worth and where it came from, as chapters of a page."""
+"""Chapters of the page: inputs, geometry, material, accuracy, limits, versions."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from viscontact.results.summary import LEGEND
 from viscontact.run_files import CASE_NAME
 from viscontact.units.formatting import format_quantity
 
-#: How to cite the package, as CITATION.cff has it, which installed packages lack.
+#: Citation of the package, as in CITATION.cff, which installed packages lack.
 _PACKAGE = (
     "The viscontact developers: viscontact: contact of creeping bodies. Version {version}, MIT."
 )
@@ -33,13 +33,7 @@ _PAPER = (
 
 
 def inputs_chapter(ds: xr.Dataset) -> Iterator[Element]:
-    """Yield the table of inputs, and the case as it was written.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result.
-    """
+    """Yield the table of inputs, and the case as it was written."""
     tables = [_part(part, list(rows)) for part, rows in groupby(inputs(ds), lambda each: each.part)]
     if tables:
         yield element("div", *tables, class_="inputs")
@@ -54,13 +48,7 @@ def inputs_chapter(ds: xr.Dataset) -> Iterator[Element]:
 
 
 def geometry_chapter(ds: xr.Dataset) -> Iterator[Element]:
-    """Yield the drawing of the indenter.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result.
-    """
+    """Yield the drawing of the indenter."""
     yield element("figure", drawings.geometry(ds))
     if drawings.is_drawn_from_fields(ds):
         yield element(
@@ -73,13 +61,7 @@ def geometry_chapter(ds: xr.Dataset) -> Iterator[Element]:
 
 
 def material_chapter(ds: xr.Dataset) -> Iterator[Element]:
-    """Yield the curves of each body's material.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result.
-    """
+    """Yield the curves of each body's material."""
     for title, drawing in drawings.materials(ds):
         yield element("h3", title)
         yield element("figure", drawing)
@@ -92,13 +74,7 @@ def material_chapter(ds: xr.Dataset) -> Iterator[Element]:
 
 
 def accuracy_chapter(ds: xr.Dataset) -> Iterator[Element]:
-    """Yield the table of errors, and how they are known.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result.
-    """
+    """Yield the table of errors, and the estimates behind them."""
     ends = (f"t = {format_quantity(float(ds['time'][k]), 's')}" for k in (0, -1))
     heads = ("", *ends, "largest", "largest error", "when")
     yield _table(heads, accuracy.error_rows(ds))
@@ -107,13 +83,7 @@ def accuracy_chapter(ds: xr.Dataset) -> Iterator[Element]:
 
 
 def limits_chapter(ds: xr.Dataset) -> Iterator[Element]:
-    """Yield the run's warnings, then what the theory always assumes.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result.
-    """
+    """Yield the run's warnings, then the assumptions of the theory."""
     warnings = limits.warnings_of(ds)
     if warnings:
         items = (element("li", text) for text in warnings)
@@ -127,13 +97,7 @@ def limits_chapter(ds: xr.Dataset) -> Iterator[Element]:
 
 
 def about_chapter(ds: xr.Dataset) -> Iterator[Element]:
-    """Yield versions, and how to cite.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result.
-    """
+    """Yield versions and citation."""
     version = str(ds.attrs.get("version", "not known"))
     lines = [("Computed by", f"viscontact {version}")]
     if "wall_time" in ds.attrs:

@@ -1,4 +1,4 @@
-"""What went into a run, with units."""
+"""Inputs of a run, with units."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ _PARTS = {
 
 @dataclass(frozen=True)
 class Input:
-    """One thing that was given.
+    """One input.
 
     Attributes
     ----------
     part, name, value : str
-        Where it belongs, what it is, and what it is worth, with its unit.
+        The part of the case, the argument, and its value with its unit.
     """
 
     part: str
@@ -39,12 +39,7 @@ class Input:
 
 
 def inputs(ds: xr.Dataset) -> list[Input]:
-    """List what went into a run.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result; one of the user's own making, without its case, has no inputs.
+    """List the inputs of a run.
 
     Examples
     --------
@@ -66,7 +61,7 @@ def inputs(ds: xr.Dataset) -> list[Input]:
 
 
 def case_file(ds: xr.Dataset) -> str:
-    """Return the case as it was written, if it lies beside the result."""
+    """The case file that lies next to the result; empty if there is none."""
     source = Path(str(ds.encoding.get("source", "")))
     beside = source.parent / CASE_NAME
     if source.name != RESULT_NAME or not beside.is_file():

@@ -1,4 +1,4 @@
-"""Where the theory ends, said for one run."""
+"""Limits of the theory for one run: warnings and assumptions."""
 
 from __future__ import annotations
 
@@ -15,13 +15,7 @@ from viscontact.units.formatting import format_number, format_quantity
 
 
 def notices(ds: xr.Dataset) -> list[str]:
-    """Return what a reader must know first: an early end, instants that failed.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result.
-    """
+    """Notices for the head of the page: an early end, failed instants."""
     said = []
     times = case_of(ds).get("times") or []
     reached = float(ds["time"][-1])
@@ -37,13 +31,7 @@ def notices(ds: xr.Dataset) -> list[str]:
 
 
 def warnings_of(ds: xr.Dataset) -> list[str]:
-    """Return the warnings of a run, each once, and what became of its grid.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result.
-    """
+    """Warnings of a run, each once, and enlargements of its grid."""
     enlarged = str(ds.attrs.get("grid_enlarged", "")).splitlines()
     lines = [
         *str(ds.attrs.get("warnings", "")).splitlines(),
@@ -53,18 +41,7 @@ def warnings_of(ds: xr.Dataset) -> list[str]:
 
 
 def assumptions(ds: xr.Dataset) -> Iterator[tuple[str, str]]:
-    """Yield what the theory always takes for granted, with this run's numbers.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result.
-
-    Yields
-    ------
-    tuple of str
-        The assumption, and what it means here.
-    """
+    """Yield the assumptions of the theory with this run's numbers: title and text."""
     yield "Half-space", f"the surface goes on without end, and the body below it{_size(ds)}"
     yield (
         "Small slopes",

@@ -22,24 +22,12 @@ Floats = NDArray[np.float64]
 MOST_CELLS = 256
 #: Steps of a pressure on the page, two bytes each: far finer than its colours.
 STEPS = 65535
-#: As many outlines are told apart in one figure.
+#: Number of outlines that remain distinguishable in one figure.
 _OUTLINES = 5
 
 
 def map_data(fields: ShownFields) -> dict[str, Any]:
-    """Return the pressure over the surface at every instant shown.
-
-    Parameters
-    ----------
-    fields : ShownFields
-        The fields.
-
-    Returns
-    -------
-    dict
-        Positions and the largest pressure in readable units; of each instant the pressures as
-        little-endian 16-bit parts of the largest, in base64, y by y.
-    """
+    """Return the pressure over the surface at every instant shown."""
     length, pressure = fields.window.unit, readable_unit("Pa", fields.peak)
     first, (in_x, in_y) = fields.snapshots[0], fields.inside
     strides = strides_of(fields)
@@ -74,15 +62,7 @@ def map_data(fields: ShownFields) -> dict[str, Any]:
 
 
 def section_data(fields: ShownFields, along: Literal["x", "y"]) -> dict[str, Any]:
-    """Return the pressure on a line at every instant shown, at full resolution.
-
-    Parameters
-    ----------
-    fields : ShownFields
-        The fields.
-    along : {"x", "y"}
-        Which way the line goes; where it runs says `ShownFields.through`.
-    """
+    """Return the pressure on a line at every instant shown, at full resolution."""
     length, pressure = fields.window.unit, readable_unit("Pa", fields.peak)
     inside = fields.inside["xy".index(along)]
     positions, _ = fields.snapshots[0].section(along, _crossing(fields, along))
@@ -98,22 +78,14 @@ def section_data(fields: ShownFields, along: Literal["x", "y"]) -> dict[str, Any
 
 
 def section_place(fields: ShownFields, along: Literal["x", "y"]) -> str:
-    """Say where a section runs, such as ``"y = 0 mm"``."""
+    """Position of a section, such as ``"y = 0 mm"``."""
     unit = fields.window.unit
     other = "y" if along == "x" else "x"
     return f"{other} = {format_compact(float(unit(_crossing(fields, along))), 4)} {unit.symbol}"
 
 
 def section_csv(fields: ShownFields, along: Literal["x", "y"]) -> str:
-    """Write the section at every instant shown as CSV, in SI units.
-
-    Parameters
-    ----------
-    fields : ShownFields
-        The fields.
-    along : {"x", "y"}
-        Which way the line goes.
-    """
+    """Write the section at every instant shown as CSV, in SI units."""
     lines = [each.section(along, _crossing(fields, along)) for each in fields.snapshots]
     heads = [f"pressure at {each.time!r} s [Pa]" for each in fields.snapshots]
     file = io.StringIO()
@@ -125,13 +97,13 @@ def section_csv(fields: ShownFields, along: Literal["x", "y"]) -> str:
 
 
 def strides_of(fields: ShownFields) -> tuple[int, int]:
-    """How many cells along x and y are joined to one of the map's."""
+    """Numbers of cells along x and y that are averaged to one of the map."""
     along_x, along_y = (-(-(part.stop - part.start) // MOST_CELLS) for part in fields.inside)
     return along_x, along_y
 
 
 def rounded(values: Any, digits: int = 6) -> list[float]:
-    """Return numbers with so many significant digits, which keeps a page small."""
+    """Numbers rounded to significant digits, which keeps a page small."""
     return [float(f"{value:.{digits - 1}e}") for value in np.asarray(values).tolist()]
 
 
@@ -150,7 +122,7 @@ def _parts(snapshot: Snapshot, fields: ShownFields, strides: tuple[int, int]) ->
 
 
 def _joined(values: Floats, stride: int, axis: int = 0) -> Floats:
-    """Means over so many neighbours; the last may have fewer."""
+    """Means over a number of neighbours; the last may have fewer."""
     starts = np.arange(0, values.shape[axis], stride)
     counts = np.diff([*starts, values.shape[axis]])
     sums = np.add.reduceat(values, starts, axis=axis)

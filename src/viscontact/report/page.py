@@ -113,7 +113,7 @@ def _fields(ds: xr.Dataset) -> ShownFields | None:
 
 
 def _data(ds: xr.Dataset, fields: ShownFields | None) -> dict[str, Any]:
-    """What the page's figures are drawn from."""
+    """Data of the page's figures."""
     return {
         "time": time_axis(ds),
         "load": load_panels(ds),

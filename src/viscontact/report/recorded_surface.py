@@ -1,4 +1,4 @@
-"""The surface that a run was pressed with, as its grid saw it."""
+"""Measured surface of a run, reconstructed on its grid from the stored fields."""
 
 from __future__ import annotations
 
@@ -12,33 +12,12 @@ from viscontact.indenters import HeightMap
 
 
 def is_left_out(described: Any) -> bool:
-    """Tell whether a part of a noun is not kept with the result: a large map has its name only.
-
-    Parameters
-    ----------
-    described : object
-        The noun as the case of a result describes it.
-    """
+    """Test for a described object of which a result keeps a fingerprint only: a large map."""
     return '"sha256"' in json.dumps(described)
 
 
 def recorded_surface(ds: xr.Dataset) -> HeightMap:
     """Return the indenter on the grid of a run, from the fields that are stored.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result.
-
-    Returns
-    -------
-    HeightMap
-        The initial gap at the cells' centres, its lowest value at zero.
-
-    Raises
-    ------
-    ValueError
-        If no instant has gap and displacement all over the grid.
 
     Notes
     -----

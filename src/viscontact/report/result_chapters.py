@@ -1,4 +1,4 @@
-"""What a run found, as chapters of a page: headline, pressure, histories."""
+"""Chapters of the page: headline, pressure, histories."""
 
 from __future__ import annotations
 
@@ -26,19 +26,12 @@ _WAYS: tuple[tuple[Literal["x", "y"], str], ...] = (("x", "Along x"), ("y", "Acr
 
 
 def title_of(ds: xr.Dataset) -> str:
-    """Return what a run is called."""
+    """Title of a run."""
     return str(ds.attrs.get("title") or "Contact of a creeping body")
 
 
 def heading_of(ds: xr.Dataset, label: str) -> str:
-    """Return what a run is called where it has a name of its own.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result.
-    label : str
-        What tells the run from others of the same title; empty if nothing does.
+    """Heading of a run: its title with its label, which tells it from others of that title.
 
     Examples
     --------
@@ -53,17 +46,7 @@ def heading_of(ds: xr.Dataset, label: str) -> str:
 
 
 def opening(name: str, ds: xr.Dataset, chapters: dict[str, str]) -> Element:
-    """Open the page: title, result in a sentence, what must be known first.
-
-    Parameters
-    ----------
-    name : str
-        What the run is called.
-    ds : xarray.Dataset
-        A result.
-    chapters : dict
-        Titles of the chapters by their place.
-    """
+    """Head of the page: title, result in a sentence, notices, key results, links."""
     links = (element("a", title, href=f"#{place}") for place, title in chapters.items())
     return element(
         "header",
@@ -76,15 +59,7 @@ def opening(name: str, ds: xr.Dataset, chapters: dict[str, str]) -> Element:
 
 
 def pressure_chapter(ds: xr.Dataset, fields: ShownFields | None) -> Iterator[Element]:
-    """Yield map, sections and outlines, or why there are none.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result.
-    fields : ShownFields or None
-        Its fields, if there is contact in them.
-    """
+    """Yield map, sections and outlines, or why there are none."""
     if fields is None:
         yield element("p", _without_fields(ds), class_="faint")
         return
@@ -108,17 +83,7 @@ def pressure_chapter(ds: xr.Dataset, fields: ShownFields | None) -> Iterator[Ele
 def history_chapter(
     ds: xr.Dataset, axis: dict[str, Any], load: list[dict[str, Any]], answers: list[dict[str, Any]]
 ) -> Iterator[Element]:
-    """Yield the panels of the load and of what the contact answers.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result.
-    axis : dict
-        The axis of time, from `time_axis`.
-    load, answers : list of dict
-        The panels, from `load_panels` and `response_panels`.
-    """
+    """Yield the panels of the load and of the contact's response."""
     button = element("button", "Show the other scale of time", type="button", id="time-scale")
     csv = io.StringIO()
     write_history(ds, csv)
@@ -132,10 +97,10 @@ def history_chapter(
     yield element("div", *map(_panel, load), class_="panels")
     yield element("h3", "Contact")
     yield element("div", *map(_panel, answers), class_="panels")
-    told = "Shaded: the error of each value. "
+    legend = "Shaded: the error of each value. "
     if any(panel["note"] == MESH_DEPENDENT for panel in answers):
-        told += "Dashed: the value depends on the mesh, smaller cells give more. "
-    yield element("p", told + "All numbers are in the CSV file, in SI units.", class_="faint")
+        legend += "Dashed: the value depends on the mesh, smaller cells give more. "
+    yield element("p", legend + "All numbers are in the CSV file, in SI units.", class_="faint")
 
 
 def _facts(ds: xr.Dataset) -> Element:
@@ -157,7 +122,7 @@ def _facts(ds: xr.Dataset) -> Element:
 
 
 def _unbroken(text: str) -> str:
-    """Keep numbers together with their units when a line ends there, and ± with the error."""
+    """Put no-break spaces between numbers and units, and between ± and the error."""
     return re.sub(r"(?<=[±=]) (?=\d)|(?<=\d) (?=[a-zA-Zµ²]{1,4}\b)", "\N{NO-BREAK SPACE}", text)
 
 
@@ -197,7 +162,7 @@ def _map(fields: ShownFields) -> Element:
 
 
 def _remarks(fields: ShownFields) -> str:
-    """What the map does not show as it is."""
+    """Remarks on the map: scale, averaged cells, instants left out."""
     said = ["The line is the outline of the contact; white: no contact."]
     if fields.window.note:
         said.append(f"In this drawing {fields.window.note.replace(' stretched', ' is stretched')}.")

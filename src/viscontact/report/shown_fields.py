@@ -1,4 +1,4 @@
-"""The fields that a page shows: which instants, and which part of the surface."""
+"""Fields on a page: a selection of instants and a window on the surface."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class ShownFields:
     window : Window
         The part of the surface that holds every contact.
     stored : int
-        How many instants the result has, of which these are some.
+        Number of instants with fields in the result.
     """
 
     snapshots: tuple[Snapshot, ...]
@@ -52,7 +52,7 @@ class ShownFields:
 
     @cached_property
     def through(self) -> tuple[float, float]:
-        """Where sections run, x and y [m]: through the resultant of the first instant shown.
+        """Position of the sections, x and y [m]: through the resultant of the first instant shown.
 
         Where there is no contact at the resultant, as between two spots, through the largest
         pressure.
@@ -70,18 +70,7 @@ class ShownFields:
 
 
 def shown_fields(ds: xr.Dataset) -> ShownFields:
-    """Choose what to show of the fields of a result.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result.
-
-    Raises
-    ------
-    ValueError
-        If it has no fields, or no contact in them.
-    """
+    """Choose the instants and the window to show of a result's fields."""
     stored = field_times(ds, "map")
     chosen = np.unique(np.linspace(0, stored.size - 1, MOST_INSTANTS).round().astype(int))
     snapshots = tuple(take_snapshots(ds, stored[chosen], "map"))

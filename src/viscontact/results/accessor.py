@@ -1,4 +1,4 @@
-"""What a result offers beside its variables: `ds.viscontact`."""
+"""Accessor `ds.viscontact` of a result: its display and its figures."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from viscontact.display import Displayable, result_plots
 class ResultAccessor(Displayable):
     """A result of `simulate` or `open_results`, in a few lines and small drawings.
 
-    Displayed in a notebook, or printed, it tells what was found. It is there after
+    Displayed in a notebook, or printed, it summarises the result. It is available after
     ``import viscontact`` and the first of its names that makes or opens results.
 
     Parameters

@@ -42,18 +42,6 @@ _MAX_LISTED = 8
 def argument_rows(description: Mapping[str, Any], owner: str = "") -> Iterator[tuple[str, str]]:
     """Yield names and values of an object's arguments, with those of the objects within it.
 
-    Parameters
-    ----------
-    description : mapping
-        The object as `describe` gives it.
-    owner : str, optional
-        Put in front of each name: the object that the arguments belong to.
-
-    Yields
-    ------
-    name, value : str
-        The argument in words, and its value with its unit.
-
     Examples
     --------
     >>> sphere = {"type": "Sphere", "radius": 0.01}

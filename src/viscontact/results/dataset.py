@@ -30,24 +30,7 @@ def to_dataset(
     attributes: Mapping[str, Any],
     errors: Mapping[str, NDArray[np.float64]] | None = None,
 ) -> xr.Dataset:
-    """Label the states of a run.
-
-    Parameters
-    ----------
-    states : sequence of ContactState
-        At least one; fields are needed only where they are kept.
-    fields : str or sequence of float
-        As in `simulate`.
-    attributes : mapping
-        Global attributes of the result.
-    errors : mapping of str to ndarray, optional
-        Errors by the scalar's name, over the states, in the scalar's unit.
-
-    Returns
-    -------
-    xarray.Dataset
-        As `simulate` returns it.
-    """
+    """Label the states of a run as `simulate` returns them; errors by name, over the states."""
     times = np.array([state.time for state in states])
     scalars = {
         name: (
@@ -72,11 +55,6 @@ def to_dataset(
 
 def field_axis(fields: str | Sequence[float]) -> str:
     """Return the dimension on which fields are kept: ``time``, or ``field_time`` for some.
-
-    Parameters
-    ----------
-    fields : str or sequence of float
-        As in `simulate`.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""What a result holds and says where its grid has been enlarged while the run went on."""
+"""Enlarged grids in a result: fields on the widest grid, and a log of the enlargements."""
 
 from __future__ import annotations
 
@@ -13,22 +13,14 @@ from viscontact.units.formatting import format_quantity
 
 
 def on_wider(name: str, field: NDArray[np.float64], grid: Grid, wider: Grid) -> NDArray[np.float64]:
-    """A field as it stands in a result whose grid was enlarged later.
+    """A field on the widest grid of a result, from the grid of its instant.
+
+    Beyond that grid pressure is 0, gap and displacement are NaN.
 
     Parameters
     ----------
-    name : str
-        ``pressure``, ``gap`` or ``displacement``.
     field : ndarray, shape (..., nx, ny)
         On the grid of its time.
-    grid, wider : Grid
-        That grid, and the result's.
-
-    Returns
-    -------
-    ndarray
-        Beyond the grid of its time pressure is 0, which it was; gap and displacement are NaN there,
-        for nobody has computed them.
 
     Examples
     --------
@@ -42,14 +34,7 @@ def on_wider(name: str, field: NDArray[np.float64], grid: Grid, wider: Grid) -> 
 
 
 def enlargement(time: float, before: Grid, after: Grid) -> str:
-    """Say in a line that a grid was enlarged.
-
-    Parameters
-    ----------
-    time : float
-        First instant of the result on the larger grid [s].
-    before, after : Grid
-        The two grids.
+    """One line of the log of enlargements; the time is the first on the larger grid [s].
 
     Examples
     --------
@@ -66,20 +51,7 @@ def enlargement(time: float, before: Grid, after: Grid) -> str:
 
 
 def enlargements(grid: Grid, states: Sequence[ContactState]) -> list[str]:
-    """Say when the grid of a run was enlarged.
-
-    Parameters
-    ----------
-    grid : Grid
-        The run's first one.
-    states : sequence of ContactState
-        Its states so far; fields are not needed.
-
-    Returns
-    -------
-    list of str
-        A line for each time; empty if it never was.
-    """
+    """Lines for each enlargement of a run's first grid, from its states so far."""
     grids = [grid, *(state.grid for state in states)]
     pairs = zip(states, grids[:-1], grids[1:], strict=True)
     return [enlargement(state.time, old, new) for state, old, new in pairs if old != new]

@@ -20,20 +20,10 @@ MESH_MARK = "mesh"
 
 
 def format_with_error(value: float, error: float, units: str) -> str:
-    """Format a value with its error and unit.
+    """Format a value with its error, both in SI, and its unit.
 
-    Parameters
-    ----------
-    value, error : float
-        The value and the half width of its error bar [SI]: NaN where not known, inf where the
-        value depends on the mesh.
-    units : str
-        The SI unit.
-
-    Returns
-    -------
-    str
-        The value, with as many digits as its error supports.
+    The error is the half width of the error bar: NaN where it is not known, inf where the value
+    depends on the mesh.
 
     Examples
     --------
@@ -74,17 +64,7 @@ def format_scalar(ds: xr.Dataset, name: str, index: int) -> str:
 
 
 def format_supported(value: float, error: float, digits: int = _DIGITS) -> str:
-    """Format a number down to the second digit of its error.
-
-    Parameters
-    ----------
-    value : float
-        The number.
-    error : float
-        Half width of its error bar, in the same unit; NaN where it is not known, inf where the
-        value depends on the mesh.
-    digits : int
-        Significant digits at most.
+    """Format a number down to the second digit of its error, in the same unit.
 
     Examples
     --------

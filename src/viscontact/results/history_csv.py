@@ -13,15 +13,7 @@ from viscontact.state import Outcome
 
 
 def write_history(ds: xr.Dataset, file: IO[str]) -> None:
-    """Write all scalars of a result and their errors, a row an instant.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result.
-    file : text file
-        Where to; numbers in SI units with every digit.
-    """
+    """Write all scalars of a result and their errors, a row an instant: SI units, every digit."""
     writer = csv.writer(file, lineterminator="\n")
     writer.writerow(_header(ds))
     writer.writerows(_rows(ds))

@@ -72,12 +72,12 @@ def open_results(path: str | Path) -> xr.Dataset:
         try:
             return xr.open_dataset(file, engine="netcdf4")
         except (OSError, ValueError) as error:
-            # A run that goes on may have put a newer file there in this very moment.
+            # A running run may have replaced the file at this very moment.
             if _marks(file) == before:
                 raise ValueError(f"{file} cannot be read as a netCDF result: {error}") from error
 
 
 def _marks(file: Path) -> tuple[int, int]:
-    """What tells one file from another under the same name."""
+    """Identity of a file's content: device, inode, size and time of change."""
     found = file.stat()
     return found.st_ino, found.st_mtime_ns

@@ -1,4 +1,4 @@
-"""Nouns as plain data and back: how a result remembers the case it came from."""
+"""Objects as plain data and back, to record the case of a result."""
 
 from __future__ import annotations
 
@@ -70,17 +70,7 @@ LARGEST_ARRAY = 4096
 
 
 def describe(noun: Any) -> Any:
-    """Turn a noun into plain data: its type's name and its arguments in SI units.
-
-    Parameters
-    ----------
-    noun : object
-        Indenter, law, material, load, grid; numbers, arrays and tuples of these.
-
-    Returns
-    -------
-    object
-        Dicts, lists, strings and numbers that JSON can hold.
+    """Describe an object as plain data: its type's name and its arguments in SI units.
 
     Examples
     --------
@@ -91,7 +81,7 @@ def describe(noun: Any) -> Any:
         arguments = {item.name: describe(getattr(noun, item.name)) for item in fields(noun)}
         return {"type": type(noun).__name__, **arguments}
     if isinstance(noun, np.ndarray):
-        # JSON knows no NaN, which is what holes in a map are.
+        # JSON has no NaN, which marks the holes of a map.
         is_map = noun.ndim > 1 and (noun.size > LARGEST_ARRAY or not np.isfinite(noun).all())
         return _fingerprint(noun) if is_map else noun.tolist()
     if isinstance(noun, np.generic):
@@ -104,22 +94,7 @@ def describe(noun: Any) -> Any:
 
 
 def rebuild(description: Any) -> Any:
-    """Make the noun again that a description came from.
-
-    Parameters
-    ----------
-    description : object
-        From `describe`.
-
-    Returns
-    -------
-    object
-        The noun.
-
-    Raises
-    ------
-    ValueError
-        If its type is unknown, or a large array was left out of the description.
+    """Rebuild an object from its description.
 
     Examples
     --------

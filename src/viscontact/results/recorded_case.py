@@ -32,20 +32,10 @@ def case_of(ds: xr.Dataset) -> dict[str, Any]:
 def recorded_poisson_ratio(results: xr.Dataset) -> float:
     """Poisson's ratio of the half-space that a result belongs to.
 
-    Parameters
-    ----------
-    results : xarray.Dataset
-        What `simulate` or `open_results` returned.
-
     Returns
     -------
     float
         [-].
-
-    Raises
-    ------
-    ValueError
-        If it varies in time, or is not told.
     """
     material = case_of(results).get("material") or {}
     ratio = material.get("poisson_ratio")
@@ -60,18 +50,7 @@ def recorded_poisson_ratio(results: xr.Dataset) -> float:
 
 
 def recorded_grid(results: xr.Dataset) -> Grid:
-    """Grid that a result belongs to.
-
-    Parameters
-    ----------
-    results : xarray.Dataset
-        What `simulate` or `open_results` returned.
-
-    Returns
-    -------
-    Grid
-        From its coordinates, and whether it is periodic from its case.
-    """
+    """Grid of a result: from its coordinates, periodic as in its case."""
     x, y = results["x"].values, results["y"].values
     shape = (x.size, y.size)
     size = (float(x[1] - x[0]) * shape[0], float(y[1] - y[0]) * shape[1])
@@ -80,32 +59,16 @@ def recorded_grid(results: xr.Dataset) -> Grid:
 
 
 def prescribes_approach(ds: xr.Dataset) -> bool:
-    """Tell whether a run's load is an approach, which the force answers."""
+    """Whether a run's load prescribes the approach; the force then follows."""
     load = case_of(ds).get("load") or {}
     return load.get("control") == "approach" or load.get("type") == "ApproachHistory"
 
 
 def recorded_object(results: xr.Dataset, part: str, figure: str) -> Any:
-    """Rebuild a part of the case that is kept with a result.
+    """Rebuild a part of the recorded case, such as "indenter"; None where the case has none.
 
-    Parameters
-    ----------
-    results : xarray.Dataset
-        What `viscontact.simulate` or `viscontact.open_results` returned.
-    part : str
-        ``"indenter"``, ``"material"``, ``"indenter_material"`` or ``"load"``.
-    figure : str
-        Name of the figure, for the message.
-
-    Returns
-    -------
-    object
-        The indenter, material or load history; None where the case has no such part.
-
-    Raises
-    ------
-    ValueError
-        If the result carries no case, or a part that is too large to be kept.
+    ValueError, naming the figure that needs it, if the result has no case, or only a fingerprint
+    of a large part.
     """
     if "case" not in results.attrs:
         raise ValueError(

@@ -29,7 +29,7 @@ class Snapshot:
     body_end : Outline, optional
         Where the indenter ends between the cells, if it does and is known.
     periodic : bool, optional
-        Whether the fields are one period of a surface that repeats itself without end.
+        Whether the fields are one period of an endless surface.
     """
 
     time: float
@@ -71,18 +71,7 @@ class Snapshot:
         )
 
     def with_border(self, cells: int) -> Snapshot:
-        """The same fields with more cells at each border.
-
-        Parameters
-        ----------
-        cells : int
-            How many.
-
-        Returns
-        -------
-        Snapshot
-            Those of the next periods if periodic, else cells where nothing touches. What is
-            returned is not periodic.
+        """The same fields with more cells at each border: next periods, or open cells.
 
         Examples
         --------
@@ -113,8 +102,6 @@ class Snapshot:
 
         Parameters
         ----------
-        along : {"x", "y"}, optional
-            Direction of the line.
         at : float, optional
             Where the line crosses the other axis [m]. Between two rows of cells the
             pressure is interpolated linearly: on an even grid the line through the origin
@@ -126,11 +113,6 @@ class Snapshot:
             Cell centres along the line [m].
         pressure : ndarray
             Pressure there [Pa].
-
-        Raises
-        ------
-        ValueError
-            If the direction is not one of those, or the line misses the grid.
         """
         if along not in ("x", "y"):
             raise ValueError(f"along must be 'x' or 'y', got {along!r}")

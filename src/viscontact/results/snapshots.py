@@ -18,22 +18,10 @@ from viscontact.units.formatting import format_quantity, time_labels
 def field_times(results: xr.Dataset, figure: str) -> NDArray[np.float64]:
     """Instants at which pressure and gap are stored.
 
-    Parameters
-    ----------
-    results : xarray.Dataset
-        What `viscontact.simulate` or `viscontact.open_results` returned.
-    figure : str
-        Name of the figure, for the message.
-
     Returns
     -------
     ndarray
         Instants [s], ascending.
-
-    Raises
-    ------
-    ValueError
-        If the run stored no fields.
     """
     missing = [name for name in ("pressure", "gap") if name not in results]
     if missing:
@@ -51,30 +39,13 @@ def field_times(results: xr.Dataset, figure: str) -> NDArray[np.float64]:
 def take_snapshots(
     results: xr.Dataset, times: ArrayLike | None, figure: str, *, count: int = 5
 ) -> list[Snapshot]:
-    """Fields at the stored instants nearest to those asked for.
+    """Fields at the stored instants nearest to those requested.
 
     Parameters
     ----------
-    results : xarray.Dataset
-        What `viscontact.simulate` or `viscontact.open_results` returned.
     times : array_like or None
-        Instants asked for [s]. None: the first instant in contact, the last one, and some in
+        Requested instants [s]. None: the first instant in contact, the last one, and some in
         between that are spread evenly on a logarithmic scale.
-    figure : str
-        Name of the figure, for messages.
-    count : int, optional
-        How many instants to take when none are asked for.
-
-    Returns
-    -------
-    list of Snapshot
-        In ascending order, each stored instant at most once.
-
-    Raises
-    ------
-    ValueError
-        If no fields are stored, a time is not a finite number, or the bodies do not touch at
-        any of the instants.
     """
     stored = field_times(results, figure)
     if times is None:
@@ -95,28 +66,12 @@ def take_snapshots(
 def snapshots_of_runs(
     runs: Mapping[str, xr.Dataset], times: ArrayLike | None, figure: str
 ) -> tuple[list[Snapshot], list[str]]:
-    """Fields of several runs, and what is said above each.
+    """Fields of several runs, and a heading for each.
 
     Parameters
     ----------
-    runs : mapping of str to xarray.Dataset
-        Results by the name to print.
     times : array_like or None
-        Instants asked for [s]; None for the last of each run.
-    figure : str
-        Name of the figure, for messages.
-
-    Returns
-    -------
-    snapshots : list of Snapshot
-        Run by run.
-    headings : list of str
-        The run and the instant.
-
-    Raises
-    ------
-    ValueError
-        If there are no runs, or as `take_snapshots` does.
+        Requested instants [s]; None for the last of each run.
     """
     if not runs:
         raise ValueError(f"{figure}: needs at least one run to compare, got none")
@@ -131,18 +86,7 @@ def snapshots_of_runs(
 
 
 def snapshot_reader(results: xr.Dataset) -> Callable[[int], Snapshot]:
-    """Prepare to read fields one stored instant at a time.
-
-    Parameters
-    ----------
-    results : xarray.Dataset
-        What `viscontact.simulate` or `viscontact.open_results` returned, with fields stored.
-
-    Returns
-    -------
-    callable
-        From the number of a stored instant to the fields at it.
-    """
+    """Prepare to read fields one stored instant at a time."""
     grid = recorded_grid(results)
     body_end = _body_end(results, grid)
 
@@ -164,24 +108,13 @@ def field_at(results: xr.Dataset, name: str, time: float, figure: str) -> NDArra
 
     Parameters
     ----------
-    results : xarray.Dataset
-        What `viscontact.simulate` or `viscontact.open_results` returned.
-    name : str
-        Such as ``"displacement"``.
     time : float
         An instant at which fields are stored [s].
-    figure : str
-        Name of the figure, for the message.
 
     Returns
     -------
     ndarray
         Shape (nx, ny), in SI units.
-
-    Raises
-    ------
-    ValueError
-        If the field is not stored.
     """
     if name not in results:
         raise ValueError(
@@ -203,7 +136,7 @@ def _in_contact(results: xr.Dataset, instants: NDArray[np.float64]) -> NDArray[n
 
 
 def _body_end(results: xr.Dataset, grid: Grid) -> Outline | None:
-    # Only a body that ends has an infinite gap beside it.
+    # Only a body that ends has an infinite gap next to it.
     # The last is known on all of the grid, should that have been enlarged meanwhile.
     last = results["gap"].isel({_time_dimension(results): -1}).values
     if np.isfinite(last).all() or "case" not in results.attrs:

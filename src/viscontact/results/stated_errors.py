@@ -20,20 +20,9 @@ _ROUNDING_TILT = 1e-6
 
 
 def stated_error(results: xr.Dataset, name: str) -> NDArray[np.float64] | None:
-    """Return half widths of the error bars of a scalar.
+    """Half widths of the error bars of a scalar over time, in its unit; None if none are stated.
 
-    Parameters
-    ----------
-    results : xarray.Dataset
-        What ``simulate`` or ``open_results`` returned.
-    name : str
-        A scalar of the result.
-
-    Returns
-    -------
-    ndarray or None
-        Over time, in the unit of the scalar: NaN where it is not known, inf where the value
-        depends on the mesh. None if the result states none.
+    NaN where the error is not known, inf where the value depends on the mesh.
 
     Examples
     --------
@@ -52,19 +41,7 @@ def errors_of(ds: xr.Dataset, name: str) -> NDArray[np.float64]:
 
 
 def mesh_dependent(results: xr.Dataset, name: str) -> NDArray[np.bool_]:
-    """Tell at which instants a scalar depends on the mesh.
-
-    Parameters
-    ----------
-    results : xarray.Dataset
-        What ``simulate`` or ``open_results`` returned.
-    name : str
-        A scalar of the result.
-
-    Returns
-    -------
-    ndarray of bool
-        Over time; nowhere if the result states no errors.
+    """Instants at which a scalar depends on the mesh, as booleans.
 
     Examples
     --------
@@ -102,18 +79,6 @@ class LargestError:
 def largest_error(ds: xr.Dataset, name: str) -> LargestError | None:
     """Return the largest error bar of a scalar.
 
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result.
-    name : str
-        The scalar.
-
-    Returns
-    -------
-    LargestError or None
-        None if the result states no errors of it, or holds no value.
-
     Examples
     --------
     >>> force = {"force": ("time", [2.0, 4.0]), "force_error": ("time", [0.1, np.nan])}
@@ -135,21 +100,21 @@ def largest_error(ds: xr.Dataset, name: str) -> LargestError | None:
 
 
 def is_rounding(ds: xr.Dataset, name: str) -> bool:
-    """Whether a scalar is zero throughout, or a tilt or eccentricity of rounding size."""
+    """Test for a scalar that is zero throughout, or a tilt or eccentricity of rounding size."""
     if is_centred(ds, name):
         return True
     return _largest(ds[name].values) == 0.0
 
 
 def is_centred(ds: xr.Dataset, name: str) -> bool:
-    """Whether a scalar is a tilt or an eccentricity of rounding size, as a centred load leaves."""
+    """Test for a tilt or an eccentricity of rounding size, as a centred load leaves."""
     if name.startswith("tilt"):
         return is_rounding_tilt(ds[name].values, ds["contact_length"].values, ds["approach"].values)
     return name.startswith("eccentricity") and _largest(ds[name].values) <= _ROUNDING_ECCENTRICITY
 
 
 def is_rounding_tilt(tilt: ArrayLike, contact_length: ArrayLike, approach: ArrayLike) -> bool:
-    """Whether a tilt [rad] is what a centred load leaves by rounding; NaN counts as nothing.
+    """Test for a tilt [rad] of rounding size, as a centred load leaves; NaN is ignored.
 
     It then moves the ends of the longest contact [m] by less than a millionth of the largest
     approach [m].

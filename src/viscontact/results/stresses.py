@@ -13,7 +13,7 @@ from viscontact.halfspace.stress import Stress, stress_on_section
 from viscontact.halfspace.stress_influence import COMPONENTS
 from viscontact.results.recorded_case import recorded_grid, recorded_poisson_ratio
 
-#: Depths that are taken when none are given: so many, to so many half widths of the contact.
+#: Default depths: their number, and the largest in half widths of the contact.
 DEPTHS, REACH = 61, 2.0
 
 

@@ -25,7 +25,7 @@ from viscontact.results.stated_errors import (
 from viscontact.results.variables import SCALARS, scalars_with_error
 from viscontact.units.formatting import ReadableUnit, format_quantity, readable_unit
 
-#: What the columns mean.
+#: Legend of the columns.
 LEGEND = (
     "±: the error of each value at that instant (of 100 true errors 95 are meant to be smaller); "
     "left out below 0.01 %. Largest error: the worst of the run, in % of the largest value."
@@ -102,7 +102,7 @@ def _row(ds: xr.Dataset, name: str) -> SummaryRow:
     values, errors = np.asarray(ds[name].values, dtype=np.float64), errors_of(ds, name)
     at_largest = int(np.nanargmax(np.abs(values)))
     unit = readable_unit(SCALARS[name].units, float(values[at_largest]))
-    # Beside a zero, what counts is what the value becomes.
+    # The error of a zero is compared with the largest value.
     scale = NEGLIGIBLE * float(np.abs(values[at_largest]))
     errors = np.where((values == 0) & (errors <= scale), 0.0, errors)
     first, last, largest = (

@@ -17,7 +17,7 @@ from viscontact.state import Outcome
 
 
 class Place(Flag):
-    """Where a scalar is shown. The summary and the report's table list all that have an error."""
+    """Places that show a scalar. The summary and the report's table list all that have an error."""
 
     NOWHERE = 0
     #: The history table of the command line.
@@ -50,7 +50,7 @@ class Variable:
     kind : str
         NumPy's name of its type.
     comment : str
-        What else has to be known of it.
+        Further remarks.
     label : str
         Its name on axes and pages.
     has_error : bool

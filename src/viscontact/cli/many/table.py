@@ -20,16 +20,16 @@ from viscontact.results.variables import SCALARS, Place, shown_in
 from viscontact.runs.processes.child import Ended
 from viscontact.units.formatting import format_number, format_quantity, readable_unit
 
-#: So many runs are named with a warning.
+#: Number of runs that are named with a warning.
 _NAMED = 3
 
 
 @dataclass(frozen=True)
 class _Found:
-    """What a run has found: its largest values [SI], time spent [s], and what it warnings.
+    """Results of a run: its largest values [SI], time spent [s], and warnings.
 
-    Of the errors of those values the largest part of one, nan if none is known and inf if a value
-    depends on the mesh.
+    The error is the largest of those values, as a part of the value: nan if none is known, inf if
+    a value depends on the mesh.
     """
 
     largest: dict[str, float]
@@ -39,13 +39,7 @@ class _Found:
 
 
 def print_table(runs: Sequence[Ended]) -> None:
-    """Print what several runs found, the largest values over time, and what to doubt.
-
-    Parameters
-    ----------
-    runs : sequence of Ended
-        How each has ended; what it completed is shown, however that was.
-    """
+    """Print the largest values over time of several runs, and their warnings."""
     found = [_found(each) for each in runs]
     console = Console()
     console.print(_table(runs, found))
@@ -54,7 +48,7 @@ def print_table(runs: Sequence[Ended]) -> None:
 
 
 def _found(ended: Ended) -> _Found | None:
-    """What lies in its directory now; None if nothing does, or it is another run's."""
+    """The result in the run's directory; None if there is none, or it is another run's."""
     if ended.outcome in ("refused", "not begun"):
         return None
     try:
@@ -106,7 +100,7 @@ def _table(runs: Sequence[Ended], found: Sequence[_Found | None]) -> Table:
 
 
 def _warnings(runs: Sequence[Ended], found: Sequence[_Found | None]) -> list[str]:
-    """What was doubted, once, with the runs it is true of."""
+    """Warnings, each once, with the runs that issued it."""
     concerned: dict[str, list[str]] = {}
     for ended, each in zip(runs, found, strict=True):
         for text in each.warnings if each else ():

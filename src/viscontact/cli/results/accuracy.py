@@ -1,4 +1,4 @@
-"""What a run says of its own accuracy."""
+"""Lines on the accuracy of a run below its tables."""
 
 from __future__ import annotations
 
@@ -16,26 +16,19 @@ from viscontact.results.stated_errors import (
 )
 from viscontact.results.variables import error_name
 
-#: How the memory of a series law begins to describe itself; there is nothing to doubt about it.
+#: Begin of the description of the memory of a series law, which is exact.
 _EXACT = "recursion, exact"
 
 
 def accuracy_lines(time_error: ArrayLike, memory: str, inversion_error: float) -> Iterator[str]:
-    """Yield what is to be known of errors in time, as far as there is any.
+    """Yield lines on the errors of the time steps, the memory and the law.
 
     Parameters
     ----------
     time_error : array_like
         Estimated relative error of the pressure owed to the steps, at each instant [-].
-    memory : str
-        How the past was remembered, with its error if it has one.
     inversion_error : float
         Estimated relative error of a numerical conversion of the law [-].
-
-    Yields
-    ------
-    str
-        A line each.
     """
     largest = float(np.nanmax(np.asarray(time_error, dtype=float), initial=0.0))
     if largest > 0:
@@ -49,20 +42,7 @@ def accuracy_lines(time_error: ArrayLike, memory: str, inversion_error: float) -
 
 
 def mesh_lines(ds: xr.Dataset, names: Iterable[str]) -> Iterator[str]:
-    """Yield what the mark ``>`` in front of numbers means, where there are any.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result.
-    names : iterable of str
-        The scalars that are printed.
-
-    Yields
-    ------
-    str
-        One line, or none.
-    """
+    """Yield the meaning of the mark ``>`` in front of numbers, where there are any."""
     found = {name: largest_error(ds, name) for name in names}
     marked = [name for name, each in found.items() if each and np.isposinf(each.half_width)]
     if marked:
@@ -72,20 +52,7 @@ def mesh_lines(ds: xr.Dataset, names: Iterable[str]) -> Iterator[str]:
 
 
 def unknown_lines(ds: xr.Dataset, names: Sequence[str]) -> Iterator[str]:
-    """Yield whose errors are not known everywhere.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result.
-    names : sequence of str
-        The scalars that are printed.
-
-    Yields
-    ------
-    str
-        One line, or none.
-    """
+    """Yield the scalars whose errors are not known everywhere."""
     count = ds.sizes["time"]
     found = {name: largest_error(ds, name) for name in names}
     places = {name: each.unknown for name, each in found.items() if each and each.unknown}
@@ -100,19 +67,11 @@ def unknown_lines(ds: xr.Dataset, names: Sequence[str]) -> Iterator[str]:
 
 
 def knows_errors(ds: xr.Dataset, names: Iterable[str]) -> bool:
-    """Tell whether the error of any of these scalars is known at any instant.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result.
-    names : iterable of str
-        The scalars.
-    """
+    """Whether the error of any of these scalars is known at any instant."""
     found = (largest_error(ds, name) for name in names)
     return any(each is not None and not np.isnan(each.half_width) for each in found)
 
 
 def has_errors(ds: xr.Dataset) -> bool:
-    """Tell whether a result states errors of its scalars."""
+    """Whether a result states errors of its scalars."""
     return any(error_name(str(name)) in ds for name in ds.data_vars)

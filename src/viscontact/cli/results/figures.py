@@ -34,26 +34,7 @@ def draw(
     output: Path | None,
     options: Mapping[str, str | float | None] | None = None,
 ) -> Path:
-    """Draw a figure of one run.
-
-    Parameters
-    ----------
-    directory : Path
-        The run.
-    figure : str
-        Name of the figure.
-    times : sequence of str
-        Instants in words; empty for the figure's own choice.
-    output : Path or None
-        The file; None for FIGURE.png in the run's directory, or animation.gif.
-    options : mapping of str to str or float or None, optional
-        What else was typed: width, along, at, seconds, fps; None for the figure's own choice.
-
-    Returns
-    -------
-    Path
-        The file.
-    """
+    """Draw a figure of one run, by default to FIGURE.png in its directory; return the file."""
     plot = plot_package()
     draw_it = _named(figure, {**plot.FIGURES, ANIMATION: plot.animation})
     instants, chosen = _instants(times), _chosen(options or {}, figure, draw_it)
@@ -79,26 +60,7 @@ def draw_comparison(
     output: Path | None,
     options: Mapping[str, str | float | None] | None = None,
 ) -> Path:
-    """Draw a figure of several runs.
-
-    Parameters
-    ----------
-    directories : sequence of Path
-        The runs, two or more.
-    figure : str
-        Name of the figure.
-    times : sequence of str
-        Instants in words; empty for the figure's own choice.
-    output : Path or None
-        The file; None for compare-FIGURE.png here.
-    options : mapping of str to str or float or None, optional
-        What else was typed: width, along, at, seconds, fps; None for the figure's own choice.
-
-    Returns
-    -------
-    Path
-        The file.
-    """
+    """Draw a figure of several runs, by default to compare-FIGURE.png here; return the file."""
     plot = plot_package()
     draw_it = _named(figure, plot.COMPARISONS)
     instants, chosen = _instants(times), _chosen(options or {}, figure, draw_it)
@@ -119,7 +81,7 @@ def draw_comparison(
 
 
 def plot_package() -> Any:
-    """Return `viscontact.plot`, or say what it needs."""
+    """Import `viscontact.plot`, or refuse with the extra that it needs."""
     try:
         from viscontact import plot
     except ModuleNotFoundError as error:
@@ -147,7 +109,7 @@ def _instants(times: Iterable[str]) -> list[float] | None:
 def _chosen(
     options: Mapping[str, str | float | None], figure: str, draw_it: Any
 ) -> dict[str, str | float]:
-    """What was typed, read, and refused where the figure has no use for it."""
+    """Options as figures take them; refused where the figure has no such option."""
     given = {name: value for name, value in options.items() if value is not None}
     for name in given:
         if name not in signature(draw_it).parameters:
@@ -165,22 +127,7 @@ def _read(name: str, value: str | float) -> str | float:
 
 
 def chosen_width(width: str | None, *, drawn: bool, switch: str) -> str | float | None:
-    """Read --width before any work is done, or refuse it.
-
-    Parameters
-    ----------
-    width : str or None
-        As typed.
-    drawn : bool
-        Whether there is a figure to be so wide.
-    switch : str
-        What asks for one, as typed.
-
-    Returns
-    -------
-    str or float or None
-        As figures take it; None for their own choice.
-    """
+    """Read --width before any work is done, or refuse it."""
     if width is None:
         return None
     if not drawn:
@@ -214,7 +161,7 @@ def _refuse_outside(instants: list[float] | None, ds: xr.Dataset, directory: Pat
 
 
 def _snapped(instants: list[float] | None, ds: xr.Dataset, figure: str) -> str:
-    """Say which instants are drawn in place of those that are not stored."""
+    """Print the instants that are drawn in place of those that are not stored."""
     if not instants or figure not in _OF_INSTANTS or "pressure" not in ds:
         return ""
     stored = ds[ds["pressure"].dims[0]].values
@@ -238,7 +185,7 @@ def _labels(directories: Sequence[Path]) -> list[str]:
 
 
 def save_film(plot: Any, file: Path, ds: xr.Dataset, **options: Any) -> None:
-    """Draw and write a film, or say in one line why not; print the file's name."""
+    """Draw and write an animation, or refuse in one line; print the file's name."""
     try:
         film = plot.animation(ds, **options)
         stored = len(set(film.instants.tolist()))
@@ -255,7 +202,7 @@ def save_film(plot: Any, file: Path, ds: xr.Dataset, **options: Any) -> None:
 
 
 def save(plot: Any, file: Path, draw_it: Any, results: Any, **options: Any) -> None:
-    """Draw and write a figure, or say in one line why not; print the file's name."""
+    """Draw and write a figure, or refuse in one line; print the file's name."""
     try:
         plot.save_figure(draw_it(results, **options), file)
     except (ValueError, OSError) as error:

@@ -1,4 +1,4 @@
-"""The history of a run, for the eye and as CSV."""
+"""History of a run as a table and as CSV."""
 
 from __future__ import annotations
 
@@ -37,23 +37,13 @@ from viscontact.units.formatting import (
 )
 
 _ROWS = 20
-#: Blanks between columns, and the room below which heads are broken here: where it is left to
-#: the terminal's width, words are broken as well.
+#: Blanks between columns, and the spare width below which heads are broken between words: the
+#: terminal would break words as well.
 _GAP, _TO_SPARE = 2, 8
 
 
 def print_history(ds: xr.Dataset, *, everything: bool = False, errors: bool = False) -> None:
-    """Print scalars over time in readable units.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result.
-    everything : bool
-        Every instant; else as many as fit on a page, first and last among them.
-    errors : bool
-        The error of every number below it.
-    """
+    """Print scalars over time in readable units: all instants or a selection, errors below."""
     if errors and not has_errors(ds):
         refuse("--errors: the result states none; it is older, or was run with errors: false")
     console = Console()
@@ -63,7 +53,7 @@ def print_history(ds: xr.Dataset, *, everything: bool = False, errors: bool = Fa
     columns = _columns(ds, ["time", *shown], rows, errors=errors)
     least = sum(column.width + _GAP for column in columns)
     table = _table(ds, columns, narrow=least + _TO_SPARE > console.width)
-    # Rather too wide for a terminal than with digits left out.
+    # Wider than the terminal rather than with digits left out.
     console.print(table, crop=False)
     if len(rows) < count:
         console.print(f"{len(rows)} of {count} instants; --all shows every one")
@@ -76,15 +66,7 @@ def print_history(ds: xr.Dataset, *, everything: bool = False, errors: bool = Fa
 
 
 def write_csv(ds: xr.Dataset, output: Path | None) -> None:
-    """Write all scalars in SI units, a row an instant.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result.
-    output : Path or None
-        The file; None for stdout.
-    """
+    """Write all scalars in SI units, a row an instant."""
     if output is None:
         write_history(ds, sys.stdout)
         return
@@ -96,9 +78,9 @@ def write_csv(ds: xr.Dataset, output: Path | None) -> None:
 
 
 def _footers(ds: xr.Dataset, shown: list[str], *, errors: bool) -> Iterator[str]:
-    """Loss per cycle, where the load has cycles, and what to know of errors."""
+    """Lines below the table: loss per cycle, where the load has cycles, and remarks on errors."""
     losses = ds["loss_per_cycle"].values
-    # The last whole cycle's loss stands at every instant until the next is over.
+    # The loss of the last whole cycle is repeated until the next is over.
     known = losses[np.isfinite(losses)]
     if known.size:
         first, last = (format_quantity(float(loss), "J") for loss in known[[0, -1]])
@@ -128,7 +110,7 @@ def _largest(ds: xr.Dataset, name: str) -> float:
 
 @dataclass(frozen=True)
 class _Column:
-    """A column of the table: the words of its head, its cells, and what ends it."""
+    """A column of the table: the words of its head, its cells, and its foot."""
 
     head: tuple[str, ...]
     cells: list[str]
@@ -180,7 +162,7 @@ def _cells(
 ) -> list[str]:
     values, error = ds[name].values[rows] / factor, stated_error(ds, name)
     if name == "time":
-        # Steps that a run chose begin small: "0.005" leaves room that "0.005000" would not.
+        # Adaptive steps begin small: "0.005" leaves room that "0.005000" would not.
         times = [without_trailing_zeros(format_number(float(value))) for value in values]
         return [f"{time}\n" for time in times] if errors else times
     if error is None:

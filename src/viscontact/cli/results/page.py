@@ -16,21 +16,7 @@ _ENDINGS = (".html", ".htm")
 
 
 def write_page(directory: Path, output: Path | None) -> Path:
-    """Write the page of a run.
-
-    Parameters
-    ----------
-    directory : Path
-        The run, or its ``.nc`` file.
-    output : Path or None
-        The file; None for ``report.html`` in the run's directory, ``NAME.html`` beside a file
-        ``NAME.nc`` that is no run's.
-
-    Returns
-    -------
-    Path
-        The file.
-    """
+    """Write the page of a run, by default report.html in its directory; return the file."""
     if output is not None and output.suffix.lower() not in _ENDINGS:
         refuse(f"{output}: a report is a page of HTML; name it so, e.g. -o {output.stem}.html")
     package = _package()
@@ -52,7 +38,7 @@ def _beside(directory: Path) -> Path:
 
 
 def _label(directory: Path) -> str:
-    """What the run is called beside others, as where they are compared: its directory's name."""
+    """Label of a run among others: its directory's name."""
     place = directory.resolve()
     if not _is_file(place):
         return place.name
@@ -64,7 +50,7 @@ def _is_file(directory: Path) -> bool:
 
 
 def _package() -> Any:
-    """Return `viscontact.report`, or say what it needs."""
+    """Import `viscontact.report`, or refuse with the extra that it needs."""
     try:
         from viscontact import report
     except ModuleNotFoundError as error:

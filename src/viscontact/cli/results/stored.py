@@ -22,18 +22,7 @@ from viscontact.units.formatting import format_quantity
 
 @contextmanager
 def opened(path: Path) -> Iterator[xr.Dataset]:
-    """Open the result of a run, or refuse in one line.
-
-    Parameters
-    ----------
-    path : Path
-        A run's directory or a ``.nc`` file.
-
-    Yields
-    ------
-    xarray.Dataset
-        The result.
-    """
+    """Open the result of a run, or refuse in one line."""
     try:
         ds = open_results(path)
     except FileNotFoundError:
@@ -53,19 +42,7 @@ def opened(path: Path) -> Iterator[xr.Dataset]:
 
 
 def early_end(ds: xr.Dataset) -> str:
-    """Say that a run ended before its last instant.
-
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        A result.
-
-    Returns
-    -------
-    str
-        A sentence, with the command that goes on where that is possible; empty for a run that is
-        complete, or does not say what it was to be.
-    """
+    """Sentence on a run that ended early, with the command that resumes it; empty if complete."""
     try:
         case = case_of(ds)
         times, adaptive = case["times"], case.get("adaptive")
@@ -86,23 +63,14 @@ def early_end(ds: xr.Dataset) -> str:
 def progress_made(
     done: int, reached: float | None, times: Sequence[float], adaptive: object
 ) -> str:
-    """Say how far a run has come.
+    """Progress of a run: its complete instants.
 
     Parameters
     ----------
-    done : int
-        Instants that are complete.
     reached : float or None
         The last of them [s]; None without any.
     times : sequence of float
         The run's instants [s]; where it chooses its steps, the last is the end.
-    adaptive : object
-        None where the run does not choose its steps.
-
-    Returns
-    -------
-    str
-        Such as ``"3 of 7 instants"``.
 
     Examples
     --------
@@ -120,7 +88,7 @@ def progress_made(
 
 
 def _run_directory(ds: xr.Dataset) -> Path | None:
-    """Where a run lies that has not come to its end; None if it cannot go on."""
+    """Directory of an unfinished run; None if it cannot be resumed."""
     source = ds.encoding.get("source")
     directory = Path(str(source)).parent
     return directory if source is not None and (directory / STATE_NAME).is_file() else None

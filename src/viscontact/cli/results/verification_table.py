@@ -15,7 +15,7 @@ from viscontact.cli.terminal.messages import refuse, say, stop
 from viscontact.verify import Case, Result, run_cases, write_table
 from viscontact.verify.table import HEADINGS, SUFFIXES, row_of_words
 
-#: Columns with numbers, which stand to the right.
+#: Columns with numbers, which are right-aligned.
 _NUMBERS = ("exact", "ours", "error", "bound", "order")
 
 #: Columns that the table needs; a narrower terminal gets them all the same.
@@ -23,20 +23,7 @@ _WIDTH = 130
 
 
 def print_verification(*, fast: bool, output: Path | None) -> None:
-    """Run all cases, print the table, and write it to a file if one is named.
-
-    Parameters
-    ----------
-    fast : bool
-        Coarse meshes only.
-    output : Path or None
-        Where else the table goes; its suffix says how.
-
-    Raises
-    ------
-    typer.Exit
-        With code 2 if the file cannot be, 1 if a case has failed.
-    """
+    """Run all cases, print the table, and write it to a file if one is named."""
     _refuse_bad_output(output)
     started = clock.perf_counter()
     results = run_cases(fast=fast, progress=_say_progress)
@@ -63,7 +50,7 @@ def _refuse_bad_output(output: Path | None) -> None:
 
 
 def _say_progress(case: Case, done: int, total: int) -> None:
-    """Say which case runs: on a line that is written over, or now and then off a terminal."""
+    """Print the running case: on a line that is overwritten, or now and then without a terminal."""
     if sys.stderr.isatty():
         end = "\r" if done + 1 < total else "\r\033[K"
         print(f"\033[K{done + 1}/{total} {case.name}", end=end, file=sys.stderr, flush=True)
