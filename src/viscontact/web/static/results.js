@@ -8,10 +8,6 @@ import { numbersTable } from "./numbers.js";
 import { state } from "./runs.js";
 import { told, unitFor } from "./units.js";
 
-const FACTS = {
-  contact_area: "Contact area", approach: "Approach",
-  peak_pressure: "Peak pressure", mean_pressure: "Mean pressure",
-};
 // Downloads: path, title, and whether the file is saved or opened.
 const DOWNLOADS = [
   ["case.yaml", "Case (YAML)", true],
