@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from inverse_pairs import maxwell, power_law, series
 from viscontact import reference
 from viscontact.reference.indentation_march import (
-    Law,
+    LagCompliance,
     OutgrownError,
     deepest_approach,
     load_steps,
@@ -113,7 +113,7 @@ def test_means_of_a_compliance_are_used_where_it_has_them():
 
 def test_contact_beyond_the_last_rod_is_an_error():
     steps = load_steps(np.zeros(1), np.ones(1), by_approach=False, substeps=1)
-    law = Law(lambda start, end: np.full_like(end, 1 / 2e9), 1 / 2e9)
+    law = LagCompliance(lambda start, end: np.full_like(end, 1 / 2e9), 1 / 2e9)
     deepest = reference.hertz_sphere(1.0, 0.01, 2e9).approach
     assert deepest < deepest_approach(SPHERE, steps, law) < 1.01 * deepest
     [result] = march(placed_rods(SPHERE, 1.01 * deepest, 20), steps, law)

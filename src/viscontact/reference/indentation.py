@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact.reference.axisymmetric_contact import AxisymmetricContact
 from viscontact.reference.hereditary import TimeFunction
 from viscontact.reference.indentation_march import (
-    Law,
+    LagCompliance,
     LoadSteps,
     OutgrownError,
     StepEnd,
@@ -119,7 +119,7 @@ def press_axisymmetric(
     _require_history(instants, load, controlled, one=(approach is None) != (force is None))
     _require_counts(elements=elements, substeps=substeps)
     steps = load_steps(instants, load, by_approach=approach is not None, substeps=substeps)
-    law = Law(lag_mean(creep_compliance), instant_compliance(creep_compliance))
+    law = LagCompliance(lag_mean(creep_compliance), instant_compliance(creep_compliance))
     rods, results = _marched(profile, steps, law, elements)
     kept = [results[k] for k in steps.given]
     radii = profile.reach(np.array([result.state.front for result in kept]))
@@ -143,7 +143,7 @@ def press_axisymmetric(
 
 
 def _marched(
-    profile: Profile, steps: LoadSteps, law: Law, elements: int
+    profile: Profile, steps: LoadSteps, law: LagCompliance, elements: int
 ) -> tuple[Rods, list[StepEnd]]:
     """Solve with elements whose range covers the largest contact radius."""
     deepest = deepest_approach(profile, steps, law)

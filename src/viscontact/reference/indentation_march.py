@@ -49,8 +49,8 @@ def load_steps(times: Array, load: Array, *, by_approach: bool, substeps: int) -
 
 
 @dataclass(frozen=True)
-class Law:
-    """Compliance: its means over lags, and J(0) [1/Pa]."""
+class LagCompliance:
+    """Means of a compliance over lags, and J(0) [1/Pa]."""
 
     mean: LagMean
     instant: float
@@ -68,7 +68,7 @@ class StepEnd:
     lost: float | None = None
 
 
-def deepest_approach(profile: Profile, steps: LoadSteps, law: Law) -> float:
+def deepest_approach(profile: Profile, steps: LoadSteps, law: LagCompliance) -> float:
     """Upper bound of the approach over a history [m].
 
     Under force control it is the approach of a contact that never shrinks, under a force that never
@@ -76,7 +76,7 @@ def deepest_approach(profile: Profile, steps: LoadSteps, law: Law) -> float:
 
     >>> from viscontact.reference.profiles import SphereProfile
     >>> steps = load_steps(np.zeros(1), np.ones(1), by_approach=False, substeps=1)
-    >>> elastic = Law(lambda start, end: np.full_like(end, 0.75), 0.75)
+    >>> elastic = LagCompliance(lambda start, end: np.full_like(end, 0.75), 0.75)
     >>> print(f"{deepest_approach(SphereProfile(1.0), steps, elastic):.3f}")  # (9/16 / E*²)^(1/3)
     0.682
     """
@@ -101,7 +101,7 @@ class OutgrownError(Exception):
     """Contact radius beyond the last rod."""
 
 
-def march(rods: Rods, steps: LoadSteps, law: Law) -> Iterator[StepEnd]:
+def march(rods: Rods, steps: LoadSteps, law: LagCompliance) -> Iterator[StepEnd]:
     """Solve step by step; OutgrownError if the contact exceeds the last rod."""
     history = RodHistory(law.mean, len(rods.places), len(steps.times))
     none = np.zeros(len(rods.places))
@@ -128,7 +128,7 @@ def march(rods: Rods, steps: LoadSteps, law: Law) -> Iterator[StepEnd]:
 
 
 def _next_step(
-    rods: Rods, history: RodHistory, law: Law, now: StepEnd, begin: float, end: float
+    rods: Rods, history: RodHistory, law: LagCompliance, now: StepEnd, begin: float, end: float
 ) -> Step:
     """Known quantities of the next step."""
     before, duration = now.state, end - begin
