@@ -52,8 +52,8 @@ def simulate(
     load : LoadHistory
         Force or approach, eccentricity and prescribed tilts over time.
     grid : Grid or AutomaticGrid, optional
-        Cells that carry the pressure, or what is asked of them: then, and when left out, the
-        run chooses them.
+        Cells that carry the pressure, or requirements on them: then, and when left out, the run
+        chooses the cells.
     times : array_like or AdaptiveTimes, optional
         Instants of the result, strictly increasing, none before 0 [s]; chosen from load and
         law when left out. With `adaptive_times` the run chooses its steps, and ``time`` holds
@@ -70,9 +70,8 @@ def simulate(
     progress : callable, optional
         Called with (state, done, total) after each instant.
     errors : bool, optional
-        Whether errors of the scalars are estimated, ``peak_pressure_error`` and so on: two
-        coarser companions of the run are marched for that, which takes about two thirds of its
-        own time.
+        Whether errors of the scalars are estimated, ``peak_pressure_error`` and so on, from two
+        coarser runs, which take about two thirds of the run's own time.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""A grid that the contact outgrows: which one follows, and what is remembered on it."""
+"""Grid enlargement: the next larger grid of a contact that outgrows its own, and its fields."""
 
 from __future__ import annotations
 
@@ -14,23 +14,15 @@ from viscontact.grid import Grid
 from viscontact.meshing.contact_extent import MAX_CELLS
 from viscontact.simulation.step_solution import StepSolution
 
-#: How much longer a grid becomes along an axis on which it is overrun.
+#: Growth of the grid along an axis where the contact reaches its rim [-].
 FACTOR = 1.5
 
-
-#: So many cells stay free around a contact whose grid may grow: its rim is traced in two of them.
+#: Cells that stay free around a contact whose grid may grow; its rim is traced in two of them.
 FREE = 2
 
 
 def overrun(pressure: NDArray[np.float64], free: int = 1) -> tuple[bool, bool]:
-    """Whether pressure has come to the outermost cells along x, and along y.
-
-    Parameters
-    ----------
-    pressure : ndarray, shape (nx, ny)
-        On the whole grid.
-    free : int
-        How many cells have to stay free on every side.
+    """Whether pressure has reached the outermost cells, `free` of them a side, along x and y.
 
     Examples
     --------
@@ -43,20 +35,9 @@ def overrun(pressure: NDArray[np.float64], free: int = 1) -> tuple[bool, bool]:
 
 
 def next_grid(grid: Grid, along: bool, across: bool) -> Grid | None:
-    """The same cells on a roomier grid.
+    """Return a grid of the same cells, half as long again along x, along y, or both.
 
-    Parameters
-    ----------
-    grid : Grid
-        The grid that has been overrun.
-    along, across : bool
-        Whether it was along x, and along y.
-
-    Returns
-    -------
-    Grid or None
-        Half as long again where it has been overrun, or a little more; None where that would be
-        more cells than an automatic grid may have.
+    None where it would have more cells than an automatic grid may have.
 
     Examples
     --------
@@ -71,11 +52,11 @@ def next_grid(grid: Grid, along: bool, across: bool) -> Grid | None:
 
 
 def _longer(cells: int, size: float) -> int:
-    """A number of cells that is good to transform, and leaves the cells the same to the bit."""
+    """A number of cells that suits the transforms and keeps the cell size to the bit."""
     wanted = math.ceil(FACTOR * cells)
     while True:
         count = int(fft.next_fast_len(wanted, real=True))
-        # What is carried and what is read back are on the same cells then, in however many leaps.
+        # Restarts and results then have the same cells, in however many enlargements.
         if (count - cells) % 2 == 0 and size * count / count == size:
             return count
         wanted = count + 1
@@ -83,15 +64,10 @@ def _longer(cells: int, size: float) -> int:
 
 @dataclass(frozen=True, eq=False)
 class GridEnlargement:
-    """From one half-space to the same one under a larger grid.
+    """Map of fields from a domain to the same one under a larger grid.
 
-    All that is remembered of the surface is pressures, and the deflections that they cause. Beyond
-    the smaller grid there has been no pressure; the unit_displacement there follows from it.
-
-    Parameters
-    ----------
-    small, large : ContactDomain
-        Before and after.
+    The history of the surface is pressures and the unit displacements that they cause. Beyond the
+    smaller grid the pressure was zero, and the unit displacement follows from it.
 
     Examples
     --------
@@ -108,12 +84,12 @@ class GridEnlargement:
     large: ContactDomain
 
     def pressure(self, pressure: NDArray[np.float64]) -> NDArray[np.float64]:
-        """A pressure on the smaller grid as one on the larger, each as it is worked with."""
+        """Embed a pressure of the computed cells in those of the larger grid."""
         whole = self.small.expand_by_symmetry(pressure)
         return self.large.reduce_by_symmetry(self.small.grid.embed(whole, self.large.grid))
 
     def pairs(self, fields: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Pressures and their deflections, shape (..., 2, nx, ny), as those on the larger grid."""
+        """Map pressures and their unit displacements, shape (..., 2, nx, ny)."""
         grown = np.empty((*fields.shape[:-2], *self.large.shape))
         for index in np.ndindex(fields.shape[:-3]):
             pressure, unit_displacement = grown[index]
@@ -121,14 +97,14 @@ class GridEnlargement:
             unit_displacement[:] = self.large.convolution.apply(pressure)
         return grown
 
-    def instant(self, before: StepSolution) -> StepSolution:
-        """An earlier instant as it looks on the larger grid, but for its gap out there."""
+    def solution(self, before: StepSolution) -> StepSolution:
+        """Map the solution of a step; its gap beyond the smaller grid is NaN."""
         small, large = self.small, self.large
-        twin = self.pairs(before.twin)
+        reference = self.pairs(before.reference)
         return replace(
             before,
             pressure=small.grid.embed(before.pressure, large.grid),
             gap=small.grid.embed(before.gap, large.grid, beyond=np.nan),
-            displacement=large.expand_by_symmetry(twin[1]),
-            twin=twin,
+            displacement=large.expand_by_symmetry(reference[1]),
+            reference=reference,
         )

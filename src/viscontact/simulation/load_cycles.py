@@ -1,4 +1,4 @@
-"""What whole cycles of the load cost in work."""
+"""Work per load cycle."""
 
 from __future__ import annotations
 
@@ -11,12 +11,7 @@ from viscontact.time_integration.restart_data import RestartData
 
 
 class LoadCycleWork:
-    """The work at the beginnings and ends of the load's cycles.
-
-    Parameters
-    ----------
-    cycles : sequence of (begin, end)
-        As `LoadHistory.load_cycles`, in order.
+    """Work of the load over its last whole cycle, from the cycles (begin, end) in order.
 
     Examples
     --------
@@ -30,12 +25,12 @@ class LoadCycleWork:
 
     def __init__(self, cycles: Sequence[Cycle]) -> None:
         self._cycles = list(cycles)
-        # Before a jump at time 0 no work has been done.
+        # No work is done before a jump at time 0.
         self._begun = 0.0 if cycles and cycles[0][0] == (0.0, "left") else math.nan
         self.last_loss = math.nan
 
     def record_work(self, step: Step, work: float) -> None:
-        """Take note of the work [J] at the end of a step, if a cycle ends or begins there."""
+        """Record the work [J] at the end of a step where a cycle ends or begins."""
         if self._cycles and _meets(step, self._cycles[0][1]):
             self.last_loss = work - self._begun
             del self._cycles[0]
@@ -43,17 +38,17 @@ class LoadCycleWork:
             self._begun = work
 
     def restart_data(self) -> RestartData:
-        """What has to be kept to go on from here."""
+        """Return the state as plain data."""
         return {"left": len(self._cycles), "begun": self._begun, "last_loss": self.last_loss}
 
     def restore(self, restart_data: RestartData) -> None:
-        """Go on from what was `restart_data` under the same load."""
+        """Continue under the same load from restart data."""
         self._cycles = self._cycles[len(self._cycles) - restart_data["left"] :]
         self._begun, self.last_loss = restart_data["begun"], restart_data["last_loss"]
 
 
 def _meets(step: Step, moment: LoadInstant) -> bool:
-    """Whether a step ends at an instant; without a jump there, it does so on both its sides."""
+    """Whether a step ends at a (time, side); without a jump there, on both sides."""
     time, side = moment
     other = (step.before_jump and side == "right") or (step.is_jump and side == "left")
     return step.time == time and not other

@@ -1,4 +1,4 @@
-"""A run step after step, to be stopped after any of them and gone on with."""
+"""March: the loop over the time steps of a run, which can stop and continue after any of them."""
 
 from __future__ import annotations
 
@@ -23,17 +23,10 @@ from viscontact.units.formatting import format_quantity
 
 @dataclass(frozen=True, eq=False)
 class CompletedStep:
-    """A step that a run has taken.
+    """A completed step of a run.
 
-    Attributes
-    ----------
-    outcome : Outcome
-        How it ended.
-    state : ContactState or None
-        The state at its end; None for an inner step that nobody asked for.
-    done, left : int
-        Instants asked for that are done, and that are still to come (probably, where the run
-        chooses its steps).
+    `state` is None for an inner step, at whose end no state was requested; `done` and `left` count
+    requested states (those left are an estimate where the run chooses its steps).
     """
 
     outcome: Outcome
@@ -43,15 +36,9 @@ class CompletedStep:
 
 
 class March:
-    """A run under way: iterate for its steps, stop after any, and go on another day.
+    """Loop over the steps of a run: iterate, stop after any step, and continue later.
 
-    Parameters
-    ----------
-    run : RunSetup
-        From `prepare_run`.
-    restart_data : dict, optional
-        What the same run had `restart_data` after some step: it goes on from there, to the same
-        bits; from the start when left out.
+    With the restart data of the same run it continues after that step, to the same bits.
 
     Examples
     --------
@@ -73,8 +60,8 @@ class March:
         if restart_data is not None:
             run = run.on(run.grid.widened(tuple(restart_data["cells"])))
         self._run = run
-        self._half_space = _half_space(run)
-        self._stepper = Stepper(run, self._half_space)
+        self._domain = _domain_of(run)
+        self._stepper = Stepper(run, self._domain)
         self._steps = run.problem.steps()
         self._observer = Observer(run)
         self._done = 0
@@ -82,7 +69,7 @@ class March:
             self._restore(restart_data)
 
     def __iter__(self) -> Iterator[CompletedStep]:
-        """Take the steps that are left.
+        """Solve the remaining steps.
 
         Raises
         ------
@@ -97,29 +84,29 @@ class March:
         self._observer.refuse_coarse_mesh()
 
     def restart_data(self) -> RestartData:
-        """What has to be kept to go on from here, as plain data."""
+        """Return the state after a step as plain data."""
         return {
-            "past": self._stepper.restart_data(),
+            "stepper": self._stepper.restart_data(),
             "steps": self._steps.restart_data(),
             "observer": self._observer.restart_data(),
-            "patch": list(self._half_space.kept_patch),
+            "patch": list(self._domain.kept_patch),
             "cells": list(self._run.grid.shape),
             "done": self._done,
         }
 
     def _restore(self, restart_data: RestartData) -> None:
-        self._stepper.restore(restart_data["past"])
+        self._stepper.restore(restart_data["stepper"])
         self._steps.restore(restart_data["steps"])
         self._observer.restore(restart_data["observer"])
         first_row, last_row, first_column, last_column = restart_data["patch"]
-        self._half_space.keep_patch((first_row, last_row, first_column, last_column))
+        self._domain.keep_patch((first_row, last_row, first_column, last_column))
         self._done = restart_data["done"]
 
     def _advance(self) -> tuple[Step, TrialStep]:
-        """Solve the next step; one may be tried again, on a larger grid or shorter."""
+        """Solve the next step; repeat it on a larger grid, or shorter, where necessary."""
         while True:
             step = self._steps.next_step()
-            assert step is not None  # its caller has seen one, and a refused one is replaced
+            assert step is not None  # the caller has seen one, and a refused one is replaced
             trial = self._stepper.trial(step)
             if self._outgrows(step, trial):
                 continue
@@ -128,10 +115,10 @@ class March:
                 return step, trial
 
     def _outgrows(self, step: Step, trial: TrialStep) -> bool:
-        """Whether a contact has come near the rim of a grid that may grow, and now has grown."""
+        """Enlarge a grid that may grow if the contact is near its rim; return whether it was."""
         if not self._run.grows:
             return False
-        over = overrun(self._half_space.expand_by_symmetry(trial.solution.found.pressure), FREE)
+        over = overrun(self._domain.expand_by_symmetry(trial.solution.found.pressure), FREE)
         if not any(over):
             return False
         larger = next_grid(self._run.grid, *over)
@@ -141,17 +128,17 @@ class March:
         return True
 
     def _enlarge(self, grid: Grid) -> None:
-        """Go on from the same state on a larger grid."""
+        """Continue from the same state on a larger grid."""
         run = self._run.on(grid)
-        half_space = _half_space(run)
-        self._stepper.map_fields(run, half_space)
-        self._observer.map_fields(run, GridEnlargement(self._half_space, half_space))
-        self._run, self._half_space = run, half_space
+        domain = _domain_of(run)
+        self._stepper.map_fields(run, domain)
+        self._observer.map_fields(run, GridEnlargement(self._domain, domain))
+        self._run, self._domain = run, domain
 
     def _complete(self, step: Step, trial: TrialStep) -> CompletedStep:
-        instant = self._stepper.accept(step, trial)
-        _refuse_rim(self._run, step, instant)
-        state = self._observer.evaluate(step, trial.point, instant)
+        solution = self._stepper.accept(step, trial)
+        _refuse_rim(self._run, step, solution)
+        state = self._observer.evaluate(step, trial.point, solution)
         if step.asked is None:
             return CompletedStep(trial.outcome, None, self._done, self._steps.left)
         self._done += 1
@@ -160,13 +147,13 @@ class March:
         return CompletedStep(trial.outcome, state, self._done, self._steps.left)
 
 
-def _half_space(run: RunSetup) -> ContactDomain:
+def _domain_of(run: RunSetup) -> ContactDomain:
     transforms = transforms_by(run.transforms, run.threads)
     return ContactDomain(run.grid, mirrored=run.mirrored, transforms=transforms)
 
 
-def _refuse_rim(run: RunSetup, step: Step, instant: StepSolution) -> None:
-    if run.grid.periodic or not any(overrun(instant.pressure)):
+def _refuse_rim(run: RunSetup, step: Step, solution: StepSolution) -> None:
+    if run.grid.periodic or not any(overrun(solution.pressure)):
         return
     raise DomainError(
         f"grid: the contact reaches the grid's rim at t = {format_quantity(step.time, 's', 6)}; "
@@ -180,7 +167,7 @@ def _too_large(run: RunSetup, step: Step) -> str:
         f"grid: the contact outgrows {format_quantity(run.grid.size[0], 'm')} x "
         f"{format_quantity(run.grid.size[1], 'm')} at t = {format_quantity(step.time, 's', 6)}, "
         "and with cells as fine as these an automatic grid cannot be larger; give a grid of your "
-        "own, or look whether the load carries the body off"
+        "own, or check whether the load moves the body away"
     )
 
 

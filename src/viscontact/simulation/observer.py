@@ -30,18 +30,12 @@ from viscontact.state import ContactState, Outcome
 from viscontact.time_integration.fixed_steps import Step
 from viscontact.time_integration.restart_data import RestartData
 
-#: By how much a pressure exceeds the one before that is looked at for corners.
+#: Growth of the largest pressure since the last check for corners that calls for another [-].
 PEAK_CHECK_RATIO = 1.1
 
 
 class Observer:
-    """Watches a run from step to step, for what needs the step before: work and warnings.
-
-    Parameters
-    ----------
-    run : RunSetup
-        The run it watches.
-    """
+    """Turns solutions into states; keeps what needs the steps before: work and warnings."""
 
     def __init__(self, run: RunSetup) -> None:
         self._set_geometry(run)
@@ -52,7 +46,7 @@ class Observer:
         self._point: LoadPoint | None = None
         self._cycles = LoadCycleWork(run.problem.load.load_cycles)
         self._largest_area, self._cells_at_largest = 0.0, 0
-        self._largest: NDArray[np.bool_] | None = None  # the contact whose spots are not told yet
+        self._largest: NDArray[np.bool_] | None = None  # its spots are not counted yet
         self._spots_at_largest = 0.0
         self._peak, self._peak_time, self._peak_reported = 0.0, 0.0, 0.0
         self._peak_checked = 0.0
@@ -63,80 +57,41 @@ class Observer:
         self._geometry = geometry_of(run.problem, run.open_gap, run.grid)
 
     def map_fields(self, run: RunSetup, onto: GridEnlargement) -> None:
-        """Go on with the same run on a larger grid.
-
-        Parameters
-        ----------
-        run : RunSetup
-            The run on its new grid.
-        onto : GridEnlargement
-            From the old half-space to the new one.
-        """
+        """Continue the same run on a larger grid."""
         self._set_geometry(run)
         if self._before is not None:
-            self._before = onto.instant(self._before)
+            self._before = onto.solution(self._before)
 
-    def evaluate(self, step: Step, point: LoadPoint, instant: StepSolution) -> ContactState:
-        """Describe the end of a step.
-
-        Parameters
-        ----------
-        step : Step
-            The step.
-        point : LoadPoint
-            The load at its end.
-        instant : StepSolution
-            What was found there.
-
-        Returns
-        -------
-        ContactState
-            Without warnings yet; see `add_warnings`.
-        """
-        contact = instant.pressure > 0
-        rim = trace_rim(self._run.grid, contact, instant.gap, self._outline)
-        self._work += self._work_of(point, instant)
+    def evaluate(self, step: Step, point: LoadPoint, solution: StepSolution) -> ContactState:
+        """Return the state at the end of a step, still without warnings."""
+        contact = solution.pressure > 0
+        rim = trace_rim(self._run.grid, contact, solution.gap, self._outline)
+        self._work += self._work_of(point, solution)
         self._cycles.record_work(step, self._work)
-        self._collect_warnings(step, instant, rim)
-        state = _state(step, instant, rim, self._work, self._cycles.last_loss)
+        self._collect_warnings(step, solution, rim)
+        state = _state(step, solution, rim, self._work, self._cycles.last_loss)
         if state.contact_area > self._largest_area:
             self._largest_area, self._cells_at_largest = state.contact_area, state.cells_across
             self._largest = contact
         if state.peak_pressure > self._peak and step.time >= self._run.problem.instants[0]:
             self._peak, self._peak_time = state.peak_pressure, step.time
-        self._before = instant
+        self._before = solution
         return state
 
     def add_warnings(self, state: ContactState, *, last: bool) -> ContactState:
-        """Attach the warnings met since the last judged state, each kind once a run.
+        """Add the warnings since the last requested state, each kind once a run.
 
-        Parameters
-        ----------
-        state : ContactState
-            From `evaluate`.
-        last : bool
-            Whether it is the run's last, so that the mesh can be judged at the largest contact.
-
-        Returns
-        -------
-        ContactState
-            With its warnings.
+        At the last state the mesh is judged by the largest contact of the run.
         """
         self._peak_reported = max(self._peak_reported, state.peak_pressure)
-        mesh, untold = {}, {}
+        mesh, unreported = {}, {}
         if last and self._largest_area:
             mesh = mesh_warnings(self._cells_at_largest, self._cells_across_spots())
-            untold = unreported_peak_warnings(self._peak, self._peak_time, self._peak_reported)
-        return replace(state, warnings=self._warnings.new(self._open, mesh, untold))
+            unreported = unreported_peak_warnings(self._peak, self._peak_time, self._peak_reported)
+        return replace(state, warnings=self._warnings.new(self._open, mesh, unreported))
 
     def refuse_coarse_mesh(self) -> None:
-        """Raise at the run's end if even its largest contact had too few cells.
-
-        Raises
-        ------
-        DomainError
-            If fewer than four cells lay across it.
-        """
+        """Raise DomainError at the end if the largest contact had fewer than four cells across."""
         if not self._largest_area or self._cells_at_largest >= MIN_CELLS_ACROSS:
             return
         nx, ny = self._run.grid.shape
@@ -147,7 +102,7 @@ class Observer:
         )
 
     def restart_data(self) -> RestartData:
-        """What has to be kept to go on from here; asked for after an `evaluate`."""
+        """Return the state after a step as plain data."""
         before = self._before
         return {
             "said": self._warnings.said,
@@ -164,7 +119,7 @@ class Observer:
         }
 
     def restore(self, restart_data: RestartData) -> None:
-        """Go on from what was `restart_data`, in the same run."""
+        """Continue the same run from restart data."""
         self._warnings.said = dict(restart_data["said"])
         self._open, self._work = dict(restart_data["open"]), restart_data["work"]
         before, point = restart_data["before"], restart_data["point"]
@@ -182,36 +137,36 @@ class Observer:
         self._peak_checked = restart_data["looked_at"]
 
     def _cells_across_spots(self) -> float:
-        """Cells across the spots of the largest contact, counted when they are asked for."""
+        """Cells across the spots of the largest contact, counted on demand."""
         if self._largest is not None:
             periodic = self._run.grid.periodic
             self._spots_at_largest = cells_across_spots(self._largest, periodic=periodic)
             self._largest = None
         return self._spots_at_largest
 
-    def _collect_warnings(self, step: Step, instant: StepSolution, rim: Rim) -> None:
+    def _collect_warnings(self, step: Step, solution: StepSolution, rim: Rim) -> None:
         problem = self._run.problem
         found = data_warnings(step.time, problem.measured_until)
-        if instant.outcome is not Outcome.NO_CONTACT:
-            motion, displacement = instant.motion, instant.displacement
-            found = self._corner_warnings(step.time, instant) | found
+        if solution.outcome is not Outcome.NO_CONTACT:
+            motion, displacement = solution.motion, solution.displacement
+            found = self._corner_warnings(step.time, solution) | found
             found = geometry_warnings(self._geometry, rim, motion, displacement) | found
             early = early_warnings(problem.measured_from, problem.load, step.time, step.side)
             found = early | found
-        found = loading_warnings(self._run, step, self._before, instant) | found
+        found = loading_warnings(self._run, step, self._before, solution) | found
         self._open = found | self._open
 
-    def _corner_warnings(self, time: float, instant: StepSolution) -> dict[str, str]:
+    def _corner_warnings(self, time: float, solution: StepSolution) -> dict[str, str]:
         """Whether the largest pressure so far lies at a corner; where it hardly grew, it stayed."""
-        peak = float(instant.pressure.max())
+        peak = float(solution.pressure.max())
         if peak <= PEAK_CHECK_RATIO * self._peak_checked:
             return {}
         self._peak_checked = peak
-        place = self._run.grid.largest_at(instant.pressure)
+        place = self._run.grid.largest_at(solution.pressure)
         strain = strain_of(peak, float(self._run.problem.compliance(time)))
         return corner_warnings(self._geometry, place, strain)
 
-    def _work_of(self, point: LoadPoint, instant: StepSolution) -> float:
+    def _work_of(self, point: LoadPoint, solution: StepSolution) -> float:
         """Work over a step: exact while the load is held, and for all that is elastic.
 
         Under a held load the force is constant, or nothing travels: force times approach is exact.
@@ -223,41 +178,41 @@ class Observer:
         before, point_before = self._before, self._point
         self._point = point
         if before is None:  # every run starts with a jump
-            return self._run.problem.compliance.instant * instant.energy
+            return self._run.problem.compliance.instant * solution.energy
         if point == point_before:
-            travel = instant.motion - before.motion
-            return float((before.resultants + instant.resultants) @ travel / 2)
-        mean = (before.pressure + instant.pressure) / 2
-        moved = instant.displacement - before.displacement
+            travel = solution.motion - before.motion
+            return float((before.resultants + solution.resultants) @ travel / 2)
+        mean = (before.pressure + solution.pressure) / 2
+        moved = solution.displacement - before.displacement
         return float(np.einsum("ij,ij->", mean, moved)) * self._run.grid.cell_area
 
 
 def _state(
     step: Step,
-    instant: StepSolution,
+    solution: StepSolution,
     rim: Rim,
     work: float,
     loss: float,
 ) -> ContactState:
-    force, moment_x, moment_y = (float(resultant) for resultant in instant.resultants)
+    force, moment_x, moment_y = (float(resultant) for resultant in solution.resultants)
     touching = force > 0
     # Where the surface goes on without end there is no middle that a force could be off.
     centred = touching and not rim.grid.periodic
-    peak = float(instant.pressure.max())
+    peak = float(solution.pressure.max())
     # A few cells enclose next to nothing; but no mean pressure exceeds the peak.
     area = max(rim.area, force / peak) if touching else 0.0
     return ContactState(
         time=step.time if step.asked is None else step.asked,
-        pressure=instant.pressure,
-        gap=instant.gap,
-        displacement=instant.displacement,
+        pressure=solution.pressure,
+        gap=solution.gap,
+        displacement=solution.displacement,
         grid=rim.grid,
         force=force,
         eccentricity_x=moment_x / force if centred else math.nan,
         eccentricity_y=moment_y / force if centred else math.nan,
-        approach=float(instant.motion[0]),
-        tilt_x=float(instant.motion[1]),
-        tilt_y=float(instant.motion[2]),
+        approach=float(solution.motion[0]),
+        tilt_x=float(solution.motion[1]),
+        tilt_y=float(solution.motion[2]),
         contact_area=area,
         contact_length=rim.length,
         contact_width=rim.width,
@@ -265,9 +220,9 @@ def _state(
         mean_pressure=force / area if touching else 0.0,
         work=work,
         loss_per_cycle=loss,
-        time_error=instant.time_error,
-        iterations=instant.iterations,
-        residual=instant.residual,
+        time_error=solution.time_error,
+        iterations=solution.iterations,
+        residual=solution.residual,
         cells_across=rim.cells_across,
-        outcome=instant.outcome,
+        outcome=solution.outcome,
     )

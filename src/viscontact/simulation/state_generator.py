@@ -1,4 +1,4 @@
-"""The one loop over time: from an indenter, a material and a load to states."""
+"""Generator of states: `march`, and the same for a run that has been set up."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ from viscontact.simulation.setup import RunSetup, prepare_run
 from viscontact.state import ContactState
 from viscontact.time_integration.requested_times import AdaptiveTimes
 
-#: Called after each instant asked for: the state, how many are done, how many there are; with
-#: adaptive steps, how many there probably are.
+#: Called after each requested state: the state, the number of states done, and of all (with
+#: adaptive steps the expected one).
 Progress = Callable[[ContactState, int, int], None]
 
 
@@ -48,8 +48,8 @@ def march(
     load : LoadHistory
         Force or approach, eccentricity and prescribed tilts over time.
     grid : Grid or AutomaticGrid, optional
-        Cells that carry the pressure, or what is asked of them: then, and when left out, the
-        run chooses them.
+        Cells that carry the pressure, or requirements on them: then, and when left out, the run
+        chooses the cells.
     times : array_like or AdaptiveTimes, optional
         Instants of the states, strictly increasing, none before 0 [s]; chosen from load and
         law when left out. At a jump the state is the one just after it. With `adaptive_times`
@@ -87,8 +87,8 @@ def march(
     Steps also end at the load's kinks and jumps. Within a step the pressure is linear in time,
     so the error falls with the square of the step; the paper's piecewise-constant rule (Spinu &
     Cerlinca 2018, eq. 12) is of first order. Over steps long against the law (always, if it is a
-    dashpot at first) the pressure rises over a part of the step only, lest it ring, and the error
-    is of first order; an `AccuracyWarning` says so where it matters.
+    dashpot at first) the pressure rises over a part of the step only, to avoid ringing, and the
+    error is of first order; an `AccuracyWarning` says so where it matters.
 
     Examples
     --------
@@ -107,25 +107,7 @@ def march(
 
 
 def march_run(run: RunSetup, progress: Progress | None = None) -> Iterator[ContactState]:
-    """Yield the states of a run that has been checked.
-
-    Parameters
-    ----------
-    run : RunSetup
-        From `prepare_run`.
-    progress : callable, optional
-        Called with (state, done, total) after each instant.
-
-    Yields
-    ------
-    ContactState
-        One for each of the run's instants.
-
-    Raises
-    ------
-    ConvergenceError, DomainError
-        As in `march`.
-    """
+    """Yield the states of a run that has been set up; see `march`."""
     for taken in March(run):
         if taken.state is None:
             continue

@@ -12,39 +12,21 @@ from viscontact.state import Outcome
 
 @dataclass(frozen=True, eq=False)
 class StepSolution:
-    """Equilibrium at the end of a step, as the solver left it.
+    """Equilibrium at the end of a step.
 
-    Attributes
-    ----------
-    pressure : ndarray, shape (nx, ny)
-        Pressure [Pa].
-    gap, displacement : ndarray, shape (nx, ny)
-        Gap and total displacement of the surface [m].
-    twin : ndarray, shape (2, mx, my)
-        ∫ J dp, the pressure whose deflection the displacement is [-], and that displacement [m], on
-        the cells that are worked with.
-    motion : ndarray, shape (3,)
-        Approach [m] and tilts [rad].
-    resultants : ndarray, shape (3,)
-        Force [N] and moments [N m] of the pressure about the origin.
-    energy : float
-        Elastic energy of this pressure in a half-space of unit compliance [J Pa].
-    residual : float
-        Relative violation of the contact conditions [-].
-    iterations : int
-        Search directions of the solver.
-    outcome : Outcome
-        How it ended.
-    resolved : bool
-        Whether the step was short enough for the law.
-    time_error : float
-        Estimated relative error of the pressure owed to the steps so far.
+    Fields over the whole grid, shape (nx, ny): pressure [Pa], gap and displacement [m].
+    `reference` holds ∫ J dp [-] and its displacement [m] on the computed cells, shape (2, mx, my);
+    `motion` approach [m] and tilts [rad]; `resultants` force [N] and moments about the origin
+    [N m]; `energy` the elastic energy of the pressure on a half-space of unit compliance [J Pa];
+    `residual` the relative violation of the contact conditions [-]. `resolved` is False where the
+    step was long against the law; `time_error` estimates the relative error of the pressure from
+    all steps so far [-].
     """
 
     pressure: NDArray[np.float64]
     gap: NDArray[np.float64]
     displacement: NDArray[np.float64]
-    twin: NDArray[np.float64]
+    reference: NDArray[np.float64]
     motion: NDArray[np.float64]
     resultants: NDArray[np.float64]
     energy: float

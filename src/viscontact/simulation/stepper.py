@@ -1,4 +1,16 @@
-"""What a run carries from step to step, and how it takes the next one."""
+"""Time stepper: solve one step of a run, and keep the history that the next one needs.
+
+Each step is one elastic contact (Spinu & Cerlinca 2018, section 2):
+
+1. The load at the step's end gives force or approach, eccentricity and tilts.
+2. The hereditary integral splits the displacement into a history, which is known, and the step's
+   own compliance times the unit displacement K p of the pressure increment sought.
+3. The equilibrium of that contact is solved, from an extrapolated guess.
+4. The error that the step adds is estimated; the step control accepts it or asks for a shorter one.
+5. An accepted solution joins the hereditary integral.
+
+It departs from the paper in step 2: within a step the pressure is linear in time, not constant.
+"""
 
 from __future__ import annotations
 
@@ -27,29 +39,20 @@ from viscontact.time_integration.internal_variables import InternalVariables
 from viscontact.time_integration.restart_data import RestartData
 from viscontact.time_integration.step_error import StepError, TimeErrors
 
-#: Errors are measured against the displacement that the pressure causes, but never against less
-#: than this part of the largest displacement of the past: below it rounding would have a say.
+#: Errors are relative to the displacement that the pressure causes, but to no less than this part
+#: of the largest displacement so far, where rounding would dominate [-].
 PAST_DISPLACEMENT_WEIGHT = 1e-3
 
-#: Samples each way within a cell when the body's lowest point is looked for; even, so that a
-#: point on a cell's edge or corner is among them.
+#: Samples each way within a cell in the search for the body's lowest point; even, so that they
+#: include the cell's edges and corners.
 TOUCH_SAMPLES = 16
 
 
 @dataclass(frozen=True, eq=False)
 class StepProblem:
-    """What a step meets, before it is solved.
+    """The contact problem of a step.
 
-    Attributes
-    ----------
-    point : LoadPoint
-        The load at its end.
-    response : HereditaryResponse
-        Of the memory to the step.
-    drive : float
-        What the elastic elastic_reference moves with, as in `ElasticReference`.
-    problem : ContactProblem
-        What is to be solved.
+    `drive` is the force [N] or approach [m] that the elastic reference is extrapolated over.
     """
 
     point: LoadPoint
@@ -60,49 +63,24 @@ class StepProblem:
 
 @dataclass(frozen=True, eq=False)
 class TrialStep:
-    """A step that has been solved, and not been taken yet.
-
-    Attributes
-    ----------
-    point : LoadPoint
-        The load at its end.
-    solution : ContactSolution
-        Equilibrium there.
-    response : HereditaryResponse
-        Of the memory to the step.
-    elastic_reference : ElasticReference
-        Elastic elastic_reference of the end.
-    outcome : Outcome
-        How it ended.
-    error : StepError
-        What the step adds to the error of the pressure.
-    """
+    """A solved step, before it is accepted: equilibrium, outcome, and the error that it adds."""
 
     point: LoadPoint
     solution: ContactSolution
     response: HereditaryResponse
-    elastic_reference: ElasticReference
+    reference: ElasticReference
     outcome: Outcome
     error: StepError
 
 
 class Stepper:
-    """What has happened so far: memories, the last twins, the last motion.
+    """Solves a run's steps and keeps hereditary integrals, elastic references and rigid motion."""
 
-    Parameters
-    ----------
-    run : RunSetup
-        The run.
-    half_space : ContactDomain
-        Where it takes place.
-    """
-
-    def __init__(self, run: RunSetup, half_space: ContactDomain) -> None:
-        self._run, self._half_space = run, half_space
-        self._shape = half_space.reduce_by_symmetry(run.open_gap)
-        self._memory = run.memory.memory(
-            (2, *half_space.shape)
-        )  # of pressure and of unit_displacement
+    def __init__(self, run: RunSetup, domain: ContactDomain) -> None:
+        self._run, self._domain = run, domain
+        self._shape = domain.reduce_by_symmetry(run.open_gap)
+        # Of pressure [Pa] and unit displacement K p [Pa m], and of the force [N].
+        self._memory = run.memory.memory((2, *domain.shape))
         self._force_memory = InternalVariables(run.memory.prony_approximation, (1,))
         self._errors = TimeErrors(run.memory, run.problem.load)
         self._scale = 1e-12 * max(run.grid.cell_size)
@@ -110,123 +88,114 @@ class Stepper:
         self._motion = np.zeros(3)
 
     def trial(self, step: Step) -> TrialStep:
-        """Solve a step, without taking it."""
-        step_problem = self._step_problem(step)
-        solution, outcome = self._solved(step, step_problem)
-        values = solution.values
-        values.flags.writeable = False  # it will be remembered, without a copy
-        response = step_problem.response
-        elastic_reference = ElasticReference(
-            step.time, step_problem.drive, response.of(values), solution.motion
-        )
-        error = self._errors.of_step(step, step_problem.point, values, response)
-        return TrialStep(step_problem.point, solution, response, elastic_reference, outcome, error)
+        """Solve a step without accepting it."""
+        posed = self._step_problem(step)
+        solution, outcome = self._solved(step, posed)
+        values, response = solution.values, posed.response
+        values.flags.writeable = False  # the hereditary integral keeps it without a copy
+        reference = ElasticReference(step.time, posed.drive, response.of(values), solution.motion)
+        error = self._errors.of_step(step, posed.point, values, response)  # step 4
+        return TrialStep(posed.point, solution, response, reference, outcome, error)
 
     def restart_data(self) -> RestartData:
-        """What has to be kept to go on from here; asked for after an `accept`."""
+        """Return the state after an accepted step as plain data."""
         return {
             "memory": self._memory.restart_data(),
             "force_memory": self._force_memory.restart_data(),
             "errors": self._errors.restart_data(),
             "scale": self._scale,
-            "twins": [vars(elastic_reference) for elastic_reference in self._references],
+            "references": [vars(reference) for reference in self._references],
             "motion": self._motion,
         }
 
     def restore(self, restart_data: RestartData) -> None:
-        """Go on from what was `restart_data`, in the same run."""
+        """Continue the same run from restart data."""
         self._memory.restore(restart_data["memory"])
         self._force_memory.restore(restart_data["force_memory"])
         self._errors.restore(restart_data["errors"])
         self._scale = restart_data["scale"]
-        self._references = [
-            ElasticReference(**elastic_reference) for elastic_reference in restart_data["twins"]
-        ]
+        self._references = [ElasticReference(**each) for each in restart_data["references"]]
         self._motion = restart_data["motion"]
 
-    def map_fields(self, run: RunSetup, half_space: ContactDomain) -> None:
-        """Go on in the same run on a larger grid."""
-        grown = GridEnlargement(self._half_space, half_space).pairs
-        self._run, self._half_space = run, half_space
-        self._shape = half_space.reduce_by_symmetry(run.open_gap)
-        self._memory.map_fields(grown)
-        self._errors.map_fields(grown)
+    def map_fields(self, run: RunSetup, domain: ContactDomain) -> None:
+        """Continue the same run on a larger grid."""
+        mapped = GridEnlargement(self._domain, domain).pairs
+        self._run, self._domain = run, domain
+        self._shape = domain.reduce_by_symmetry(run.open_gap)
+        self._memory.map_fields(mapped)
+        self._errors.map_fields(mapped)
         self._references = [
-            replace(elastic_reference, fields=grown(elastic_reference.fields))
-            for elastic_reference in self._references
+            replace(reference, fields=mapped(reference.fields)) for reference in self._references
         ]
 
     def _step_problem(self, step: Step) -> StepProblem:
-        """Ask the memories what the step will meet."""
-        point = self._run.problem.load.at(step.time, side=step.side)
+        """Pose a step: load at its end, response of the history, elastic contact to be solved."""
+        point = self._run.problem.load.at(step.time, side=step.side)  # step 1
         response, force_response = (
             _response(each, step) for each in (self._memory, self._force_memory)
         )
         reference_force = float(force_response.of(_force(point))[0])
         drive = reference_force if point.approach is None else point.approach
-        problem = ContactProblem(
+        problem = ContactProblem(  # step 2: the history widens the gap
             self._shape + response.history[1],
             response.compliance,
-            self._half_space.reduced_constraints(Constraints.of(point)),
+            self._domain.reduced_constraints(Constraints.of(point)),
             self._scale,
         )
         return StepProblem(point, response, drive, problem)
 
     def accept(self, step: Step, trial: TrialStep) -> StepSolution:
-        """Take a step that has been solved."""
-        known = (
-            self._reference_history(step)[1 - EXTRAPOLATION_POINTS :] if not step.is_jump else []
-        )
-        self._references = (
-            [] if trial.outcome is Outcome.NO_CONTACT else [*known, trial.elastic_reference]
-        )
+        """Add a solved step to the history (step 5), and return its solution on the whole grid."""
+        if trial.outcome is Outcome.NO_CONTACT:
+            self._references = []
+        else:
+            # A jump breaks the extrapolation: what came before it does not count.
+            known = [] if step.is_jump else self._reference_history(step)
+            self._references = [*known[1 - EXTRAPOLATION_POINTS :], trial.reference]
         self._motion = trial.solution.motion
         self._memory.accept(trial.solution.values)
         self._force_memory.accept(_force(trial.point))
         time_error = self._errors.after(step, trial.solution.values, trial.error)
-        instant = _on_full_grid(self._half_space, trial, time_error)
-        self._scale = max(
-            self._scale, PAST_DISPLACEMENT_WEIGHT * float(trial.elastic_reference.fields[1].max())
-        )
-        return instant
+        largest = float(trial.reference.fields[1].max())
+        self._scale = max(self._scale, PAST_DISPLACEMENT_WEIGHT * largest)
+        return _on_full_grid(self._domain, trial, time_error)
 
     def _reference_history(self, step: Step) -> list[ElasticReference]:
-        """The twins that tell where the next one will be."""
+        """The references that the next one is extrapolated from; after a kink, the last one."""
         return self._references[-EXTRAPOLATION_POINTS:] if step.smooth else self._references[-1:]
 
-    def _solved(self, step: Step, step_problem: StepProblem) -> tuple[ContactSolution, Outcome]:
-        point, problem, response = step_problem.point, step_problem.problem, step_problem.response
+    def _solved(self, step: Step, posed: StepProblem) -> tuple[ContactSolution, Outcome]:
+        """Solve the equilibrium of a step (step 3); without force there is nothing to solve."""
+        point, problem, response = posed.point, posed.problem, posed.response
         if point.force == 0:
             untouched = not response.history[1].any()
             return self._first_touch(problem, untouched=untouched), Outcome.NO_CONTACT
         given = problem.constraints.with_prescribed(self._motion)
         if point.force is None and self._is_separated(problem, given):
-            return _without_pressure(problem, self._half_space, given), Outcome.NO_CONTACT
-        guess = _guess(
-            predict(self._reference_history(step), step.time, step_problem.drive), response
-        )
+            return _without_pressure(problem, self._domain, given), Outcome.NO_CONTACT
+        guess = _guess(predict(self._reference_history(step), step.time, posed.drive), response)
         tolerance = self._run.problem.tolerance
-        solution = solve_contact(problem, self._half_space, guess, tolerance=tolerance)
+        solution = solve_contact(problem, self._domain, guess, tolerance=tolerance)
         if not solution.converged:
             return solution, Outcome.NOT_CONVERGED
         touches = bool(solution.values[0].any())
         return solution, Outcome.CONVERGED if touches else Outcome.NO_CONTACT
 
     def _is_separated(self, problem: ContactProblem, motion: NDArray[np.float64]) -> bool:
-        plane = self._half_space.whole.plane.field(motion)
+        plane = self._domain.whole.plane.field(motion)
         return bool((problem.open_gap >= plane).all())
 
     def _first_touch(self, problem: ContactProblem, *, untouched: bool) -> ContactSolution:
-        """No force: the body is where it just touches the (dented) surface, tilts as they were."""
+        """Place a body without force where it just touches the surface; free tilts are kept."""
         tilts = problem.constraints.with_prescribed(self._motion) * np.array([0.0, 1.0, 1.0])
-        distance = problem.open_gap - self._half_space.whole.plane.field(tilts)
+        distance = problem.open_gap - self._domain.whole.plane.field(tilts)
         motion = tilts + np.array([float(distance.min()), 0.0, 0.0])
-        apart = _without_pressure(problem, self._half_space, motion)
+        apart = _without_pressure(problem, self._domain, motion)
         return _at_lowest_point(self._run, apart) if untouched else apart
 
 
 def _force(point: LoadPoint) -> NDArray[np.float64]:
-    """The prescribed force [N], 0 where an approach is prescribed: a field of one number."""
+    """The prescribed force as a field of one number [N]; 0 under a prescribed approach."""
     return np.array([point.force or 0.0])
 
 
@@ -234,29 +203,26 @@ def _response(memory: HereditaryIntegral, step: Step) -> HereditaryResponse:
     return memory.jump() if step.is_jump else memory.ramp(step.duration)
 
 
-def _guess(
-    elastic_reference: ElasticReference | None, response: HereditaryResponse
-) -> Guess | None:
+def _guess(reference: ElasticReference | None, response: HereditaryResponse) -> Guess | None:
     """Pressure and unit displacement that a predicted elastic reference belongs to."""
-    if elastic_reference is None:
+    if reference is None:
         return None
-    values = np.subtract(
-        elastic_reference.fields, response.history, out=elastic_reference.fields
-    )  # it was made for this
+    values = reference.fields  # made by `predict` for this use, so it may be overwritten
+    np.subtract(values, response.history, out=values)
     values /= response.compliance
-    return Guess(values[0], values[1], elastic_reference.motion)
+    return Guess(values[0], values[1], reference.motion)
 
 
 def _without_pressure(
-    problem: ContactProblem, half_space: ContactDomain, motion: NDArray[np.float64]
+    problem: ContactProblem, domain: ContactDomain, motion: NDArray[np.float64]
 ) -> ContactSolution:
-    nothing = np.zeros((2, *half_space.shape))
-    gap = problem.open_gap - half_space.whole.plane.field(motion)
+    nothing = np.zeros((2, *domain.shape))
+    gap = problem.open_gap - domain.whole.plane.field(motion)
     return ContactSolution(nothing, motion, gap, 0.0, 0, 0, converged=True)
 
 
 def _at_lowest_point(run: RunSetup, apart: ContactSolution) -> ContactSolution:
-    """A flat surface is touched by the body's lowest point, not by the nearest cell centre."""
+    """Let the body's lowest point touch a flat surface, in place of the nearest cell centre."""
     tilts = apart.motion[1:]
     cells = run.open_gap - np.add.outer(tilts[0] * run.grid.x, tilts[1] * run.grid.y)
     i, j = np.unravel_index(int(cells.argmin()), cells.shape)
@@ -269,24 +235,24 @@ def _at_lowest_point(run: RunSetup, apart: ContactSolution) -> ContactSolution:
     return replace(apart, motion=motion, gap=apart.gap + below)
 
 
-def _on_full_grid(half_space: ContactDomain, trial: TrialStep, time_error: float) -> StepSolution:
-    """The instant on the whole grid."""
+def _on_full_grid(domain: ContactDomain, trial: TrialStep, time_error: float) -> StepSolution:
+    """The solution of a step, on the whole grid."""
     solution = trial.solution
     found = solution.found
     fields = {
-        "pressure": half_space.expand_by_symmetry(found.pressure),
-        "gap": half_space.expand_by_symmetry(solution.gap),
-        "displacement": half_space.expand_by_symmetry(trial.elastic_reference.fields[1]),
-        "twin": trial.elastic_reference.fields,
+        "pressure": domain.expand_by_symmetry(found.pressure),
+        "gap": domain.expand_by_symmetry(solution.gap),
+        "displacement": domain.expand_by_symmetry(trial.reference.fields[1]),
+        "reference": trial.reference.fields,
     }
     for field in fields.values():
-        field.flags.writeable = False  # the run goes on from them
-    cell_area = half_space.symmetry_count * half_space.grid.cell_area  # with its mirror images
+        field.flags.writeable = False  # later steps start from them
+    cell_area = domain.symmetry_count * domain.grid.cell_area  # with its mirror images
     energy = float(np.einsum("ij,ij->", found.pressure, found.unit_displacement)) / 2
     return StepSolution(
         **fields,
         motion=found.motion,
-        resultants=half_space.whole.plane.sums(found.pressure) * cell_area,
+        resultants=domain.whole.plane.sums(found.pressure) * cell_area,
         energy=energy * cell_area,
         residual=solution.residual,
         iterations=solution.iterations,
