@@ -188,7 +188,7 @@ def test_materials_are_frozen_hashable_and_rebuilt_from_their_fields():
             r"Material: thickness .*positive finite number in m",
         ),
         (lambda: Material(1e9, 0.3), r"Material: law must be a creep law"),
-        (lambda: SeriesCompliance(-1.0, [], []), r"SeriesCompliance\.instant"),
+        (lambda: SeriesCompliance(-1.0, [], []), r"SeriesCompliance: instant"),
         (lambda: SeriesCompliance(1.0, [1.0], []), "equal lengths"),
         (lambda: SeriesCompliance(1.0, [], [])(-1.0), "t: times since the step"),
     ],

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from viscontact.units.numbers import non_negative, positive, real
+from viscontact.units.numbers import non_negative, positive, real, store, unit_of
 
 
-def exponent(name: str, value: float) -> float:
+def exponent(name: str, value: object, unit: str = "1") -> float:
     """Return the power of a spring-pot as a float; ValueError unless above 0 and up to 1."""
-    number = real(name, value)
+    number = real(name, value, unit)
     if not 0 < number <= 1:
         raise ValueError(
             f"{name} must lie above 0 (a spring) and not above 1 (a dashpot), got {value!r}"
@@ -25,20 +25,17 @@ def one_of(name: str, word: str, words: tuple[str, ...]) -> None:
         raise ValueError(f"{name} must be one of {', '.join(map(repr, words))}, got {word!r}")
 
 
-def series(
-    owner: str, name: str, strengths: Sequence[float], times: Sequence[float], unit: str
-) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """Return strengths (each >= 0) and times (each > 0) of a series as tuples of one length."""
-    strengths, times = _sequence(f"{owner}: {name}", strengths), _sequence(f"{owner}: times", times)
+def check_series(instance: object, name: str) -> None:
+    """Check the strengths `name` (each >= 0) and the times (each > 0) of a series, as tuples."""
+    owner = type(instance).__name__
+    strengths, times = (_sequence(instance, column) for column in (name, "times"))
     if len(strengths) != len(times):
         raise ValueError(
             f"{owner}: {name} and times must have equal lengths, got {len(strengths)} {name} "
             f"and {len(times)} times; give one time for each term"
         )
-    return (
-        tuple(non_negative(f"{owner}: {name}[{i}]", v, unit) for i, v in enumerate(strengths)),
-        tuple(positive(f"{owner}: times[{i}]", v, "s") for i, v in enumerate(times)),
-    )
+    check_items(instance, name, strengths, check=non_negative)
+    check_items(instance, "times", times, check=positive)
 
 
 def compressibility(
@@ -62,8 +59,22 @@ def compressibility(
     return ratio, None
 
 
-def _sequence(name: str, values: Sequence[float]) -> list[float]:
+def check_items(
+    instance: object,
+    name: str,
+    items: Sequence[object],
+    check: Callable[[str, object, str], float],
+) -> None:
+    """Check each item of a field of a frozen dataclass, and store them as a tuple of floats."""
+    place, unit = f"{type(instance).__name__}: {name}", unit_of(type(instance), name) or "1"
+    checked = (check(f"{place}[{i}]", item, unit) for i, item in enumerate(items))
+    store(instance, **{name: tuple(checked)})
+
+
+def _sequence(instance: object, name: str) -> list[object]:
+    values = getattr(instance, name)
     array = np.asarray(values, dtype=object)
     if array.ndim != 1:
-        raise ValueError(f"{name} must be a sequence of numbers, got {values!r}")
+        owner = type(instance).__name__
+        raise ValueError(f"{owner}: {name} must be a sequence of numbers, got {values!r}")
     return list(array)

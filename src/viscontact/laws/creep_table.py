@@ -18,9 +18,8 @@ from viscontact.laws.interconversion.log_curve import LogCurve
 from viscontact.laws.interconversion.oscillation import half_inverse
 from viscontact.laws.interconversion.volterra import first_node
 from viscontact.laws.law import Law, slowing
-from viscontact.laws.table_columns import check_left, measured
+from viscontact.laws.table_columns import check_columns, check_left
 from viscontact.laws.uniaxial import uniaxial
-from viscontact.units.numbers import store
 
 Floats = NDArray[np.float64]
 
@@ -69,12 +68,9 @@ class TabulatedCreep(Law):
     beyond: Literal["slope", "last"] = "slope"
 
     def __post_init__(self) -> None:
-        times, compliance = measured(
-            "TabulatedCreep", "compliance", self.times, self.compliance, "1/Pa", 1
-        )
+        check_columns(self, "compliance", 1)
         one_of("TabulatedCreep: before", self.before, ("first", "slope"))
         one_of("TabulatedCreep: beyond", self.beyond, ("slope", "last"))
-        store(self, times=times, compliance=compliance)
 
     @classmethod
     def from_shear(

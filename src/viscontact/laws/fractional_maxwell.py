@@ -13,13 +13,13 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from viscontact.laws import arguments
+from viscontact.laws.arguments import exponent
 from viscontact.laws.interconversion.log_curve import mean_power
 from viscontact.laws.interconversion.mittag_leffler import mittag_leffler
 from viscontact.laws.interconversion.oscillation import half_inverse
 from viscontact.laws.law import Law, slowing
 from viscontact.laws.uniaxial import uniaxial
-from viscontact.units import numbers
+from viscontact.units.numbers import check_fields, non_negative
 
 Floats = NDArray[np.float64]
 
@@ -66,15 +66,14 @@ class FractionalMaxwell(Law):
 
     def __post_init__(self) -> None:
         owner = type(self).__name__
-        numbers.check_fields(self, "shear_modulus", "time")
-        late = arguments.exponent(f"{owner}: exponent", self.exponent)
-        early = numbers.non_negative(f"{owner}: second_exponent", self.second_exponent, "")
-        if not early < late:
+        check_fields(self, "shear_modulus", "time")
+        check_fields(self, "exponent", check=exponent)
+        check_fields(self, "second_exponent", check=non_negative)
+        if not self.second_exponent < self.exponent:
             raise ValueError(
-                f"{owner}: second_exponent must be below exponent {late!r}, got {early!r}; "
-                "a law with one exponent alone is PowerLaw"
+                f"{owner}: second_exponent must be below exponent {self.exponent!r}, got "
+                f"{self.second_exponent!r}; a law with one exponent alone is PowerLaw"
             )
-        numbers.store(self, exponent=late, second_exponent=early)
 
     @classmethod
     def from_shear(

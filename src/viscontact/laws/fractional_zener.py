@@ -8,12 +8,12 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.laws import arguments
+from viscontact.laws.arguments import exponent
 from viscontact.laws.interconversion.log_curve import narrow_mean
 from viscontact.laws.interconversion.mittag_leffler import mittag_leffler
 from viscontact.laws.law import Law, slowing
 from viscontact.laws.uniaxial import uniaxial
-from viscontact.units import numbers
+from viscontact.units.numbers import check_fields, non_negative
 
 Floats = NDArray[np.float64]
 
@@ -61,15 +61,15 @@ class FractionalZener(Law):
 
     def __post_init__(self) -> None:
         owner = type(self).__name__
-        numbers.check_fields(self, "shear_modulus", "time")
-        rest = numbers.non_negative(f"{owner}: equilibrium_modulus", self.equilibrium_modulus, "Pa")
-        if not rest < self.shear_modulus:
+        check_fields(self, "shear_modulus", "time")
+        check_fields(self, "equilibrium_modulus", check=non_negative)
+        check_fields(self, "exponent", check=exponent)
+        if not self.equilibrium_modulus < self.shear_modulus:
             raise ValueError(
                 f"{owner}: equilibrium_modulus must be below shear_modulus {self.shear_modulus!r} "
-                f"Pa, got {rest!r} Pa; the first is the modulus at once, the second what is left"
+                f"Pa, got {self.equilibrium_modulus!r} Pa; the first is left after all relaxation, "
+                "the second is the instant modulus"
             )
-        power = arguments.exponent(f"{owner}: exponent", self.exponent)
-        numbers.store(self, equilibrium_modulus=rest, exponent=power)
 
     @classmethod
     def from_shear(

@@ -9,13 +9,13 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from viscontact.laws import arguments
+from viscontact.laws.arguments import exponent
 from viscontact.laws.interconversion.log_curve import mean_power
 from viscontact.laws.interconversion.mittag_leffler import mittag_leffler
 from viscontact.laws.interconversion.oscillation import half_inverse
 from viscontact.laws.law import Law, slowing
 from viscontact.laws.uniaxial import uniaxial
-from viscontact.units import numbers
+from viscontact.units.numbers import check_fields, non_negative
 
 Floats = NDArray[np.float64]
 
@@ -67,12 +67,9 @@ class PowerLaw(Law):
     instant: float = field(default=0.0, metadata={"unit": "1/Pa", "name": "instant compliance"})
 
     def __post_init__(self) -> None:
-        numbers.check_fields(self, "compliance", "reference_time")
-        numbers.store(
-            self,
-            exponent=arguments.exponent("PowerLaw: exponent", self.exponent),
-            instant=numbers.non_negative("PowerLaw: instant", self.instant, "1/Pa"),
-        )
+        check_fields(self, "compliance", "reference_time")
+        check_fields(self, "exponent", check=exponent)
+        check_fields(self, "instant", check=non_negative)
 
     @classmethod
     def from_shear(

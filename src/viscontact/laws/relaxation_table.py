@@ -16,9 +16,8 @@ from viscontact.laws.interconversion.curve_transform import oscillating
 from viscontact.laws.interconversion.log_curve import LogCurve
 from viscontact.laws.interconversion.volterra import first_node
 from viscontact.laws.law import Law, slowing
-from viscontact.laws.table_columns import measured
+from viscontact.laws.table_columns import check_columns
 from viscontact.laws.uniaxial import uniaxial
-from viscontact.units.numbers import store
 
 Floats = NDArray[np.float64]
 
@@ -68,12 +67,9 @@ class TabulatedRelaxation(Law):
     beyond: Literal["slope", "last"] = "slope"
 
     def __post_init__(self) -> None:
-        times, modulus = measured(
-            "TabulatedRelaxation", "modulus", self.times, self.modulus, "Pa", -1
-        )
+        check_columns(self, "modulus", -1)
         one_of("TabulatedRelaxation: before", self.before, ("first", "slope"))
         one_of("TabulatedRelaxation: beyond", self.beyond, ("slope", "last"))
-        store(self, times=times, modulus=modulus)
 
     @classmethod
     def from_shear(

@@ -11,7 +11,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.laws import arguments
+from viscontact.laws.arguments import check_series
 from viscontact.laws.interconversion.oscillation import modulus_of_creep, modulus_of_relaxation
 from viscontact.laws.interconversion.series import (
     RelaxationTerms,
@@ -25,7 +25,7 @@ from viscontact.laws.interconversion.series import (
 )
 from viscontact.laws.law import Law, slowing
 from viscontact.laws.uniaxial import uniaxial
-from viscontact.units import numbers
+from viscontact.units.numbers import check_fields, non_negative
 
 
 class SeriesLaw(Law):
@@ -103,17 +103,13 @@ class CreepSeries(SeriesLaw):
     fluidity: float = field(default=0.0, metadata={"unit": "1/(Pa s)"})
 
     def __post_init__(self) -> None:
-        instant = numbers.non_negative("CreepSeries: instant", self.instant, "1/Pa")
-        amplitudes, times = arguments.series(
-            "CreepSeries", "amplitudes", self.amplitudes, self.times, "1/Pa"
-        )
-        fluidity = numbers.non_negative("CreepSeries: fluidity", self.fluidity, "1/(Pa s)")
-        if not (instant > 0 or fluidity > 0 or any(a > 0 for a in amplitudes)):
+        check_fields(self, "instant", "fluidity", check=non_negative)
+        check_series(self, "amplitudes")
+        if not any((self.instant, self.fluidity, *self.amplitudes)):
             raise ValueError(
                 "CreepSeries: instant, amplitudes and fluidity are all 0, which is a rigid body; "
                 "give at least one positive compliance"
             )
-        numbers.store(self, instant=instant, amplitudes=amplitudes, times=times, fluidity=fluidity)
 
     @classmethod
     def from_shear(
@@ -256,16 +252,13 @@ class RelaxationSeries(SeriesLaw):
     times: Sequence[float] = field(metadata={"unit": "s", "name": "relaxation times"})
 
     def __post_init__(self) -> None:
-        equilibrium = numbers.non_negative("RelaxationSeries: equilibrium", self.equilibrium, "Pa")
-        moduli, times = arguments.series(
-            "RelaxationSeries", "moduli", self.moduli, self.times, "Pa"
-        )
-        if not (equilibrium > 0 or any(m > 0 for m in moduli)):
+        check_fields(self, "equilibrium", check=non_negative)
+        check_series(self, "moduli")
+        if not any((self.equilibrium, *self.moduli)):
             raise ValueError(
                 "RelaxationSeries: equilibrium and moduli are all 0, which resists nothing; "
                 "give at least one positive modulus"
             )
-        numbers.store(self, equilibrium=equilibrium, moduli=moduli, times=times)
 
     @classmethod
     def from_shear(

@@ -8,19 +8,16 @@ from collections.abc import Sequence
 import numpy as np
 
 from viscontact.units.formatting import format_quantity
-from viscontact.units.numbers import finite
+from viscontact.units.numbers import finite, store, unit_of
 
 
-def measured(
-    owner: str, column: str, times: Sequence[float], values: Sequence[float], unit: str, trend: int
-) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """Return times [s] and values of a table as checked tuples; rows are counted from 0.
+def check_columns(law: object, column: str, trend: int) -> None:
+    """Check times [s] and values of a table and store them as tuples; rows count from 0.
 
-    `owner` and `column` are class and field, for messages; `unit` is that of the values, and
-    `trend` +1 if they may not fall, -1 if they may not grow.
+    `column` is the field of the values; they may not fall for a `trend` of +1, not grow for -1.
     """
-    t = _column(f"{owner}.times", times, "s")
-    v = _column(f"{owner}.{column}", values, unit)
+    owner, unit = type(law).__name__, unit_of(type(law), column) or "1"
+    t, v = _column(law, "times"), _column(law, column)
     if len(t) != len(v):
         raise ValueError(
             f"{owner}: times and {column} must have equal lengths, got {len(t)} times and "
@@ -32,7 +29,7 @@ def measured(
         )
     _check_times(owner, t)
     _check_values(owner, column, t, v, unit, trend)
-    return t, v
+    store(law, **{"times": t, column: v})
 
 
 def check_left(owner: str, compliance: Sequence[float], volumetric: float) -> None:
@@ -46,11 +43,13 @@ def check_left(owner: str, compliance: Sequence[float], volumetric: float) -> No
             )
 
 
-def _column(name: str, values: Sequence[float], unit: str) -> tuple[float, ...]:
+def _column(law: object, name: str) -> tuple[float, ...]:
+    values, unit = getattr(law, name), unit_of(type(law), name) or "1"
     array = np.asarray(values, dtype=object)
+    place = f"{type(law).__name__}.{name}"
     if array.ndim != 1:
-        raise ValueError(f"{name}: must be a sequence of numbers, got {values!r}")
-    return tuple(finite(f"{name}, row {i}:", value, unit) for i, value in enumerate(array))
+        raise ValueError(f"{place}: must be a sequence of numbers, got {values!r}")
+    return tuple(finite(f"{place}, row {i}:", value, unit) for i, value in enumerate(array))
 
 
 def _check_times(owner: str, t: tuple[float, ...]) -> None:

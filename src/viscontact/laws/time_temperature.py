@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.display import Displayable
-from viscontact.units import numbers
+from viscontact.units.numbers import check_fields, positive, store, unit_of
 
 #: Molar gas constant, exact since 2019 [J/(mol K)].
 GAS_CONSTANT = 8.31446261815324
@@ -114,7 +114,7 @@ class WLF(Shift):
     c2: float = field(metadata={"unit": "K"})
 
     def __post_init__(self) -> None:
-        numbers.check_fields(self, "reference_temperature", "c1", "c2")
+        check_fields(self, "reference_temperature", "c1", "c2")
 
     def _log_factor(self, temperature: NDArray[np.float64]) -> NDArray[np.float64]:
         above = temperature - self.reference_temperature
@@ -159,7 +159,7 @@ class Arrhenius(Shift):
     activation_energy: float = field(metadata={"unit": "J/mol"})
 
     def __post_init__(self) -> None:
-        numbers.check_fields(self, "reference_temperature", "activation_energy")
+        check_fields(self, "reference_temperature", "activation_energy")
 
     def _log_factor(self, temperature: NDArray[np.float64]) -> NDArray[np.float64]:
         scale = self.activation_energy / GAS_CONSTANT
@@ -208,13 +208,12 @@ class TabulatedShift(Shift):
             )
         for i in range(1, len(temperatures)):
             self._require_order(i, temperatures, factors)
-        numbers.store(self, temperatures=temperatures, factors=factors)
+        store(self, temperatures=temperatures, factors=factors)
 
     def _column(self, name: str, values: Sequence[float]) -> tuple[float, ...]:
-        unit = numbers.unit_of(type(self), name) or "1"
+        unit = unit_of(type(self), name) or "1"
         return tuple(
-            numbers.positive(f"{self._OWNER}: {name}[{i}]", value, unit)
-            for i, value in enumerate(values)
+            positive(f"{self._OWNER}: {name}[{i}]", value, unit) for i, value in enumerate(values)
         )
 
     def _require_order(

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.laws.arguments import series
+from viscontact.laws.arguments import check_series
 from viscontact.laws.interconversion.series import (
     RelaxationTerms,
     SeriesTerms,
@@ -20,7 +20,7 @@ from viscontact.laws.interconversion.series import (
 )
 from viscontact.materials.compliance.base import ContactCompliance
 from viscontact.materials.compliance.sum import SummedCompliance
-from viscontact.units.numbers import non_negative, store
+from viscontact.units.numbers import check_fields, non_negative, store
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,20 +54,17 @@ class SeriesCompliance(ContactCompliance):
     (2e-09, 500000000)
     """
 
-    instant: float
-    amplitudes: NDArray[np.float64]
-    times: NDArray[np.float64]
-    fluidity: float = 0.0
+    instant: float = field(metadata={"unit": "1/Pa"})
+    amplitudes: NDArray[np.float64] = field(metadata={"unit": "1/Pa"})
+    times: NDArray[np.float64] = field(metadata={"unit": "s"})
+    fluidity: float = field(default=0.0, metadata={"unit": "1/(Pa s)"})
 
     def __post_init__(self) -> None:
-        owner = "SeriesCompliance"
-        instant = non_negative(f"{owner}.instant", self.instant, "1/Pa")
-        fluidity = non_negative(f"{owner}.fluidity", self.fluidity, "1/(Pa s)")
-        amplitudes, times = merged(
-            *series(owner, "amplitudes", list(self.amplitudes), list(self.times), "1/Pa")
-        )
+        check_fields(self, "instant", "fluidity", check=non_negative)
+        check_series(self, "amplitudes")
+        amplitudes, times = merged(self.amplitudes, self.times)
         amplitudes.flags.writeable = times.flags.writeable = False
-        store(self, instant=instant, amplitudes=amplitudes, times=times, fluidity=fluidity)
+        store(self, amplitudes=amplitudes, times=times)
 
     @property
     def term_count(self) -> int:
