@@ -13,34 +13,27 @@ from pydantic_core import ErrorDetails
 from viscontact.case import time_grid_output
 from viscontact.case.document import Document
 from viscontact.case.errors import KeyPath, dotted
-from viscontact.case.indenters import profiles, shapes
-from viscontact.case.loads import load
-from viscontact.case.materials import material, shifts
+from viscontact.case.indenters.profiles import AnyProfile
+from viscontact.case.indenters.shapes import AnyShape
+from viscontact.case.loads.load import AnyLoad
+from viscontact.case.materials.material import AnyMaterial
+from viscontact.case.materials.shifts import AnyShift
+from viscontact.case.quantities import alternatives
 from viscontact.case.sections import CaseFile
 from viscontact.units.dimensions import DIMENSIONS
 
 # Sections by name, or by the value of shape, law or kind.
 _SECTIONS: dict[str | int, type[BaseModel]] = {
-    **{
-        "time": time_grid_output.Time,
-        "grid": time_grid_output.Cells,
-        "output": time_grid_output.Output,
-    },
+    "time": time_grid_output.Time,
+    "grid": time_grid_output.Cells,
+    "output": time_grid_output.Output,
 }
 # Shifts, like loads, are identified by `kind`.
-_SHIFTS: dict[str | int, type[BaseModel]] = {
-    **{"wlf": shifts.Wlf, "arrhenius": shifts.Arrhenius, "factors": shifts.Factors},
-}
-_ALTERNATIVES: dict[str | int, type[BaseModel]] = {
-    **shapes.SHAPES,
-    **material.LAWS,
-    **_SHIFTS,
-    **{"step": load.Step, "ramp": load.Ramp, "triangle": load.Triangle},
-    **{"harmonic": load.Harmonic, "history": load.History},
-}
-_NO_SHIFTS = {tag: model for tag, model in _ALTERNATIVES.items() if tag not in _SHIFTS}
+_SHIFTS, _PROFILES = alternatives(AnyShift), alternatives(AnyProfile)
+_NO_SHIFTS = alternatives(AnyShape) | alternatives(AnyMaterial) | alternatives(AnyLoad)
+_ALTERNATIVES = _NO_SHIFTS | _SHIFTS
 # Values of these keys are identified by `kind`.
-_WITHIN: dict[str | int, dict[str | int, Any]] = {"shift": _SHIFTS, "profile": profiles.PROFILES}
+_WITHIN: dict[str | int, dict[str | int, Any]] = {"shift": _SHIFTS, "profile": _PROFILES}
 
 # Synonyms that are not similar in spelling.
 _OTHER_NAMES = {
@@ -151,7 +144,7 @@ def _model_at(loc: tuple[str | int, ...]) -> type[BaseModel]:
     section = _SECTIONS.get(loc[0], CaseFile) if len(loc) > 1 else CaseFile
     within = reversed(loc[1:-1])
     # Both a profile and a law can be a table.
-    named = profiles.PROFILES if "profile" in loc[:-2] else _ALTERNATIVES
+    named = _PROFILES if "profile" in loc[:-2] else _ALTERNATIVES
     return next((named[step] for step in within if step in named), section)
 
 

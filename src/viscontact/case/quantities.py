@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated, Any, get_args
 
 from pydantic import (
     BaseModel,
@@ -150,3 +150,13 @@ class Section(BaseModel):
     """Section of a case file: unknown keys and implicit conversions are refused."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
+
+
+def alternatives(union: Any) -> dict[str | int, type[BaseModel]]:
+    """Sections of a discriminated union by the values of the key that distinguishes them."""
+    sections, choice, *_ = get_args(union)
+    return {
+        name: section
+        for section in get_args(sections)
+        for name in get_args(section.model_fields[choice.discriminator].annotation)
+    }

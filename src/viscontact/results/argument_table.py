@@ -14,12 +14,9 @@ from typing import Any
 import numpy as np
 
 from viscontact.laws import Law
-from viscontact.laws.time_temperature import WLF, Arrhenius, TabulatedShift
 from viscontact.results.provenance import STORED_CLASSES
 from viscontact.units.formatting import format_quantity
 
-#: Classes whose arguments a table lists, by name.
-_CLASSES = STORED_CLASSES | {each.__name__: each for each in (WLF, Arrhenius, TabulatedShift)}
 _LAWS = {name for name, each in STORED_CLASSES.items() if issubclass(each, Law)}
 #: Classes whose part of the table says what they are.
 _PLAIN = {"Material", "Grid", "AutomaticGrid"}
@@ -70,7 +67,7 @@ def _metadata() -> dict[tuple[str, str], Mapping[str, Any]]:
     """Metadata of the fields that have a unit, by class and field."""
     return {
         (name, item.name): item.metadata
-        for name, each in _CLASSES.items()
+        for name, each in STORED_CLASSES.items()
         for item in dataclasses.fields(each)
         if "unit" in item.metadata
     }
@@ -82,7 +79,7 @@ def _words(kind: str, key: str) -> str:
 
 
 def _unit(kind: str, key: str, control: str) -> str:
-    if kind in _CLASSES:
+    if kind in STORED_CLASSES:
         unit = _metadata().get((kind, key), {}).get("unit", "SI")
         return str(unit.get(control, "SI") if isinstance(unit, Mapping) else unit)
     # A class of the user's own: the unit that all others have in a field of that name.

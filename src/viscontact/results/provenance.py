@@ -4,65 +4,22 @@ from __future__ import annotations
 
 import hashlib
 from dataclasses import fields, is_dataclass
+from inspect import isabstract
 from typing import Any
 
 import numpy as np
 
+from viscontact import indenters, laws, loads
 from viscontact.grid import AutomaticGrid, Grid
-from viscontact.indenters import (
-    Chamfer,
-    CombinedIndenter,
-    Cone,
-    CylindricalProfile,
-    Dimples,
-    Ellipsoid,
-    FlatPunch,
-    FullCrown,
-    HeightMap,
-    LogarithmicProfile,
-    Paraboloid,
-    PartialCrown,
-    PlacedIndenter,
-    Pyramid,
-    Revolved,
-    Roller,
-    Sphere,
-    Swept,
-    TabulatedProfile,
-    Torus,
-    TwoRadiiCrown,
-    Waviness,
-    Wedge,
-)
-from viscontact.laws import (
-    BesideSpring,
-    Burgers,
-    CreepSeries,
-    Elastic,
-    FractionalMaxwell,
-    FractionalZener,
-    Maxwell,
-    PowerLaw,
-    RelaxationSeries,
-    TabulatedCreep,
-    TabulatedRelaxation,
-    Zener,
-)
-from viscontact.loads import ApproachHistory, ForceHistory, HarmonicHistory
 from viscontact.materials.material import Material
 
-STORED_CLASSES = {
-    noun.__name__: noun
-    for noun in (
-        *(Sphere, Paraboloid, Cone, FlatPunch, Roller, HeightMap, CombinedIndenter),
-        *(CylindricalProfile, FullCrown, PartialCrown, TwoRadiiCrown, Chamfer),
-        *(LogarithmicProfile, TabulatedProfile, PlacedIndenter),
-        *(Ellipsoid, Wedge, Pyramid, Torus, Waviness, Dimples, Revolved, Swept),
-        *(Elastic, Maxwell, Zener, Burgers, CreepSeries, RelaxationSeries),
-        *(PowerLaw, FractionalMaxwell, FractionalZener, BesideSpring),
-        *(TabulatedCreep, TabulatedRelaxation),
-        *(Material, ForceHistory, ApproachHistory, HarmonicHistory, Grid, AutomaticGrid),
-    )
+_EXPORTED = [getattr(room, name) for room in (indenters, laws, loads) for name in room.__all__]
+
+#: Classes that a description names: all exported shapes, laws, shifts and loads, and a few more.
+STORED_CLASSES: dict[str, Any] = {
+    each.__name__: each
+    for each in (*_EXPORTED, Material, Grid, AutomaticGrid)
+    if isinstance(each, type) and not (isabstract(each) or each is loads.LoadPoint)
 }
 
 #: Larger maps (measured surfaces) are named by shape and fingerprint, not written out.

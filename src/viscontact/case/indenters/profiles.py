@@ -13,7 +13,15 @@ from pydantic_core import CoreSchema
 
 from viscontact import indenters
 from viscontact.case.data_file import DataFile
-from viscontact.case.quantities import Force, Length, Modulus, Offset, OpenAngle, Section
+from viscontact.case.quantities import (
+    Force,
+    Length,
+    Modulus,
+    Offset,
+    OpenAngle,
+    Section,
+    alternatives,
+)
 from viscontact.tables import read_line
 
 Ratio = Annotated[float, Field(gt=0, le=1)]
@@ -199,20 +207,20 @@ class TabulatedLine(Line):
         return why if named == why else f"profile.{where}: {named}"
 
 
-#: Profile sections by their kind.
-PROFILES: dict[str | int, type[Line]] = {
-    "cylindrical": Cylindrical,
-    "full": Full,
-    "partial": Partial,
-    "two-radii": TwoRadii,
-    "chamfer": Chamfer,
-    "logarithmic": Logarithmic,
-    "lundberg": Lundberg,
-    "johns-gohar": JohnsGohar,
-    "fujiwara-kawase": FujiwaraKawase,
-    "iso-16281": Iso16281,
-    "table": TabulatedLine,
-}
+_Profiles = Annotated[
+    Cylindrical
+    | Full
+    | Partial
+    | TwoRadii
+    | Chamfer
+    | Logarithmic
+    | Lundberg
+    | JohnsGohar
+    | FujiwaraKawase
+    | Iso16281
+    | TabulatedLine,
+    Field(discriminator="kind"),
+]
 
 
 def _of_name(given: Any) -> Any:
@@ -225,24 +233,7 @@ class _OrName:
     def __get_pydantic_json_schema__(
         self, schema: CoreSchema, handler: GetJsonSchemaHandler
     ) -> JsonSchemaValue:
-        return {"anyOf": [{"enum": list(PROFILES)}, handler(schema)]}
+        return {"anyOf": [{"enum": list(alternatives(_Profiles))}, handler(schema)]}
 
 
-AnyProfile = Annotated[
-    Annotated[
-        Cylindrical
-        | Full
-        | Partial
-        | TwoRadii
-        | Chamfer
-        | Logarithmic
-        | Lundberg
-        | JohnsGohar
-        | FujiwaraKawase
-        | Iso16281
-        | TabulatedLine,
-        Field(discriminator="kind"),
-    ],
-    BeforeValidator(_of_name),
-    _OrName(),
-]
+AnyProfile = Annotated[_Profiles, BeforeValidator(_of_name), _OrName()]

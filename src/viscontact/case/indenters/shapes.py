@@ -105,27 +105,6 @@ class Roller(Shape):
         return self.profile.roller(self.radius, self.half_length, others)
 
 
-#: Shape sections by their name.
-SHAPES: dict[str | int, type[Shape]] = {
-    "sphere": Sphere,
-    "paraboloid": Paraboloid,
-    "ellipsoid": more_shapes.Ellipsoid,
-    "cone": Cone,
-    "flat-punch": FlatPunch,
-    "roller": Roller,
-    "wedge": more_shapes.Wedge,
-    "pyramid": more_shapes.Pyramid,
-    "vickers": more_shapes.Vickers,
-    "berkovich": more_shapes.Berkovich,
-    "cube-corner": more_shapes.CubeCorner,
-    "torus": more_shapes.Torus,
-    "revolved": more_shapes.Revolved,
-    "swept": more_shapes.Swept,
-    "waviness": more_shapes.Waviness,
-    "dimples": more_shapes.Dimples,
-    "height-map": HeightMap,
-}
-
 AnyShape = Annotated[
     Sphere
     | Paraboloid

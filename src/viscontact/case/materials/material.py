@@ -8,7 +8,6 @@ from pydantic import BeforeValidator, Field, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError
 
-from viscontact.case.materials.base import Medium
 from viscontact.case.materials.measured_laws import CardLaw, TableLaw
 from viscontact.case.materials.series_laws import CreepSeries, PowerLaw, RelaxationSeries
 from viscontact.case.materials.spring_laws import (
@@ -20,21 +19,6 @@ from viscontact.case.materials.spring_laws import (
     Zener,
 )
 from viscontact.materials import library
-
-#: Material sections by the name of their law.
-LAWS: dict[str | int, type[Medium]] = {
-    "elastic": Elastic,
-    "maxwell": Maxwell,
-    "zener": Zener,
-    "burgers": Burgers,
-    "creep-series": CreepSeries,
-    "relaxation-series": RelaxationSeries,
-    "power-law": PowerLaw,
-    "fractional-maxwell": FractionalMaxwell,
-    "fractional-zener": FractionalZener,
-    "table": TableLaw,
-    "card": CardLaw,
-}
 
 
 def _from_library(given: Any) -> Any:
