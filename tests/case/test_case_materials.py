@@ -225,7 +225,7 @@ def test_card_gives_law_volume_and_shift(tmp_path: Path) -> None:
          "material.shift.c2: must be more than zero"),
         ({"temperature": "60 degC", "shift": {"c1": 3}}, PMMA,
          "material.shift.kind: is missing; choose one of: wlf, arrhenius, factors"),
-        ({"temperature": "-60 degC", "shift": WLF}, PMMA, "material.shift: must be asked above"),
+        ({"temperature": "-60 degC", "shift": WLF}, PMMA, "material.shift: must be used above"),
         ({"temperature": "60 degC", "shift": WLF},
          "t [s], J [1/GPa], T [degC]\n1, 1, 40\n2, 2, 40\n",
          "material.shift: its reference_temperature is 25 °C, and pmma.csv was measured at 40 °C"),
