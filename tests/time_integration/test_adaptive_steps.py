@@ -49,7 +49,7 @@ def test_stops_kinks_and_end_are_all_hit_and_no_step_is_longer_than_asked(stops,
     assert sum(each.duration for each in taken) == pytest.approx(10.0)
     assert taken[-1].time == 10.0
     assert all(scale * each.duration**3 <= 0.2 * 1e-2 * (1 + 1e-9) for each in taken)
-    shown = [each.asked for each in taken if each.asked is not None]
+    shown = [each.requested for each in taken if each.requested is not None]
     assert shown == sorted(set(shown))
 
 
@@ -57,7 +57,7 @@ def test_a_jump_is_two_steps_of_which_the_second_is_shown():
     load = ForceHistory([0, 2, 2], [1.0, 1.0, 5.0])
     taken, _ = walk(AdaptiveSteps(adaptive_times(4.0, 1e-2), np.zeros(0), load, KELVIN))
     at_jump = [each for each in taken if each.time == 2.0]
-    assert [(each.is_jump, each.side, each.asked) for each in at_jump] == [
+    assert [(each.is_jump, each.side, each.requested) for each in at_jump] == [
         (False, "left", None),
         (True, "right", 2.0),
     ]

@@ -26,12 +26,12 @@ def test_steps_tile_the_run_and_give_each_instant_asked_for_once(times, force, d
     assert steps[0].time == 0.0
     assert steps[0].is_jump
     assert sum(each.duration for each in steps) == pytest.approx(times[-1])
-    assert [each.asked for each in steps if each.asked is not None] == times.tolist()
+    assert [each.requested for each in steps if each.requested is not None] == times.tolist()
     for before, after in pairwise(steps):
         assert after.time - before.time == after.duration >= 0
         # No kink inside a step, and the last step at an instant is the one that is shown.
         assert not ((load.kinks > before.time) & (load.kinks < after.time)).any()
-        assert not (before.asked is not None and after.is_jump)
+        assert not (before.requested is not None and after.is_jump)
 
 
 def _two_at_most(knots):
@@ -41,7 +41,7 @@ def _two_at_most(knots):
 def test_a_jump_is_approached_and_then_taken():
     load = ForceHistory([0, 2, 2], [1.0, 1.0, 5.0])
     steps = plan_steps(np.array([0.0, 2.0, 3.0]), load)
-    assert [(each.time, each.duration, each.asked) for each in steps] == [
+    assert [(each.time, each.duration, each.requested) for each in steps] == [
         (0.0, 0.0, 0.0),
         (2.0, 2.0, None),
         (2.0, 0.0, 2.0),
@@ -54,7 +54,7 @@ def test_an_instant_that_misses_a_jump_by_rounding_is_just_after_it():
     """0.1 * 3 is 0.30000000000000004: a history typed one way, instants made another."""
     load = ForceHistory([0.0, 0.1 * 3, 0.1 * 3], [1.0, 1.0, 5.0])
     last = plan_steps(np.array([0.0, 0.3]), load)[-1]
-    assert last.asked == 0.3
+    assert last.requested == 0.3
     assert float(load.force_at(last.time, side=last.side)) == 5.0
 
 
@@ -80,13 +80,18 @@ def test_a_swinging_load_is_stepped_as_finely_as_it_needs_until_it_rests():
     assert max(durations[:-1]) <= 0.1 + 1e-12
     assert durations[:3] == pytest.approx([0.25 / 3] * 3)
     assert durations[-1] == pytest.approx(7.2)
-    assert [each.asked for each in steps if each.asked is not None] == [0.0, 0.25, 12.8, 20.0]
+    assert [each.requested for each in steps if each.requested is not None] == [
+        0.0,
+        0.25,
+        12.8,
+        20.0,
+    ]
 
 
 def test_the_ends_of_cycles_are_met_though_nobody_asks_for_them():
     load = harmonic(3.0, 1.0, period=0.7, cycles=3)
     taken = {each.time: each for each in plan_steps(np.array([0.0, 1.0, 2.5]), load)}
     assert {0.7, 1.4, 3 * 0.7} <= taken.keys()
-    assert taken[1.4].asked is None
+    assert taken[1.4].requested is None
     after = min(time for time in taken if time > 1.4)
     assert taken[after].smooth  # they are no kinks

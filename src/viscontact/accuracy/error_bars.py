@@ -1,9 +1,9 @@
-"""How far each scalar of a run is off, estimated from coarser companions.
+"""Error bars of a run's scalars, estimated from coarser runs.
 
-Between grids of cells h the values differ by c (h2^p - h1^p); any two of them tell c, and the
-largest one counts, since rims between cells scatter and a single difference may be small by
-accident. Steps tell their error in the same way on one grid. What a difference is, relative to the
-value, is as good for the instants around it.
+On grids of cells h a scalar differs by c (h2^p - h1^p); each pair of grids gives c, and the largest
+one counts, since the rim's position between cells scatters and a single difference may be small by
+accident. The error of the time steps follows in the same way from a run with halved steps on one of
+the grids. The largest relative difference within a window of times counts for all of them.
 """
 
 from __future__ import annotations
@@ -37,22 +37,15 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class ErrorModel:
-    """How differences between grids are taken for errors.
+    """Conversion of differences between grids to errors."""
 
-    Attributes
-    ----------
-    order : float
-        With which power of the cells the error falls [-].
-    factor : float
-        By which the largest difference, so reduced, is multiplied: calibrated on exact solutions
-        (tests/verification/test_error_bars.py), so that 95 of 100 errors are smaller [-].
-    """
-
-    order: float
+    order: float  # power of the cell size with which the error falls [-]
+    #: Safety factor, calibrated on exact solutions (tests/verification/test_error_bars.py) so that
+    #: 95 of 100 errors are smaller [-].
     factor: float
 
     def of(self, levels: RefinementLevels) -> Array:
-        """Return what cells make, taken for errors."""
+        """Error from the cells."""
         return self.factor * levels.by_cells(self.order)
 
 
@@ -63,7 +56,7 @@ _BULK, _AREA, _EXTENT, _PEAK = (
     ErrorModel(2.0, 2.0),
 )
 
-#: Scalars that have a bar. Pressure is smooth but for the rim, which lies somewhere between cells.
+#: Error models of the scalars. Pressure is smooth except at the rim, which lies between cells.
 ERROR_MODELS = {
     "force": _BULK,
     "eccentricity_x": _BULK,
@@ -80,26 +73,26 @@ ERROR_MODELS = {
     "loss_per_cycle": _BULK,
 }
 
-#: Approach, force and work where a contact reaches the end of a body: pressure is singular there,
-#: and cells make a staircase of the end.
+#: Model of approach, force and work where a contact reaches the end of a body: pressure is singular
+#: there, and the cells approximate the end by a staircase.
 BODY_END_MODEL = ErrorModel(0.7, 1.2)
 
-#: Area and peak where contact consists of spots of few cells, in the mean so many across: some of
-#: them come and go between grids. Calibrated on self-affine surfaces, 2 to 9 cells across.
+#: Models of area and peak where contact consists of spots of fewer cells across, in the mean: some
+#: of them exist on one grid only. Calibrated on self-affine surfaces, 2 to 9 cells across.
 COARSE_SPOT_CELLS = 8.0
 SPOT_MODEL, SPOT_PEAK_MODEL = ErrorModel(1.0, 1.5), ErrorModel(2.0, 4.0)
 
-#: Extents are known to no better than this part of a cell, however well two grids agree, and where
-#: the spots at the rim count or where pressure is singular, to so many cells.
+#: Smallest error of extents in cells, however well two grids agree; with spots of few cells, or
+#: singular pressure at the rim.
 RIM_CELLS, UNSMOOTH_RIM_CELLS = 0.25, 1.5
 
-#: Differences below this part of a value: an extent that all grids agree on is that of the body.
+#: Relative difference below which all grids agree on an extent: it is that of the body.
 AGREEMENT_TOLERANCE = 1e-6
 
-#: The solver's tolerance is met by the gap; what follows from it is off by some times that.
+#: Errors of the scalars, in tolerances of the solver, which bounds the gap.
 SOLVER_ERROR_FACTOR = 3.0
 
-#: Extents of the contact along x and y, and what moments decide.
+#: Extents of the contact along x and y, and scalars that follow from the moments.
 EXTENTS = ("contact_length", "contact_width")
 MOMENTS = ("eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y")
 
@@ -111,11 +104,11 @@ ZERO_WITHOUT_CONTACT = (
     *("peak_pressure", "mean_pressure"),
 )
 
-#: What has no limit grows by at least this part of the mean pressure as cells shrink by a factor e:
+#: Least growth of a peak without a limit as cells shrink by a factor e, over the mean pressure:
 #: under a wedge it is 0.64, under a cone 1.
 UNBOUNDED_GROWTH = 0.3
 
-#: What is said where a peak has no limit.
+#: Warning of a peak without a limit.
 SINGULAR = (
     "the peak pressure has no limit as cells become smaller: it depends on the mesh, at a sharp "
     "edge, a point or a ridge of the body or at roughness that the grid does not resolve, and its "
@@ -125,39 +118,21 @@ SINGULAR = (
 
 @dataclass(frozen=True, eq=False)
 class ErrorBars:
-    """Estimated errors of a run's scalars.
+    """Estimated errors of a run's scalars."""
 
-    Attributes
-    ----------
-    values : dict of str to ndarray
-        Half widths of the bars by the scalar's name, in its unit, over the run's instants: inf
-        where the scalar has no limit, NaN where nothing is known.
-    warnings : tuple of str
-        Doubts that the companions have raised.
-    """
-
+    #: Half widths of the bars by scalar, in its unit, over the run's times: inf where the scalar
+    #: has no limit, NaN where the error is unknown.
     values: dict[str, Array]
-    warnings: tuple[str, ...]
+    warnings: tuple[str, ...]  # warnings that follow from the coarser runs
 
 
 def error_bars(
     run: RunSetup, history: History, on_step: Callable[[], None] | None = None
 ) -> ErrorBars:
-    """Estimate how far the scalars of a run are off, from companions that are marched for it.
+    """Estimate the errors of a finished run's scalars from coarser runs, which are marched.
 
-    Parameters
-    ----------
-    run : RunSetup
-        The run, which is over.
-    history : mapping of str to ndarray
-        What it has come to: its scalars by name and ``time``, ``cells_across``.
-    on_step : callable, optional
-        Called after each step of a companion; what it raises ends the estimate.
-
-    Returns
-    -------
-    ErrorBars
-        For each scalar an error that 95 of 100 true ones do not exceed.
+    95 of 100 true errors are smaller. `on_step` is called after each step of a coarser run; an
+    exception from it ends the estimate.
 
     Examples
     --------
@@ -176,30 +151,17 @@ def error_bars(
     >>> bool(bar / history["approach"][0] < 2e-3)
     True
     """
-    courses = [
-        course
+    results = [
+        result
         for each in plan_coarser_runs(run, history)
-        if (course := march_coarser_run(each, on_step))
+        if (result := march_coarser_run(each, on_step))
     ]
-    return error_bars_from(run, history, courses)
+    return error_bars_from(run, history, results)
 
 
-def error_bars_from(run: RunSetup, history: History, courses: Iterable[CoarserResult]) -> ErrorBars:
-    """Estimate errors from companions that have been marched.
-
-    Parameters
-    ----------
-    run, history
-        As in `error_bars`.
-    courses : iterable of CoarserResult
-        The companions.
-
-    Returns
-    -------
-    ErrorBars
-        NaN everywhere if there is no companion.
-    """
-    found = list(courses)
+def error_bars_from(run: RunSetup, history: History, results: Iterable[CoarserResult]) -> ErrorBars:
+    """Estimate errors from coarser runs that have been marched; NaN if there are none."""
+    found = list(results)
     if not found:
         return unknown_bars(len(history["time"]))
     at_end = moving_maximum(end_flags(history["time"], found)) > 0
@@ -212,20 +174,15 @@ def error_bars_from(run: RunSetup, history: History, courses: Iterable[CoarserRe
     apart = _certainly_separated(run, history)
     for name in ZERO_WITHOUT_CONTACT:
         values[name][apart] = 0.0
-    endless = _unbounded_peak(history, found, at_end)
-    values["peak_pressure"][endless] = np.inf
-    # The run itself tells of ends and corners.
-    is_told = at_end.any() or any(course.is_sharp for course in found)
-    return ErrorBars(values, (SINGULAR,) if endless.any() and not is_told else ())
+    unbounded = _unbounded_peak(history, found, at_end)
+    values["peak_pressure"][unbounded] = np.inf
+    # Ends and corners cause a warning in the run itself.
+    is_known = at_end.any() or any(each.is_sharp for each in found)
+    return ErrorBars(values, (SINGULAR,) if unbounded.any() and not is_known else ())
 
 
 def unknown_bars(count: int) -> ErrorBars:
-    """Return errors that are not known, of so many instants.
-
-    Parameters
-    ----------
-    count : int
-        How many.
+    """Errors that are not known, over a number of times.
 
     Examples
     --------
@@ -237,7 +194,7 @@ def unknown_bars(count: int) -> ErrorBars:
 
 @dataclass(frozen=True, eq=False)
 class _Places:
-    """At which instants a contact reaches the body's end, and consists of spots of few cells."""
+    """Times at which a contact reaches the body's end, and consists of spots of few cells."""
 
     at_end: NDArray[np.bool_]
     of_spots: NDArray[np.bool_]
@@ -246,6 +203,7 @@ class _Places:
 def _bar(
     run: RunSetup, name: str, levels: RefinementLevels, places: _Places, history: History
 ) -> Array:
+    """Half width of the bars of one scalar over the run's times."""
     own = np.abs(levels.values[0])
     scale = moving_maximum(own)
     by_cells = ERROR_MODELS[name].of(levels)
@@ -272,14 +230,14 @@ def _bar(
 def _least_bar(
     run: RunSetup, name: str, differs: NDArray[np.bool_], places: _Places, history: History
 ) -> Array | float:
-    """What no agreement of grids undercuts: parts of a cell, and the balance of moments."""
+    """Lower limit of the bars: parts of a cell for extents, the balance of moments for tilts."""
     if name in EXTENTS:
         cell = run.grid.cell_size[EXTENTS.index(name)]
         ragged = places.of_spots | places.at_end
         parts = np.where(ragged, UNSMOOTH_RIM_CELLS, RIM_CELLS)
         return np.asarray(np.where(differs, parts * cell, 0.0))
     if name in MOMENTS:
-        # Balanced to a part of the force times the extent, which may turn a body that is even.
+        # The solver's tolerance of the moments, force times extent, may tilt a symmetric body.
         axis = "contact_length" if name.endswith("x") else "contact_width"
         extent = np.nan_to_num(history[axis])
         slope = np.abs(history["approach"]) / np.maximum(extent, TINY)
@@ -290,13 +248,13 @@ def _least_bar(
 
 
 def _unbounded_peak(
-    history: History, courses: list[CoarserResult], at_end: NDArray[np.bool_]
+    history: History, results: list[CoarserResult], at_end: NDArray[np.bool_]
 ) -> NDArray[np.bool_]:
-    """Where the largest pressure has no limit: by the body's shape, or by what the grids show."""
+    """Times at which the peak pressure has no limit, by the body's shape or by the grids."""
     contact = np.asarray(history["peak_pressure"] > 0)
-    if any(course.is_sharp for course in courses):
+    if any(each.is_sharp for each in results):
         return contact
-    levels = RefinementLevels.of("peak_pressure", history, courses)
+    levels = RefinementLevels.of("peak_pressure", history, results)
     order = np.argsort(levels.spacings)
     if len(order) < 3:
         return np.asarray(contact & at_end)
@@ -307,14 +265,14 @@ def _unbounded_peak(
     verdict = richardson(np.where(known, peaks, 1.0), spacings)
     growth = (peaks[0] - peaks[-1]) / np.log(spacings[-1])
     grows = growth > UNBOUNDED_GROWTH * history["mean_pressure"]
-    # A contact of few cells is no contact on the coarsest grid.
+    # A contact of few cells does not exist on the coarsest grid.
     fine = history["cells_across"] >= MIN_ACROSS * spacings[-1]
-    endless = np.where(known, ~verdict.converges & grows & fine, np.nan)
-    return np.asarray(contact & (at_end | (moving_mean(endless) > 0.5)))
+    unbounded = np.where(known, ~verdict.converges & grows & fine, np.nan)
+    return np.asarray(contact & (at_end | (moving_mean(unbounded) > 0.5)))
 
 
 def _certainly_separated(run: RunSetup, history: History) -> NDArray[np.bool_]:
-    """Where there is no contact, and none that is lost or made between two instants."""
+    """Times without contact, and without one that is lost or made next to them."""
     apart = np.asarray(history["peak_pressure"] == 0)
     if run.problem.load.control == "force":
         return apart

@@ -1,4 +1,4 @@
-"""A run and its companions side by side, at the run's instants."""
+"""Refinement levels: the scalars of a run and its coarser runs at the run's times."""
 
 from __future__ import annotations
 
@@ -13,53 +13,34 @@ from viscontact.accuracy.coarser_runs import CoarserResult, History
 
 Array = NDArray[np.float64]
 
-#: What a difference between steps and halved ones counts: four thirds at second order, twice at
-#: first.
+#: Error over the difference between steps and halved steps: 4/3 at second order, 2 at first.
 HALVED_STEP_FACTOR = 1.5
 
 
 @dataclass(frozen=True, eq=False)
 class RefinementLevels:
-    """A scalar on each grid at the run's instants.
+    """One scalar on each grid at the run's times."""
 
-    Attributes
-    ----------
-    spacings : tuple of float
-        Cells of each grid, in cells of the run; the run's own first.
-    values : ndarray, shape (grids, instants)
-        The scalar, NaN where a grid has none.
-    by_steps : ndarray
-        What steps change, times what that counts.
-    """
-
-    spacings: tuple[float, ...]
-    values: Array
-    by_steps: Array
+    spacings: tuple[float, ...]  # cell size of each grid, in cells of the run; the run's own first
+    values: Array  # NaN where a grid has none; shape (grids, times)
+    by_steps: Array  # estimated error of the time steps
 
     @classmethod
-    def of(cls, name: str, history: History, courses: list[CoarserResult]) -> RefinementLevels:
-        """Put a scalar of a run beside those of its companions."""
+    def of(cls, name: str, history: History, results: list[CoarserResult]) -> RefinementLevels:
+        """Collect a scalar of a run and of its coarser runs."""
         times, own = history["time"], history[name]
-        twins = [course for course in courses if course.step_ratio < 1]
-        grids = [course for course in courses if course.step_ratio >= 1]
-        rows = np.stack([own, *(aligned(name, times, course) for course in grids)])
+        grids = [each for each in results if each.step_ratio >= 1]
+        rows = np.stack([own, *(aligned(name, times, each) for each in grids)])
         by_steps = np.zeros(len(times))
-        for twin in twins:
-            like = [
-                row for row, c in zip(rows[1:], grids, strict=True) if c.spacing == twin.spacing
-            ]
-            for row in like:
-                by_steps = HALVED_STEP_FACTOR * np.abs(row - aligned(name, times, twin))
-        return cls((1.0, *(course.spacing for course in grids)), rows, by_steps)
+        for halved in (each for each in results if each.step_ratio < 1):
+            for grid, row in zip(grids, rows[1:], strict=True):
+                if grid.spacing == halved.spacing:
+                    difference = np.abs(row - aligned(name, times, halved))
+                    by_steps = HALVED_STEP_FACTOR * difference
+        return cls((1.0, *(each.spacing for each in grids)), rows, by_steps)
 
     def by_cells(self, order: float) -> Array:
-        """Return what cells make, from the two grids that say most.
-
-        Parameters
-        ----------
-        order : float
-            With which power of the cells it falls [-].
-        """
+        """Error from the cells at an order of convergence: the largest over the pairs of grids."""
         found = np.full(self.values.shape[1], np.nan)
         for i, j in itertools.combinations(range(len(self.spacings)), 2):
             apart = abs(self.spacings[j] ** order - self.spacings[i] ** order)
@@ -67,53 +48,45 @@ class RefinementLevels:
         return found
 
 
-def end_flags(times: Array, courses: list[CoarserResult]) -> Array:
-    """Return where any companion has reached the end of the body: 1, else 0."""
+def end_flags(times: Array, results: list[CoarserResult]) -> Array:
+    """1 at times at which any coarser run has reached the end of the body, else 0."""
     flags = np.zeros(len(times))
-    for course in courses:
-        flags[np.isin(times, course.scalars["time"][course.at_end])] = 1.0
+    for result in results:
+        flags[np.isin(times, result.scalars["time"][result.at_end])] = 1.0
     return flags
 
 
-def spots_across(times: Array, courses: list[CoarserResult]) -> Array:
-    """Return cells across spots as the companions see them, the least; NaN without contact."""
+def spots_across(times: Array, results: list[CoarserResult]) -> Array:
+    """Least number of cells across spots in the coarser runs; NaN without contact."""
     spots = np.full(len(times), np.nan)
-    for course in courses:
-        asked, known = (
-            np.isin(times, course.scalars["time"]),
-            np.isin(course.scalars["time"], times),
-        )
-        found = course.spots[known]
-        spots[asked] = np.fmin(spots[asked], np.where(found > 0, found, np.nan))
+    for result in results:
+        theirs = result.scalars["time"]
+        shared, known = np.isin(times, theirs), np.isin(theirs, times)
+        found = result.spots[known]
+        spots[shared] = np.fmin(spots[shared], np.where(found > 0, found, np.nan))
     return spots
 
 
-def aligned(name: str, times: Array, course: CoarserResult) -> Array:
-    """Return a companion's scalar at the run's instants, NaN where it has none."""
-    values, theirs = np.full(len(times), np.nan), course.scalars["time"]
-    asked, known = np.isin(times, theirs), np.isin(theirs, times)
-    values[asked] = course.scalars[name][known]
+def aligned(name: str, times: Array, result: CoarserResult) -> Array:
+    """A coarser run's scalar at the run's times, NaN where it has none."""
+    values, theirs = np.full(len(times), np.nan), result.scalars["time"]
+    shared, known = np.isin(times, theirs), np.isin(theirs, times)
+    values[shared] = result.scalars[name][known]
     return values
 
 
-#: Instants on both sides.
+#: Times on both sides of the window.
 WINDOW_STEPS = 3
 
 
 def _windows(values: NDArray[Any], reach: int) -> Array:
+    """Values at the times around each, NaN beyond the ends."""
     padded = np.pad(np.asarray(values, dtype=float), reach, constant_values=np.nan)
     return np.asarray(np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1))
 
 
 def moving_maximum(values: NDArray[Any], reach: int = WINDOW_STEPS) -> Array:
-    """Return the largest value of the instants around each; NaN where none of them has one.
-
-    Parameters
-    ----------
-    values : ndarray, shape (n,)
-        Over the instants.
-    reach : int
-        How many on both sides count.
+    """Maximum over a window of `reach` times on both sides; NaN where all are NaN.
 
     Examples
     --------
@@ -124,7 +97,7 @@ def moving_maximum(values: NDArray[Any], reach: int = WINDOW_STEPS) -> Array:
 
 
 def moving_minimum(values: NDArray[Any]) -> Array:
-    """Return the least value of the instants around each; NaN where none of them has one.
+    """Minimum over a window of times; NaN where all are NaN.
 
     Examples
     --------
@@ -135,7 +108,7 @@ def moving_minimum(values: NDArray[Any]) -> Array:
 
 
 def moving_mean(values: Array) -> Array:
-    """Return the mean of the instants around each that have a value; 0 where none has one.
+    """Mean over a window of times without NaN; 0 where all are NaN.
 
     Examples
     --------

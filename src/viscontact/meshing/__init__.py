@@ -1,1 +1,1 @@
-"""Choice of the mesh: contact estimates, trial meshes, refinement."""
+"""Choice of the mesh: estimates of the contact, mesh trials, refinement."""

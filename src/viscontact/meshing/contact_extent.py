@@ -1,4 +1,4 @@
-"""How large a contact becomes in a run: coarse solves at the largest compliance and load."""
+"""Size of the contact in a run, from coarse elastic solves at the largest compliance and loads."""
 
 from __future__ import annotations
 
@@ -15,63 +15,34 @@ from viscontact.loads.largest_load import largest_load
 from viscontact.materials.compliance import ContactCompliance, SeriesCompliance
 from viscontact.meshing.elastic_estimate import ContactEstimate, estimate_contact
 
-#: More cells than these are no choice to make for somebody.
+#: Upper limit on the cells of an automatic grid.
 MAX_CELLS = 2**22
 
-#: Of a history of more points only so many are looked at, and so many are solved for.
+#: Most times of a history that are examined, and most loads that are solved for.
 MAX_INSTANTS, MAX_CORNERS = 1000, 60
 
-#: Loads of at least this part of the largest are as good as it, where the force moves.
+#: Loads of at least this part of the largest count as largest, where the force moves.
 NEAR_LARGEST_LOAD = 0.9
 
-#: Instants between which a load is followed to its crest.
+#: Times at which a load is sampled up to its first maximum.
 PEAK_LOAD_SAMPLES = 200
 
 
 @dataclass(frozen=True, eq=False)
 class PointContact:
-    """The contact under one load of a history.
-
-    Attributes
-    ----------
-    point : LoadPoint
-        The load.
-    compliance : float
-        Compliance of the elastic body that it presses [1/Pa].
-    estimate : ContactEstimate
-        The contact, coarsely.
-    """
+    """Contact under one load of a history."""
 
     point: LoadPoint
-    compliance: float
+    compliance: float  # of the elastic body [1/Pa]
     estimate: ContactEstimate
 
 
 def contacts_of_history(
     indenter: Indenter, compliance: float, load: LoadHistory, end: float | None
 ) -> list[PointContact]:
-    """Estimate the contact under every corner of a load's history.
+    """Estimate the contact under every corner of a load history, at one compliance [1/Pa].
 
-    Parameters
-    ----------
-    indenter : Indenter
-        Shape of the pressed body.
-    compliance : float
-        The largest contact compliance of the run [1/Pa].
-    load : LoadHistory
-        Force or approach, eccentricity and prescribed tilts over time.
-    end : float or None
-        Last instant of the run [s]; the load's last point when None.
-
-    Returns
-    -------
-    list of PointContact
-        One or more.
-
-    Raises
-    ------
-    ValueError
-        If nothing ever presses, or no grid fits a contact.
+    Up to `end` [s], or the load's last point. Refuses a load that never presses.
     """
     points = _corners(load, end)
     if not points:
@@ -92,81 +63,61 @@ def smallest_contact(
     end: float | None,
     found: Sequence[PointContact],
 ) -> PointContact:
-    """Return the smallest contact under the largest load: where that acts, and before it creeps.
+    """Smallest contact under the largest load: where that acts, and before the body creeps.
 
-    Parameters
-    ----------
-    indenter : Indenter
-        Shape of the pressed body.
-    compliance : ContactCompliance
-        J(t) of both bodies together.
-    load : LoadHistory
-        Force or approach, eccentricity and prescribed tilts over time.
-    end : float or None
-        Last instant of the run [s]; the load's last point when None.
-    found : sequence of PointContact
-        The run's contacts at the largest compliance.
-
-    Returns
-    -------
-    PointContact
-        One of those, or one of a stiffer body.
-
-    Raises
-    ------
-    ValueError
-        If no grid fits that contact.
+    One of `found`, the contacts at the largest compliance, or one of a stiffer body.
     """
     highest = max(each.point.level for each in found)
     as_large = [each for each in found if each.point.level >= NEAR_LARGEST_LOAD * highest]
     smallest = min(as_large, key=lambda each: min(each.estimate.extents))
-    if load.control == "approach":  # where the compliance scales the pressure, and nothing else
+    if load.control == "approach":  # the compliance scales the pressure only
         return smallest
-    stiffer = _compliance_at_crest(compliance, load, end)
+    stiffer = _compliance_at_largest_load(compliance, load, end)
     if not 0 < stiffer < smallest.compliance:
         return smallest
     estimate = estimate_contact(indenter, stiffer, smallest.point)
     return PointContact(smallest.point, stiffer, estimate)
 
 
-def _compliance_at_crest(
+def _compliance_at_largest_load(
     compliance: ContactCompliance, load: LoadHistory, end: float | None
 ) -> float:
-    """What has been seen of the compliance when the load is first largest [1/Pa].
+    """Effective compliance when the load first reaches its maximum [1/Pa].
 
-    A contact that has only grown is that of an elastic body whose compliance is the mean over the
-    ages of the load's parts.
+    A contact that has only grown is that of an elastic body whose compliance is the mean of J over
+    the ages of the load's increments.
     """
-    crest, _ = largest_load(load, float(load.kinks[-1]) if end is None else end)
+    peak_time, _ = largest_load(load, float(load.kinks[-1]) if end is None else end)
     instants = np.union1d(
-        np.linspace(0.0, crest, PEAK_LOAD_SAMPLES), load.kinks[load.kinks <= crest]
+        np.linspace(0.0, peak_time, PEAK_LOAD_SAMPLES), load.kinks[load.kinks <= peak_time]
     )
     sides = [load.level_at(instants, side=side) for side in ("left", "right")]
     levels = np.maximum.accumulate(np.stack(sides, axis=1).ravel()).reshape(-1, 2)
     levels = np.maximum(levels, 0.0)
-    # What jumps to an instant's right is as old as the instant, what rose before it on average.
+    # A jump is as old as its time; a rise between two times is weighted by the mean of J over its
+    # ages.
     jumps = np.append(levels[0, 1], np.diff(levels, axis=1)[1:, 0])
-    ages = crest - instants
+    ages = peak_time - instants
     rises = levels[1:, 0] - levels[:-1, 1]
-    seen = float(jumps @ np.asarray(compliance(ages)))
-    seen += float(rises @ np.asarray(compliance.mean(ages[1:], ages[:-1])))
-    return seen / float(levels[-1, 1])
+    creep = float(jumps @ np.asarray(compliance(ages)))
+    creep += float(rises @ np.asarray(compliance.mean(ages[1:], ages[:-1])))
+    return creep / float(levels[-1, 1])
 
 
 def _corners(load: LoadHistory, end: float | None) -> list[LoadPoint]:
-    """Distinct loads at the history's points, and within its pieces: there the force may move."""
+    """Distinct loads at the points of a history, and between them, where the force may move."""
     corners = load.kinks if end is None else np.append(load.kinks[load.kinks < end], end)
     within = [corners[:-1] + part * np.diff(corners) for part in (0.25, 0.5, 0.75)]
-    crest, _ = largest_load(load, float(corners[-1]))
+    peak_time, _ = largest_load(load, float(corners[-1]))
     instants = _representative_times(
-        np.unique(np.concatenate([corners, *within, [crest]])), load
+        np.unique(np.concatenate([corners, *within, [peak_time]])), load
     ).tolist()
     points = [load.at(time, side=side) for time in instants for side in ("left", "right")]
     return _outermost(list(dict.fromkeys(point for point in points if point.level > 0)))
 
 
 def _representative_times(instants: NDArray[np.float64], load: LoadHistory) -> NDArray[np.float64]:
-    """Of very many instants those of the largest load, and as many over the whole history."""
+    """Times of the largest loads, and evenly chosen ones, of a very long history [s]."""
     if instants.size <= 2 * MAX_INSTANTS:
         return instants
     levels = np.maximum(load.level_at(instants, side="left"), load.level_at(instants))
@@ -176,7 +127,7 @@ def _representative_times(instants: NDArray[np.float64], load: LoadHistory) -> N
 
 
 def _outermost(points: list[LoadPoint]) -> list[LoadPoint]:
-    """Of very many loads those that are largest, and that act or tilt farthest each way."""
+    """The largest loads of very many, and those that act or tilt farthest each way."""
     if len(points) <= MAX_CORNERS:
         return points
     ways = ("eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y")
@@ -190,32 +141,14 @@ def _outermost(points: list[LoadPoint]) -> list[LoadPoint]:
 def _farthest(points: list[LoadPoint], way: str) -> list[LoadPoint]:
     """The loads that act or tilt farthest one way and the other."""
 
-    def reach(point: LoadPoint) -> tuple[float, float]:
+    def position(point: LoadPoint) -> tuple[float, float]:
         return getattr(point, way) or 0.0, point.level
 
-    return [min(points, key=reach), max(points, key=reach)]
+    return [min(points, key=position), max(points, key=position)]
 
 
 def largest_compliance(compliance: ContactCompliance, end: float | None) -> float:
-    """Return the contact compliance at the end of a run.
-
-    Parameters
-    ----------
-    compliance : ContactCompliance
-        J(t) of both bodies together.
-    end : float or None
-        Last instant of the run [s]; the end of all creep when None.
-
-    Returns
-    -------
-    float
-        The compliance [1/Pa].
-
-    Raises
-    ------
-    ValueError
-        If creep never ends, and no end is given.
-    """
+    """Contact compliance at the end of a run [s], or of all creep if None [1/Pa]."""
     if end is not None:
         return float(compliance(end))
     latest = compliance.settled_after

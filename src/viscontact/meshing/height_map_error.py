@@ -1,4 +1,4 @@
-"""What a height map leaves open between its points, where it is taken as straight."""
+"""Error of the peak pressure from a height map, which is linear between its points."""
 
 from __future__ import annotations
 
@@ -13,32 +13,20 @@ from viscontact.meshing.elastic_estimate import ContactEstimate
 
 
 def facet_error(indenter: Indenter, found: ContactEstimate, compliance: float) -> float:
-    """Return how far the peak pressure may be off for the facets of a height map.
+    """Relative error of the peak pressure from the facets of a height map; 0 without a map [-].
 
-    Parameters
-    ----------
-    indenter : Indenter
-        The body.
-    found : ContactEstimate
-        Its contact.
-    compliance : float
-        The contact compliance of that [1/Pa].
-
-    Returns
-    -------
-    float
-        Part of the peak pressure; 0 without a map [-].
+    `compliance` is the contact compliance of the estimate `found` [1/Pa].
 
     Notes
     -----
-    What stands out at a point from the middle of its neighbours counts as a wave of two steps and
-    of half that amplitude, which takes a pressure of pi h / (l J) to flatten (Johnson 1985, Contact
-    Mechanics, eq. 13.7); waves along x and along y add. Of points that the undeformed body would
-    press in, the one that stands out most counts.
+    The height of a point over the mean of its neighbours counts as a wave of two steps and of half
+    that amplitude, which takes a pressure of pi h / (l J) to flatten (Johnson 1985, Contact
+    Mechanics, eq. 13.7); waves along x and along y add. The largest value over the points that the
+    undeformed body would press in counts.
 
     Examples
     --------
-    A ball of 10 mm that is known every 20 um, under a contact of 50 points across:
+    A ball of 10 mm measured every 20 um, under a contact of 50 points across:
 
     >>> import viscontact as vc
     >>> from viscontact.meshing.elastic_estimate import estimate_contact
@@ -64,5 +52,6 @@ def facet_error(indenter: Indenter, found: ContactEstimate, compliance: float) -
 
 
 def _lines(middle: float, extent: float, step: float) -> NDArray[np.float64]:
+    """Points of the map along an axis over the contact and one step beyond [m]."""
     count = math.ceil(extent / 2 / step) + 1
     return np.asarray(middle + step * np.arange(-count, count + 1))

@@ -1,4 +1,13 @@
-"""The mesh of a run: large enough for its contacts, and fine enough for what is asked of it."""
+"""Choice of a run's mesh: large enough for its contacts, and fine enough for the tolerance.
+
+1. Estimate the contacts under the loads of the history at the largest compliance
+   (`contact_extent`); the grid's size is their largest reach with a margin.
+2. Start from the number of cells that the rule for the first trial gives the largest contact.
+3. Refine for the smallest contact under the largest load, if it is smaller than the largest one, on
+   a grid of its own size; the cells over the whole grid follow in proportion.
+4. Refine for the largest contact on the whole grid (`refinement`).
+5. State the expected errors, no smaller than the error of a height map's facets.
+"""
 
 from __future__ import annotations
 
@@ -24,20 +33,20 @@ from viscontact.meshing.trial_mesh import RIM_SCATTER, ElasticContact
 from viscontact.problem.problem import Problem
 from viscontact.units.formatting import format_quantity
 
-#: No more cells are spent on a contact that is small at first and large for most of the run.
+#: Upper limit on cells for a contact that is small at first only.
 MAX_CELLS_EARLY = 2**18
 
-#: Room around the contact in the grid that is returned.
+#: Size of the grid over twice the reach of the contact.
 MARGIN = 1.3
 
-#: Cells across the contact to begin with: at least so many, and more for small tolerances.
+#: Cells across the contact in the first trial: the least, and those times sqrt(tolerance).
 MIN_ACROSS, ACROSS = 20.0, 3.0
 
-#: A contact is looked at besides the largest if its extents are less than this part of those.
+#: A smaller contact is resolved by itself if its extents are below this part of the largest one's.
 SMALLER = 0.95
 
-#: What is said where the pressure grows on with smaller cells, and where a run begins with a
-#: contact too small for its grid.
+#: Warnings of a pressure that grows as cells become smaller, and of a contact that is too small for
+#: the grid at the beginning.
 PEAK_WARNING = {
     "peak": (
         "the peak pressure depends on the mesh here: at a sharp edge or tip it grows on as cells "
@@ -54,65 +63,39 @@ EARLY_WARNING = {
 
 @dataclass(frozen=True, eq=False)
 class Mesh:
-    """A grid that was chosen, and what is expected of it.
-
-    Attributes
-    ----------
-    grid : Grid
-        The grid.
-    errors : dict of str to float
-        Expected relative errors of the quantities that it was chosen for, under the largest load
-        [-].
-    warnings : dict of str to str
-        Sentences by kind of doubt: what it was not, or could not be, chosen for.
-    """
+    """A chosen grid, and the errors expected on it."""
 
     grid: Grid
+    #: Expected relative errors of the requested quantities under the largest load [-].
     errors: dict[str, float]
-    warnings: dict[str, str]
+    warnings: dict[str, str]  # sentences by kind of warning
 
 
 def choose_mesh(problem: Problem, end: float | None) -> Mesh:
-    """Choose a grid for a contact problem.
+    """Choose the grid of a contact problem, up to `end` [s] or the end of its load and creep.
 
-    Parameters
-    ----------
-    problem : Problem
-        The contact problem, with its requirements on the grid.
-    end : float or None
-        Last time of the run [s]; the load's last point, or the end of all creep, when None.
-
-    Returns
-    -------
-    Mesh
-        The grid, and what is expected of it.
-
-    Raises
-    ------
-    ValueError
-        If no end of the creep is known, no grid fits, or the tolerance would need millions of
-        cells.
+    Raises ValueError if no end of the creep is known, no grid fits, or the tolerance would need
+    millions of cells.
     """
     indenter, load, compliance = problem.indenter, problem.load, problem.compliance
     wish = problem.automatic_grid or AutomaticGrid()
+    # Step 1: the contacts of the history, and the size of the grid.
     largest = largest_compliance(compliance, end)
     found = contacts_of_history(indenter, largest, load, end)
     highest = max(each.point.level for each in found)
     late = next(each for each in found if each.point.level == highest)
     reach = np.array([each.estimate.reach for each in found], dtype=np.float64).max(axis=0)
     size = 2 * MARGIN * reach
-    choice = _begun(indenter, wish, late, size)
+    choice = _first_choice(indenter, wish, late, size)
     early = smallest_contact(indenter, compliance, load, end, found)
     if min(np.divide(early.estimate.extents, late.estimate.extents)) < SMALLER:
-        choice = _refined_early(indenter, wish, early, size, choice)
-    return _as_the_map_allows(
-        indenter, late, _refined_in_the_end(indenter, wish, late, size, choice)
-    )
+        choice = _refined_for_smallest(indenter, wish, early, size, choice)
+    return _limited_by_map(indenter, late, _refined_for_largest(indenter, wish, late, size, choice))
 
 
 @dataclass(frozen=True, eq=False)
 class _MeshChoice:
-    """So many cells over the whole grid, for these quantities, with these errors and warnings."""
+    """Cells over the whole grid for some quantities, with expected errors and warnings."""
 
     cells: NDArray[np.float64]
     quantities: tuple[str, ...]
@@ -120,7 +103,7 @@ class _MeshChoice:
     warnings: dict[str, str]
 
     def after(self, found: Resolution, cells: NDArray[np.float64]) -> _MeshChoice:
-        """What is chosen after a contact has been resolved by so many cells."""
+        """The choice after a contact has been resolved by so many cells on the whole grid."""
         errors = {
             name: max(found.trial.errors[name], self.errors.get(name, 0.0))
             for name in found.quantities
@@ -130,15 +113,15 @@ class _MeshChoice:
         return _MeshChoice(cells, found.quantities, errors, warnings)
 
 
-def _begun(
+def _first_choice(
     indenter: Indenter, wish: AutomaticGrid, late: PointContact, size: NDArray[np.float64]
 ) -> _MeshChoice:
-    """The cells that the largest contact needs at least."""
-    cells, across = _fewest(indenter, wish, late, size), _across(wish)
+    """Step 2: the fewest cells for the largest contact."""
+    cells, across = _first_cells(indenter, wish, late, size), _first_across(wish)
     if not float(np.prod(cells)) <= MAX_CELLS:
         length, width = late.estimate.extents
         had = across * math.sqrt(MAX_CELLS / float(np.prod(cells)))
-        # By the rule for the first trial, or by what is known of the rim.
+        # The tolerance in reach by the rule for the first trial, or by the scatter of the rim.
         reachable = max((ACROSS / had) ** 2, 4 * RIM_SCATTER / had)
         remedy = "give a grid"
         if had > MIN_ACROSS:
@@ -152,34 +135,35 @@ def _begun(
     return _MeshChoice(cells, tuple(wish.quantities), {}, {})
 
 
-def _fewest(
+def _first_cells(
     indenter: Indenter, wish: AutomaticGrid, contact: PointContact, size: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Cells along x and y that a contact on a grid of this size begins with."""
+    """Cells along x and y that the first trial of a contact has."""
     across = size / contact.estimate.extents
     steps = np.array(indenter.sample_spacing)
     points = np.divide(size, steps, out=np.full(2, math.inf), where=steps > 0)
-    cells = np.minimum(_across(wish) * across, np.maximum(MIN_ACROSS * across, points))
+    cells = np.minimum(_first_across(wish) * across, np.maximum(MIN_ACROSS * across, points))
     return np.asarray(np.maximum(cells, CELLS_OF_A_WAVE * size / indenter.period))
 
 
-def _across(wish: AutomaticGrid) -> float:
-    if wish.quantities == ("approach",):  # which knows little of the rim and of the middle
+def _first_across(wish: AutomaticGrid) -> float:
+    """Cells across the contact in the first trial."""
+    if wish.quantities == ("approach",):  # hardly affected by the rim and the peak
         return MIN_ACROSS
     return max(MIN_ACROSS, ACROSS / math.sqrt(wish.tolerance))
 
 
-def _refined_early(
+def _refined_for_smallest(
     indenter: Indenter,
     wish: AutomaticGrid,
     early: PointContact,
     whole: NDArray[np.float64],
     choice: _MeshChoice,
 ) -> _MeshChoice:
-    """Refine for a contact that is harder to resolve than the largest, as far as it pays."""
+    """Step 3: refine for a contact smaller than the largest, within a limit on the cells."""
     size = np.minimum(2 * MARGIN * np.array(early.estimate.reach), whole)
     part = size / whole
-    fewest = np.maximum(_fewest(indenter, wish, early, size), choice.cells * part)
+    fewest = np.maximum(_first_cells(indenter, wish, early, size), choice.cells * part)
     most = max(MAX_CELLS_EARLY, float(choice.cells.prod())) * float(part.prod())
     excess = float(fewest.prod()) / most
     if excess > 1:
@@ -192,38 +176,40 @@ def _refined_early(
     return replace(chosen, errors=choice.errors, warnings=chosen.warnings | EARLY_WARNING)
 
 
-def _refined_in_the_end(
+def _refined_for_largest(
     indenter: Indenter,
     wish: AutomaticGrid,
     late: PointContact,
     size: NDArray[np.float64],
     choice: _MeshChoice,
 ) -> Mesh:
-    """The grid that resolves the largest contact, too."""
+    """Step 4: refine for the largest contact, or refuse the tolerance with the one in reach."""
     found = _resolved(indenter, wish, late, size, choice.quantities, choice.cells, MAX_CELLS)
     chosen = choice.after(found, np.array(found.trial.shape))
     if not found.is_enough:
         worst = max(chosen.errors, key=chosen.errors.__getitem__)
         if not found.at_finest:
             shrinks = (found.trial.cells / MAX_CELLS) ** (USUAL_ORDER / 2)
-            # Rounded, and on the safe side.
+            # With a margin, as it is rounded.
             reachable = 1.2 * chosen.errors[worst] * shrinks
             raise ValueError(
                 f"grid: a relative error of {wish.tolerance:.2g} would need about "
                 f"{found.cells_needed:.2g} cells, more than an automatic grid has; ask for a "
                 f"tolerance of {reachable:.2g} or more, or give a grid"
             )
-        chosen = replace(chosen, warnings=chosen.warnings | _map_doubt(worst, chosen.errors[worst]))
+        chosen = replace(
+            chosen, warnings=chosen.warnings | _spacing_warning(worst, chosen.errors[worst])
+        )
     grid = Grid(found.trial.shape, (float(size[0]), float(size[1])))
     return Mesh(grid, chosen.errors, chosen.warnings)
 
 
-def _as_the_map_allows(indenter: Indenter, late: PointContact, mesh: Mesh) -> Mesh:
-    """The same mesh, from which no smaller error is expected than the map's facets make."""
+def _limited_by_map(indenter: Indenter, late: PointContact, mesh: Mesh) -> Mesh:
+    """Step 5: raise the expected error of the peak pressure to that of the map's facets."""
     facets = facet_error(indenter, late.estimate, late.compliance)
     if facets <= mesh.errors.get(PEAK, math.inf):
         return mesh
-    warnings = mesh.warnings | _facet_doubt(facets)
+    warnings = mesh.warnings | _facet_warning(facets)
     return replace(mesh, errors=mesh.errors | {PEAK: facets}, warnings=warnings)
 
 
@@ -236,7 +222,7 @@ def _resolved(
     fewest: NDArray[np.float64],
     most: float,
 ) -> Resolution:
-    """Cells for one contact on a grid of this size; a map tells nothing between its points."""
+    """Refine for one contact on a grid of this size, not beyond the spacing of a height map."""
     extents = (float(size[0]), float(size[1]))
     pressing = ElasticContact(indenter, contact.compliance, contact.point, extents)
     steps = np.array(indenter.sample_spacing)
@@ -251,20 +237,23 @@ def _resolved(
     )
 
 
-def _map_doubt(name: str, error: float) -> dict[str, str]:
+def _spacing_warning(name: str, error: float) -> dict[str, str]:
+    """Warning that the spacing of a height map limits the accuracy."""
     return {
         "map spacing": (
             f"cells as small as the steps of the height map leave a relative error of about "
-            f"{error:.1g} in the {name.replace('_', ' ')}; a map of smaller steps would tell more"
+            f"{error:.1g} in the {name.replace('_', ' ')}; a map of smaller steps would be more "
+            "accurate"
         )
     }
 
 
-def _facet_doubt(error: float) -> dict[str, str]:
+def _facet_warning(error: float) -> dict[str, str]:
+    """Warning that the facets of a height map limit the accuracy."""
     return {
         "facets": (
             "between its points the height map is taken as straight, which leaves a relative error "
             f"of about {error:.1g} in the peak pressure however small the cells are; a map of "
-            "smaller steps would tell more"
+            "smaller steps would be more accurate"
         )
     }

@@ -1,4 +1,13 @@
-"""How fine a mesh has to be: refined until the trials of an elastic contact tell no more."""
+"""Mesh refinement: cells along x and y are added until an elastic contact meets the tolerance.
+
+1. Solve the contact on a mesh and on cells twice as long along x, and along y (`trial_mesh`). The
+   changes estimate the errors of both directions.
+2. Stop at the first mesh whose estimated errors meet the tolerance, and which agrees with the last
+   one, so that the estimate is not small by chance.
+3. Else multiply the cells along each axis by (2 change/tolerance)^(1/USUAL_ORDER), between
+   MIN_AT_ONCE and MAX_AT_ONCE, and repeat.
+4. Leave out the peak pressure if its changes do not fall with the cells: it is singular.
+"""
 
 from __future__ import annotations
 
@@ -13,48 +22,36 @@ from scipy import fft
 from viscontact.grid import GRID_QUANTITIES
 from viscontact.meshing.trial_mesh import ElasticContact, MeshTrial, try_mesh
 
-#: A trial solve converges to this part of the tolerance, and at least to this.
+#: Tolerance of a trial solve: this part of the tolerance, at most the second value.
 TRIAL_TOLERANCE_SHARE, MAX_TRIAL_TOLERANCE = 0.01, 1e-4
 
-#: A strip, a ring or a spot has so many cells in a row, whatever the error estimate says.
+#: Smallest mean chord of strips, rings and spots in cells, whatever the error estimate is.
 MIN_CONSECUTIVE_CELLS = 6.0
 
-#: Orders that an error is taken to fall with, to foretell the next trial; below the lowest there
-#: is no limit to be expected. Nor is more than so much refined at once, along an axis.
+#: Order of convergence that predicts the next trial, and order below which the values have no
+#: limit.
 USUAL_ORDER, LOWEST_ORDER = 1.7, 0.5
+
+#: Smallest and largest factor of the cells along an axis from one trial to the next.
 MIN_AT_ONCE, MAX_AT_ONCE = 1.1, 2.0
 
-#: A pressure that seems to have no limit is given up at so many times the cells of the first trial:
-#: a rounded edge seems sharp until it is resolved.
+#: Cells, over those of the first trial, up to which a peak without a limit is refined further, as a
+#: rounded edge seems sharp until it is resolved.
 MAX_CELL_RATIO_WITHOUT_LIMIT = 16
 
-#: What may be singular.
+#: The quantity that may be singular.
 PEAK = "peak_pressure"
 
 
 @dataclass(frozen=True, eq=False)
 class Resolution:
-    """A mesh that was found fine enough, or the finest that was tried.
-
-    Attributes
-    ----------
-    trial : MeshTrial
-        The mesh.
-    quantities : tuple of str
-        What it was refined for: the peak pressure is left out where it has no limit.
-    cells_needed : float
-        How many cells the tolerance takes, about, where it is not met.
-    is_enough : bool
-        Whether it is met.
-    at_finest : bool
-        Whether it is the finest mesh that makes sense.
-    """
+    """Result of a refinement: the mesh that is fine enough, or the finest that was tried."""
 
     trial: MeshTrial
-    quantities: tuple[str, ...]
-    cells_needed: float
-    is_enough: bool = True
-    at_finest: bool = False
+    quantities: tuple[str, ...]  # refined for; without the peak pressure where that has no limit
+    cells_needed: float  # estimated number of cells that meet the tolerance
+    is_enough: bool = True  # the tolerance is met
+    at_finest: bool = False  # no finer mesh makes sense
 
 
 def refine_mesh(
@@ -66,25 +63,9 @@ def refine_mesh(
     finest: ArrayLike = math.inf,
     most_cells: float = math.inf,
 ) -> Resolution:
-    """Refine the mesh of an elastic contact, each way as needed, until it is as exact as asked.
+    """Refine the mesh of an elastic contact until some `GRID_QUANTITIES` meet a relative tolerance.
 
-    Parameters
-    ----------
-    pressing : ElasticContact
-        The contact.
-    quantities : sequence of str
-        Those of `GRID_QUANTITIES` that count.
-    tolerance : float
-        Their relative error [-].
-    fewest, finest : array_like, shape (2,)
-        Cells along x and y to begin with, and of which more make no sense.
-    most_cells : float
-        Number of cells that is not exceeded.
-
-    Returns
-    -------
-    Resolution
-        Not fine enough if it would need more cells than are allowed.
+    `fewest` cells along x and y to begin with, no more than `finest`, and `most_cells` in all.
 
     Examples
     --------
@@ -106,7 +87,7 @@ def refine_mesh(
         is_exact = PEAK not in names or (_factors(trial, (PEAK,), tolerance) == 1).all()
         if not is_exact and _has_no_limit(trials, patient=not is_last):
             names = tuple(name for name in names if name != PEAK)
-        # What is left may have been as exact before, and not by chance.
+        # The first mesh that is fine enough for the remaining quantities, and not by chance.
         enough = [
             each
             for each in trials
@@ -123,6 +104,7 @@ def refine_mesh(
 
 
 def _agree(trial: MeshTrial, finer: MeshTrial, names: Sequence[str], tolerance: float) -> bool:
+    """Whether two meshes agree in these quantities to the tolerance."""
     which = [GRID_QUANTITIES.index(name) for name in names]
     return np.allclose(trial.values[which], finer.values[which], rtol=tolerance, atol=0.0)
 
@@ -130,16 +112,16 @@ def _agree(trial: MeshTrial, finer: MeshTrial, names: Sequence[str], tolerance: 
 def _refined(
     trial: MeshTrial, names: Sequence[str], tolerance: float, finest: ArrayLike
 ) -> tuple[int, int]:
-    """The mesh to be tried next: something of what is needed, not all at once."""
+    """Step 3: cells along x and y of the next mesh."""
     factors = _factors(trial, names, tolerance)
     step = np.where(factors > 1, np.clip(factors, MIN_AT_ONCE, MAX_AT_ONCE), 1.0)
     return _good_shape(trial.shape * step, finest)
 
 
 def _factors(trial: MeshTrial, names: Sequence[str], tolerance: float) -> NDArray[np.float64]:
-    """How many times as many cells are needed along x and y; 1 if there are enough."""
+    """Factors by which the cells along x and y must increase; 1 where there are enough."""
     changes = trial.changes[:, [GRID_QUANTITIES.index(name) for name in names]] / tolerance
-    # The error is shared by both ways; where one has little, the other may not have more.
+    # Each axis gets half of the allowed error, even where the other causes less.
     changes = np.where(changes.sum(axis=0) > 1, 2 * changes, 0.0)
     factors = changes.max(axis=1, initial=0.0) ** (1 / USUAL_ORDER)
     return np.asarray(
@@ -148,25 +130,25 @@ def _factors(trial: MeshTrial, names: Sequence[str], tolerance: float) -> NDArra
 
 
 def _has_no_limit(trials: Sequence[MeshTrial], *, patient: bool) -> bool:
-    """Whether the peak pressure changes as much on smaller cells as it did on larger ones."""
-    telling = [
+    """Step 4: whether the peak pressure changes as much on small cells as on larger ones."""
+    resolved = [
         trial for trial in trials if (trial.consecutive_cells >= MIN_CONSECUTIVE_CELLS).all()
     ]
-    if len(telling) < 2:
+    if len(resolved) < 2:
         return False
-    before, now = telling[-2:]
+    before, now = resolved[-2:]
     peak = GRID_QUANTITIES.index(PEAK)
     along = int(now.changes[:, peak].argmax())
     fall = before.changes[along, peak] / now.changes[along, peak]
     refined = now.shape[along] / before.shape[along]
     is_endless = refined > 1 and fall < refined**LOWEST_ORDER
     return is_endless and not (
-        patient and now.cells < MAX_CELL_RATIO_WITHOUT_LIMIT * telling[0].cells
+        patient and now.cells < MAX_CELL_RATIO_WITHOUT_LIMIT * resolved[0].cells
     )
 
 
 def _good_shape(fewest: ArrayLike, finest: ArrayLike) -> tuple[int, int]:
-    """Numbers of cells of which half is even, too, and that are good to transform."""
+    """Numbers of cells that are multiples of four, so halves are even, and fast to transform."""
     quarters = np.maximum(2, np.ceil(np.minimum(fewest, finest) / 4)).astype(int).tolist()
     counts = [4 * int(fft.next_fast_len(quarter, real=True)) for quarter in quarters]
     return counts[0], counts[1]

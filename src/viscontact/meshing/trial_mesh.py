@@ -1,4 +1,4 @@
-"""A mesh on trial: the same elastic contact on it, and on cells of twice the length."""
+"""Mesh trial: an elastic contact on a mesh, and on cells twice as long along x and along y."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from viscontact.indenters import Indenter
 from viscontact.loads import LoadPoint
 from viscontact.meshing.elastic_estimate import elastic_contact
 
-#: Where the rim crosses a row of cells is known to this part of a cell. The area's error goes to
-#: and fro by it with the place of the rim among the cells, so that two meshes may agree by chance;
-#: measured on Hertz's ellipses.
+#: Error of the rim's position on a row of cells, in cells. The error of the area changes sign with
+#: the position of the rim among the cells, so that two meshes may agree by chance; measured on
+#: Hertz's ellipses.
 RIM_SCATTER = 0.07
 
 TINY = float(np.finfo(np.float64).tiny)
@@ -26,45 +26,23 @@ TINY = float(np.finfo(np.float64).tiny)
 
 @dataclass(frozen=True, eq=False)
 class ElasticContact:
-    """An elastic contact that is tried on several meshes.
-
-    Attributes
-    ----------
-    indenter : Indenter
-        Shape of the pressed body.
-    compliance : float
-        Contact compliance of an elastic body [1/Pa].
-    point : LoadPoint
-        Force or approach, eccentricities and prescribed tilts.
-    size : tuple of float
-        Extents of the grid [m].
-    """
+    """An elastic contact to be solved on several meshes."""
 
     indenter: Indenter
-    compliance: float
+    compliance: float  # contact compliance [1/Pa]
     point: LoadPoint
-    size: tuple[float, float]
+    size: tuple[float, float]  # extents of the grid [m]
 
 
 @dataclass(frozen=True, eq=False)
 class MeshTrial:
-    """What a mesh finds, and how that changes when cells are twice as long.
+    """Values on a mesh, and their changes when cells are twice as long."""
 
-    Attributes
-    ----------
-    shape : tuple of int
-        Cells along x and y.
-    values : ndarray, shape (3,)
-        `GRID_QUANTITIES` [Pa, m², m].
-    changes : ndarray, shape (2, 3)
-        Relative changes of `GRID_QUANTITIES` for cells twice as long along x, and along y [-].
-    consecutive_cells : ndarray, shape (2,)
-        Mean number of cells in a row within the contact, along x and along y.
-    """
-
-    shape: tuple[int, int]
-    values: NDArray[np.float64]
+    shape: tuple[int, int]  # cells along x and y
+    values: NDArray[np.float64]  # `GRID_QUANTITIES` [Pa, m², m]
+    #: Relative changes for cells twice as long along x, and along y [-]; shape (2, 3).
     changes: NDArray[np.float64]
+    #: Mean chords of the contact along x and along y, in cells.
     consecutive_cells: NDArray[np.float64]
 
     @property
@@ -74,26 +52,14 @@ class MeshTrial:
 
     @cached_property
     def errors(self) -> dict[str, float]:
-        """Expected relative errors: what falls at least as fast as the cells is below them [-]."""
+        """Estimated relative errors: upper bounds for convergence of first order or better [-]."""
         return dict(zip(GRID_QUANTITIES, self.changes.sum(axis=0).tolist(), strict=True))
 
 
 def try_mesh(pressing: ElasticContact, shape: tuple[int, int], tolerance: float) -> MeshTrial:
     """Solve a contact on a mesh, and on cells twice as long along x and along y.
 
-    Parameters
-    ----------
-    pressing : ElasticContact
-        The contact.
-    shape : tuple of int
-        Cells along x and y, even numbers.
-    tolerance : float
-        Relative error of gap and balances.
-
-    Returns
-    -------
-    MeshTrial
-        What it finds, and how that changes.
+    `shape` holds even numbers of cells; `tolerance` is that of gap and balances.
 
     Examples
     --------
@@ -105,7 +71,7 @@ def try_mesh(pressing: ElasticContact, shape: tuple[int, int], tolerance: float)
     """
     nx, ny = shape
     coarser = [_found(pressing, coarse, tolerance) for coarse in ((nx // 2, ny), (nx, ny // 2))]
-    # A cell twice as long is two cells.
+    # Start from the mean of both coarse pressures, each spread to two cells.
     spread = [np.repeat(coarser[axis].pressure, 2, axis=axis) for axis in (0, 1)]
     fine = _found(pressing, shape, tolerance, (spread[0] + spread[1]) / 2)
     changes = np.stack([np.abs(other.values - fine.values) / fine.scales for other in coarser])
@@ -130,6 +96,7 @@ def _found(
     tolerance: float,
     start: NDArray[np.float64] | None = None,
 ) -> _Found:
+    """Solve a contact on one mesh, starting from a pressure [Pa] if one is given."""
     grid, indenter, point = Grid(shape, pressing.size), pressing.indenter, pressing.point
     open_gap = indenter.gap(grid.x[:, None], grid.y[None, :])
     even = (
@@ -148,6 +115,6 @@ def _found(
     contact = found.pressure > 0
     area = trace_rim(grid, contact, found.gap, trace_outline(indenter, grid)).area
     values = np.array([found.peak_pressure, area, found.approach])
-    # Where the body mostly turns, its approach is no measure of its motion.
+    # A body that mostly tilts has a small approach: its error is relative to the displacement.
     scales = np.maximum(values, [TINY, TINY, found.largest_displacement])
     return _Found(found.pressure, values, scales, mean_chords(contact))

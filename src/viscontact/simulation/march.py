@@ -139,10 +139,10 @@ class March:
         solution = self._stepper.accept(step, trial)
         _refuse_rim(self._run, step, solution)
         state = self._observer.evaluate(step, trial.point, solution)
-        if step.asked is None:
+        if step.requested is None:
             return CompletedStep(trial.outcome, None, self._done, self._steps.left)
         self._done += 1
-        last = step.asked >= self._run.problem.end
+        last = step.requested >= self._run.problem.end
         state = self._observer.add_warnings(state, last=last)
         return CompletedStep(trial.outcome, state, self._done, self._steps.left)
 

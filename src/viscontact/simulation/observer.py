@@ -202,7 +202,7 @@ def _state(
     # A few cells enclose next to nothing; but no mean pressure exceeds the peak.
     area = max(rim.area, force / peak) if touching else 0.0
     return ContactState(
-        time=step.time if step.asked is None else step.asked,
+        time=step.time if step.requested is None else step.requested,
         pressure=solution.pressure,
         gap=solution.gap,
         displacement=solution.displacement,

@@ -1,6 +1,6 @@
-"""What a viscoelastic body remembers: time without space.
+"""Time integration of the viscoelastic half-space: hereditary integral, time steps, their error.
 
-Because the half-space kernel separates, the displacement is the Boltzmann integral
-u(t) = ∫ J(t - t') dq(t') over the *elastic* displacement q = K p per unit compliance, which the
-contact solver computes anyway: history costs no convolution.
+Because the half-space kernel separates into space and time, the displacement is the hereditary
+integral u(t) = ∫ J(t - t') dq(t') of the unit displacement q = K p, which the contact solver
+computes anyway: the load history costs no convolution in space.
 """

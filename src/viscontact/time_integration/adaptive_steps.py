@@ -1,4 +1,11 @@
-"""Steps that are as long as the error allows: short where the load moves, growing under creep."""
+"""Adaptive time steps: short where the load moves, growing under creep.
+
+An elementary step size controller (Hairer, Norsett & Wanner, Solving Ordinary Differential
+Equations I, section II.4): the next duration is the last one times SAFETY_FACTOR (allowed
+error/error)^(1/ERROR_ORDER), with the factor kept between MIN_FACTOR and MAX_FACTOR. A step with
+too large an error is repeated with a shorter duration. Kinks and jumps of the load, and requested
+times, end a step; the first one after a kink has a duration of its own.
+"""
 
 from __future__ import annotations
 
@@ -16,44 +23,30 @@ from viscontact.time_integration.requested_times import AdaptiveTimes
 from viscontact.time_integration.restart_data import RestartData
 from viscontact.time_integration.step_error import ISOLATED_STEP_SHARE
 
-#: A single step may add this part of the tolerance, since what the body remembers adds up.
+#: Part of the tolerance that one step may add, as the errors of steps accumulate.
 STEP_TOLERANCE_SHARE = 0.2
 
-#: A step's error falls with its cube; it is aimed below what is allowed, so that few are refused.
+#: Safety factor of the controller, and power of the duration that a step's error falls with.
 SAFETY_FACTOR, ERROR_ORDER = 0.7, 3.0
 
-#: From one step to the next the duration changes by factors between these.
+#: Smallest and largest factor from one duration to the next.
 MIN_FACTOR, MAX_FACTOR = 0.2, 2.0
 
-#: No step is shorter than this part of the run.
+#: Shortest step, as a part of the run.
 MIN_STEP_FRACTION = 1e-12
 
-#: After a kink, the first step is this part of the way to the next one at most.
+#: Longest first step after a kink, as a part of the interval to the next kink.
 FIRST_STEP_FRACTION = 0.02
 
-#: Steps from one kink of the load to the next, at a tolerance of 1e-3, and for a body that does not
-#: creep; measured on spheres, good to a factor of two.
+#: Steps from one kink of the load to the next at a tolerance of 1e-3, and for an elastic body;
+#: measured on spheres, within a factor of two.
 STEPS_PER_INTERVAL, ELASTIC_STEPS_PER_INTERVAL = 25.0, 7.0
 
 
 def estimated_steps(
-    wanted: AdaptiveTimes, load: LoadHistory, compliance: ContactCompliance
+    request: AdaptiveTimes, load: LoadHistory, compliance: ContactCompliance
 ) -> float:
-    """About how many steps a run will choose.
-
-    Parameters
-    ----------
-    wanted : AdaptiveTimes
-        End of the run and tolerance.
-    load : LoadHistory
-        What presses.
-    compliance : ContactCompliance
-        J(t).
-
-    Returns
-    -------
-    float
-        Good to a factor of two where the law has an instant compliance.
+    """Estimated number of adaptive steps, within a factor of two if J(0) > 0.
 
     Examples
     --------
@@ -63,47 +56,38 @@ def estimated_steps(
     >>> estimated_steps(AdaptiveTimes(10.0, 1e-3), step(1.0), zener)
     25.0
     """
-    stretches = float((load.kinks < wanted.end).sum())
-    creeps = compliance(wanted.end) > compliance.instant
-    # Errors of a step fall with its cube, those of the run with its square.
-    finer = (1e-3 / wanted.tolerance) ** (1 / 3)
+    stretches = float((load.kinks < request.end).sum())
+    creeps = compliance(request.end) > compliance.instant
+    # The error of a step falls with its cube, that of the run with its square.
+    finer = (1e-3 / request.tolerance) ** (1 / 3)
     each = (
         max(ELASTIC_STEPS_PER_INTERVAL, STEPS_PER_INTERVAL * finer)
         if creeps
         else ELASTIC_STEPS_PER_INTERVAL
     )
-    return stretches * each + min(wanted.end, float(load.kinks[-1])) / load.longest_step
+    return stretches * each + min(request.end, float(load.kinks[-1])) / load.longest_step
 
 
 class AdaptiveSteps:
-    """Chooses each step by the error of the last.
+    """Controller that chooses each step by the error of the last one.
 
-    Parameters
-    ----------
-    wanted : AdaptiveTimes
-        End of the run and tolerance.
-    stops : ndarray
-        Instants to be hit, besides the load's kinks and the end [s].
-    load : LoadHistory
-        What presses.
-    compliance : ContactCompliance
-        J(t).
+    `stops` are times to be hit, besides the load's kinks and the end [s].
     """
 
     def __init__(
         self,
-        wanted: AdaptiveTimes,
+        request: AdaptiveTimes,
         stops: NDArray[np.float64],
         load: LoadHistory,
         compliance: ContactCompliance,
     ) -> None:
-        self._end, self._allowed = wanted.end, STEP_TOLERANCE_SHARE * wanted.tolerance
+        self._end, self._allowed = request.end, STEP_TOLERANCE_SHARE * request.tolerance
         self._load, self._compliance = load, compliance
         self._kinks = set(load.kinks.tolist())
         self._jumps = set(load.jumps.tolist())
-        asked = {snap_to_kink(stop, load.stops) for stop in [*stops.tolist(), wanted.end]}
+        requested = {snap_to_kink(stop, load.stops) for stop in [*stops.tolist(), request.end]}
         inner = {stop for stop in load.stops.tolist() if stop < self._end}
-        self._stops = sorted((asked | inner) - {0.0})
+        self._stops = sorted((requested | inner) - {0.0})
         self._end = max(self._stops)
         self._time, self._duration = 0.0, 0.0
         self._step: Step | None = Step(0.0, 0.0, 0.0, smooth=False)
@@ -111,7 +95,7 @@ class AdaptiveSteps:
 
     @property
     def left(self) -> int:
-        """About how many steps are still to come, if they go on growing as they did."""
+        """Estimated number of remaining steps, if they continue to grow as they did."""
         way = self._end - self._time
         if way <= 0:
             return 0
@@ -123,41 +107,31 @@ class AdaptiveSteps:
         return math.ceil(math.log1p((growth - 1) * way / self._duration) / math.log(growth))
 
     def next_step(self) -> Step | None:
-        """The next step; None at the end."""
+        """Next step; None at the end."""
         return self._step
 
     def accept_step(self, error: float) -> bool:
-        """Whether a step may be closed; if not, a shorter one is upcoming.
-
-        Parameters
-        ----------
-        error : float
-            What it adds to the relative error [-].
-
-        Returns
-        -------
-        bool
-            False if it is to be taken again.
-        """
+        """Accept the step if its relative error [-] is allowed, else choose a shorter one."""
         step = self._step
-        assert step is not None  # there was one to be judged
+        assert step is not None  # there was one to be accepted
         if step.is_jump:
             self._advance(step)
             return True
         factor = SAFETY_FACTOR * (self._allowed / max(error, 1e-30)) ** (1 / ERROR_ORDER)
+        # Error too large: repeat with a shorter duration.
         if error > self._allowed and step.duration > MIN_STEP_FRACTION * self._end:
             self._duration = step.duration * min(max(factor, MIN_FACTOR), 0.8)
             self._step = self._next(step.smooth)
             return False
         self._growth = min(max(factor, MIN_FACTOR), MAX_FACTOR) if error > 0 else MAX_FACTOR
-        # A step cut short by a stop says nothing against the duration it was cut from.
+        # A step that a stop cut short does not reduce the duration that it was cut from.
         self._duration = min(self._duration, MAX_FACTOR * step.duration)
         self._duration = max(self._duration, self._growth * step.duration)
         self._advance(step)
         return True
 
     def restart_data(self) -> RestartData:
-        """What has to be kept to go on from here."""
+        """Restart data of the controller."""
         return {
             "time": self._time,
             "duration": self._duration,
@@ -166,13 +140,14 @@ class AdaptiveSteps:
         }
 
     def restore(self, restart_data: RestartData) -> None:
-        """Go on from what was `restart_data` on the same way."""
+        """Continue from restart data of the same steps."""
         self._time, self._duration, self._growth = (
             restart_data[name] for name in ("time", "duration", "growth")
         )
         self._step = None if restart_data["step"] is None else Step(**restart_data["step"])
 
     def _advance(self, step: Step) -> None:
+        """Move to the end of an accepted step, and choose the next one."""
         self._time = step.time
         if step.before_jump:
             self._step = Step(step.time, 0.0, step.time, smooth=False)
@@ -181,18 +156,19 @@ class AdaptiveSteps:
         else:
             after_kink = self._time == 0 or self._time in self._kinks
             if after_kink:
-                # A kink that changes little lets the steps go on as they were.
+                # After a kink that changes little the steps keep their duration.
                 before = 0.0 if step.is_jump else step.duration
                 self._duration = max(self._first_duration(), before)
             self._step = self._next(smooth=not after_kink)
 
     def _next(self, smooth: bool) -> Step:
+        """Step of about the current duration, up to the next stop at most."""
         stop = next(stop for stop in self._stops if stop > self._time)
         way = stop - self._time
         duration = self._duration
         if self._time < self._load.kinks[-1]:
             duration = min(duration, self._load.longest_step)
-        # Without a sliver at the end: the last two steps share what is left.
+        # The last two steps before a stop are of equal length, so that none is very short.
         parts = math.ceil(way / duration * (1 - 1e-9))
         duration = way if parts <= 1 else way / 2 if parts == 2 else duration
         time = stop if parts <= 1 else self._time + duration
@@ -200,20 +176,19 @@ class AdaptiveSteps:
         return Step(time, duration, None if jumps else time, smooth, before_jump=jumps)
 
     def _first_duration(self) -> float:
-        """A first step over which the law creeps little, as nothing else is known."""
+        """Duration of a first step, over which the law creeps little [s]."""
         way = next(stop for stop in (*sorted(self._kinks), self._end) if stop > self._time)
         shortest = MIN_STEP_FRACTION * self._end
         way = max(FIRST_STEP_FRACTION * (way - self._time), shortest)
         instant = self._compliance.instant or self._compliance(way)
         part = 0.5 * (12 * self._allowed) ** (1 / ERROR_ORDER)
         if self._load.level_at(self._time) <= 0:
-            part = min(
-                part, self._allowed / ISOLATED_STEP_SHARE
-            )  # a first touch, after which all goes by roots
-        wanted = part * instant + self._compliance.instant
+            # A first touch, after which pressure and contact grow with roots of time.
+            part = min(part, self._allowed / ISOLATED_STEP_SHARE)
+        limit = part * instant + self._compliance.instant
 
         def excess(log_time: float) -> float:
-            crept: float = self._compliance(math.exp(log_time)) - wanted
+            crept: float = self._compliance(math.exp(log_time)) - limit
             return crept
 
         if excess(math.log(way)) <= 0:

@@ -1,7 +1,9 @@
-"""The Boltzmann integral of any law, as the sum it is: no fit, no approximation.
+"""Hereditary integral of any law as a sum over all increments (Boltzmann superposition).
 
-Every increment of the field is kept and weighted by the creep compliance of its age. The cost of a
-step grows with the number of steps, and so does the memory; both are fields times steps.
+A product integration rule for the Volterra integral (Linz 1985, Analytical and Numerical Methods
+for Volterra Equations): the field is linear in time over the rise of each step, so its increment is
+weighted by the mean of J over the ages of that rise, without approximation of J. Work of a step and
+memory are proportional to the number of steps.
 """
 
 from __future__ import annotations
@@ -21,31 +23,23 @@ from viscontact.time_integration.hereditary_integral import (
 )
 from viscontact.time_integration.restart_data import RestartData
 
-#: Steps ahead for which the sum over the past is made at once, as one product of matrices.
+#: Steps ahead for which the sum over the past is computed at once, as one matrix product.
 BLOCK_STEPS = 16
 
-#: Numbers of a field that are summed at once, so that a row of them stays in the nearest cache.
+#: Values of a field that are summed at once, so that a row of them stays in the first-level cache.
 BLOCK_CELLS = 2048
 
 
 class BoltzmannSum(HereditaryIntegral):
-    """The running Boltzmann integral of one field under any law.
+    """Running hereditary integral of one field under any law, by superposition of increments.
 
-    Parameters
-    ----------
-    compliance : ContactCompliance
-        J(t), used as it stands.
-    shape : tuple of int
-        Shape of the field.
-    instants : ndarray, optional
-        Ends of the steps that are planned, a jump's twice [s]. Sums are made for several of
-        them at once; a step that ends elsewhere is summed by itself.
-    steps : int
-        How many steps there is room for from the start; memory is taken as they come.
+    `instants` are the planned ends of the steps, a jump's twice [s]: sums are computed for several
+    of them at once, and singly for a step that ends elsewhere. Memory is reserved for `steps`
+    increments, and grows beyond them.
 
     Examples
     --------
-    A fluid, J = 1 + t, that carries q = 1 from time 0 on has moved by J(2) = 3:
+    A fluid, J = 1 + t, under q = 1 from time 0 on, has the displacement J(2) = 3 at t = 2:
 
     >>> from viscontact.materials.compliance import SeriesCompliance
     >>> memory = BoltzmannSum(SeriesCompliance(1.0, (), (), 1.0), (1,))
@@ -67,7 +61,7 @@ class BoltzmannSum(HereditaryIntegral):
         self._compliance, self._shape = compliance, shape
         self._planned = np.zeros(0) if instants is None else instants
         rows = max(len(self._planned), steps)
-        # Row by row: an increment of the field, and when its rise began and ended.
+        # A row each: increment of the field, and start and end of its rise.
         self._increments = np.zeros((rows, int(np.prod(shape))))
         self._began, self._ended = np.zeros(rows), np.zeros(rows)
         self._count = 0
@@ -79,14 +73,14 @@ class BoltzmannSum(HereditaryIntegral):
         self._ahead_from = 0
 
     def jump(self) -> HereditaryResponse:
-        """HereditaryResponse to a jump; see `HereditaryIntegral.jump`."""
+        """Response to a jump; see `HereditaryIntegral.jump`."""
         self._next_jumps = True
         past = self._history_at(self._time, rise=0.0)
         met = self._compliance.instant
         return HereditaryResponse(past - met * self._value, met, resolved=True)
 
     def ramp(self, duration: float) -> HereditaryResponse:
-        """Response to a change over a step of the given time; see `HereditaryIntegral.ramp`."""
+        """Response to a step of a duration [s]; see `HereditaryIntegral.ramp`."""
         rise = longest_smooth_rise(self._compliance, duration, after_jump=self._jumped)
         self._next_jumps = False
         met = self._compliance.mean(duration - rise, duration)
@@ -96,7 +90,7 @@ class BoltzmannSum(HereditaryIntegral):
         return HereditaryResponse(past - met * self._value, met, resolved, held=1 - rise / duration)
 
     def accept(self, value: NDArray[np.float64]) -> None:
-        """Take the new value of the field into the memory and close the step."""
+        """Add the increment to the new value of the field, and close the step."""
         self._jumped = self._next_jumps
         if self._count == len(self._began):
             self._grow_arrays()
@@ -108,7 +102,7 @@ class BoltzmannSum(HereditaryIntegral):
         self._count += 1
 
     def restart_data(self) -> RestartData:
-        """All increments so far, and the sums computed ahead, as restart data."""
+        """Restart data: all increments so far, and the sums computed ahead."""
         return {
             "increments": self._increments[: self._count],
             "began": self._began[: self._count],
@@ -121,7 +115,7 @@ class BoltzmannSum(HereditaryIntegral):
         }
 
     def map_fields(self, grown: FieldMap) -> None:
-        """Go on with a larger field; see `HereditaryIntegral.map_fields`."""
+        """Continue with a larger field; see `HereditaryIntegral.map_fields`."""
         old, increments, ahead = self._shape, self._increments, self._ahead
         self._value = grown(self._value)
         self._shape, size = self._value.shape, self._value.size
@@ -131,7 +125,7 @@ class BoltzmannSum(HereditaryIntegral):
         self._ahead = grown(ahead.reshape(len(ahead), *old)).reshape(len(ahead), size)
 
     def restore(self, restart_data: RestartData) -> None:
-        """Go on from what was restart_data; see `HereditaryIntegral.restore`."""
+        """Continue from restart data; see `HereditaryIntegral.restore`."""
         self._count = len(restart_data["began"])
         while len(self._began) < self._count:
             self._grow_arrays()
@@ -144,6 +138,7 @@ class BoltzmannSum(HereditaryIntegral):
         self._ahead, self._ahead_from = restart_data["ahead"], restart_data["ahead_from"]
 
     def _history_at(self, end: float, *, rise: float) -> NDArray[np.float64]:
+        """Displacement from the past at the end of a step whose rise is given [s]."""
         step = self._count
         is_planned = step < len(self._planned) and isclose(self._planned[step], end, rel_tol=1e-9)
         end = float(self._planned[step]) if is_planned else end
@@ -152,7 +147,7 @@ class BoltzmannSum(HereditaryIntegral):
         return past.reshape(self._shape)
 
     def _planned_history(self, step: int) -> NDArray[np.float64]:
-        """Displacement at the end of a planned step owed to all increments so far."""
+        """Displacement at the end of a planned step from all increments so far."""
         if not self._ahead_from <= step < self._ahead_from + len(self._ahead):
             self._ahead = self._summed(self._planned[step : step + BLOCK_STEPS], 0)
             self._ahead_from = step
@@ -160,7 +155,7 @@ class BoltzmannSum(HereditaryIntegral):
         return np.asarray(self._ahead[step - self._ahead_from] + recent)
 
     def _summed(self, ends: NDArray[np.float64], first: int) -> NDArray[np.float64]:
-        """What the increments so far, from a first one on, have come to at some instants."""
+        """Displacements at some times from the increments so far, from the index `first` on."""
         began, ended = (each[first : self._count] for each in (self._began, self._ended))
         since_began = np.maximum(ends[:, None] - began, 0.0)
         since_ended = np.clip(ends[:, None] - ended, 0.0, since_began)
@@ -168,6 +163,7 @@ class BoltzmannSum(HereditaryIntegral):
         return _product(weights, self._increments[first : self._count])
 
     def _grow_arrays(self) -> None:
+        """Make room for more increments."""
         more = max(len(self._began) // 2, BLOCK_STEPS)
         roomier = np.zeros((len(self._began) + more, self._increments.shape[1]))
         roomier[: self._count] = self._increments[: self._count]
@@ -177,7 +173,7 @@ class BoltzmannSum(HereditaryIntegral):
 
 
 def _product(weights: NDArray[np.float64], increments: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The product of two matrices, not by BLAS, whose bits depend on its number of threads."""
+    """Matrix product, not by BLAS, whose bits depend on its number of threads."""
     product = np.empty((len(weights), increments.shape[1]))
     for first in range(0, increments.shape[1], BLOCK_CELLS):
         part = slice(first, first + BLOCK_CELLS)

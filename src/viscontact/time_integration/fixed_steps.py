@@ -1,4 +1,4 @@
-"""Which steps a run takes: the instants asked for, and the load's kinks and jumps among them."""
+"""Time steps of a run at requested times, with the load's kinks and jumps among them."""
 
 from __future__ import annotations
 
@@ -14,66 +14,44 @@ from viscontact.loads import LoadHistory
 from viscontact.time_integration.restart_data import RestartData
 from viscontact.units.formatting import format_quantity
 
-#: An instant this close to a kink of the load, relative to it, is meant to be the kink.
+#: Relative difference below which a time counts as a kink of the load.
 KINK_TOLERANCE = 1e-9
 
-#: A law is followed from its shortest to its longest time by functions of every decade between.
+#: Shortest step over the end of the run. Prony series have terms in every decade between them.
 MIN_STEP_OF_END = 1e-30
 
-#: More steps are more than anyone waits for, and a list of them takes more memory than the fields.
+#: Upper limit on the number of steps; a longer list takes more memory than the fields.
 MAX_STEPS = 1_000_000
 
 
 @dataclass(frozen=True)
 class Step:
-    """One step of a run.
+    """One time step."""
 
-    Attributes
-    ----------
-    time : float
-        Its end [s].
-    duration : float
-        Its length, 0 for a jump [s].
-    asked : float or None
-        The instant asked for that this is, to rounding the same [s]; None for an inner step.
-    smooth : bool
-        Whether the load goes on as before; False for the first step after a kink or jump.
-    before_jump : bool
-        Whether the load jumps right after it.
-    """
-
-    time: float
-    duration: float
-    asked: float | None
-    smooth: bool
-    before_jump: bool = False
+    time: float  # end of the step [s]
+    duration: float  # 0 for a jump [s]
+    requested: float | None  # requested time that it ends at [s], None for an inner step
+    smooth: bool  # False for the first step after a kink or jump of the load
+    before_jump: bool = False  # the load jumps right after the step
 
     @property
     def is_jump(self) -> bool:
-        """Whether the load changes at once, at an instant."""
+        """Whether the load jumps in this step."""
         return self.duration == 0
 
     @property
     def side(self) -> str:
-        """Which value of the load holds at the step's end."""
+        """Side of the step's end on which the load is read."""
         return "left" if self.before_jump else "right"
 
 
 def plan_steps(
     times: NDArray[np.float64], load: LoadHistory, step_ratio: float = 1.0
 ) -> tuple[Step, ...]:
-    """Plan steps through given times, and the load's own.
+    """Plan steps to requested times [s], and to the load's kinks and jumps up to the last one.
 
-    Parameters
-    ----------
-    times : ndarray
-        Requested times, strictly increasing, none before 0 [s]. One that differs from a kink
-        by rounding (a part in 1e9) is taken as the kink.
-    load : LoadHistory
-        Its kinks and jumps up to the last time are stepped, too, and intervals longer than it
-        allows are divided.
-    step_ratio : float
-        Longest step, in longest steps that the load allows [-].
+    A time that differs from a kink by rounding is taken as the kink. Steps longer than `step_ratio`
+    times what the load allows are divided.
 
     Examples
     --------
@@ -88,54 +66,48 @@ def plan_steps(
 
 
 def step_ends(steps: Iterable[Step]) -> NDArray[np.float64]:
-    """Return the ends of steps, a jump's twice [s]."""
+    """Ends of steps, a jump's twice [s]."""
     return np.array([step.time for step in steps])
 
 
 class FixedSteps:
-    """Planned steps, taken one after the other.
-
-    Parameters
-    ----------
-    steps : tuple of Step
-        From `plan_steps`.
-    """
+    """Planned steps, taken one after the other."""
 
     def __init__(self, steps: tuple[Step, ...]) -> None:
         self._steps = steps
-        requested = [step.asked is not None for step in steps]
+        requested = [step.requested is not None for step in steps]
         #: Number of requested times among the first steps.
         self._requested_counts = list(itertools.accumulate(requested, initial=0))
         self._taken = 0
 
     @property
     def left(self) -> int:
-        """Instants asked for that are still to come."""
+        """Number of requested times that remain."""
         return self._requested_counts[-1] - self._requested_counts[self._taken]
 
     def next_step(self) -> Step | None:
-        """The next step; None at the end."""
+        """Next step; None at the end."""
         return self._steps[self._taken] if self._taken < len(self._steps) else None
 
     def accept_step(self, error: float) -> bool:
-        """Close the step; steps that are given are taken, whatever error they make."""
+        """Accept the step; prescribed steps are always accepted."""
         del error
         self._taken += 1
         return True
 
     def restart_data(self) -> RestartData:
-        """What has to be kept to go on from here."""
+        """Restart data: the number of steps taken."""
         return {"taken": self._taken}
 
     def restore(self, restart_data: RestartData) -> None:
-        """Go on from what was `restart_data` on the same way."""
+        """Continue from restart data of the same steps."""
         self._taken = restart_data["taken"]
 
 
 def _requested_ends(
     times: NDArray[np.float64], load: LoadHistory, longest_step: float
 ) -> dict[float, float | None]:
-    """Where steps end, in order: the instant asked for there, or None."""
+    """Ends of steps in order, each with the requested time there, or None."""
     stops = load.stops
     wanted: dict[float, float | None] = {}
     for time, stop in zip(times.tolist(), _snapped_to_kinks(times, stops).tolist(), strict=True):
@@ -149,7 +121,7 @@ def _requested_ends(
 
 
 def _refuse_endless_span(instants: list[float]) -> None:
-    """Refuse a shortest step that is nothing beside the end: no law is followed so far."""
+    """Refuse steps that range over more decades than a law can be evaluated for."""
     steps = np.diff(np.append(0.0, instants))
     shortest = float(steps.min(initial=np.inf, where=steps > 0))
     if shortest < MIN_STEP_OF_END * instants[-1]:
@@ -161,7 +133,7 @@ def _refuse_endless_span(instants: list[float]) -> None:
 
 
 def _divisions(instants: list[float], load: LoadHistory, longest_step: float) -> Iterator[float]:
-    """Instants that divide intervals longer than the load allows, as long as it moves."""
+    """Times that divide intervals longer than the load allows, while it moves."""
     if math.isinf(longest_step):
         return
     swings = min(instants[-1], float(load.kinks[-1])) / longest_step
@@ -179,35 +151,29 @@ def _divisions(instants: list[float], load: LoadHistory, longest_step: float) ->
 
 
 def _steps(wanted: dict[float, float | None], load: LoadHistory) -> Iterator[Step]:
-    """Steps to these instants, the first a jump at time 0, of size zero under a soft start."""
+    """Steps to these times, the first a jump at time 0, of size zero under a gradual start."""
     kinks, jumps = set(load.kinks.tolist()), set(load.jumps.tolist())
     begin = 0.0
     yield Step(0.0, 0.0, wanted.get(0.0), smooth=False)
-    for instant, asked in wanted.items():
+    for instant, requested in wanted.items():
         if instant == 0:
             continue
         smooth = begin not in kinks and begin > 0
-        yield from _up_to(instant, instant - begin, asked, smooth, jumping=instant in jumps)
+        yield from _up_to(instant, instant - begin, requested, smooth, jumping=instant in jumps)
         begin = instant
 
 
 def _up_to(
-    instant: float, duration: float, asked: float | None, smooth: bool, *, jumping: bool
+    instant: float, duration: float, requested: float | None, smooth: bool, *, jumping: bool
 ) -> Iterator[Step]:
-    yield Step(instant, duration, None if jumping else asked, smooth, before_jump=jumping)
+    """Step to a time, and the jump there."""
+    yield Step(instant, duration, None if jumping else requested, smooth, before_jump=jumping)
     if jumping:
-        yield Step(instant, 0.0, asked, smooth=False)
+        yield Step(instant, 0.0, requested, smooth=False)
 
 
 def snap_to_kink(time: float, kinks: NDArray[np.float64]) -> float:
-    """Return the kink that an instant differs from by rounding only, else the instant [s].
-
-    Parameters
-    ----------
-    time : float
-        The instant [s].
-    kinks : ndarray
-        Kinks of a load, at least one [s].
+    """Kink that a time differs from by rounding only, else the time [s].
 
     Examples
     --------
@@ -221,7 +187,7 @@ def snap_to_kink(time: float, kinks: NDArray[np.float64]) -> float:
 def _snapped_to_kinks(
     times: NDArray[np.float64], kinks: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Return for each instant the kink that it differs from by rounding only, else itself [s]."""
+    """For each time the kink that it differs from by rounding only, else itself [s]."""
     after = np.clip(np.searchsorted(kinks, times), 0, len(kinks) - 1)
     before = np.maximum(after - 1, 0)
     nearer = np.abs(kinks[before] - times) <= np.abs(kinks[after] - times)

@@ -1,4 +1,4 @@
-"""What a memory answers when asked for the displacement after the next step."""
+"""Hereditary integral u(t) = ∫ J(t - t') dq(t') of a field, advanced step by step."""
 
 from __future__ import annotations
 
@@ -13,129 +13,82 @@ from numpy.typing import NDArray
 from viscontact.materials.compliance import ContactCompliance
 from viscontact.time_integration.restart_data import RestartData
 
-#: A step that creeps more than this part of J(0) is long against the law. At this part a single
-#: step after a jump errs by less than 2 % of the pressure that the jump has left, for a Maxwell
-#: and a Zener body alike.
+#: Creep within a step, over J(0), beyond which the step is long against the law. At this value a
+#: single step after a jump has an error below 2 % of the pressure after the jump, for a Maxwell and
+#: a Zener body.
 MAX_RESOLVED_CREEP = 0.5
 
-#: In a first step after a jump, what is owed to the old value is kept to this part of J(0). So a
-#: Maxwell body's relaxation is met within 0.07 of what it began with, by a single step of any
-#: length; at 1 it would be within 0.14, and zero beyond two relaxation times.
+#: Largest weight of the old value in the first step after a jump, over J(0). A single step of any
+#: length then follows the relaxation of a Maxwell body within 0.07 of its initial value; at 1 it
+#: would be within 0.14, and zero beyond two relaxation times.
 OLD_WEIGHT_AFTER_JUMP = 2 / 3
 
-#: What makes larger fields of smaller ones.
+#: Maps fields to a larger grid.
 FieldMap = Callable[[NDArray[np.float64]], NDArray[np.float64]]
 
 
 @dataclass(frozen=True)
 class HereditaryResponse:
-    """The displacement at the end of a step, before its load is known: u = history + J q.
+    """Displacement at the end of a step as a function of the new value q: u = history + J q."""
 
-    Attributes
-    ----------
-    history : ndarray, shape (nx, ny)
-        Displacement owed to all earlier steps [m if q is in Pa m].
-    compliance : float
-        Compliance that meets the new value q itself: the mean of J over a ramp of the step's
-        length, or J(0) for a jump [1/Pa].
-    resolved : bool
-        Whether the step is short against the law, so that pressure may change much over it.
-    held : float
-        Part of the step over which the field is held after its rise, 0 for a line through the
-        whole step [-].
-    """
-
-    history: NDArray[np.float64]
-    compliance: float
-    resolved: bool
-    held: float = 0.0
+    history: NDArray[np.float64]  # displacement from all earlier steps [m if q is in Pa m]
+    compliance: float  # mean of J over the rise of the step, J(0) for a jump [1/Pa]
+    resolved: bool  # the step is short against the law, so that pressure may change much over it
+    held: float = 0.0  # part of the step over which the new value is held after its rise [-]
 
     def of(self, value: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The displacement if the field ends the step at a value."""
+        """Displacement for a new value of the field."""
         displacement = self.compliance * value
         displacement += self.history
         return displacement
 
 
 class HereditaryIntegral(ABC):
-    """The running Boltzmann integral u(t) = ∫ J(t - t') dq(t') of one field q.
+    """Running hereditary integral u(t) = ∫ J(t - t') dq(t') of one field q.
 
-    What a body remembers is in its memories alone. Ask one for the `ramp` (or `jump`) that comes
-    next, as often as you like; find the new value, and tell it with `accept`.
+    `ramp` or `jump` gives the response to the next step, and may be repeated; `accept` closes the
+    step with the new value. Only these objects keep a history.
     """
 
     @abstractmethod
     def jump(self) -> HereditaryResponse:
-        """Response to a jump: nothing has time to creep, only J(0) meets the new value."""
+        """Response to a jump: nothing creeps, so the new value acts by J(0) only."""
 
     @abstractmethod
     def ramp(self, duration: float) -> HereditaryResponse:
-        """HereditaryResponse to a change over a step of the given time.
+        """Response to a step of a positive duration [s].
 
-        The field rises linearly, over the whole step wherever the step is short enough for the
-        law, and so with an error of second order. Over a step long against the relaxation times a
-        line through the whole step would make the field ring about its true value, step after
-        step: there it rises over the first part of the step, and is held over the rest.
-
-        Parameters
-        ----------
-        duration : float
-            Length of the step [s], positive.
-
-        Returns
-        -------
-        HereditaryResponse
-            History at the end of the step and the compliance of the new value.
+        The field rises linearly: over the whole step, with an error of second order, wherever the
+        step is short enough for the law. Over a step long against the relaxation times that would
+        make the field oscillate about its true value from step to step; there it rises over the
+        first part of the step, and is held over the rest.
         """
 
     @abstractmethod
     def accept(self, value: NDArray[np.float64]) -> None:
-        """Take the new value of the field into the memory and close the step.
+        """Close the last `jump` or `ramp` with the new value of the field.
 
-        Parameters
-        ----------
-        value : ndarray
-            The field at the end of the `jump` or `ramp` asked for last. One that cannot be written
-            may be kept without a copy, and must never change.
+        A read-only array may be kept without a copy, and must never change.
         """
 
     @abstractmethod
     def restart_data(self) -> RestartData:
-        """What has to be kept to go on from here; asked for after an `accept`."""
+        """Restart data, after an `accept`."""
 
     @abstractmethod
     def map_fields(self, grown: FieldMap) -> None:
-        """Go on with a larger field.
-
-        Parameters
-        ----------
-        grown : callable
-            Makes a larger field of any field like the ones remembered, or of a stack of them; must
-            be linear.
-        """
+        """Continue with a larger field; `grown` is linear and maps a field or a stack of fields."""
 
     @abstractmethod
     def restore(self, restart_data: RestartData) -> None:
-        """Go on from what was `restart_data`, by a memory of the same law and shape."""
+        """Continue from restart data of the same law and shape."""
 
 
 def is_resolved(crept: float, instant: float, *, whole: bool) -> bool:
     """Whether a step is short against the law, so that pressure may change much over it.
 
-    Parameters
-    ----------
-    crept : float
-        What creeps within the step, J at its end less J(0) [1/Pa].
-    instant : float
-        J(0) [1/Pa].
-    whole : bool
-        Whether the field rises over the whole of it.
-
-    Returns
-    -------
-    bool
-        With J(0) = 0 nothing is short; but a law that a line through the step does not make ring
-        is followed well by it.
+    `crept` is J at its end less J(0), `instant` is J(0) [1/Pa]. With J(0) = 0 no step is short, but
+    one over whose `whole` length the field may rise is followed well.
 
     Examples
     --------
@@ -148,33 +101,21 @@ def is_resolved(crept: float, instant: float, *, whole: bool) -> bool:
 def longest_smooth_rise(
     compliance: ContactCompliance, duration: float, *, after_jump: bool = False
 ) -> float:
-    """Return over how long a first part of a step a field may rise without ringing.
+    """Longest rise of the field within a step [s] that does not make it oscillate.
 
-    Parameters
-    ----------
-    compliance : ContactCompliance
-        J(t).
-    duration : float
-        Length of the step [s].
-    after_jump : bool
-        Whether the field has just jumped, and so may fall fast.
-
-    Returns
-    -------
-    float
-        The whole step if it is short against the law, else a part of it [s].
+    The whole duration if the step is short against the law. After a jump the field may fall fast.
 
     Notes
     -----
-    An error in the old value returns in the new one, reversed, by the ratio of the old value's
-    weight, J(d) - mean of J over [d - r, d], to the new one's, that mean. The rise r is the
-    longest whose old weight is within J(0), which halves an error at least. After a jump to a
-    displacement that is then held, the new value is (J(0) - old weight)/(new weight) of the old
-    one: there the old weight is kept to two thirds of J(0), since something is always left. With
-    J(0) = 0 (a first-kind equation: Linz 1985, Analytical and Numerical Methods for Volterra
-    Equations) it is the longest that halves an error: the whole step for J like t^n with n up to
-    1/2, where the trapezoidal rule is known to be stable and of second order; for a dashpot,
-    whose rule does not damp, two thirds of it.
+    The new value follows from new weight * q_new = u - old weight * q_old - .., with the new weight
+    m = mean of J over [d - r, d] and the old weight J(d) - m, so an error of the old value returns
+    reversed, by the ratio of the weights. The rise r is the longest whose old weight is within
+    J(0), which at least halves an error. After a jump to a displacement that is then held, the new
+    value is (J(0) - old weight)/(new weight) of the old one: there the old weight is kept to two
+    thirds of J(0), as the true value does not vanish. With J(0) = 0 (an equation of the first kind:
+    Linz 1985, Analytical and Numerical Methods for Volterra Equations) the rise is the longest that
+    halves an error: the whole step for J like t^n with n up to 1/2, where the trapezoidal rule is
+    known to be stable and of second order; two thirds of it for a dashpot, where it is not damped.
 
     Examples
     --------

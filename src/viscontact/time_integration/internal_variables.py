@@ -1,7 +1,10 @@
-"""The Boltzmann integral of a series law, as a recursion.
+"""Hereditary integral of a Prony series, by a recursion of internal variables.
 
-With the field linear in time within a step and J a series of exponentials, the integral is a
-recursion over a few internal fields, exact on uneven steps.
+One internal field for each exponential term replaces the load history. For a field q that is linear
+in time over a step, or over its first part and then held, the update is exact for steps of any
+length:
+
+    d(t + h) = exp(-h/τ) d(t) + w_old q(t) + w_new q(t + h)
 """
 
 from __future__ import annotations
@@ -24,25 +27,18 @@ from viscontact.time_integration.restart_data import RestartData
 
 
 class InternalVariables(HereditaryIntegral):
-    """The running Boltzmann integral of one field under a series law.
-
-    Parameters
-    ----------
-    compliance : SeriesCompliance
-        J(t): instant part, exponential terms, fluidity.
-    shape : tuple of int
-        Shape of the field.
+    """Running hereditary integral of one field under a Prony series, by internal variables.
 
     Notes
     -----
-    With J(t) = J0 + Σ Ji (1 - exp(-t/τi)) + φ t each term obeys a first-order equation
-    τi d' = Ji q - d, solved exactly for q linear over a step, or over its first part and then held
-    (Taylor et al. 1970, Int. J. Numer. Meth. Eng. 2, 45; Simo & Hughes, Computational
+    With J(t) = J0 + Σ Ji (1 - exp(-t/τi)) + φ t each term is an internal variable with
+    τi d' = Ji q - d, integrated exactly for q linear over the rise of a step (Taylor, Pister &
+    Goudreau 1970, Int. J. Numer. Meth. Eng. 2, 45, for relaxation; Simo & Hughes, Computational
     Inelasticity, 1998, section 10.3).
 
     Examples
     --------
-    A Maxwell body, J = 1 + t, that carries q = 1 from time 0 on has moved by J(2) = 3:
+    A Maxwell body, J = 1 + t, under q = 1 from time 0 on, has the displacement J(2) = 3 at t = 2:
 
     >>> import numpy as np
     >>> from viscontact.materials.compliance import SeriesCompliance
@@ -59,24 +55,24 @@ class InternalVariables(HereditaryIntegral):
         self._compliance = compliance
         self._fields = np.zeros((compliance.term_count, *shape))
         self._value = np.zeros(shape)
-        self._term = np.empty(shape)  # to work in
+        self._term = np.empty(shape)  # work array
         self._jumped = self._next_jumps = False
         self._next = _jump(compliance)
 
     def jump(self) -> HereditaryResponse:
-        """HereditaryResponse to a jump; see `HereditaryIntegral.jump`."""
+        """Response to a jump; see `HereditaryIntegral.jump`."""
         self._next_jumps = True
         self._next = _jump(self._compliance)
         return self._response()
 
     def ramp(self, duration: float) -> HereditaryResponse:
-        """Response to a change over a step of the given time; see `HereditaryIntegral.ramp`."""
+        """Response to a step of a duration [s]; see `HereditaryIntegral.ramp`."""
         self._next_jumps = False
         self._next = ramp_weights(self._compliance, duration, after_jump=self._jumped)
         return self._response()
 
     def accept(self, value: NDArray[np.float64]) -> None:
-        """Take the new value of the field into the memory and close the step."""
+        """Update the internal variables with the new value of the field, and close the step."""
         self._jumped = self._next_jumps
         for field, decay, old, new in zip(
             self._fields, self._next.decay, self._next.old, self._next.new, strict=True
@@ -87,20 +83,21 @@ class InternalVariables(HereditaryIntegral):
         self._value = value.copy() if value.flags.writeable else value
 
     def restart_data(self) -> RestartData:
-        """The internal fields and the last value; see `HereditaryIntegral.restart_data`."""
+        """Restart data: internal variables and last value."""
         return {"fields": self._fields.copy(), "value": self._value, "jumped": self._jumped}
 
     def map_fields(self, grown: FieldMap) -> None:
-        """Go on with a larger field; see `HereditaryIntegral.map_fields`."""
+        """Continue with a larger field; see `HereditaryIntegral.map_fields`."""
         self._fields, self._value = grown(self._fields), grown(self._value)
         self._term = np.empty(self._value.shape)
 
     def restore(self, restart_data: RestartData) -> None:
-        """Go on from what was restart_data; see `HereditaryIntegral.restore`."""
+        """Continue from restart data; see `HereditaryIntegral.restore`."""
         self._fields = restart_data["fields"].copy()
         self._value, self._jumped = restart_data["value"], restart_data["jumped"]
 
     def _response(self) -> HereditaryResponse:
+        """Response to the step whose weights are set."""
         step = self._next
         history = step.old.sum() * self._value
         for field, decay in zip(self._fields, step.decay, strict=True):
@@ -111,50 +108,25 @@ class InternalVariables(HereditaryIntegral):
 
 @dataclass(frozen=True, eq=False)
 class RampWeights:
-    """What a step makes of each term of a series.
+    """Weights of one step in the recursion, for each term of the series."""
 
-    Attributes
-    ----------
-    decay : ndarray, shape (n,)
-        The part of a term that is left of it [-].
-    old, new : ndarray, shape (n,)
-        What is added to it of the value before the step, and of the value at its end [1/Pa].
-    resolved : bool
-        Whether the step is short against the law.
-    held : float
-        Part of the step over which the new value is held [-].
-    """
-
-    decay: NDArray[np.float64]
-    old: NDArray[np.float64]
-    new: NDArray[np.float64]
-    resolved: bool = True
-    held: float = 0.0
+    decay: NDArray[np.float64]  # factor of the term's internal variable [-]
+    old: NDArray[np.float64]  # weight of the value before the step [1/Pa]
+    new: NDArray[np.float64]  # weight of the value at its end [1/Pa]
+    resolved: bool = True  # the step is short against the law
+    held: float = 0.0  # part of the step over which the new value is held [-]
 
 
 def _jump(compliance: SeriesCompliance) -> RampWeights:
+    """Weights of a jump: the internal variables do not change."""
     nothing = np.zeros(compliance.term_count)
     return RampWeights(nothing + 1.0, nothing, nothing)
 
 
-# Several memories take the same step: of the fields, and of single numbers that go with them.
+# Cached, as the integrals of fields and of the numbers that go with them take the same step.
 @lru_cache(maxsize=16)
 def ramp_weights(compliance: SeriesCompliance, duration: float, *, after_jump: bool) -> RampWeights:
-    """Parts of the old and the new value in each term after a rise and a hold.
-
-    Parameters
-    ----------
-    compliance : SeriesCompliance
-        J(t).
-    duration : float
-        Length of the step [s].
-    after_jump : bool
-        Whether the step before was a jump.
-
-    Returns
-    -------
-    RampWeights
-        Of each of its terms, the flow's last.
+    """Weights of a step of a duration [s], with a rise and a hold; those of the fluidity last.
 
     Examples
     --------
@@ -179,8 +151,8 @@ def ramp_weights(compliance: SeriesCompliance, duration: float, *, after_jump: b
 
 
 def _share_of_new(ratio: NDArray[np.float64]) -> NDArray[np.float64]:
-    """1 - (1 - exp(-r))/r, the part of a term that the new value has excited after a ramp."""
-    small = ratio < 1e-3
+    """Weight 1 - (1 - exp(-r))/r of the new value after a ramp over r = rise/τ."""
+    small = ratio < 1e-3  # by the series, as the closed form cancels
     safe = np.where(small, 1.0, ratio)
     series = ratio / 2 * (1 - ratio / 3 * (1 - ratio / 4 * (1 - ratio / 5)))
     return np.where(small, series, 1 + np.expm1(-safe) / safe)

@@ -1,4 +1,4 @@
-"""Which memory a run gets: exact wherever that is possible, and said where it is not."""
+"""Method for the hereditary integral: exact, or a Prony series with a stated error."""
 
 from __future__ import annotations
 
@@ -15,81 +15,53 @@ from viscontact.time_integration.internal_variables import InternalVariables
 from viscontact.time_integration.prony_approximation import as_exponentials
 from viscontact.units.formatting import format_quantity
 
-#: Increments of the fields are kept and summed as long as they take no more than this [bytes].
+#: Largest memory for the increments of the fields in a sum over all steps [bytes].
 MAX_HISTORY_BYTES = 256 * 2**20
 
-#: Where a run chooses its steps, there is room for so many times the planned ones: it is taken
-#: only as steps come, and never has to be moved, which would take it twice.
+#: Memory reserved for adaptive steps, in planned steps. The system assigns it only as it is used,
+#: and the arrays need not be moved, which would take it twice.
 STEP_RESERVE = 4
 
-#: Beyond this many steps a sum over all of them would take longer than the contact itself.
+#: Largest number of steps that are summed; beyond it the sum takes longer than the contact solver.
 MAX_SUMMED_STEPS = 2000
 
 
 @dataclass(frozen=True, eq=False)
 class HereditaryPlan:
-    """How the past of a run is remembered.
+    """Method by which the hereditary integral of a run is evaluated."""
 
-    Attributes
-    ----------
-    compliance : ContactCompliance
-        J(t) as it is used.
-    instants : ndarray
-        Planned ends of the steps; empty where the run chooses them [s].
-    steps : int
-        How many steps are expected.
-    method : str
-        In words.
-    error : float
-        Largest relative deviation of the J that is used from the material's [-].
-    prony_approximation : SeriesCompliance
-        J(t) as exponentials, whatever the method: for estimates and predictions, which it makes
-        cheap.
-    """
-
-    compliance: ContactCompliance
-    instants: NDArray[np.float64]
-    steps: int
-    method: str
-    error: float
-    prony_approximation: SeriesCompliance
+    compliance: ContactCompliance  # J(t) as it is used
+    instants: NDArray[np.float64]  # planned ends of the steps [s], empty for adaptive steps
+    steps: int  # expected number of steps
+    method: str  # description for users
+    error: float  # largest relative deviation of the J that is used from the material's [-]
+    prony_approximation: SeriesCompliance  # J(t) as a Prony series, for estimates and predictions
 
     @property
     def fields_kept(self) -> int:
-        """Fields that a memory keeps: one for each exponential, or one for each step."""
+        """Number of stored fields: one for each exponential, or one for each step."""
         if isinstance(self.compliance, SeriesCompliance):
             return self.compliance.term_count
         return self.steps
 
     def memory(self, shape: tuple[int, ...]) -> HereditaryIntegral:
-        """Return an empty memory for a field of a shape."""
+        """Hereditary integral of a field of this shape, without a history."""
         if isinstance(self.compliance, SeriesCompliance):
             return InternalVariables(self.compliance, shape)
-        chosen_as_it_goes = not self.instants.size
-        room = STEP_RESERVE * self.steps if chosen_as_it_goes else self.steps
+        is_adaptive = not self.instants.size
+        room = STEP_RESERVE * self.steps if is_adaptive else self.steps
         return BoltzmannSum(self.compliance, shape, self.instants, room)
 
 
 def plan_hereditary_integral(
     compliance: ContactCompliance, instants: NDArray[np.float64], numbers: int
 ) -> HereditaryPlan:
-    """Choose how a run remembers.
+    """Choose the method for the hereditary integral of a run.
 
-    Parameters
-    ----------
-    compliance : ContactCompliance
-        J(t).
-    instants : ndarray
-        Ends of the steps, a jump's twice, in order [s].
-    numbers : int
-        Numbers to be remembered at each step.
-
-    Returns
-    -------
-    HereditaryPlan
-        A recursion for a series law, which is exact. For any other law the sum over all earlier
-        steps, as long as they fit into 256 MiB and are at most 2000; else a sum of exponentials,
-        whose deviation from the law is part of the plan.
+    A recursion for a series law, which is exact. For any other law the sum over all earlier steps,
+    as long as they fit into 256 MiB and are at most 2000; else a Prony series, whose deviation from
+    the law is part of the plan. `instants` are the ends of the steps in order, a jump's twice [s];
+    `numbers` are to be stored at each step.
 
     Examples
     --------
@@ -103,7 +75,7 @@ def plan_hereditary_integral(
     durations = np.diff(instants)
     first = float(durations.min(initial=np.inf, where=durations > 0))
     if math.isinf(first):
-        first = 1.0  # a jump alone, for which no time counts
+        first = 1.0  # a jump alone, where time does not matter
     last = max(float(instants[-1]), 10 * first)
     series, error = as_exponentials(compliance, first, last)
     steps = len(instants)

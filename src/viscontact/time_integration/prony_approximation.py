@@ -1,4 +1,4 @@
-"""Any compliance as a sum of exponentials, with the error that this makes."""
+"""Prony series of any creep compliance, with the error of the approximation."""
 
 from __future__ import annotations
 
@@ -8,50 +8,39 @@ from numpy.typing import NDArray
 
 from viscontact.materials.compliance import ContactCompliance, SeriesCompliance
 
-#: Candidate retardation times in each decade: more of them until the fit is good enough. A law
-#: with a smooth spectrum needs few; one of a few sharp times is hit better by a finer comb, from
-#: which few are then taken.
+#: Candidate retardation times in each decade, increased until the fit is good enough. A law with a
+#: smooth spectrum needs few; a line spectrum is matched better by a finer set, of which the fit
+#: selects few.
 TIMES_PER_DECADE = (4, 8, 16, 32)
 
-#: Relative deviation that is good enough, and samples of J in each decade.
+#: Relative deviation that ends the refinement, and samples of J in each decade.
 TARGET_DEVIATION, SAMPLES_PER_DECADE = 1e-6, 24
 
-#: Decades that the candidates reach beyond the times asked for, to either side.
+#: Decades by which the candidates extend beyond the times of interest, on both sides.
 MARGIN_DECADES = 2.0
 
-#: Decades from the shortest time on, in which means from 0 are fitted besides: what a step meets
-#: of its own change. Later means are those of the values fitted.
+#: Decades from the shortest time on in which means from 0 are fitted, too: they weight the new
+#: value of a step. Later means follow from the fitted values.
 MEAN_DECADES = 1.0
 
 
 def as_exponentials(
     compliance: ContactCompliance, first: float, last: float
 ) -> tuple[SeriesCompliance, float]:
-    """Approximate a contact compliance by a sum of exponentials.
+    """Approximate a contact compliance by a Prony series; return it with its relative error.
 
-    Parameters
-    ----------
-    compliance : ContactCompliance
-        J(t).
-    first, last : float
-        Shortest and longest time of interest [s], 0 < first < last.
-
-    Returns
-    -------
-    series : SeriesCompliance
-        With the same J(0), and no amplitude negative.
-    error : float
-        Largest deviation from J between the two times, and from its means from 0 to them,
-        relative [-]. The Boltzmann integral of a field that grows linearly over each step, none
-        shorter than `first`, is off by no more, relative to itself.
+    The series has the same J(0), and no negative amplitude. The error is the largest deviation from
+    J between `first` and `last` [s], and from its means from 0 to these times. The hereditary
+    integral of a field that is linear over each step, none shorter than `first`, has no larger
+    error relative to itself.
 
     Notes
     -----
     Non-negative least squares (Lawson & Hanson 1974) over a dense set of retardation times, with
-    weights 1/J. Before `first` no single value counts, but their mean does: a step meets its own
-    change by it, and a power of time has crept most of what it does there. A law without a
-    completely monotone rate, such as a table with scatter, cannot be matched by positive terms
-    any better than its scatter, and the error says so.
+    weights 1/J. Before `first` only the mean of J matters: it weights the change within a step, and
+    a power of time has crept most there. A law without a completely monotone rate, such as a table
+    with scatter, cannot be matched by positive terms any better than its scatter; the error shows
+    it.
 
     Examples
     --------
@@ -75,6 +64,7 @@ def as_exponentials(
 def _fitted(
     compliance: ContactCompliance, first: float, last: float, density: int
 ) -> SeriesCompliance:
+    """Series of least squares with retardation times at a density a decade."""
     begin, end = first / 10**MARGIN_DECADES, last * 10**MARGIN_DECADES
     times = np.geomspace(begin, end, int(np.ceil(np.log10(end / begin) * density)) + 1)
     samples = _log_spaced(first, last)
@@ -83,7 +73,7 @@ def _fitted(
     weight = 1.0 / creep
     terms = np.vstack([_terms(samples, times, last), _mean_terms(early, times, last)])
     delayed = np.maximum(creep - compliance.instant, 0.0)
-    # Scaled to amplitudes of order one, which is what the solver's tolerance takes them for.
+    # Scaled to amplitudes of order one, for which the tolerance of the solver is made.
     size = float(creep[-1])
     found, _ = scipy.optimize.nnls(
         terms * (size * weight)[:, None], delayed * weight, maxiter=50 * len(times)
@@ -94,19 +84,20 @@ def _fitted(
 
 
 def _terms(t: NDArray[np.float64], times: NDArray[np.float64], last: float) -> NDArray[np.float64]:
-    """Return what each term has crept at some times, a column each, the last one of flow."""
+    """Creep of each term at some times, a column each, the last one of flow."""
     return np.column_stack([-np.expm1(-t[:, None] / times), t / last])
 
 
 def _mean_terms(
     t: NDArray[np.float64], times: NDArray[np.float64], last: float
 ) -> NDArray[np.float64]:
-    """Return the means of the terms from 0 to some times."""
+    """Means of the terms from 0 to some times."""
     passed = t[:, None] / times
     return np.column_stack([1.0 + np.expm1(-passed) / passed, t / (2 * last)])
 
 
 def _log_spaced(first: float, last: float, finer: int = 1) -> NDArray[np.float64]:
+    """Sample times from first to last, even in their logarithm [s]."""
     decades = np.log10(last / first)
     return np.geomspace(first, last, int(np.ceil(decades * SAMPLES_PER_DECADE * finer)) + 2)
 
@@ -114,6 +105,7 @@ def _log_spaced(first: float, last: float, finer: int = 1) -> NDArray[np.float64
 def _deviation(
     compliance: ContactCompliance, series: SeriesCompliance, first: float, last: float
 ) -> float:
+    """Largest relative deviation of the series from J, and from its means."""
     between = _log_spaced(first, last, finer=7)
     at_once = np.zeros(between.shape)
     values = series(between) / compliance(between)

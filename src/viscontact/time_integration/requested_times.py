@@ -1,4 +1,4 @@
-"""The instants at which results are wanted."""
+"""Times at which results are requested: uniform, logarithmic, or adaptive."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from viscontact.units.numbers import as_real
 
-#: More are more than anyone waits for.
+#: Upper limit on the number of requested steps.
 _MAX_STEPS = 10_000_000
 
 
@@ -74,14 +74,14 @@ def log_times(first: float, end: float, n: int) -> NDArray[np.float64]:
     first, end, n = _instant("first", first), _instant("end", end), _steps(n)
     if first >= end:
         raise ValueError(f"first must be earlier than end, got first={first} s and end={end} s")
-    # Backwards from the end, the one instant that is there for every n.
+    # Backwards from the end, so that the end is exact for every n.
     backwards = np.geomspace(end, first, n)
     return np.concatenate(([0.0], backwards[::-1]))
 
 
 @dataclass(frozen=True)
 class AdaptiveTimes:
-    """Steps to be chosen by the run itself; made by `adaptive_times`.
+    """Times to be chosen by the run itself; made by `adaptive_times`.
 
     Attributes
     ----------
@@ -108,7 +108,7 @@ class AdaptiveTimes:
 
 
 def adaptive_times(end: float, tolerance: float) -> AdaptiveTimes:
-    """Return the wish for steps that a run chooses by their error.
+    """Return times that a run chooses by the error of its steps.
 
     Parameters
     ----------
@@ -137,6 +137,7 @@ def adaptive_times(end: float, tolerance: float) -> AdaptiveTimes:
 
 
 def _instant(name: str, value: object) -> float:
+    """A positive, finite time, or a ValueError [s]."""
     instant = as_real(value)
     if instant is None or not (math.isfinite(instant) and instant > 0):
         raise ValueError(f"{name} must be a positive, finite time in s, got {value!r}")
@@ -144,6 +145,7 @@ def _instant(name: str, value: object) -> float:
 
 
 def _steps(n: object) -> int:
+    """A number of steps as an int, or a ValueError."""
     steps = as_real(n)
     if steps is None or not (steps.is_integer() and steps >= 1):
         raise ValueError(f"n, the number of steps, must be a whole number >= 1, got {n!r}")

@@ -1,12 +1,12 @@
-"""What a run carries from step to step, as plain data that a file can hold.
+"""Restart data: the state between two steps as plain data that a file can hold.
 
-Whatever remembers something between two steps of a run says what by ``restart_data()``, and goes
-on from it after ``restore(restart_data)``, to the last bit. Nothing else may outlast a step.
+Objects that keep a state from step to step return it by ``restart_data()``, and continue from it
+after ``restore(restart_data)`` with the same bits.
 """
 
 from __future__ import annotations
 
 from typing import Any
 
-#: Arrays, numbers, texts and None, in lists and dicts with texts as keys.
+#: Arrays, numbers, strings and None, in lists and dicts with strings as keys.
 RestartData = dict[str, Any]

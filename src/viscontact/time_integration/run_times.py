@@ -1,4 +1,4 @@
-"""The instants of a run, asked for or chosen from load and law, and those that keep fields."""
+"""Times of a run, requested or chosen from load and law, and the times whose fields are kept."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from viscontact.time_integration.fixed_steps import snap_to_kink
 from viscontact.time_integration.requested_times import AdaptiveTimes, uniform_times
 from viscontact.units.formatting import format_quantity
 
-#: Steps of a run whose instants are not given.
+#: Steps of a run whose times are not given.
 DEFAULT_STEPS = 60
 
 
@@ -24,29 +24,9 @@ def run_instants(
     load: LoadHistory,
     compliance: ContactCompliance,
 ) -> NDArray[np.float64]:
-    """Return the instants of a run.
+    """Times of a run [s]; of adaptive steps those to be hit: 0, the end, and times of kept fields.
 
-    Parameters
-    ----------
-    times : array_like, AdaptiveTimes or None
-        As in `march`.
-    fields : str or sequence of float
-        As in `march`.
-    load : LoadHistory
-        What presses.
-    compliance : ContactCompliance
-        J(t).
-
-    Returns
-    -------
-    ndarray
-        The instants, increasing; of adaptive steps those that have to be hit: 0, the end, and
-        instants whose fields are kept [s].
-
-    Raises
-    ------
-    ValueError
-        If they make no sense, or nothing says when the run ends.
+    `times` and `fields` are as in `march`.
 
     Examples
     --------
@@ -62,31 +42,14 @@ def run_instants(
         return _checked_times(times)
     kept = _instants("fields", [0.0] if isinstance(fields, str) else fields)
     stops = [0.0, times.end, *kept[(kept >= 0) & (kept <= times.end)].tolist()]
-    # What differs from a kink of the load by rounding is stepped, and kept, as the kink.
+    # A time that differs from a kink of the load by rounding only is taken as the kink.
     return np.array(sorted({snap_to_kink(stop, load.kinks) for stop in stops}))
 
 
 def field_instants(
     fields: str | Sequence[float], times: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Instants whose fields are kept.
-
-    Parameters
-    ----------
-    fields : "all", "none" or sequence of float
-        All instants, none, or some of the run's instants [s].
-    times : ndarray
-        Instants of the run [s].
-
-    Returns
-    -------
-    ndarray
-        Those instants, in order [s].
-
-    Raises
-    ------
-    ValueError
-        If it is another word, or an instant is not one of the run's.
+    """Times of a run whose fields are kept: "all", "none" or some of the run's times [s].
 
     Examples
     --------
@@ -110,6 +73,7 @@ def field_instants(
 
 
 def _instants(name: str, given: object) -> NDArray[np.float64]:
+    """An array of times, or a ValueError with the argument's name [s]."""
     try:
         array = np.asarray(given)
     except ValueError:  # rows of unequal length
@@ -120,6 +84,7 @@ def _instants(name: str, given: object) -> NDArray[np.float64]:
 
 
 def _checked_times(times: ArrayLike) -> NDArray[np.float64]:
+    """Requested times, finite, not before 0 and strictly increasing [s]."""
     instants = np.atleast_1d(_instants("times", times))
     if instants.ndim != 1 or instants.size == 0 or not np.isfinite(instants).all():
         raise ValueError(f"times must be one or more finite instants in s, got {times!r}")
@@ -136,7 +101,7 @@ def _checked_times(times: ArrayLike) -> NDArray[np.float64]:
 
 
 def _default_times(load: LoadHistory, compliance: ContactCompliance) -> NDArray[np.float64]:
-    """The load's kinks, and steps to its end or through the creep under a held load."""
+    """The load's kinks, and steps to its end or through the creep under a held load [s]."""
     end = float(load.kinks[-1])
     if load.level_at(end) > 0:
         settled = compliance.settled_after

@@ -1,11 +1,10 @@
-"""What the time steps cost: an estimate of the pressure's error, from step to step.
+"""Estimate of the pressure error that the time steps cause, accumulated from step to step.
 
-Within a step the pressure is taken for linear in time. What it is not, a interpolation_error of d²
-q''/12 in the
-mean over a step of length d, enters the memory and acts on as long as the body remembers it: the
-displacement e(t) it amounts to has to be made good by a wrong pressure, J * dq = -e. A memory of
-single numbers follows both, with all bulges of one sign: an estimate of the most that they can have
-come to, not of what they cancel to.
+Within a step the pressure is taken as linear in time. The interpolation error, d² q''/12 in the
+mean over a step of length d, enters the hereditary integral and decays as the body relaxes. The
+displacement error e(t) that results is compensated by a pressure error dq with J * dq = -e. A
+recursion of single numbers, one for each term of J, follows both, with all interpolation errors of
+one sign: an estimate of their largest possible sum, without cancellation.
 """
 
 from __future__ import annotations
@@ -22,68 +21,51 @@ from viscontact.time_integration.internal_variables import ramp_weights
 from viscontact.time_integration.plan import HereditaryPlan
 from viscontact.time_integration.restart_data import RestartData
 
-#: The interpolation_error of a first step after a kink is guessed from the curvature in its
-#: successor, which is smaller: after a first touch, where q grows as t^(2/3), by 2.9.
+#: Interpolation error of a first step after a kink, in those that the curvature of its successor
+#: gives; after a first touch, where q grows as t^(2/3), the ratio is 2.9.
 FIRST_STEP_CURVATURE = 3.0
 
-#: Curvatures are taken from the steps behind, and lag where they grow.
+#: Safety factor of curvatures, which are taken from past steps and lag where they grow.
 CURVATURE_SAFETY = 2.0
 
-#: Without any successor: this part of the change over the step, as the central pressure after a
-#: first touch, which goes as t^(1/3), has; under t² from rest it is a sixth.
+#: Interpolation error of a step without a successor, as a part of the change over it: that of the
+#: central pressure after a first touch, which grows as t^(1/3); under t² from rest it is a sixth.
 ISOLATED_STEP_SHARE = 1 / 4
 
-#: By this power of the load's level what it does is taken to grow.
+#: Power of the load's level with which its effect is assumed to grow.
 LOAD_GROWTH_EXPONENT = 1 / 4
 
 
 @dataclass(frozen=True, eq=False)
 class StepError:
-    """What one step adds to the error.
+    """Contribution of one step to the error."""
 
-    Attributes
-    ----------
-    interpolation_error : float
-        Mean distance of the unit_displacement from the path the memory takes [Pa m].
-    relative : float
-        What it adds to the pressure's error, relative to the largest still to come [-].
-    size : float
-        Largest unit_displacement so far [Pa m].
-    level : float
-        Largest level of the load so far [N or m].
-    rate : ndarray, shape (nx, ny), or None
-        Rate of the unit_displacement over the step [Pa m/s]; None for a jump.
-    """
-
-    interpolation_error: float
-    relative: float
-    size: float
-    level: float
+    interpolation_error: float  # mean distance of the unit displacement from the line [Pa m]
+    relative: float  # added pressure error, relative to the largest pressure to come [-]
+    size: float  # largest unit displacement so far [Pa m]
+    level: float  # largest level of the load so far [N or m]
+    #: Rate of the unit displacement over the step [Pa m/s], None for a jump.
     rate: NDArray[np.float64] | None = None
 
 
 class TimeErrors:
-    """Follows a run, and estimates the relative error of its pressure owed to the steps so far.
+    """Accumulated relative error of the pressure from the time steps of a run.
 
-    Parameters
-    ----------
-    plan : HereditaryPlan
-        How the run remembers.
-    load : LoadHistory
-        What presses. A first touch is alike at every scale: relative to what it has come to
-        itself, its error would never be small. So a step is judged relative to what is still to
-        come under the largest level, guessed by the fourth root of the level: a sphere's pressure
-        grows as the third root of the force, a cone's not at all.
+    A first touch is alike at every scale, so its error relative to the current pressure would never
+    be small. A step is therefore measured against the pressure still to come under the largest
+    level, estimated by the fourth root of the level: a sphere's pressure grows as the third root of
+    the force, a cone's not at all.
     """
 
     def __init__(self, plan: HereditaryPlan, load: LoadHistory) -> None:
         self._load = load
         self._level = 0.0
         self._compliance = plan.prony_approximation
-        #: What each term of J still owes, to bulges and to the wrong pressure together [m].
+        #: Displacement error of each term of J, from interpolation and from the pressure error [m].
         self._term_errors = np.zeros(plan.prony_approximation.term_count)
         self._pressure_error, self._jumped = 0.0, True
-        #: Lengths of the last two steps since a kink, values at their ends; rate over the last.
+        #: Durations of the last two steps since a kink, and values at their ends; rate over the
+        #: last.
         self._past: list[tuple[float, NDArray[np.float64]]] = []
         self._rate: NDArray[np.float64] | None = None
         self._pending: tuple[float, float] | None = None
@@ -96,25 +78,12 @@ class TimeErrors:
         values: NDArray[np.float64],
         response: HereditaryResponse,
     ) -> StepError:
-        """Return what a step adds to the error of the pressure at its end.
+        """Contribution of a step, not accepted yet, to the error of the pressure at its end.
 
-        Parameters
-        ----------
-        step : Step
-            The step, not taken yet.
-        point : LoadPoint
-            The load at its end.
-        values : ndarray, shape (2, nx, ny)
-            Pressure ``p`` [Pa] and unit_displacement ``K p`` [Pa m] at its end.
-        response : HereditaryResponse
-            Of the memory to it.
-
-        Returns
-        -------
-        StepError
-            For the first step after a kink a guess from the change over it.
+        `values` are pressure p [Pa] and unit displacement K p [Pa m] at its end. For the first step
+        after a kink it is estimated from the change over it.
         """
-        # Deflections are positive: the kernel is.
+        # The unit displacement is positive, as the kernel is.
         size, level = max(self._size, float(values[1].max())), max(self._level, point.level)
         if step.is_jump or not self._past:
             return StepError(0.0, 0.0, size, level)
@@ -129,19 +98,9 @@ class TimeErrors:
         return StepError(interpolation_error, relative, size, level, rate)
 
     def after(self, step: Step, values: NDArray[np.float64], error: StepError) -> float:
-        """Take a step, and return the estimated relative error of the pressure after it.
+        """Accept a step, and return the estimated error of the pressure after it.
 
-        Parameters
-        ----------
-        step, values
-            As in `of_step`.
-        error : StepError
-            From `of_step`.
-
-        Returns
-        -------
-        float
-            Relative to the largest unit_displacement of the run so far [-].
+        It is relative to the largest unit displacement of the run so far [-].
         """
         self._size, self._level = error.size, error.level
         if not step.smooth or step.is_jump:
@@ -149,7 +108,7 @@ class TimeErrors:
             self._past = self._past[-1:]
         if step.is_jump:
             self._past = []
-            if self._compliance.instant > 0:  # else nothing jumps
+            if self._compliance.instant > 0:  # otherwise the pressure does not jump
                 self._pressure_error = -float(self._term_errors.sum()) / self._compliance.instant
                 self._jumped = True
         elif len(self._past) < 2:
@@ -165,7 +124,7 @@ class TimeErrors:
         return abs(self._pressure_error) / self._size if self._size > 0 else 0.0
 
     def restart_data(self) -> RestartData:
-        """What has to be kept to go on from here."""
+        """Restart data of the estimate."""
         return {
             "owed": self._term_errors,
             "wrong": self._pressure_error,
@@ -177,7 +136,7 @@ class TimeErrors:
         }
 
     def restore(self, restart_data: RestartData) -> None:
-        """Go on from what was `restart_data`, in the same run."""
+        """Continue from restart data of the same run."""
         self._term_errors, self._pressure_error = restart_data["owed"], restart_data["wrong"]
         self._jumped = restart_data["jumped"]
         self._past = [(point["duration"], point["values"]) for point in restart_data["past"]]
@@ -187,17 +146,18 @@ class TimeErrors:
         self._size, self._level = restart_data["size"], restart_data["level"]
 
     def map_fields(self, grown: FieldMap) -> None:
-        """Go on with larger fields, which `grown` makes of those that are remembered."""
+        """Continue with larger fields, mapped by `grown`."""
         self._past = [(duration, grown(values)) for duration, values in self._past]
         self._rate = self._last_rate()
 
     def _growth_to_come(self, level: float) -> float:
-        """By how much pressure and unit_displacement will still grow with the load, at least."""
+        """Least factor by which the pressure still grows with the load."""
         return (self._load.largest_level / level) ** LOAD_GROWTH_EXPONENT if level > 0 else 1.0
 
     def _interpolation_error(
         self, step: Step, rate: NDArray[np.float64], response: HereditaryResponse
     ) -> float:
+        """Interpolation error of a step from second differences of unit displacements [Pa m]."""
         before = self._rate if step.smooth else None
         travel = step.duration * _largest(rate) if response.held or before is None else 0.0
         late = response.held * travel / 2
@@ -208,13 +168,14 @@ class TimeErrors:
         return CURVATURE_SAFETY * step.duration**2 / 12 * curvature + late
 
     def _last_rate(self) -> NDArray[np.float64] | None:
+        """Rate of the unit displacement over the last step [Pa m/s], None after a kink."""
         if len(self._past) < 2:
             return None
         (_, before), (duration, last) = self._past
         return np.asarray((last[1] - before[1]) / duration)
 
     def _settle(self, *, alone: bool, interpolation_error: float = 0.0) -> None:
-        """Keep a first step, whose interpolation error per d² its successor may supply."""
+        """Add a pending first step, with the curvature of its successor if there is one."""
         if self._pending is None:
             return
         duration, change = self._pending
@@ -225,16 +186,17 @@ class TimeErrors:
         self._pending = None
 
     def _remember(self, duration: float, interpolation_error: float) -> None:
-        """Add the interpolation error of a step to the history, and its effect on the pressure."""
+        """Add the interpolation error of a step to the terms, and its effect on the pressure."""
         held = ramp_weights(self._compliance, duration, after_jump=True)
-        wrong = ramp_weights(self._compliance, duration, after_jump=self._jumped)
+        step = ramp_weights(self._compliance, duration, after_jump=self._jumped)
         self._term_errors = (
-            wrong.decay * self._term_errors + (held.old + held.new) * interpolation_error
+            step.decay * self._term_errors + (held.old + held.new) * interpolation_error
         )
-        self._term_errors += wrong.old * self._pressure_error
-        met = self._compliance.instant + float(wrong.new.sum())
-        self._pressure_error, self._jumped = -float(self._term_errors.sum()) / met, False
-        self._term_errors += wrong.new * self._pressure_error
+        self._term_errors += step.old * self._pressure_error
+        # Solve J * dq = -e for the pressure error at the end of the step.
+        compliance = self._compliance.instant + float(step.new.sum())
+        self._pressure_error, self._jumped = -float(self._term_errors.sum()) / compliance, False
+        self._term_errors += step.new * self._pressure_error
 
 
 def _largest(field: NDArray[np.float64]) -> float:
