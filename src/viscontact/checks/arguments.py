@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.checks.load_support import LoadSupport
 from viscontact.grid import Grid
-from viscontact.loads import LoadHistory
+from viscontact.loads import LoadHistory, LoadPoint
 from viscontact.loads.arguments import TAIL
 from viscontact.problem.problem import Problem
 from viscontact.units.formatting import format_quantity
@@ -60,9 +62,28 @@ def check_jumps(problem: Problem) -> None:
         )
 
 
-def check_touch(problem: Problem, open_gap: NDArray[np.float64], grid: Grid) -> None:
+def points_under_load(problem: Problem) -> list[tuple[float, LoadPoint]]:
+    """Return times [s] and loads that a body on any grid must be able to carry, time 0 first.
+
+    A point without load counts where the load grows from it or falls to it; a cycle from zero to
+    zero has its load between. Where the force never moves, the first time is enough.
+    """
+    load, end = problem.load, problem.end
+    peak = [problem.largest_load[0]] if np.isfinite(load.longest_step) else []
+    instants = np.unique([*load.kinks[load.kinks < end], *peak, end])
+    levels = np.maximum(load.level_at(instants, side="left"), load.level_at(instants))
+    before, after = np.append(0.0, levels[:-1]), np.append(levels[1:], 0.0)
+    under_load = instants[(before > 0) | (levels > 0) | (after > 0)].tolist()
+    if not _wanders(load):
+        del under_load[1:]
+    sides = [(time, load.at(time, side=side)) for time in under_load for side in ("left", "right")]
+    return [(0.0, load.at(0.0)), *sides]
+
+
+def check_touch(
+    problem: Problem, point: LoadPoint, open_gap: NDArray[np.float64], grid: Grid
+) -> None:
     """Refuse a clamped tilt that presses at time 0 already on a law that cannot follow."""
-    point = problem.load.at(0.0)
     if problem.compliance.instant > 0 or point.approach is None:
         return
     slopes = (point.tilt_x or 0.0) * grid.x[:, None], (point.tilt_y or 0.0) * grid.y[None, :]
@@ -75,30 +96,20 @@ def check_touch(problem: Problem, open_gap: NDArray[np.float64], grid: Grid) -> 
         )
 
 
-def check_balance(problem: Problem, open_gap: NDArray[np.float64], grid: Grid) -> None:
+def check_balance(
+    points: Sequence[tuple[float, LoadPoint]], open_gap: NDArray[np.float64], grid: Grid
+) -> None:
     """Refuse a resultant that acts outside the hull of what can touch."""
     solid = np.isfinite(open_gap)
     if not solid.any():
         raise ValueError("grid: no cell lies under the indenter; use a finer or larger grid")
-    # A point without load counts where the load grows from it or falls to it; a swing from zero
-    # to zero has its load between.
-    load, end = problem.load, problem.end
-    swing = [problem.largest_load[0]] if np.isfinite(load.longest_step) else []
-    instants = np.unique([*load.kinks[load.kinks < end], *swing, end])
-    levels = np.maximum(load.level_at(instants, side="left"), load.level_at(instants))
-    before, after = np.append(0.0, levels[:-1]), np.append(levels[1:], 0.0)
-    under_load = instants[(before > 0) | (levels > 0) | (after > 0)].tolist()
-    if not _wanders(load):
-        del under_load[1:]
-    reach = LoadSupport(solid, grid)
-    for time in under_load:
-        for side in ("left", "right"):
-            point = load.at(time, side=side)
-            where = (
-                None if point.tilt_x is not None else point.eccentricity_x,
-                None if point.tilt_y is not None else point.eccentricity_y,
-            )
-            reach.refuse_outside(where, time)
+    support = LoadSupport(solid, grid)
+    for time, point in points:
+        where = (
+            None if point.tilt_x is not None else point.eccentricity_x,
+            None if point.tilt_y is not None else point.eccentricity_y,
+        )
+        support.refuse_outside(where, time)
 
 
 def _wanders(load: LoadHistory) -> bool:

@@ -14,6 +14,7 @@ from viscontact.checks.arguments import (
     check_jumps,
     check_magnitudes,
     check_touch,
+    points_under_load,
 )
 from viscontact.checks.periodicity import check_period
 from viscontact.contact.domain import mirrored_axes
@@ -101,15 +102,16 @@ def prepare_run(problem: Problem, threads: int = 1) -> RunSetup:
     check_magnitudes(problem)
     check_creep(problem)
     check_jumps(problem)
+    points = points_under_load(problem)
     if isinstance(problem.grid, Grid):
         mesh, grid = None, problem.grid
     else:
         mesh = choose_mesh(problem, problem.end)
         grid = mesh.grid
     open_gap = _gap_on(problem, grid)
-    check_touch(problem, open_gap, grid)
+    check_touch(problem, points[0][1], open_gap, grid)
     check_period(problem.indenter, open_gap, grid, problem.load)
-    check_balance(problem, open_gap, grid)
+    check_balance(points[1:], open_gap, grid)
     memory = plan_memory(problem, open_gap, grid)
     return RunSetup(problem, grid, open_gap, memory, mesh, int(threads), fastest_transforms())
 
@@ -126,14 +128,14 @@ def _mirrored(problem: Problem, open_gap: NDArray[np.float64], grid: Grid) -> tu
 
 def plan_memory(problem: Problem, open_gap: NDArray[np.float64], grid: Grid) -> HereditaryPlan:
     """Plan the hereditary integral of a problem on a grid, whose open gap is given [m]."""
-    # Pressure and unit displacement are kept, of all cells that are computed.
-    numbers = 2 * open_gap.size // 2 ** sum(_mirrored(problem, open_gap, grid))
     if problem.adaptive is None:
         ends = step_ends(problem.planned_steps)
-        return plan_hereditary_integral(problem.compliance, ends, numbers)
-    # The steps are not known yet: many are assumed, over all decades that may count.
-    end = problem.adaptive.end
-    count = max(ADAPTIVE_STEPS, round(STEP_COUNT_SAFETY * problem.step_count))
-    expected = np.append(0.0, np.geomspace(1e-9 * end, end, count))
-    plan = plan_hereditary_integral(problem.compliance, expected, numbers)
-    return replace(plan, instants=np.zeros(0))
+    else:
+        # The steps are not known yet: many are assumed, over all decades that may count.
+        end = problem.adaptive.end
+        count = max(ADAPTIVE_STEPS, round(STEP_COUNT_SAFETY * problem.step_count))
+        ends = np.append(0.0, np.geomspace(1e-9 * end, end, count))
+    # Pressure and unit displacement are kept, of all cells that are computed.
+    numbers = 2 * open_gap.size // 2 ** sum(_mirrored(problem, open_gap, grid))
+    plan = plan_hereditary_integral(problem.compliance, ends, numbers)
+    return plan if problem.adaptive is None else replace(plan, instants=np.zeros(0))
