@@ -49,7 +49,7 @@ def fit_card(fit: Fit) -> Card:
     parts = {name: float(np.sqrt(np.mean(each**2))) for name, each in fit.residuals.items()}
     rows = [
         ("law", f"{in_plain_words(type(fit.law).__name__)}, terms: {fit.terms}"),
-        *_told_points(fit.points, oscillates),
+        *_point_rows(fit.points, oscillates),
         ("data", fit.data),
         *(
             (f"misses the {name} by", f"{format_percent(part)} (rms)")
@@ -72,9 +72,9 @@ def indentation_fit_card(fit: IndentationFit) -> Card:
     level = f"{fit.confidence:.0%}".replace("%", " %")
     rows = [("law", in_plain_words(type(fit.law).__name__))]
     for (name, value), unit in zip(fit.parameters.items(), fit.units, strict=True):
-        low, high = (_worth(end, unit) for end in fit.intervals[name])
-        told = f"{_worth(value, unit)} ({level}: {low} to {high})"
-        rows.append((name.replace("_", " "), told))
+        low, high = (_format(end, unit) for end in fit.intervals[name])
+        interval = f"{_format(value, unit)} ({level}: {low} to {high})"
+        rows.append((name.replace("_", " "), interval))
     other, unit = ("force", "N") if fit.given == "approach" else ("approach", "m")
     rows += [
         ("given", f"{fit.given} over {format_quantity(float(np.ptp(fit.record.times)), 's')}"),
@@ -92,7 +92,7 @@ def isotherm_card(isotherm: Isotherm) -> Card:
     points = isotherm.points
     rows = [
         ("temperature", _celsius(isotherm.temperature)),
-        *_told_points(points, isotherm.oscillates),
+        *_point_rows(points, isotherm.oscillates),
         ("columns", ", ".join(isotherm.measured)),
     ]
     drawn = [
@@ -108,7 +108,7 @@ def master_curve_card(curve: MasterCurve) -> Card:
     rows = [
         ("reference temperature", _celsius(curve.reference_temperature)),
         ("made of", f"{len(curve.isotherms)} sets"),
-        *_told_points(curve.points, oscillates),
+        *_point_rows(curve.points, oscillates),
         *(
             (f"shift factor at {_celsius(each.temperature)}", format_number(float(factor)))
             for each, factor in zip(curve.isotherms, curve.factors, strict=True)
@@ -128,7 +128,7 @@ def master_curve_card(curve: MasterCurve) -> Card:
     return Card("Master curve", rows, drawn)
 
 
-def _told_points(points: Floats, oscillates: bool) -> Iterator[tuple[str, str]]:
+def _point_rows(points: Floats, oscillates: bool) -> Iterator[tuple[str, str]]:
     yield "rows", str(points.size)
     ends = float(points.min()), float(points.max())
     if oscillates:
@@ -185,7 +185,7 @@ def _some(count: int, most: int = _DOTS) -> slice:
     return slice(None, None, math.ceil(count / most))
 
 
-def _worth(value: float, unit: str) -> str:
+def _format(value: float, unit: str) -> str:
     return format_quantity(value, unit) if unit else format_number(value)
 
 

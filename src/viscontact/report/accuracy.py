@@ -47,8 +47,8 @@ def accuracy_lines(ds: xr.Dataset) -> Iterator[tuple[str, str]]:
 
 
 def _worst(row: SummaryRow) -> str:
-    told = f"{row.error} ({row.part})" if row.when else row.part or row.error
-    return f"{told}; not known at {row.unknown} instants" if row.part and row.unknown else told
+    error = f"{row.error} ({row.part})" if row.when else row.part or row.error
+    return f"{error}; not known at {row.unknown} instants" if row.part and row.unknown else error
 
 
 def _balance(ds: xr.Dataset) -> str:

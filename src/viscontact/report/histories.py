@@ -10,7 +10,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from viscontact.plot.histories.time_axis import suits_log_time
-from viscontact.report.map_data import rounded
+from viscontact.report.map_data import finite_or_none, rounded
 from viscontact.results.formatting import format_with_error
 from viscontact.results.recorded_case import prescribes_approach
 from viscontact.results.stated_errors import MESH_DEPENDENT, errors_of, is_centred
@@ -94,8 +94,8 @@ def _panel(ds: xr.Dataset, name: str) -> dict[str, Any]:
         "name": name,
         "label": SCALARS[name].label,
         "unit": unit.symbol,
-        "value": _or_none(unit(values)),
-        "half": _or_none(unit(errors)),
+        "value": finite_or_none(unit(values)),
+        "half": finite_or_none(unit(errors)),
         "range": _range(unit(values), unit(errors)),
         "hover": _hover(ds, values, errors, units),
         "note": _note(errors, values),
@@ -136,10 +136,3 @@ def _range(values: Floats, errors: Floats) -> list[float]:
     most = min(float(np.nanmax(values + bars)), high + room)
     margin = 0.05 * (most - least)
     return rounded([0.0 if least == 0 else least - margin, most + margin])
-
-
-def _or_none(values: Floats) -> list[float | None]:
-    return [
-        value if math.isfinite(number) else None
-        for value, number in zip(rounded(np.nan_to_num(values)), values.tolist(), strict=True)
-    ]

@@ -54,7 +54,7 @@ def geometry_chapter(ds: xr.Dataset) -> Iterator[Element]:
         yield element(
             "p",
             "A result does not keep a measured surface. Drawn is the body as the grid of this run "
-            "saw it, told from the stored gap, displacement and approach; its lowest point is at "
+            "resolves it, from the stored gap, displacement and approach; its lowest point is at "
             "zero.",
             class_="faint",
         )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import csv
 import io
+import math
 from typing import Any, Literal
 
 import numpy as np
@@ -105,6 +106,11 @@ def strides_of(fields: ShownFields) -> tuple[int, int]:
 def rounded(values: Any, digits: int = 6) -> list[float]:
     """Numbers rounded to significant digits, which keeps a page small."""
     return [float(f"{value:.{digits - 1}e}") for value in np.asarray(values).tolist()]
+
+
+def finite_or_none(values: Floats, digits: int = 6) -> list[float | None]:
+    """Numbers rounded to significant digits for JSON, None in place of NaN and inf."""
+    return [float(f"{v:.{digits - 1}e}") if math.isfinite(v) else None for v in values.tolist()]
 
 
 def _crossing(fields: ShownFields, along: str) -> float:

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from viscontact.plot.histories.time_axis import suits_log_time
 from viscontact.report.accuracy import accuracy_lines
 from viscontact.report.histories import panel_labels
 from viscontact.report.limits import notices, warnings_of
-from viscontact.report.map_data import map_data, rounded, section_data
+from viscontact.report.map_data import finite_or_none, map_data, rounded, section_data
 from viscontact.report.result_chapters import title_of
 from viscontact.report.shown_fields import shown_fields
 from viscontact.results.stated_errors import errors_of
@@ -34,7 +32,7 @@ def run_data(ds: xr.Dataset) -> dict[str, Any]:
     -------
     dict
         Plain data without NaN and inf, which JSON cannot hold: instants and scalars with their
-        errors in SI units, which of them the load prescribes and which are told in tables; of
+        errors in SI units, which of them the load prescribes and which tables list; of
         the fields what `map_data` and `section_data` give, with the factors of their units to
         SI; warnings and the account of accuracy. Null where there is nothing, or an error is not
         known; `mesh` says of a scalar that it depends on the mesh.
@@ -63,7 +61,7 @@ def run_data(ds: xr.Dataset) -> dict[str, Any]:
         "given": given,
         "answers": answers,
         "facts": labels_in(Place.FACTS),
-        "told": summary_scalars(ds),
+        "listed": summary_scalars(ds),
         "map": _map(ds),
         "notices": notices(ds),
         "warnings": warnings_of(ds),
@@ -77,8 +75,8 @@ def _scalar(ds: xr.Dataset, name: str) -> dict[str, Any]:
     return {
         "unit": SCALARS[name].units,
         "meaning": SCALARS[name].long_name,
-        "value": _or_none(values),
-        "error": _or_none(errors),
+        "value": finite_or_none(values, 9),
+        "error": finite_or_none(errors, 9),
         "mesh": bool(np.isposinf(errors).any()),
     }
 
@@ -96,8 +94,3 @@ def _map(ds: xr.Dataset) -> dict[str, Any] | None:
         "sections": [section_data(fields, "x"), section_data(fields, "y")],
         "crossing": fields.through,
     }
-
-
-def _or_none(values: NDArray[np.float64]) -> list[float | None]:
-    known = zip(values.tolist(), rounded(np.nan_to_num(values, posinf=0.0), 9), strict=True)
-    return [digits if math.isfinite(value) else None for value, digits in known]

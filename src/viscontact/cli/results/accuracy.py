@@ -62,8 +62,8 @@ def unknown_lines(ds: xr.Dataset, names: Sequence[str]) -> Iterator[str]:
             "" if done else " yet; they are estimated once the run is over"
         )
     elif places:
-        told = (f"{name.replace('_', ' ')} at {n} of {count}" for name, n in places.items())
-        yield f"error not known: {', '.join(told)} instants"
+        counts = (f"{name.replace('_', ' ')} at {n} of {count}" for name, n in places.items())
+        yield f"error not known: {', '.join(counts)} instants"
 
 
 def knows_errors(ds: xr.Dataset, names: Iterable[str]) -> bool:

@@ -8,10 +8,10 @@ import { toldIn, unitFor } from "./units.js";
 const number = (text, style = "") => make("td", { class: `number ${style}`, textContent: text });
 
 export function numbersTable(data, reference) {
-  const stated = data.told.some((name) => isStated(data.scalars[name]));
-  const rows = data.told.map((name) => row(name, data, reference, stated));
+  const stated = data.listed.some((name) => isStated(data.scalars[name]));
+  const rows = data.listed.map((name) => row(name, data, reference, stated));
   // The column "largest" is left out where all values are largest at the start or the end.
-  const isTold = data.told.every((name) => {
+  const isTold = data.listed.every((name) => {
     const { value } = data.scalars[name];
     return [0, value.length - 1].includes(largestAt(value));
   });
@@ -33,7 +33,7 @@ function head(data, reference, stated) {
 function row(name, data, reference, stated) {
   const scalar = data.scalars[name], other = reference?.data.scalars[name];
   // Values that are rounding errors in the reference are not compared.
-  const before = reference?.data.told.includes(name) ? other.value.at(-1) : null;
+  const before = reference?.data.listed.includes(name) ? other.value.at(-1) : null;
   const unit = unitFor(scalar.unit, scalar.value);
   const at = largestAt(scalar.value), largest = scalar.value[at] ?? null;
   const cell = (value, error, style) =>
