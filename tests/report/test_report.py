@@ -257,7 +257,7 @@ def test_a_measured_surface_is_drawn_from_the_fields() -> None:
     np.testing.assert_allclose(found, exact - exact.min(), rtol=0, atol=1e-12)
     page = _Page(report_page(ds))
     assert "Not drawn" not in page.text
-    assert "as the grid of this run saw it" in page.text
+    assert "as the grid of this run resolves it" in page.text
     told = _Page(report_page(ds.drop_vars(["gap", "displacement"]))).text
     assert "Not drawn: the surface is a measured one" in told
 
