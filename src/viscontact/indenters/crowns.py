@@ -201,9 +201,9 @@ class TwoRadiiCrown(Profile):
         _require_beyond("TwoRadiiCrown", "end_length", self.end_length, half_length)
 
 
-def _require_beyond(noun: str, name: str, end: float | None, half_length: float) -> None:
+def _require_beyond(owner: str, name: str, end: float | None, half_length: float) -> None:
     if end is not None and end < half_length:
         raise ValueError(
-            f"{noun}: {name} must be at least the half length of the straight part, "
+            f"{owner}: {name} must be at least the half length of the straight part, "
             f"{format_quantity(half_length, 'm', 9)}, got {format_quantity(end, 'm', 9)}"
         )

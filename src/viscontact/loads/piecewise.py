@@ -56,7 +56,7 @@ class PiecewiseHistory(LoadHistory):
         return np.asarray(kinks[changed & loaded])
 
     def _loaded_at(self, times: NDArray[np.float64], side: str) -> NDArray[np.bool_]:
-        """Where something may touch: under a force, or a stage that is closer than at first."""
+        """True where contact is possible: under a force, or with an approach above 0 or a tilt."""
         level = self.level_at(times, side=side)
         if self.control == "force":
             return np.asarray(level != 0)

@@ -198,24 +198,24 @@ def harmonic(
 
     Examples
     --------
-    >>> swing = harmonic(mean=10.0, amplitude=5.0, period=2.0, cycles=3)
-    >>> swing.level_at([0.0, 0.5, 1.5, 6.0, 99.0]).tolist()
+    >>> load = harmonic(mean=10.0, amplitude=5.0, period=2.0, cycles=3)
+    >>> load.level_at([0.0, 0.5, 1.5, 6.0, 99.0]).tolist()
     [10.0, 15.0, 5.0, 10.0, 10.0]
     """
     control, middle = _control("harmonic", mean, approach, force_is="mean")
-    swing = _number("amplitude", amplitude, control)
-    if control == "force" and abs(swing) > middle:
+    deviation = _number("amplitude", amplitude, control)
+    if control == "force" and abs(deviation) > middle:
         raise ValueError(
             "harmonic: the force must never be negative, but swings between "
-            f"{format_quantity(middle - swing, 'N', 9)} and "
-            f"{format_quantity(middle + swing, 'N', 9)}; give a mean of at least the amplitude"
+            f"{format_quantity(middle - deviation, 'N', 9)} and "
+            f"{format_quantity(middle + deviation, 'N', 9)}; give a mean of at least the amplitude"
         )
     turns = whole("harmonic: cycles", cycles, 1, MOST_CYCLES)
     tail = _scalar_tail(control, eccentricity_x, eccentricity_y, tilt_x, tilt_y)
     return HarmonicHistory(
         control=control,
         mean=middle,
-        amplitude=swing,
+        amplitude=deviation,
         period=_positive_duration("harmonic: period", period),
         cycles=turns,
         phase=_number("phase", phase),

@@ -79,7 +79,7 @@ class Terms:
 
     @property
     def is_idle(self) -> bool:
-        """Whether nothing relaxes."""
+        """True if no term relaxes."""
         return not any(self.weights)
 
 

@@ -43,7 +43,7 @@ class Points:
 
     @property
     def over_time(self) -> bool:
-        """Whether `at` are times; else angular frequencies."""
+        """True if `at` are times, False if they are angular frequencies."""
         return self.quantity in _OVER_TIME
 
     def of_law(self, law: Law) -> NDArray[np.float64]:
