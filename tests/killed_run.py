@@ -101,7 +101,7 @@ def lines_of(directory: Path) -> list[str]:
 
 def resumed_after(said: str) -> int | None:
     """How many instants a run says that it goes on after; None if it says nothing of the kind."""
-    if found := re.search(r"going on after (\d+) ", said):
+    if found := re.search(r"continuing after (\d+) ", said):
         return int(found[1])
     return 0 if "starting at the beginning" in said else None
 

@@ -321,7 +321,7 @@ def test_adaptive_run_keeps_every_step_and_goes_to_the_end(
         assert 5 < count < 60
         largest = float(ds.time_error.max())
     assert 0 < largest <= 0.01
-    told = f"error owed to the time steps: at most {format_percent(largest)} of the pressure"
+    told = f"error due to the time steps: at most {format_percent(largest)} of the pressure"
     assert told in printed.out
     assert main(["show", "case"]) == 0
     shown = capsys.readouterr().out
@@ -386,7 +386,7 @@ def test_full_disk_stops_the_run_in_one_message(
     # not even the first step could be kept: the same command again is all there is to do
     assert rest == [
         "case keeps nothing yet: no instant was finished",
-        "once that is mended: viscontact run case.yaml --quiet",
+        "after correcting that: viscontact run case.yaml --quiet",
     ]
 
 
@@ -685,7 +685,7 @@ def test_directory_without_a_result_is_refused_in_one_line(
     assert main([command, "nothing", *rest]) == 2
     assert "nothing: no result there" in capsys.readouterr().err
     assert main([command, "case.yaml", *rest]) == 2
-    said = "case.yaml is no run directory and no netCDF file\n"
+    said = "case.yaml is neither a run directory nor a netCDF file\n"
     assert capsys.readouterr().err == said
 
 

@@ -107,14 +107,14 @@ def test_full_disk_stops_the_run_which_goes_on_once_there_is_space(
         number = int(kept.removeprefix("case keeps ").split()[0])
         assert kept.startswith(f"case keeps {number} of 11 instants")
         assert number > 0
-        _, less, saved = kept.partition("; the run goes on after ")
+        _, less, saved = kept.partition("; a resumed run continues after ")
         number = int(saved) if less else number
     words = ["run", "case.yaml", *(["--resume"] if number else [])]
-    assert remedy == "once that is mended: " + " ".join(["viscontact", *words])
+    assert remedy == "after correcting that: " + " ".join(["viscontact", *words])
     assert main(words) == 0
     said = capsys.readouterr().err
     if number:
-        assert said.startswith(f"case: going on after {number} of 11 instants")
+        assert said.startswith(f"case: continuing after {number} of 11 instants")
     assert same_bits("case", whole)
 
 
@@ -341,7 +341,7 @@ def test_pipe_is_no_file_of_a_run(
     with ending_within(10):
         assert main(["run", "case.yaml", *words]) == 2
     (line,) = said_in_lines(capsys)
-    assert f"{name}: is no regular file" in line
+    assert f"{name}: is not a regular file" in line
 
 
 @contextmanager

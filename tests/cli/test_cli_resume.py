@@ -47,7 +47,7 @@ def test_resumed_run_ends_in_the_bits_of_an_uninterrupted_one(
     kill(4, "-q")
     assert main(["run", "case.yaml", "--resume"]) == 0
     printed = capsys.readouterr()
-    assert printed.err.startswith("case: going on after 4 of 11 instants, t = 1.5 s\n")
+    assert printed.err.startswith("case: continuing after 4 of 11 instants, t = 1.5 s\n")
     assert "step 5/11" in printed.err
     # the summary is of all instants, those of the first process too
     assert "11 instants in" in printed.out
@@ -84,7 +84,7 @@ def test_finished_run_is_not_run_again(folder: Path, capsys: pytest.CaptureFixtu
     assert main(["run", "case.yaml", "--resume"]) == 0
     said = capsys.readouterr()
     assert said.out + said.err == (
-        "case: is finished already, up to t = 5 s; --overwrite computes it anew\n"
+        "case: is finished already, up to t = 5 s; --overwrite computes it again\n"
     )
     assert contents("case") == before
 
@@ -243,10 +243,10 @@ def test_command_that_is_told_goes_on_with_the_run(
     undo()
     *_, kept, told = capsys.readouterr().err.splitlines()
     assert kept == "a b keeps 3 of 11 instants"
-    words = shlex.split(told.removeprefix("go on with: "))
+    words = shlex.split(told.removeprefix("continue with: "))
     assert words == ["viscontact", "run", "case.yaml", *given, "--resume"]
     assert main(words[1:]) == 0
-    assert "going on after 3 of 11 instants" in capsys.readouterr().err
+    assert "continuing after 3 of 11 instants" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGHUP"])
@@ -482,13 +482,13 @@ def test_show_and_plot_tell_of_a_run_that_can_go_on(
     for words in (["show", "a b"], ["plot", "a b/result.nc", "history"]):
         assert main(words) == 0
         printed = capsys.readouterr()
-        said = "the run stopped at 4 of 11 instants; go on with: "
+        said = "the run stopped at 4 of 11 instants; continue with: "
         [line] = [line for line in (printed.out + printed.err).splitlines() if said in line]
     command = shlex.split(line.removeprefix(said))
     with locked(Path("a b")):
         assert main(["show", "a b"]) == 0
         told = capsys.readouterr().out
-        assert "the run is still going on, at 4 of 11 instants" in told
+        assert "the run is still active, at 4 of 11 instants" in told
         assert "errors: not known yet; they are estimated once the run is over" in told
         assert "largest error" not in told
     assert main(command[1:]) == 0
@@ -561,7 +561,7 @@ def test_command_to_resume_names_files_that_look_like_options(
     assert main(["run", "-q", "--", "-e.yaml"]) == 130
     undo()
     *_, last = capsys.readouterr().err.splitlines()
-    assert main(shlex.split(last.removeprefix("go on with: "))[1:]) == 0
+    assert main(shlex.split(last.removeprefix("continue with: "))[1:]) == 0
     assert same_bits("./-e", whole)
 
 
@@ -577,7 +577,7 @@ def test_directory_that_is_gone_is_not_said_to_keep_anything(
     assert main(["run", "case.yaml", "-q"]) in (1, 130)
     undo()
     said = capsys.readouterr().err
-    assert "case is not there any more" in said
+    assert "case no longer exists" in said
     assert "keeps" not in said
     assert "--resume" not in said
 

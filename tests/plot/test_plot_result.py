@@ -217,4 +217,4 @@ def test_every_figure_of_the_command_line_takes_a_width(
         assert "--width" in capsys.readouterr().err
     drawn = [word for word in words if word not in ("-o", "--plot", "it.png")]
     assert main([*drawn, "--width", "single"]) == 2
-    assert capsys.readouterr().err.startswith("--width: a width is a figure's; add")
+    assert capsys.readouterr().err.startswith("--width: applies to figures only; add")

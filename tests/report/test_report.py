@@ -304,7 +304,7 @@ def test_report_writes_a_page_beside_the_result(
         (["no-run"], "no-run: no result there"),
         (
             ["run.nc", "-o", "a.pdf"],
-            "a.pdf: a report is a page of HTML; name it so, e.g. -o a.html",
+            "a.pdf: a report is an HTML page; name it so, e.g. -o a.html",
         ),
         (["run.nc", "-o", "nowhere/a.html"], "nowhere/a.html: there is no directory nowhere"),
     ],

@@ -82,7 +82,10 @@ def test_runs_at_once_end_in_the_bits_of_runs_alone(
             parts = [found.part for each in told if (found := largest_error(ds, each))]
             assert format_percent(max(parts)) in printed.out
     # what is finished is not run again
-    assert command("## What can go wrong") == [*command("## Values"), "--resume"]
+    assert command("## Errors and interruptions") == [
+        *command("## Parameter variation"),
+        "--resume",
+    ]
     times = {name: Path(name, "result.nc").stat().st_mtime_ns for name in ("zener", "maxwell")}
     assert main([*command("# Many runs"), "--resume"]) == 0
     assert "was finished" in capsys.readouterr().out
@@ -92,7 +95,7 @@ def test_runs_at_once_end_in_the_bits_of_runs_alone(
 def test_varied_values_have_directories_of_their_own_and_the_rim_stops_only_one(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    words = [*command("## Values"), "--vary", "grid.size=[3mm,3mm],[1 mm, 1 mm]", "-q"]
+    words = [*command("## Parameter variation"), "--vary", "grid.size=[3mm,3mm],[1 mm, 1 mm]", "-q"]
     assert main(words) == 1
     # those that stop in their first instant leave nothing
     names = [f"zener_force={force}_size=3mm-3mm" for force in ("2N", "4N")]
@@ -201,7 +204,7 @@ def test_runs_are_stopped_together_and_resumed_to_the_same_bits(folder: Path) ->
     for name, path in zip(both, courses, strict=True):
         with vc.open_results(name) as ds:
             assert 3 < ds.sizes["time"] == path.read_bytes().count(b"\n") < 3001
-    resuming = shlex.split(said.splitlines()[-1].removeprefix("go on with: viscontact "))
+    resuming = shlex.split(said.splitlines()[-1].removeprefix("continue with: viscontact "))
     assert resuming == [*words[:2], *words[6:8], *words[8:], *words[2:6], "--resume"]
     assert main([*resuming, "-q"]) == 0
     assert main(["run", "zener.yaml", "--set", "load.force=3N", *words[8:], "-q"]) == 0

@@ -24,7 +24,7 @@ def beside_the_case(name: str, info: ValidationInfo) -> str:
 
 
 def is_plain_name(name: str) -> bool:
-    """Whether a name is that of a file in the same folder, on any system.
+    """True if a name is that of a file in the same folder, on any system.
 
     Examples
     --------
@@ -37,7 +37,7 @@ def is_plain_name(name: str) -> bool:
 
 
 def _is_special(name: str) -> bool:
-    """Whether Windows reads the name as a device or as another name."""
+    """True if Windows reads the name as a device or as another name."""
     return name[-1:] in (".", " ") or bool(_DEVICE.match(name))
 
 

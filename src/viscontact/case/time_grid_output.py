@@ -219,6 +219,6 @@ def with_instants(
         return times
     # A field requested at 30 s is computed at 30 s, not at a step nearby; it replaces a step that
     # differs by rounding only.
-    asked = np.asarray(fields)
-    doubled = np.isclose(times[:, None], asked[None, :], rtol=1e-6, atol=0.0).any(axis=1)
-    return np.union1d(times[~doubled], asked)
+    requested = np.asarray(fields)
+    doubled = np.isclose(times[:, None], requested[None, :], rtol=1e-6, atol=0.0).any(axis=1)
+    return np.union1d(times[~doubled], requested)

@@ -63,5 +63,5 @@ def viscontact(
     """Simulate the contact of a body with a viscoelastic half-space over time."""
 
 
-#: Click command; calling `app` would build it anew each time.
+#: Click command; calling `app` would build it again each time.
 command = typer.main.get_command(app)

@@ -46,7 +46,7 @@ class Token:
 
     @property
     def is_number(self) -> bool:
-        """Whether the token begins a quantity or a count."""
+        """True if the token begins a quantity or a count."""
         return _NUMBER.fullmatch(self.text) is not None
 
 
@@ -155,7 +155,7 @@ def _quantity(tokens: Sequence[Token]) -> tuple[str, int]:
 
 
 def _is_no_unit(tokens: Sequence[Token]) -> bool:
-    """Whether a word continues the sentence: in "0.1 in in 1 s" the second "in" does."""
+    """True if a word continues the sentence: in "0.1 in in 1 s" the second "in" does."""
     words = [token.word for token in itertools.islice(tokens, 2)]
     prepositions = {*_WITHIN.split("|"), "at", "for", "with", "until"}
     if words[0] == "in" and (len(words) == 1 or words[1] in prepositions):

@@ -62,7 +62,7 @@ class Load(Section):
 
     @property
     def is_by_pressure(self) -> bool:
-        """Whether a mean pressure is prescribed, which needs an area."""
+        """True if a mean pressure is prescribed, which needs an area."""
         return getattr(self, "mean_pressure", None) is not None
 
     @property

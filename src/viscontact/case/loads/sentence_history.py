@@ -51,7 +51,7 @@ def course_of(sentences: Sequence[Sentence]) -> Course:
 
 
 def _control(sentences: Sequence[Sentence]) -> Control:
-    """Whether the sentences prescribe forces or lengths; both are refused."""
+    """True if the sentences prescribe forces or lengths; both are refused."""
     found: Control | None = None
     for sentence in sentences:
         for given in sentence.reading.slots:

@@ -99,7 +99,7 @@ def _server() -> Any:
 
 
 def _has_display() -> bool:
-    """Whether a browser would open in a window, and not in the terminal."""
+    """True if a browser would open in a window, and not in the terminal."""
     if sys.platform in ("win32", "darwin"):
         return True
     return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))

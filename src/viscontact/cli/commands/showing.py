@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
-from viscontact.cli.terminal.messages import refuse
+from viscontact.cli.terminal.messages import refuse, say
+from viscontact.run_files import RESULT_NAME
 
 RunDirectory = Annotated[
     Path, typer.Argument(metavar="DIR", help="Run directory, or its .nc file.")
@@ -56,9 +57,23 @@ def report(
     ] = None,
 ) -> None:
     """Write a report on a run as one HTML page."""
-    from viscontact.cli.results.page import write_page
+    from viscontact.cli.results.stored import early_end, opened
 
-    print(write_page(directory, output))
+    if output is not None and output.suffix.lower() not in (".html", ".htm"):
+        refuse(f"{output}: a report is an HTML page; name it so, e.g. -o {output.stem}.html")
+    package = _report_package()
+    is_file = directory.suffix == ".nc" and not directory.is_dir()
+    page = output or (directory.with_suffix(".html") if is_file else directory / "report.html")
+    if output is not None and not page.parent.is_dir():
+        refuse(f"{page}: there is no directory {page.parent}")
+    with opened(directory) as ds:
+        if ended := early_end(ds):
+            say(ended)
+        try:
+            package.write_report(ds, page, label=_run_label(directory.resolve()))
+        except (ValueError, OSError) as error:
+            refuse(f"{page}: {error}")
+    print(page)
 
 
 def verify(
@@ -74,3 +89,21 @@ def verify(
     from viscontact.cli.results.verification_table import print_verification
 
     print_verification(fast=fast, output=output)
+
+
+def _report_package() -> Any:
+    """Return `viscontact.report`, or name the missing package."""
+    try:
+        from viscontact import report as package
+    except ModuleNotFoundError as error:
+        if error.name not in ("matplotlib", "contourpy", "plotly"):
+            raise
+        refuse(f"a report needs {error.name}: pip install 'viscontact[plot]'")
+    return package
+
+
+def _run_label(place: Path) -> str:
+    """Name of a run's directory, or of a file that is not in a run directory."""
+    if place.is_dir() or place.suffix != ".nc":
+        return place.name
+    return place.parent.name if place.name == RESULT_NAME else place.stem

@@ -25,7 +25,7 @@ PAUSE = 0.05
 def execute_many(request: ManyRequest) -> None:
     """Run several cases, each into its directory."""
     if request.common.overwrite and request.common.resume:
-        refuse("--resume goes on with runs and --overwrite begins them anew: give one of them")
+        refuse("--resume continues runs and --overwrite starts them again: give one of them")
     quiet = request.common.quiet
     with watched_interruption() as interruption:
         with before_the_first_step():
@@ -108,7 +108,7 @@ def _end(request: ManyRequest, jobs: Sequence[Job], ended: Sequence[Ended]) -> N
     stopped = [each.job.name for each in runs if each.code == STOPPED]
     lines = [f"{len(stopped)} of {len(runs)} runs stopped: {', '.join(stopped)}"] if stopped else []
     if any(each.code == INTERRUPTED for each in runs):
-        stop(*lines, "interrupted", f"go on with: {request.resuming}", code=INTERRUPTED)
+        stop(*lines, "interrupted", f"continue with: {request.resuming}", code=INTERRUPTED)
     if stopped:
         stop(*lines)
 

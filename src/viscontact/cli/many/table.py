@@ -1,4 +1,4 @@
-"""The summary of several runs: a row each."""
+"""Summary table of several runs, one row each."""
 
 from __future__ import annotations
 
@@ -20,16 +20,16 @@ from viscontact.results.variables import SCALARS, Place, shown_in
 from viscontact.runs.processes.child import Ended
 from viscontact.units.formatting import format_number, format_quantity, readable_unit
 
-#: Number of runs that are named with a warning.
+#: Largest number of runs named with a warning.
 _NAMED = 3
 
 
 @dataclass(frozen=True)
 class _Found:
-    """Results of a run: its largest values [SI], time spent [s], and warnings.
+    """Results of a run: largest values [SI], their error, computing time [s] and warnings.
 
-    The error is the largest of those values, as a part of the value: nan if none is known, inf if
-    a value depends on the mesh.
+    The error is the largest relative one of these values [-], nan if none is known and inf if a
+    value depends on the mesh.
     """
 
     largest: dict[str, float]
@@ -48,7 +48,7 @@ def print_table(runs: Sequence[Ended]) -> None:
 
 
 def _found(ended: Ended) -> _Found | None:
-    """The result in the run's directory; None if there is none, or it is another run's."""
+    """Results in the directory of a run; None without any, or of another run."""
     if ended.outcome in ("refused", "not begun"):
         return None
     try:
@@ -100,7 +100,7 @@ def _table(runs: Sequence[Ended], found: Sequence[_Found | None]) -> Table:
 
 
 def _warnings(runs: Sequence[Ended], found: Sequence[_Found | None]) -> list[str]:
-    """Warnings, each once, with the runs that issued it."""
+    """Each warning once, with the names of its runs."""
     concerned: dict[str, list[str]] = {}
     for ended, each in zip(runs, found, strict=True):
         for text in each.warnings if each else ():

@@ -1,4 +1,4 @@
-"""Lines on the accuracy of a run below its tables."""
+"""Lines about the accuracy of a result."""
 
 from __future__ import annotations
 
@@ -16,23 +16,15 @@ from viscontact.results.stated_errors import (
 )
 from viscontact.results.variables import error_name
 
-#: Begin of the description of the memory of a series law, which is exact.
+#: First words of the description of an exact hereditary integral, which needs no line.
 _EXACT = "recursion, exact"
 
 
 def accuracy_lines(time_error: ArrayLike, memory: str, inversion_error: float) -> Iterator[str]:
-    """Yield lines on the errors of the time steps, the memory and the law.
-
-    Parameters
-    ----------
-    time_error : array_like
-        Estimated relative error of the pressure owed to the steps, at each instant [-].
-    inversion_error : float
-        Estimated relative error of a numerical conversion of the law [-].
-    """
+    """Yield lines about errors of the time integration and of the law."""
     largest = float(np.nanmax(np.asarray(time_error, dtype=float), initial=0.0))
     if largest > 0:
-        yield f"error owed to the time steps: {format_bound(largest)} of the pressure (estimated)"
+        yield f"error due to the time steps: {format_bound(largest)} of the pressure (estimated)"
     if memory and not memory.startswith(_EXACT):
         yield f"memory: {memory}"
     if inversion_error > 0:
@@ -42,7 +34,7 @@ def accuracy_lines(time_error: ArrayLike, memory: str, inversion_error: float) -
 
 
 def mesh_lines(ds: xr.Dataset, names: Iterable[str]) -> Iterator[str]:
-    """Yield the meaning of the mark ``>`` in front of numbers, where there are any."""
+    """Yield the meaning of the mark ``>``, where a scalar has it."""
     found = {name: largest_error(ds, name) for name in names}
     marked = [name for name, each in found.items() if each and np.isposinf(each.half_width)]
     if marked:
@@ -52,7 +44,7 @@ def mesh_lines(ds: xr.Dataset, names: Iterable[str]) -> Iterator[str]:
 
 
 def unknown_lines(ds: xr.Dataset, names: Sequence[str]) -> Iterator[str]:
-    """Yield the scalars whose errors are not known everywhere."""
+    """Yield a line about scalars whose errors are unknown at some instants."""
     count = ds.sizes["time"]
     found = {name: largest_error(ds, name) for name in names}
     places = {name: each.unknown for name, each in found.items() if each and each.unknown}
@@ -62,16 +54,16 @@ def unknown_lines(ds: xr.Dataset, names: Sequence[str]) -> Iterator[str]:
             "" if done else " yet; they are estimated once the run is over"
         )
     elif places:
-        counts = (f"{name.replace('_', ' ')} at {n} of {count}" for name, n in places.items())
-        yield f"error not known: {', '.join(counts)} instants"
+        unknown = (f"{name.replace('_', ' ')} at {n} of {count}" for name, n in places.items())
+        yield f"error not known: {', '.join(unknown)} instants"
 
 
 def knows_errors(ds: xr.Dataset, names: Iterable[str]) -> bool:
-    """Whether the error of any of these scalars is known at any instant."""
+    """Return whether the error of any of these scalars is known at any instant."""
     found = (largest_error(ds, name) for name in names)
     return any(each is not None and not np.isnan(each.half_width) for each in found)
 
 
 def has_errors(ds: xr.Dataset) -> bool:
-    """Whether a result states errors of its scalars."""
+    """Return whether a result states errors of its scalars."""
     return any(error_name(str(name)) in ds for name in ds.data_vars)

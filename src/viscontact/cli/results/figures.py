@@ -1,4 +1,4 @@
-"""Figures drawn and written, or refused in one line."""
+"""Drawing and writing of figures and animations."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from viscontact.cli.terminal.progress import frames_shown
 from viscontact.units.formatting import format_quantity
 from viscontact.units.parsing import parse_quantity
 
-#: The figure that moves; it is written by its own means.
+#: Name of the animation, which is written differently.
 ANIMATION = "animation"
 #: Figures of the fields at single instants; the others take times as a span.
 _OF_INSTANTS = (
@@ -34,7 +34,7 @@ def draw(
     output: Path | None,
     options: Mapping[str, str | float | None] | None = None,
 ) -> Path:
-    """Draw a figure of one run, by default to FIGURE.png in its directory; return the file."""
+    """Draw a figure of one run."""
     plot = plot_package()
     draw_it = _named(figure, {**plot.FIGURES, ANIMATION: plot.animation})
     instants, chosen = _instants(times), _chosen(options or {}, figure, draw_it)
@@ -43,11 +43,11 @@ def draw(
     file = output or folder / f"{figure}{'.gif' if moves else '.png'}"
     _require_suffix(plot, file, plot.FILM_SUFFIXES if moves else plot.FIGURE_SUFFIXES)
     with opened(directory) as ds:
-        if figure != "creep":  # the law goes on after the run
+        if figure != "creep":  # the law is known beyond the run
             _refuse_outside(instants, ds, directory)
         _note(early_end(ds), _snapped(instants, ds, figure))
         if moves:
-            save_film(plot, file, ds, times=instants, **chosen)
+            save_animation(plot, file, ds, times=instants, **chosen)
         else:
             save(plot, file, draw_it, ds, times=instants, **chosen)
     return file
@@ -60,7 +60,7 @@ def draw_comparison(
     output: Path | None,
     options: Mapping[str, str | float | None] | None = None,
 ) -> Path:
-    """Draw a figure of several runs, by default to compare-FIGURE.png here; return the file."""
+    """Draw a figure of several runs."""
     plot = plot_package()
     draw_it = _named(figure, plot.COMPARISONS)
     instants, chosen = _instants(times), _chosen(options or {}, figure, draw_it)
@@ -72,7 +72,7 @@ def draw_comparison(
         runs = [stack.enter_context(opened(directory)) for directory in directories]
         labelled = dict(zip(_labels(directories), runs, strict=True))
         for directory, (label, ds) in zip(directories, labelled.items(), strict=True):
-            if figure != "creep":  # the law goes on after the run
+            if figure != "creep":  # the law is known beyond the run
                 _refuse_outside(instants, ds, directory)
             notes = (early_end(ds), _snapped(instants, ds, figure))
             _note(*(f"{label}: {note}" for note in notes if note))
@@ -81,7 +81,7 @@ def draw_comparison(
 
 
 def plot_package() -> Any:
-    """Import `viscontact.plot`, or refuse with the extra that it needs."""
+    """Return `viscontact.plot`, or name the missing package."""
     try:
         from viscontact import plot
     except ModuleNotFoundError as error:
@@ -109,11 +109,11 @@ def _instants(times: Iterable[str]) -> list[float] | None:
 def _chosen(
     options: Mapping[str, str | float | None], figure: str, draw_it: Any
 ) -> dict[str, str | float]:
-    """Options as figures take them; refused where the figure has no such option."""
+    """Options that were given, refused where they do not apply to the figure."""
     given = {name: value for name, value in options.items() if value is not None}
     for name in given:
         if name not in signature(draw_it).parameters:
-            refuse(f"--{name}: the figure {figure} has no such choice")
+            refuse(f"--{name}: does not apply to the figure {figure}")
     return {name: _read(name, value) for name, value in given.items()}
 
 
@@ -122,7 +122,7 @@ def _read(name: str, value: str | float) -> str | float:
     try:
         return parse_quantity(str(value), "length") if is_length else value
     except ValueError as error:
-        words = "; or say single (89 mm) or double (183 mm)" if name == "width" else ""
+        words = "; or write single (89 mm) or double (183 mm)" if name == "width" else ""
         refuse(f"--{name}: {error}{words}")
 
 
@@ -131,7 +131,7 @@ def chosen_width(width: str | None, *, drawn: bool, switch: str) -> str | float 
     if width is None:
         return None
     if not drawn:
-        refuse(f"--width: a width is a figure's; add {switch}")
+        refuse(f"--width: applies to figures only; add {switch}")
     read = _read("width", width)
     try:
         plot_package().layout.page.page_width(read, 1.0)
@@ -150,7 +150,7 @@ def _require_suffix(plot: Any, file: Path, suffixes: Sequence[str]) -> None:
 
 def _refuse_outside(instants: list[float] | None, ds: xr.Dataset, directory: Path) -> None:
     start, end = (float(ds["time"][index]) for index in (0, -1))
-    # A last digit of slack: "0.1 min" and the run's own 6 s may differ by it.
+    # Tolerance for rounding: "0.1 min" may differ from 6 s in the last digit.
     slack = 1e-9 * end
     for instant in instants or ():
         if not start - slack <= instant <= end + slack:
@@ -161,7 +161,7 @@ def _refuse_outside(instants: list[float] | None, ds: xr.Dataset, directory: Pat
 
 
 def _snapped(instants: list[float] | None, ds: xr.Dataset, figure: str) -> str:
-    """Print the instants that are drawn in place of those that are not stored."""
+    """Message about stored instants drawn in place of requested ones; empty without any."""
     if not instants or figure not in _OF_INSTANTS or "pressure" not in ds:
         return ""
     stored = ds[ds["pressure"].dims[0]].values
@@ -184,14 +184,14 @@ def _labels(directories: Sequence[Path]) -> list[str]:
     return names if unique else [str(path) for path in directories]
 
 
-def save_film(plot: Any, file: Path, ds: xr.Dataset, **options: Any) -> None:
-    """Draw and write an animation, or refuse in one line; print the file's name."""
+def save_animation(plot: Any, file: Path, ds: xr.Dataset, **options: Any) -> None:
+    """Draw and write an animation, and print the name of its file."""
     try:
         film = plot.animation(ds, **options)
         stored = len(set(film.instants.tolist()))
         if stored < film.instants.size / 4:
             say(
-                f"{film.instants.size} frames show {stored} stored instants; for a smooth film run "
+                f"{film.instants.size} frames show {stored} stored instants; for smooth motion run "
                 "again with --set output.fields=all"
             )
         with frames_shown(film.instants.size) as progress:
@@ -202,7 +202,7 @@ def save_film(plot: Any, file: Path, ds: xr.Dataset, **options: Any) -> None:
 
 
 def save(plot: Any, file: Path, draw_it: Any, results: Any, **options: Any) -> None:
-    """Draw and write a figure, or refuse in one line; print the file's name."""
+    """Draw and write a figure, and print the name of its file."""
     try:
         plot.save_figure(draw_it(results, **options), file)
     except (ValueError, OSError) as error:

@@ -37,13 +37,13 @@ from viscontact.units.formatting import (
 )
 
 _ROWS = 20
-#: Blanks between columns, and the spare width below which heads are broken between words: the
-#: terminal would break words as well.
+#: Blanks between columns, and the spare width below which headings are wrapped here; rich would
+#: also break words.
 _GAP, _TO_SPARE = 2, 8
 
 
 def print_history(ds: xr.Dataset, *, everything: bool = False, errors: bool = False) -> None:
-    """Print scalars over time in readable units: all instants or a selection, errors below."""
+    """Print scalars over time in readable units, with their errors below if requested."""
     if errors and not has_errors(ds):
         refuse("--errors: the result states none; it is older, or was run with errors: false")
     console = Console()
@@ -53,7 +53,7 @@ def print_history(ds: xr.Dataset, *, everything: bool = False, errors: bool = Fa
     columns = _columns(ds, ["time", *shown], rows, errors=errors)
     least = sum(column.width + _GAP for column in columns)
     table = _table(ds, columns, narrow=least + _TO_SPARE > console.width)
-    # Wider than the terminal rather than with digits left out.
+    # Never truncated, even where the table is wider than the terminal.
     console.print(table, crop=False)
     if len(rows) < count:
         console.print(f"{len(rows)} of {count} instants; --all shows every one")
@@ -66,7 +66,7 @@ def print_history(ds: xr.Dataset, *, everything: bool = False, errors: bool = Fa
 
 
 def write_csv(ds: xr.Dataset, output: Path | None) -> None:
-    """Write all scalars in SI units, a row an instant."""
+    """Write all scalars in SI units, one row per instant."""
     if output is None:
         write_history(ds, sys.stdout)
         return
@@ -78,17 +78,17 @@ def write_csv(ds: xr.Dataset, output: Path | None) -> None:
 
 
 def _footers(ds: xr.Dataset, shown: list[str], *, errors: bool) -> Iterator[str]:
-    """Lines below the table: loss per cycle, where the load has cycles, and remarks on errors."""
+    """Lines about the loss per cycle and about errors."""
     losses = ds["loss_per_cycle"].values
-    # The loss of the last whole cycle is repeated until the next is over.
+    # The loss of a cycle is repeated until the next cycle is complete.
     known = losses[np.isfinite(losses)]
     if known.size:
         first, last = (format_quantity(float(loss), "J") for loss in known[[0, -1]])
         several = f"{first} in the first cycle, {last} in the last"
         yield f"loss per cycle: {last if np.ptp(known) == 0 else several}{_loss_error(ds)}"
     if knows_errors(ds, shown):
-        said = "largest error: the worst of the run, in % of the largest value"
-        yield f"{said}; ±: at that instant" if errors else f"{said}; --errors shows each one"
+        legend = "largest error: of the whole run, in % of the largest value"
+        yield f"{legend}; ±: at that instant" if errors else f"{legend}; --errors shows each one"
     yield from unknown_lines(ds, shown)
     yield from mesh_lines(ds, shown)
     attributes = (str(ds.attrs.get("memory", "")), float(ds.attrs.get("inversion_error", 0.0)))
@@ -110,7 +110,7 @@ def _largest(ds: xr.Dataset, name: str) -> float:
 
 @dataclass(frozen=True)
 class _Column:
-    """A column of the table: the words of its head, its cells, and its foot."""
+    """Column of the table: words of its heading, cells and footer."""
 
     head: tuple[str, ...]
     cells: list[str]
@@ -118,7 +118,7 @@ class _Column:
 
     @property
     def width(self) -> int:
-        """Of its longest word."""
+        """Width of its longest word."""
         lines = (line for cell in self.cells for line in cell.splitlines())
         return max(map(len, (*self.head, *lines, *self.foot.splitlines())))
 
@@ -129,7 +129,7 @@ def _columns(
     columns = []
     for name in names:
         largest = _largest(ds, name)
-        if largest == 0:  # of a single instant at time 0
+        if largest == 0:  # the time of a run with a single instant at 0
             continue
         unit = readable_unit(ds[name].attrs["units"], largest)
         foot = "largest\nerror" if name == "time" else _error_in_percent(largest_error(ds, name))
@@ -162,7 +162,7 @@ def _cells(
 ) -> list[str]:
     values, error = ds[name].values[rows] / factor, stated_error(ds, name)
     if name == "time":
-        # Adaptive steps begin small: "0.005" leaves room that "0.005000" would not.
+        # Adaptive steps are short at first: "0.005" takes less space than "0.005000".
         times = [without_trailing_zeros(format_number(float(value))) for value in values]
         return [f"{time}\n" for time in times] if errors else times
     if error is None:

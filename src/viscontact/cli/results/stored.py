@@ -1,4 +1,4 @@
-"""Stored runs, opened or refused."""
+"""Opening of stored results, and messages about incomplete runs."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from viscontact.cli.terminal.messages import refuse
 from viscontact.results.netcdf import open_results
 from viscontact.results.recorded_case import case_of
 from viscontact.results.variables import SCALARS
-from viscontact.run_files import CASE_NAME, LOCK_NAME, RESULT_NAME, STATE_NAME
-from viscontact.runs.directory.lock import DirectoryInUse, locked
+from viscontact.run_files import CASE_NAME, RESULT_NAME, STATE_NAME
+from viscontact.runs.directory.lock import is_locked
 from viscontact.runs.processes.request import RunRequest
 from viscontact.state import Outcome
 from viscontact.units.formatting import format_quantity
@@ -22,7 +22,7 @@ from viscontact.units.formatting import format_quantity
 
 @contextmanager
 def opened(path: Path) -> Iterator[xr.Dataset]:
-    """Open the result of a run, or refuse in one line."""
+    """Open the result of a run, or refuse it with a message."""
     try:
         ds = open_results(path)
     except FileNotFoundError:
@@ -42,35 +42,28 @@ def opened(path: Path) -> Iterator[xr.Dataset]:
 
 
 def early_end(ds: xr.Dataset) -> str:
-    """Sentence on a run that ended early, with the command that resumes it; empty if complete."""
+    """Message about a run that ended early; empty for a complete one."""
     try:
         case = case_of(ds)
         times, adaptive = case["times"], case.get("adaptive")
         end = float(times[-1])
-    except (KeyError, IndexError, TypeError, ValueError):  # a dataset of the user's own making
+    except (KeyError, IndexError, TypeError, ValueError):  # not written by a run
         return ""
     reached = float(ds["time"][-1])
     if reached >= end:
         return ""
     made = progress_made(ds.sizes["time"], reached, times, adaptive)
     directory = _run_directory(ds)
-    if directory is not None and _is_in_use(directory):
-        return f"the run is still going on, at {made}"
-    failed = int(ds["outcome"][-1]) == Outcome.NOT_CONVERGED  # and would again
-    return f"the run stopped at {made}{'' if failed or directory is None else _way_on(directory)}"
+    if directory is not None and is_locked(directory):
+        return f"the run is still active, at {made}"
+    failed = int(ds["outcome"][-1]) == Outcome.NOT_CONVERGED  # would fail again
+    return f"the run stopped at {made}{'' if failed or directory is None else _remedy(directory)}"
 
 
 def progress_made(
     done: int, reached: float | None, times: Sequence[float], adaptive: object
 ) -> str:
-    """Progress of a run: its complete instants.
-
-    Parameters
-    ----------
-    reached : float or None
-        The last of them [s]; None without any.
-    times : sequence of float
-        The run's instants [s]; where it chooses its steps, the last is the end.
+    """Describe the progress of a run, with times in seconds.
 
     Examples
     --------
@@ -88,33 +81,22 @@ def progress_made(
 
 
 def _run_directory(ds: xr.Dataset) -> Path | None:
-    """Directory of an unfinished run; None if it cannot be resumed."""
+    """Directory of an incomplete run; None if it cannot be resumed."""
     source = ds.encoding.get("source")
     directory = Path(str(source)).parent
     return directory if source is not None and (directory / STATE_NAME).is_file() else None
 
 
-def _is_in_use(directory: Path) -> bool:
-    if not (directory / LOCK_NAME).exists():
-        return False
-    try:
-        with suppress(OSError), locked(directory):
-            return False
-    except DirectoryInUse:
-        return True
-    return False
-
-
-def _way_on(directory: Path) -> str:
+def _remedy(directory: Path) -> str:
     with suppress(ValueError):  # on another drive
         directory = Path(os.path.relpath(directory))
-    return f"; go on with: {RunRequest(directory / CASE_NAME, directory).resuming}"
+    return f"; continue with: {RunRequest(directory / CASE_NAME, directory).resuming}"
 
 
 def _unreadable(path: Path, error: Exception) -> str:
-    # The reader's own words name the file again, and an error number.
+    # Messages of the reader repeat the file name and contain an error number.
     if isinstance(error, ValueError) and path.is_file():
-        return f"{path} is no run directory and no netCDF file"
+        return f"{path} is neither a run directory nor a netCDF file"
     if isinstance(error, ValueError):
-        return f"{path}: its {RESULT_NAME} is no netCDF file"
+        return f"{path}: its {RESULT_NAME} is not a netCDF file"
     return f"{path}: {error}"

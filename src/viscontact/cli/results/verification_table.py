@@ -1,4 +1,4 @@
-"""The table of `verify`, printed while the cases run."""
+"""Table of `verify`, with its progress."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from viscontact.cli.terminal.messages import refuse, say, stop
 from viscontact.verify import Case, Result, run_cases, write_table
 from viscontact.verify.table import HEADINGS, SUFFIXES, row_of_words
 
-#: Columns with numbers, which are right-aligned.
+#: Columns of numbers, aligned to the right.
 _NUMBERS = ("exact", "ours", "error", "bound", "order")
 
-#: Columns that the table needs; a narrower terminal gets them all the same.
+#: Least width of the table, on narrower terminals as well.
 _WIDTH = 130
 
 
 def print_verification(*, fast: bool, output: Path | None) -> None:
-    """Run all cases, print the table, and write it to a file if one is named."""
+    """Run all cases, print the table, and write it where a file is named."""
     _refuse_bad_output(output)
     started = clock.perf_counter()
     results = run_cases(fast=fast, progress=_say_progress)
@@ -44,13 +44,13 @@ def _refuse_bad_output(output: Path | None) -> None:
     if output is None:
         return
     if output.suffix not in SUFFIXES:
-        refuse(f"{output}: wanted a file that ends in .md or .csv, e.g. -o verification.md")
+        refuse(f"{output}: must be a .md or .csv file, e.g. -o verification.md")
     if not output.parent.is_dir():
         refuse(f"{output}: there is no directory {output.parent}; make it, or write elsewhere")
 
 
 def _say_progress(case: Case, done: int, total: int) -> None:
-    """Print the running case: on a line that is overwritten, or now and then without a terminal."""
+    """Print the current case: on one line on a terminal, at intervals elsewhere."""
     if sys.stderr.isatty():
         end = "\r" if done + 1 < total else "\r\033[K"
         print(f"\033[K{done + 1}/{total} {case.name}", end=end, file=sys.stderr, flush=True)

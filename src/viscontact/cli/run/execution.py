@@ -28,7 +28,7 @@ from viscontact.units.formatting import format_quantity
 def execute(request: RunRequest) -> Path:
     """Run a case and write its result; return the run directory."""
     if request.overwrite and request.resume:
-        refuse("--resume goes on with a run and --overwrite begins it anew: give one of them")
+        refuse("--resume continues a run and --overwrite starts it again: give one of them")
     with watched_interruption() as interruption:
         with before_the_first_step():
             checked = checked_run(request)
@@ -92,13 +92,15 @@ def _resumed_record(checked: CheckedRun, interruption: Interruption) -> RunRecor
         refuse(str(error))
     except OSError as error:
         stop(
-            f"{recorded.directory}: the run cannot go on: {error}",
-            f"what it keeps is as it was; once that is mended: {checked.request.resuming}",
+            f"{recorded.directory}: the run cannot be continued: {error}",
+            f"what it keeps is unchanged; after correcting that: {checked.request.resuming}",
         )
     made = checked.made(*record.resumed)
     time = record.resumed.time
     at = "" if time is None else f", t = {format_quantity(time, 's')}"
-    checked.say(f"{recorded.directory}: going on after {made}{'' if ', up to t =' in made else at}")
+    checked.say(
+        f"{recorded.directory}: continuing after {made}{'' if ', up to t =' in made else at}"
+    )
     return record
 
 
@@ -126,13 +128,13 @@ def _march(checked: CheckedRun, record: RunRecord, interruption: Interruption) -
     except (OSError, MemoryError) as error:
         _publish(record)
         why = f"{checked.recorded.directory}: the run stopped: {str(error) or type(error).__name__}"
-        stop(why, _resumable(checked, record), f"once that is mended: {_remedy(checked, record)}")
+        stop(why, _resumable(checked, record), f"after correcting that: {_remedy(checked, record)}")
     except KeyboardInterrupt:
         _publish(record)
         is_complete = False
     if not is_complete:
         kept = _resumable(checked, record)
-        stop("interrupted", kept, f"go on with: {_remedy(checked, record)}", code=INTERRUPTED)
+        stop("interrupted", kept, f"continue with: {_remedy(checked, record)}", code=INTERRUPTED)
 
 
 def _complete_march(checked: CheckedRun, record: RunRecord, interruption: Interruption) -> bool:
@@ -168,7 +170,7 @@ def _publish(record: RunRecord) -> None:
 def _kept(checked: CheckedRun, record: RunRecord) -> str:
     directory = checked.recorded.directory
     if _is_gone(checked, record):
-        return f"{directory} is not there any more, and what it kept has gone with it"
+        return f"{directory} no longer exists, and neither does what it kept"
     if not record.shown.instants:
         return f"{directory} keeps nothing yet: no instant was finished"
     return f"{directory} keeps {checked.made(*record.shown)}"
@@ -177,7 +179,7 @@ def _kept(checked: CheckedRun, record: RunRecord) -> str:
 def _resumable(checked: CheckedRun, record: RunRecord) -> str:
     saved = record.saved.instants
     lost = saved < record.shown.instants and not _is_gone(checked, record)
-    return _kept(checked, record) + (f"; the run goes on after {saved}" if lost else "")
+    return _kept(checked, record) + (f"; a resumed run continues after {saved}" if lost else "")
 
 
 def _remedy(checked: CheckedRun, record: RunRecord) -> str:
@@ -187,7 +189,7 @@ def _remedy(checked: CheckedRun, record: RunRecord) -> str:
 
 
 def _is_gone(checked: CheckedRun, record: RunRecord) -> bool:
-    """Whether the saved files were removed or moved during the run."""
+    """True if the directory has been removed or moved during the run."""
     files = (checked.recorded.directory / name for name in (RESULT_NAME, STATE_NAME))
     return record.shown.instants > 0 and not any(file.exists() for file in files)
 
@@ -197,7 +199,7 @@ def _say_finished(checked: CheckedRun) -> None:
     remove_leftovers(directory)
     checked.say(
         f"{directory}: is finished already, up to t = "
-        f"{format_quantity(run.problem.end, 's')}; --overwrite computes it anew"
+        f"{format_quantity(run.problem.end, 's')}; --overwrite computes it again"
     )
 
 

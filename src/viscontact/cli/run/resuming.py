@@ -1,13 +1,15 @@
-"""Whether a run begins, goes on, or is over already."""
+"""State of a run directory: new, stopped or finished, or refused."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
+from math import isclose
 from pathlib import Path
-from typing import NoReturn
+from typing import Any, NoReturn
 
-from viscontact.case import Case
-from viscontact.cli.run.case_changes import case_changes
+from viscontact.case import Case, CaseError
+from viscontact.case.document import read_document
+from viscontact.case.yaml_source import parse
 from viscontact.cli.run.run_directory import is_of_a_run, refuse_no_directory, refuse_occupied
 from viscontact.cli.terminal.messages import refuse
 from viscontact.run_files import CASE_NAME, RESULT_NAME, STATE_NAME
@@ -16,30 +18,17 @@ from viscontact.runs.directory.recorded_run import Recorded
 from viscontact.runs.directory.stored_result import StoredRun, stored_run
 from viscontact.runs.processes.job import Standing
 from viscontact.runs.processes.request import RunRequest
+from viscontact.units.dimensions import DIMENSIONS
+from viscontact.units.parsing import parse_quantity
+
+#: Largest number of changes of a case that are listed.
+_MAX_CHANGES = 12
+#: Keys without influence on the numbers.
+_IRRELEVANT = ("title",)
 
 
 def standing(request: RunRequest, recorded: Recorded, case: Case) -> Standing:
-    """Tell what is to be done in the directory of a run.
-
-    Parameters
-    ----------
-    request : RunRequest
-        What is asked for.
-    recorded : Recorded
-        The run.
-    case : Case
-        The case it is from.
-
-    Returns
-    -------
-    Standing
-        Whether the run begins, goes on, or is over.
-
-    Raises
-    ------
-    typer.Exit
-        With code 2, if something would be lost, or the run cannot go on.
-    """
+    """Return whether the run of a directory is new, stopped or finished; refuse it otherwise."""
     directory = recorded.directory
     refuse_no_directory(directory)
     if not request.resume:
@@ -65,31 +54,16 @@ def standing(request: RunRequest, recorded: Recorded, case: Case) -> Standing:
 
 
 def refuse_changed(directory: Path, case: Case, changes: Iterable[Difference]) -> NoReturn:
-    """Refuse to go on with a run as another one, and show what differs.
-
-    Parameters
-    ----------
-    directory : Path
-        Where the run is.
-    case : Case
-        The case now.
-    changes : iterable of Difference
-        How the runs differ, in SI units.
-
-    Raises
-    ------
-    typer.Exit
-        With code 2.
-    """
+    """Refuse to resume a run of another case, and list the differences."""
     refuse(
         f"{directory}: holds a run of another case; replace it with --overwrite, or choose another "
         "directory with -o DIR; what differs:",
-        *case_changes(directory / CASE_NAME, case, changes),
+        *_case_changes(directory / CASE_NAME, case, changes),
     )
 
 
 def _stored(directory: Path) -> StoredRun | str | None:
-    """What the result says of itself, or why it cannot; None without one."""
+    """Summary of the stored result, or the reason why it cannot be read; None without one."""
     result = directory / RESULT_NAME
     if not (result.exists() or result.is_symlink()):
         return None
@@ -97,3 +71,38 @@ def _stored(directory: Path) -> StoredRun | str | None:
         return stored_run(result)
     except ValueError as error:
         return str(error)
+
+
+def _case_changes(kept: Path, case: Case, computed: Iterable[Difference]) -> list[str]:
+    """Return a line for each change of the case.
+
+    The computed differences, in SI units, are used where the files are equal, as when a table that
+    they name has changed.
+    """
+    try:
+        written = differences(read_document(kept).data, parse(case.text)[0])
+    except CaseError:
+        written = ()
+    changes = [each for each in written if not _means_the_same(each)] or list(computed)
+    lines = [f"  {each}" for each in changes[:_MAX_CHANGES]]
+    return lines + (
+        [f"  and {len(changes) - _MAX_CHANGES} more"] if len(changes) > _MAX_CHANGES else []
+    )
+
+
+def _means_the_same(change: Difference) -> bool:
+    if change.where in _IRRELEVANT:
+        return True
+    return any(
+        isclose(one, other, rel_tol=1e-12)
+        for dimension in DIMENSIONS
+        if (one := _quantity(change.before, dimension)) is not None
+        and (other := _quantity(change.now, dimension)) is not None
+    )
+
+
+def _quantity(value: Any, dimension: str) -> float | None:
+    try:
+        return parse_quantity(value, dimension) if isinstance(value, str) else None
+    except ValueError:
+        return None

@@ -1,4 +1,4 @@
-"""The directory of a run: what it may be, what is put there, and that only one run writes to it."""
+"""Run directory: checks before it is used, its lock, and the files of the case."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ from viscontact.runs.directory.lock import DirectoryInUse, locked
 from viscontact.runs.directory.progress_log import is_course
 from viscontact.runs.directory.stored_result import stored_run
 
-#: What a run writes over without being asked, and what tells that a run has written it.
+#: Files that a run overwrites, and functions that recognize those written by a run.
 _WRITTEN = {STATE_NAME: is_checkpoint, PROGRESS_NAME: is_course}
 
 _NAMES = (CASE_NAME, RESULT_NAME, STATE_NAME, PROGRESS_NAME)
 
 
 def chosen_directory(case: Path, output: Path | None) -> Path:
-    """Return where a run goes: as asked, or CASE/ beside the case file."""
+    """Return the directory of a run: the given one, or CASE/ at the case file."""
     if output is not None:
         return output
     if not case.suffix:
@@ -35,7 +35,7 @@ def chosen_directory(case: Path, output: Path | None) -> Path:
 
 
 def refuse_no_directory(directory: Path) -> None:
-    """Refuse what cannot be the directory of a run."""
+    """Refuse a path that cannot be a run directory."""
     try:
         directory.exists()
     except OSError as error:  # such as a name that is too long
@@ -45,14 +45,14 @@ def refuse_no_directory(directory: Path) -> None:
     for path in (directory / name for name in _NAMES):
         if path.is_dir():
             refuse(f"{path}: is a directory, where a run has a file; choose another -o DIR")
-        if path.exists() and not path.is_file():  # to read a pipe is to wait for ever
-            refuse(f"{path}: is no regular file, as a run has there; choose another -o DIR")
+        if path.exists() and not path.is_file():  # reading a pipe would never end
+            refuse(f"{path}: is not a regular file; choose another -o DIR")
 
 
 def refuse_occupied(directory: Path, case: Case, *, overwrite: bool) -> None:
-    """Refuse a directory in which something of the user's would be lost."""
+    """Refuse a directory in which files of the user would be lost."""
     kept, is_runs = directory / CASE_NAME, is_of_a_run(directory)
-    # What a run has left that was stopped in its first step is nothing to lose.
+    # A run that stopped in its first step has no results to lose.
     if not overwrite and _holds_an_instant(directory / RESULT_NAME):
         refuse(
             f"{directory}: holds a result already; continue it with --resume, replace it with "
@@ -71,7 +71,7 @@ def refuse_occupied(directory: Path, case: Case, *, overwrite: bool) -> None:
 
 
 def write_case(directory: Path, case: Case) -> None:
-    """Write the case as it is run, and the files it names, each all at once."""
+    """Write the case as run and the files it names, each atomically."""
     for file in case.file_names:
         if digest(file) != case.digests[file]:
             raise OSError(f"{file} was changed while the run was being prepared")
@@ -84,7 +84,7 @@ def write_case(directory: Path, case: Case) -> None:
 
 @contextmanager
 def reserved(directory: Path) -> Iterator[None]:
-    """Make the directory, and keep other runs out of it for as long as the block goes on."""
+    """Make the directory, and lock it for the duration of the block."""
     is_new = not directory.exists()
     try:
         directory.mkdir(parents=True, exist_ok=True)
@@ -99,18 +99,18 @@ def reserved(directory: Path) -> Iterator[None]:
             yield
     finally:
         if is_new:
-            # Nothing came of it if it is empty.
+            # Removed only if it is empty.
             with suppress(OSError):
                 directory.rmdir()
 
 
 def is_same_file(one: Path, other: Path) -> bool:
-    """Whether two paths, links followed, name one file that is there."""
+    """True if two paths, links followed, are the same existing file."""
     return one.exists() and other.exists() and one.samefile(other)
 
 
 def is_of_a_run(directory: Path) -> bool:
-    """Whether a run has begun there, be it that it came to nothing: one of its files is ours."""
+    """True if the directory contains a file that a run has written."""
     if any(is_ours(directory / name) for name, is_ours in _WRITTEN.items()):
         return True
     try:
@@ -120,7 +120,7 @@ def is_of_a_run(directory: Path) -> bool:
 
 
 def _write(path: Path, content: bytes) -> None:
-    """Replace a file; a link in its place is replaced too, lest another file be written to."""
+    """Replace a file; a link is replaced as well, so that its target is not changed."""
     if not path.is_symlink() and path.is_file() and path.read_bytes() == content:
         return
     fresh = path.with_name(f".{path.name}.new")
@@ -136,17 +136,17 @@ def _write(path: Path, content: bytes) -> None:
 
 
 def _refuse_other_programs(directory: Path) -> None:
-    """Refuse to replace what no run has written; a link is replaced, and what it leads to stays."""
+    """Refuse to replace files that no run has written; links are replaced, their targets kept."""
     for path in (directory / name for name in _WRITTEN):
         if path.is_file() and not path.is_symlink() and path.stat().st_size:
             refuse(
-                f"{path}: is there already, and viscontact has not written it; choose another "
+                f"{path}: exists already, and viscontact has not written it; choose another "
                 "directory with -o DIR"
             )
 
 
 def _holds_an_instant(result: Path) -> bool:
-    """Whether a result has anything to lose; a file that cannot be read may have."""
+    """True if a result has completed instants; an unreadable file may have."""
     if not result.exists():
         return result.is_symlink()
     try:
@@ -160,11 +160,11 @@ def _says_the_same(kept: Path, case: Case) -> bool:
 
 
 def _texts(earlier: Path) -> set[str]:
-    """All values of an earlier run's case that are texts, the names of its tables among them."""
+    """All texts in the case of an earlier run, the names of its tables included."""
     try:
         found: list[Any] = [read_document(earlier).data]
     except (CaseError, OSError):
-        return set()  # who has changed it may have changed what it names
+        return set()  # a changed case may name other files
     texts = set()
     while found:
         value = found.pop()
@@ -177,7 +177,7 @@ def _texts(earlier: Path) -> set[str]:
 
 
 def _refuse_other_data(directory: Path, case: Case, earlier: Path | None) -> None:
-    """Refuse to replace a file by a table of its name, unless an earlier run has put it there."""
+    """Refuse to replace a file by a table of the same name, unless an earlier run wrote it."""
     replaceable = _texts(earlier) if earlier and earlier.exists() else set()
     for file, name in case.file_names.items():
         there = directory / name

@@ -72,6 +72,18 @@ def locked(directory: str | Path) -> Iterator[None]:
         lock.release()
 
 
+def is_locked(directory: Path) -> bool:
+    """True if another run has locked the directory."""
+    if not (directory / LOCK_NAME).exists():
+        return False
+    try:
+        with suppress(OSError), locked(directory):
+            return False
+    except DirectoryInUse:
+        return True
+    return False
+
+
 def _leave_name(descriptor: int) -> None:
     """Say in the locked file whose it is; no more than a hint, so that it may fail."""
     with suppress(OSError):

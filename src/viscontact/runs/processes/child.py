@@ -102,7 +102,7 @@ class Child:
             return Ended(self.job, "interrupted", INTERRUPTED)
         if code < 0:
             why = f"{self.job.directory}: the run was killed by signal {-code}"
-            way_on = f"go on with: {replace(self.job.request, quiet=False).resuming}"
+            way_on = f"continue with: {replace(self.job.request, quiet=False).resuming}"
             return Ended(self.job, "killed", STOPPED, (*lines, why, way_on))
         # Others have begun: that nothing was changed is true of this one alone.
         return Ended(self.job, "refused" if code == REFUSED else "stopped", STOPPED, lines)

@@ -1,4 +1,4 @@
-"""Scalars of a run at work, read from its progress lines as they are written."""
+"""Scalars of an active run, read from its progress lines as they are written."""
 
 from __future__ import annotations
 
@@ -11,26 +11,15 @@ from typing import Any
 from viscontact.results.variables import Place, labels_in
 from viscontact.run_files import PROGRESS_NAME
 
-#: At most so much is read at once [bytes].
+#: Largest part that is read at once [bytes].
 _MOST = 1_000_000
 
 
 def grown(directory: Path, after: int) -> dict[str, Any]:
-    """Return what a run has written since it was last read.
+    """Return times [s] and scalars [SI] after a position in the progress lines [bytes].
 
-    Parameters
-    ----------
-    directory : Path
-        The run's.
-    after : int
-        How far its lines have been read [bytes]; 0 for all of them.
-
-    Returns
-    -------
-    dict
-        Labels of the scalars, and instants [s] and scalars in SI units since then, `None` where
-        they are not a number; from where on they are, and how far they have now been read. What
-        is read from 0 on replaces whatever was read before.
+    Values that are not finite are None. `begun` is the position of the first line returned: 0 means
+    that earlier values are replaced; `after` is the position for the next call.
     """
     begun, lines = _lines(directory / PROGRESS_NAME, after)
     labels = labels_in(Place.LIVE)
@@ -50,7 +39,7 @@ def grown(directory: Path, after: int) -> dict[str, Any]:
 
 
 def _lines(path: Path, after: int) -> tuple[int, bytes]:
-    """Whole lines from a place on; from the beginning where there are others now."""
+    """Complete lines from a position; from the beginning where the file has become shorter."""
     with suppress(OSError), path.open("rb") as file:
         size = file.seek(0, 2)
         begun = after if 0 <= after <= size else 0

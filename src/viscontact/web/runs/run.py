@@ -6,8 +6,8 @@ import time as clock
 from contextlib import suppress
 from dataclasses import replace
 
-from viscontact.run_files import LOCK_NAME, RESULT_NAME, STATE_NAME
-from viscontact.runs.directory.lock import DirectoryInUse, locked
+from viscontact.run_files import RESULT_NAME, STATE_NAME
+from viscontact.runs.directory.lock import is_locked
 from viscontact.runs.processes.child import Child, Ended
 from viscontact.runs.processes.exit_codes import DONE, INTERRUPTED
 from viscontact.runs.processes.job import Job, Standing
@@ -43,22 +43,22 @@ class ManagedRun:
 
     @property
     def is_over(self) -> bool:
-        """Whether the state is final."""
+        """True if the state is final."""
         return self.entry.state in OVER
 
     @property
     def is_at_work(self) -> bool:
-        """Whether the run is being computed."""
+        """True if the run is being computed."""
         return self.entry.state == "running"
 
     @property
     def is_starting(self) -> bool:
-        """Whether the process has been started and has not completed a step."""
+        """True if the process has been started and has not completed a step."""
         return self._child is not None and self.course.instants == self._before
 
     @property
     def is_resumable(self) -> bool:
-        """Whether the run stopped early and can be continued."""
+        """True if the run stopped early and can be continued."""
         if self.entry.state in ("cancelled", "interrupted"):
             return True
         # After a failure that can be corrected, such as a full disk, the message names --resume.
@@ -108,12 +108,12 @@ class ManagedRun:
 
     @property
     def is_foreign(self) -> bool:
-        """Whether the process was started by an earlier server that was killed."""
+        """True if the process was started by an earlier server that was killed."""
         return self.is_at_work and self._child is None
 
     @property
     def is_estimating(self) -> bool:
-        """Whether all steps are done and the errors are being estimated."""
+        """True if all steps are done and the errors are being estimated."""
         return self.is_at_work and self.entry.errors and self.course.part >= 1
 
     @property
@@ -156,7 +156,7 @@ class ManagedRun:
             return
         if self._is_complete():
             self.set_state("done")
-        elif self._is_in_use():
+        elif is_locked(self.directory):
             self.set_state("running")
         else:
             self.set_state("interrupted")
@@ -171,7 +171,7 @@ class ManagedRun:
     def _poll_lock(self) -> None:
         """Update a run of an earlier server, which ends when its lock is free."""
         self.course.look()
-        if not self._is_in_use():
+        if not is_locked(self.directory):
             self.restore_state()
 
     def _keep_pace(self) -> None:
@@ -193,14 +193,3 @@ class ManagedRun:
         # The restart file is removed when a run is complete.
         saved = (self.directory / STATE_NAME).exists()
         return bool(self.course.instants) and (self.directory / RESULT_NAME).exists() and not saved
-
-    def _is_in_use(self) -> bool:
-        if not (self.directory / LOCK_NAME).exists():
-            return False
-        try:
-            with locked(self.directory):
-                return False
-        except DirectoryInUse:
-            return True
-        except OSError:
-            return False

@@ -27,7 +27,7 @@ _STAGES = {"waiting": "waiting", "running": "steps"}
 #: End of the message about a stopped run.
 _ITS = "its results are kept"
 #: First words of messages that name commands, for which the page has buttons.
-_COMMANDS = ("go on with:", "with that changed,", "once that is mended:", "interrupted")
+_COMMANDS = ("continue with:", "with that changed,", "after correcting that:", "interrupted")
 _WITHOUT_COMMAND = re.compile(r"^the run: (?=the run )|; [^;]*--overwrite[^;]*$")
 
 

@@ -68,5 +68,5 @@ def lines_of(problems: Iterable[Problem]) -> list[str]:
 
 
 def _is_key(text: str, line: int | None) -> bool:
-    """Whether the text is a key, and not a file name."""
+    """True if the text is a key, and not a file name."""
     return line is not None or not re.search(r"\.(csv|npz|npy|ya?ml)$", text)
