@@ -1,4 +1,4 @@
-// The histories of a run at work, as they grow: drawn from the lines that it writes anyway.
+// Histories of an active run, drawn from its progress lines.
 
 import { instant } from "./charts.js";
 import { make, place } from "./dom.js";
@@ -6,7 +6,7 @@ import { get } from "./server.js";
 import { unitFor } from "./units.js";
 
 const WIDTH = 200, HEIGHT = 60, MOST_POINTS = 400;
-// Between two questions; a run may take hundreds of steps a second.
+// Time between two requests [ms]; a run may complete hundreds of steps a second.
 const PAUSE = 400;
 let curves = null;
 let asked = 0;
@@ -31,13 +31,13 @@ async function ask(mine, status) {
     mine.step = mine.time.length - 1;
     if (curves === mine) show(mine, status);
   } catch (error) {
-    if (!error.problems) throw error; // the next event asks again
+    if (!error.problems) throw error; // the next event repeats the request
   } finally {
     mine.busy = false;
   }
 }
 
-// A run that was gone on with may have written some lines anew.
+// A resumed run may have written some lines again.
 function take(mine, news) {
   if (news.begun === 0) Object.assign(mine, none(mine.id), { busy: true });
   const kept = news.time.length ? mine.time.filter((time) => time < news.time[0]).length : mine.time.length;
@@ -59,7 +59,7 @@ function show(mine, status) {
   if (isFirst) place("progress").scrollIntoView({ block: "nearest" });
 }
 
-// Where an instant stands, from 0 to 1: on a logarithmic axis where the steps grow.
+// Position of an instant, 0 to 1: on a logarithmic axis where the steps grow.
 function scale(times, end) {
   const first = times.find((time) => time > 0) ?? end;
   if (first > end / 200) return (time) => time / end;
