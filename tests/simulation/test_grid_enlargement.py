@@ -12,7 +12,7 @@ import pytest
 import viscontact as vc
 from runs.directory.test_recorder import finish, same_bits, stop_after
 from simulation.measured_swing import write_swing
-from simulation.test_march import differing, through_a_file
+from simulation.test_march import differing, steps_of, through_a_file
 from viscontact.grid import AutomaticGrid
 from viscontact.problem.problem import Problem
 from viscontact.runs.directory.recorded_run import Recorded
@@ -82,7 +82,7 @@ RUNS = {
 
 
 def states_of(run: RunSetup) -> list[ContactState]:
-    return [taken.state for taken in March(run) if taken.state is not None]
+    return [state for state in March(run) if state is not None]
 
 
 @pytest.mark.parametrize("kind", RUNS)
@@ -142,8 +142,8 @@ def test_run_goes_on_to_the_same_bits_before_and_after_its_grid_grows(kind: str)
     run = growing(prepare(small))
     march = March(run)
     whole, cells = [], []
-    for taken in march:
-        whole.append(taken)
+    for state in march:
+        whole.append((state, march.done, march.left))
         cells.append(tuple(march.restart_data()["cells"]))
     first = cells.index(next(each for each in cells if each != small.shape))
     for count in (first, first + 1, len(whole) - 1):
@@ -152,7 +152,7 @@ def test_run_goes_on_to_the_same_bits_before_and_after_its_grid_grows(kind: str)
         begun = March(run)
         for _ in zip(range(count), begun, strict=False):
             restart_data = through_a_file(begun.restart_data())
-        assert differing(whole[count:], list(March(run, restart_data))) == []
+        assert differing(whole[count:], steps_of(March(run, restart_data))) == []
 
 
 def test_result_holds_what_is_known_on_the_last_grid_and_tells_when_it_grew() -> None:

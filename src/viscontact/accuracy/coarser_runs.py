@@ -188,18 +188,18 @@ def march_coarser_run(
     peak = 0.0
     sharp = False
     try:
-        for taken in March(run):
+        for state in March(run):
             if on_step is not None:
                 on_step()
-            if taken.state is None:
+            if state is None:
                 continue
-            states.append(taken.state.without_fields())
-            contact = taken.state.pressure > 0
+            states.append(state.without_fields())
+            contact = state.pressure > 0
             ends.append(touches_end(run.open_gap, contact))
             spots.append(cells_across_spots(contact, periodic=run.grid.periodic))
-            if taken.state.peak_pressure > 1.1 * peak:
-                peak = taken.state.peak_pressure
-                sharp = sharp or _peaks_at_point(coarser_run, taken.state)
+            if state.peak_pressure > 1.1 * peak:
+                peak = state.peak_pressure
+                sharp = sharp or _peaks_at_point(coarser_run, state)
     except (ConvergenceError, DomainError):
         return None
     return CoarserResult(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from viscontact.contact.domain import ContactDomain
 from viscontact.contact.equilibrium import ContactSolution
@@ -21,24 +20,18 @@ from viscontact.time_integration.restart_data import RestartData
 from viscontact.units.formatting import format_quantity
 
 
-@dataclass(frozen=True, eq=False)
-class CompletedStep:
-    """A completed step of a run.
-
-    `state` is None for an inner step, at whose end no state was requested; `done` and `left` count
-    requested states (those left are an estimate where the run chooses its steps).
-    """
-
-    outcome: Outcome
-    state: ContactState | None
-    done: int
-    left: int
-
-
 class March:
     """Loop over the steps of a run: iterate, stop after any step, and continue later.
 
-    With the restart data of the same run it continues after that step, to the same bits.
+    It yields the state at the end of each step, None for an inner one, at whose end no state was
+    requested. With the restart data of the same run it continues after that step, to the same bits.
+
+    Attributes
+    ----------
+    done : int
+        Requested states so far.
+    outcome : Outcome
+        How the last step ended.
 
     Examples
     --------
@@ -52,7 +45,7 @@ class March:
     >>> steps = iter(begun)
     >>> first = next(steps)
     >>> resumed = March(run, begun.restart_data())
-    >>> [step.state.approach for step in resumed] == [step.state.approach for step in steps]
+    >>> [state.approach for state in resumed] == [state.approach for state in steps]
     True
     """
 
@@ -64,11 +57,11 @@ class March:
         self._stepper = Stepper(run, self._domain)
         self._steps = run.problem.steps()
         self._observer = Observer(run)
-        self._done = 0
+        self.done, self.outcome = 0, Outcome.CONVERGED
         if restart_data is not None:
             self._restore(restart_data)
 
-    def __iter__(self) -> Iterator[CompletedStep]:
+    def __iter__(self) -> Iterator[ContactState | None]:
         """Solve the remaining steps.
 
         Raises
@@ -83,6 +76,11 @@ class March:
                 raise ConvergenceError(_not_converged(self._run, step, trial.solution))
         self._observer.refuse_coarse_mesh()
 
+    @property
+    def left(self) -> int:
+        """Requested states still to come; an estimate where the run chooses its steps."""
+        return self._steps.left
+
     def restart_data(self) -> RestartData:
         """Return the state after a step as plain data."""
         return {
@@ -91,7 +89,7 @@ class March:
             "observer": self._observer.restart_data(),
             "patch": list(self._domain.kept_patch),
             "cells": list(self._run.grid.shape),
-            "done": self._done,
+            "done": self.done,
         }
 
     def _restore(self, restart_data: RestartData) -> None:
@@ -100,7 +98,7 @@ class March:
         self._observer.restore(restart_data["observer"])
         first_row, last_row, first_column, last_column = restart_data["patch"]
         self._domain.keep_patch((first_row, last_row, first_column, last_column))
-        self._done = restart_data["done"]
+        self.done = restart_data["done"]
 
     def _advance(self) -> tuple[Step, TrialStep]:
         """Solve the next step; repeat it on a larger grid, or shorter, where necessary."""
@@ -135,16 +133,16 @@ class March:
         self._observer.map_fields(run, GridEnlargement(self._domain, domain))
         self._run, self._domain = run, domain
 
-    def _complete(self, step: Step, trial: TrialStep) -> CompletedStep:
+    def _complete(self, step: Step, trial: TrialStep) -> ContactState | None:
         solution = self._stepper.accept(step, trial)
+        self.outcome = trial.outcome
         _refuse_rim(self._run, step, solution)
         state = self._observer.evaluate(step, trial.point, solution)
         if step.requested is None:
-            return CompletedStep(trial.outcome, None, self._done, self._steps.left)
-        self._done += 1
+            return None
+        self.done += 1
         last = step.requested >= self._run.problem.end
-        state = self._observer.add_warnings(state, last=last)
-        return CompletedStep(trial.outcome, state, self._done, self._steps.left)
+        return self._observer.add_warnings(state, last=last)
 
 
 def _domain_of(run: RunSetup) -> ContactDomain:

@@ -108,11 +108,12 @@ def march(
 
 def march_run(run: RunSetup, progress: Progress | None = None) -> Iterator[ContactState]:
     """Yield the states of a run that has been set up; see `march`."""
-    for taken in March(run):
-        if taken.state is None:
+    loop = March(run)
+    for state in loop:
+        if state is None:
             continue
-        for text in taken.state.warnings:
+        for text in state.warnings:
             warnings.warn(text, AccuracyWarning, stacklevel=2)
         if progress is not None:
-            progress(taken.state, taken.done, taken.done + taken.left)
-        yield taken.state
+            progress(state, loop.done, loop.done + loop.left)
+        yield state

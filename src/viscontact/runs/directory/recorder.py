@@ -23,7 +23,7 @@ from viscontact.runs.directory.recorded_run import (
     saved_state,
 )
 from viscontact.runs.directory.result_writer import ResultWriter
-from viscontact.simulation.march import CompletedStep, March
+from viscontact.simulation.march import March
 from viscontact.simulation.state_generator import Progress
 from viscontact.state import ContactState, Outcome
 
@@ -150,14 +150,15 @@ class RunRecord:
         OSError
             If something cannot be written; likewise.
         """
-        for taken in self._march:
+        march = self._march
+        for state in march:
             with self._undisturbed():
-                self._record(taken)
-            if taken.state is not None and progress is not None:
-                progress(taken.state, taken.done, taken.done + taken.left)
+                self._record(state)
+            if state is not None and progress is not None:
+                progress(state, march.done, march.done + march.left)
             # A failed step is no equilibrium to continue from: the march is about to raise.
-            if taken.outcome is not Outcome.NOT_CONVERGED:
-                yield taken.state
+            if march.outcome is not Outcome.NOT_CONVERGED:
+                yield state
 
     def checkpoint(self) -> None:
         """Publish the result and save the restart state; call it between two steps only.
@@ -240,16 +241,16 @@ class RunRecord:
             with suppress(OSError):
                 self._lines.close()
 
-    def _record(self, taken: CompletedStep) -> None:
-        failed = taken.outcome is Outcome.NOT_CONVERGED
+    def _record(self, state: ContactState | None) -> None:
+        failed = self._march.outcome is Outcome.NOT_CONVERGED
         if self._lines is None:
             if failed:
                 return  # nothing to keep, and an earlier result stays
             self._begin()
-        if taken.state is not None:
-            self._write(taken.state)
+        if state is not None:
+            self._write(state)
             if not failed:
-                self._instants, self._time = self._instants + 1, taken.state.time
+                self._instants, self._time = self._instants + 1, state.time
         if not failed and clock.monotonic() >= self._due:
             self.checkpoint()
 
