@@ -25,7 +25,7 @@ def test_a_power_of_the_spacing_is_found_with_its_error(order: float, spacings: 
 
 
 @pytest.mark.parametrize("spacings", [CELL_RATIOS, np.array([0.3, 0.7, 0.9])])
-def test_what_has_no_limit_is_told(spacings: np.ndarray) -> None:
+def test_values_without_a_limit_are_found(spacings: np.ndarray) -> None:
     tip, edge = -np.log(spacings) + 3.0, spacings**-0.5
     found = richardson(np.stack([tip, edge], axis=1), spacings)
     assert not found.converges.any()
@@ -58,7 +58,7 @@ def test_what_hardly_changes_converges() -> None:
 
 
 @pytest.mark.parametrize(
-    ("values", "spacings", "told"),
+    ("values", "spacings", "message"),
     [
         ([1.0, 2.0], CELL_RATIOS, "three sets"),
         (1.0, CELL_RATIOS, "three sets"),
@@ -67,6 +67,6 @@ def test_what_hardly_changes_converges() -> None:
         ([1.0, 2.0, 3.0], [1.0, 2.0], "increasing"),
     ],
 )
-def test_nonsense_is_refused(values: Any, spacings: Any, told: str) -> None:
-    with pytest.raises(ValueError, match=told):
+def test_nonsense_is_refused(values: Any, spacings: Any, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
         richardson(values, spacings)

@@ -282,7 +282,7 @@ GUARDS = {
     ),
     "a load that swings between the instants asked for": Guard(
         vc.AccuracyWarning,
-        "between the instants asked for the peak pressure reaches",
+        "between the requested times the peak pressure reaches",
         met=Job(load=vc.harmonic(5e3, 4e3, 1.0, 2), times=[0.0, 1.0, 2.0]),
         missed=Job(load=vc.harmonic(5e3, 4e3, 1.0, 2), times=np.linspace(0, 2, 17)),
     ),

@@ -85,7 +85,7 @@ def test_map_that_is_no_period_is_refused(shape, grid, why):
 
 
 def test_approach_that_presses_everything_flat_is_refused():
-    """The waves are 1 um deep in the mean: at that approach no pressure is told by it."""
+    """The waves are 1 um deep in the mean: that approach determines no pressure."""
     with pytest.raises(ValueError, match=r"load\.approach: at 1 µm the surfaces .* everywhere"):
         run(load=vc.step(approach=1e-6))
     assert run(load=vc.step(approach=0.99e-6)).contact_area[0] < PERIOD.area
@@ -138,7 +138,7 @@ def test_contact_may_cross_the_border():
 
 
 @pytest.mark.filterwarnings("ignore:from one of:viscontact.AccuracyWarning")
-def test_step_at_the_border_is_told():
+def test_step_at_the_border_causes_a_warning():
     """A measured map that does not continue at its border has a step there."""
     x = (np.arange(32) - 15.5) / 32 * 1e-3
     ramp = vc.HeightMap(x, x, np.tile(2e-6 * x[:, None] / 1e-3, 32))

@@ -109,14 +109,14 @@ def test_a_swinging_load_is_never_stepped_over():
     assert {1.0, 2.0, 3.0} <= {each.time for each in taken}
 
 
-def test_what_is_left_is_foretold_within_a_factor_of_two_under_steady_growth():
+def test_what_is_left_is_predicted_within_a_factor_of_two_under_steady_growth():
     steps = AdaptiveSteps(adaptive_times(1e4, 1e-3), np.zeros(0), step(1.0), KELVIN)
-    foretold, taken = [], 0
+    predicted, taken = [], 0
     while (each := steps.next_step()) is not None:
         if steps.accept_step(1e-2 * each.duration**3 / max(each.time, 1e-9) ** 3):
             taken += 1
-            foretold.append(taken + steps.left)
-    half = foretold[len(foretold) // 2 :]
+            predicted.append(taken + steps.left)
+    half = predicted[len(predicted) // 2 :]
     assert all(0.5 <= total / taken <= 2 for total in half)
     assert steps.left == 0
 

@@ -9,7 +9,7 @@ from viscontact.time_integration.extrapolation import ElasticReference, lagrange
 
 
 def elastic_reference(time, force, at):
-    """A elastic_reference whose field and motion are linear in `at`."""
+    """An elastic reference whose field and motion are linear in `at`."""
     field = np.array([1.0, -2.0]) + at * np.array([0.5, 3.0])
     return ElasticReference(time, force, field, np.array([at, -2 * at, 1.0]))
 
@@ -19,7 +19,7 @@ def test_without_a_past_there_is_no_guess():
 
 
 @pytest.mark.parametrize("known", [1, 2, 3, 5])
-def test_a_line_in_the_twin_force_is_continued_exactly_from_two_instants(known):
+def test_a_line_in_the_reference_force_is_continued_exactly_from_two_instants(known):
     forces = np.array([1.0, 1.5, 2.2, 3.0, 4.1])
     past = [elastic_reference(time, force, force) for time, force in enumerate(forces)][:known]
     guess = predict(past, 9.0, forces[known - 1] + 0.8)
@@ -33,7 +33,7 @@ def test_a_line_in_the_twin_force_is_continued_exactly_from_two_instants(known):
 
 
 @pytest.mark.parametrize("forces", [[2.0, 2.0, 2.0], [1.0, 3.0, 2.0], [1.0, 1.0 + 1e-12, 2.0]])
-def test_where_the_twin_force_stalls_or_turns_time_takes_its_place(forces):
+def test_where_the_reference_force_stalls_or_turns_time_takes_its_place(forces):
     past = [elastic_reference(time, force, time) for time, force in enumerate(forces)]
     guess = predict(past, 3.5, 2.0)
     assert np.isfinite(guess.fields).all()

@@ -1,4 +1,4 @@
-"""How far a value is off, told from the same value at three spacings (Richardson 1911)."""
+"""Error and observed order of convergence from values at three spacings (Richardson 1911)."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ LOWEST_ORDER, HIGHEST_ORDER = 0.5, 2.0
 #: root of an edge -1/2.
 NO_ORDER = 0.2
 
-#: What changes by no more than this part of itself says nothing about a limit.
+#: Relative changes up to this do not show whether there is a limit.
 UNCHANGED = 1e-3
 
 #: Orders within which the observed one is looked for, and halvings that find it to 1e-12.
@@ -24,7 +24,7 @@ _SPAN, _HALVINGS = (-4.0, 8.0), 44
 
 @dataclass(frozen=True, eq=False)
 class Richardson:
-    """What three spacings tell of the values on the finest.
+    """Error, order and convergence of the values on the finest of three spacings.
 
     Attributes
     ----------

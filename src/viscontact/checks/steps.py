@@ -92,7 +92,7 @@ def unreported_peak_warnings(peak: float, time: float, reported: float) -> dict[
         return {}
     return {
         "unreported": (
-            "between the instants asked for the peak pressure reaches "
+            "between the requested times the peak pressure reaches "
             f"{format_quantity(peak, 'Pa')}, at t = {format_quantity(time, 's', 6)}, and "
             f"{format_quantity(reported, 'Pa')} is the largest that the result holds; request a "
             "time there, or more steps"

@@ -60,12 +60,12 @@ def _outline_crossings(
     low, high = np.zeros(len(i)), np.ones(len(i))
     for _ in range(BISECTIONS):
         middle = (low + high) / 2
-        met = np.isfinite(
+        is_inside = np.isfinite(
             indenter.gap(
                 x[inner, j] + middle * (x[outer, j] - x[inner, j]),
                 y[inner, j] + middle * (y[outer, j] - y[inner, j]),
             )
         )
-        low, high = np.where(met, middle, low), np.where(met, high, middle)
+        low, high = np.where(is_inside, middle, low), np.where(is_inside, high, middle)
     crossings[i, j] = (low + high) / 2
     return crossings

@@ -72,8 +72,8 @@ class ContactDomain:
 
     Examples
     --------
-    >>> half_space = ContactDomain(Grid((4, 8), (1.0, 1.0)), mirrored=(False, True))
-    >>> half_space.reduce_by_symmetry(np.ones((4, 8))).shape
+    >>> domain = ContactDomain(Grid((4, 8), (1.0, 1.0)), mirrored=(False, True))
+    >>> domain.reduce_by_symmetry(np.ones((4, 8))).shape
     (4, 4)
     """
 

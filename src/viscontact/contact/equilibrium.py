@@ -49,7 +49,7 @@ class ContactSolution:
 
 def solve_contact(
     problem: ContactProblem,
-    half_space: ContactDomain,
+    domain: ContactDomain,
     guess: Guess | None = None,
     *,
     tolerance: float = 1e-6,
@@ -65,12 +65,12 @@ def solve_contact(
     """
     found = None
     if guess is not None:
-        found = _solve_from(guess, problem, half_space, tolerance, max_iterations)
+        found = _solve_from(guess, problem, domain, tolerance, max_iterations)
         if found.converged:
             return found
     # After a large change of the load, a guess can be worse than none.
-    start = _cold_start(problem, half_space)
-    cold = _solve_from(start, problem, half_space, tolerance, max_iterations)
+    start = _cold_start(problem, domain)
+    cold = _solve_from(start, problem, domain, tolerance, max_iterations)
     if found is None:
         return cold
     better = cold if cold.converged or cold.residual < found.residual else found
@@ -84,7 +84,7 @@ def solve_contact(
 def _solve_from(
     start: Guess,
     problem: ContactProblem,
-    half_space: ContactDomain,
+    domain: ContactDomain,
     tolerance: float,
     max_iterations: int,
 ) -> ContactSolution:
@@ -94,22 +94,22 @@ def _solve_from(
     error = np.inf
     for _ in range(MAX_ROUNDS):
         # Search on a patch around the contact, in single precision.
-        patch = half_space.patch_around(cells)
+        patch = domain.patch_around(cells)
         search = BoundedCG(problem.within(patch), patch, start.within(patch))
         search.run(tolerance, max_iterations - iterations)
         iterations += search.iterations
         convolutions += search.convolutions + 1
         # Check the returned pressure by a fresh convolution, not by the recurrence of the search.
-        values = np.zeros((2, *half_space.shape))
+        values = np.zeros((2, *domain.shape))
         pressure, unit_displacement = values
         patch.cut(pressure)[...] = search.iterate.pressure
-        half_space.convolution.apply(pressure, into=unit_displacement)
+        domain.convolution.apply(pressure, into=unit_displacement)
         checked = contact_residual(
-            problem, half_space.whole, Guess(pressure, unit_displacement, search.iterate.motion)
+            problem, domain.whole, Guess(pressure, unit_displacement, search.iterate.motion)
         )
         start = Guess(pressure, unit_displacement, checked.motion)
         converged = checked.error <= tolerance and _is_balanced(
-            problem, half_space, pressure, tolerance
+            problem, domain, pressure, tolerance
         )
         stagnant = search.stagnated and checked.error > error / 2
         if converged or stagnant or iterations >= max_iterations:
@@ -124,36 +124,36 @@ def _solve_from(
 
 def _is_balanced(
     problem: ContactProblem,
-    half_space: ContactDomain,
+    domain: ContactDomain,
     pressure: NDArray[np.float64],
     tolerance: float,
 ) -> bool:
     """Whether force and moments of a pressure meet the constraints."""
-    whole = half_space.whole
+    whole = domain.whole
     off = problem.constraints.imbalance(whole.plane.sums(pressure) * whole.cell_area, whole.arm)
     return off <= tolerance
 
 
-def _cold_start(problem: ContactProblem, half_space: ContactDomain) -> Guess:
+def _cold_start(problem: ContactProblem, domain: ContactDomain) -> Guess:
     """Nested iteration: the solution of a coarser grid, on the coarsest a Winkler foundation."""
-    coarser = half_space.coarser()
+    coarser = domain.coarser()
     # A body may be too narrow to lie under any four cells.
     if coarser is None or not np.isfinite((coarsened := problem.coarsened()).open_gap).any():
-        return _winkler_guess(problem, half_space)
+        return _winkler_guess(problem, domain)
     coarse = solve_contact(coarsened, coarser, tolerance=NESTED_TOLERANCE)
     # Each coarse pressure on its four cells. Smoother interpolation, and finer tolerances, take
     # more iterations rather than fewer, as they blur the rim.
     pressure = np.repeat(np.repeat(coarse.found.pressure, 2, axis=0), 2, axis=1)
     # The coarse cells may not touch at all, or not be able to carry the load.
     if not (coarse.converged and pressure.any()):
-        return _winkler_guess(problem, half_space)
-    return Guess(pressure, half_space.convolution.apply(pressure), coarse.found.motion)
+        return _winkler_guess(problem, domain)
+    return Guess(pressure, domain.convolution.apply(pressure), coarse.found.motion)
 
 
-def _winkler_guess(problem: ContactProblem, half_space: ContactDomain) -> Guess:
+def _winkler_guess(problem: ContactProblem, domain: ContactDomain) -> Guess:
     """Balanced pressure on a Winkler foundation, as a first guess."""
-    whole = half_space.whole
+    whole = domain.whole
     pressure, motion = winkler_contact(
         problem.open_gap, problem.compliance, problem.constraints, whole.plane, whole.cell_area
     )
-    return Guess(pressure, half_space.convolution.apply(pressure), motion)
+    return Guess(pressure, domain.convolution.apply(pressure), motion)

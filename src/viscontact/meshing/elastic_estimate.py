@@ -234,7 +234,7 @@ def _size_factors(found: ContactEstimate) -> NDArray[np.float64] | None:
     part = np.array(found.reach) / (np.array(found.grid.size) / 2)
     if ((part >= MIN_REACH) & (part <= MAX_REACH)).all():
         return None
-    # A contact of a few cells says little about its size: do not trust it beyond a factor of 4.
+    # The size of a contact of a few cells is inaccurate: correct it by a factor of 4 at most.
     return np.asarray(np.clip(part / TARGET_REACH, 0.25, 2.0))
 
 

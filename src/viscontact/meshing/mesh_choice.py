@@ -78,19 +78,19 @@ def choose_mesh(problem: Problem, end: float | None) -> Mesh:
     millions of cells.
     """
     indenter, load, compliance = problem.indenter, problem.load, problem.compliance
-    wish = problem.automatic_grid or AutomaticGrid()
+    request = problem.automatic_grid or AutomaticGrid()
     # Step 1: the contacts of the history, and the size of the grid.
-    largest = largest_compliance(compliance, end)
-    found = contacts_of_history(indenter, largest, load, end)
+    found = contacts_of_history(indenter, largest_compliance(compliance, end), load, end)
     highest = max(each.point.level for each in found)
-    late = next(each for each in found if each.point.level == highest)
+    largest = next(each for each in found if each.point.level == highest)
     reach = np.array([each.estimate.reach for each in found], dtype=np.float64).max(axis=0)
     size = 2 * MARGIN * reach
-    choice = _first_choice(indenter, wish, late, size)
-    early = smallest_contact(indenter, compliance, load, end, found)
-    if min(np.divide(early.estimate.extents, late.estimate.extents)) < SMALLER:
-        choice = _refined_for_smallest(indenter, wish, early, size, choice)
-    return _limited_by_map(indenter, late, _refined_for_largest(indenter, wish, late, size, choice))
+    choice = _first_choice(indenter, request, largest, size)
+    smallest = smallest_contact(indenter, compliance, load, end, found)
+    if min(np.divide(smallest.estimate.extents, largest.estimate.extents)) < SMALLER:
+        choice = _refined_for_smallest(indenter, request, smallest, size, choice)
+    mesh = _refined_for_largest(indenter, request, largest, size, choice)
+    return _limited_by_map(indenter, largest, mesh)
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,7 +103,7 @@ class _MeshChoice:
     warnings: dict[str, str]
 
     def after(self, found: Resolution, cells: NDArray[np.float64]) -> _MeshChoice:
-        """The choice after a contact has been resolved by so many cells on the whole grid."""
+        """The choice after a contact has been resolved by some cells on the whole grid."""
         errors = {
             name: max(found.trial.errors[name], self.errors.get(name, 0.0))
             for name in found.quantities
@@ -114,12 +114,15 @@ class _MeshChoice:
 
 
 def _first_choice(
-    indenter: Indenter, wish: AutomaticGrid, late: PointContact, size: NDArray[np.float64]
+    indenter: Indenter,
+    request: AutomaticGrid,
+    largest: PointContact,
+    size: NDArray[np.float64],
 ) -> _MeshChoice:
     """Step 2: the fewest cells for the largest contact."""
-    cells, across = _first_cells(indenter, wish, late, size), _first_across(wish)
+    cells, across = _first_cells(indenter, request, largest, size), _first_across(request)
     if not float(np.prod(cells)) <= MAX_CELLS:
-        length, width = late.estimate.extents
+        length, width = largest.estimate.extents
         had = across * math.sqrt(MAX_CELLS / float(np.prod(cells)))
         # The tolerance in reach by the rule for the first trial, or by the scatter of the rim.
         reachable = max((ACROSS / had) ** 2, 4 * RIM_SCATTER / had)
@@ -130,46 +133,46 @@ def _first_choice(
             f"grid: a contact of {format_quantity(length, 'm', 3)} x "
             f"{format_quantity(width, 'm', 3)} within {format_quantity(size[0], 'm', 3)} x "
             f"{format_quantity(size[1], 'm', 3)} needs {float(np.prod(cells)):.2g} cells for a "
-            f"relative error of {wish.tolerance:.2g}, more than an automatic grid has; {remedy}"
+            f"relative error of {request.tolerance:.2g}, more than an automatic grid has; {remedy}"
         )
-    return _MeshChoice(cells, tuple(wish.quantities), {}, {})
+    return _MeshChoice(cells, tuple(request.quantities), {}, {})
 
 
 def _first_cells(
-    indenter: Indenter, wish: AutomaticGrid, contact: PointContact, size: NDArray[np.float64]
+    indenter: Indenter, request: AutomaticGrid, contact: PointContact, size: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """Cells along x and y that the first trial of a contact has."""
     across = size / contact.estimate.extents
     steps = np.array(indenter.sample_spacing)
     points = np.divide(size, steps, out=np.full(2, math.inf), where=steps > 0)
-    cells = np.minimum(_first_across(wish) * across, np.maximum(MIN_ACROSS * across, points))
+    cells = np.minimum(_first_across(request) * across, np.maximum(MIN_ACROSS * across, points))
     return np.asarray(np.maximum(cells, CELLS_OF_A_WAVE * size / indenter.period))
 
 
-def _first_across(wish: AutomaticGrid) -> float:
+def _first_across(request: AutomaticGrid) -> float:
     """Cells across the contact in the first trial."""
-    if wish.quantities == ("approach",):  # hardly affected by the rim and the peak
+    if request.quantities == ("approach",):  # hardly affected by the rim and the peak
         return MIN_ACROSS
-    return max(MIN_ACROSS, ACROSS / math.sqrt(wish.tolerance))
+    return max(MIN_ACROSS, ACROSS / math.sqrt(request.tolerance))
 
 
 def _refined_for_smallest(
     indenter: Indenter,
-    wish: AutomaticGrid,
-    early: PointContact,
+    request: AutomaticGrid,
+    smallest: PointContact,
     whole: NDArray[np.float64],
     choice: _MeshChoice,
 ) -> _MeshChoice:
     """Step 3: refine for a contact smaller than the largest, within a limit on the cells."""
-    size = np.minimum(2 * MARGIN * np.array(early.estimate.reach), whole)
+    size = np.minimum(2 * MARGIN * np.array(smallest.estimate.reach), whole)
     part = size / whole
-    fewest = np.maximum(_first_cells(indenter, wish, early, size), choice.cells * part)
+    fewest = np.maximum(_first_cells(indenter, request, smallest, size), choice.cells * part)
     most = max(MAX_CELLS_EARLY, float(choice.cells.prod())) * float(part.prod())
     excess = float(fewest.prod()) / most
     if excess > 1:
         cells = np.maximum(fewest / math.sqrt(excess), choice.cells * part)
         return replace(choice, cells=cells / part, warnings=choice.warnings | EARLY_WARNING)
-    found = _resolved(indenter, wish, early, size, choice.quantities, fewest, most)
+    found = _resolved(indenter, request, smallest, size, choice.quantities, fewest, most)
     chosen = choice.after(found, np.array(found.trial.shape) / part)
     if found.is_enough or found.at_finest:
         return chosen
@@ -178,13 +181,13 @@ def _refined_for_smallest(
 
 def _refined_for_largest(
     indenter: Indenter,
-    wish: AutomaticGrid,
-    late: PointContact,
+    request: AutomaticGrid,
+    largest: PointContact,
     size: NDArray[np.float64],
     choice: _MeshChoice,
 ) -> Mesh:
     """Step 4: refine for the largest contact, or refuse the tolerance with the one in reach."""
-    found = _resolved(indenter, wish, late, size, choice.quantities, choice.cells, MAX_CELLS)
+    found = _resolved(indenter, request, largest, size, choice.quantities, choice.cells, MAX_CELLS)
     chosen = choice.after(found, np.array(found.trial.shape))
     if not found.is_enough:
         worst = max(chosen.errors, key=chosen.errors.__getitem__)
@@ -193,7 +196,7 @@ def _refined_for_largest(
             # With a margin, as it is rounded.
             reachable = 1.2 * chosen.errors[worst] * shrinks
             raise ValueError(
-                f"grid: a relative error of {wish.tolerance:.2g} would need about "
+                f"grid: a relative error of {request.tolerance:.2g} would need about "
                 f"{found.cells_needed:.2g} cells, more than an automatic grid has; ask for a "
                 f"tolerance of {reachable:.2g} or more, or give a grid"
             )
@@ -204,9 +207,9 @@ def _refined_for_largest(
     return Mesh(grid, chosen.errors, chosen.warnings)
 
 
-def _limited_by_map(indenter: Indenter, late: PointContact, mesh: Mesh) -> Mesh:
+def _limited_by_map(indenter: Indenter, largest: PointContact, mesh: Mesh) -> Mesh:
     """Step 5: raise the expected error of the peak pressure to that of the map's facets."""
-    facets = facet_error(indenter, late.estimate, late.compliance)
+    facets = facet_error(indenter, largest.estimate, largest.compliance)
     if facets <= mesh.errors.get(PEAK, math.inf):
         return mesh
     warnings = mesh.warnings | _facet_warning(facets)
@@ -215,7 +218,7 @@ def _limited_by_map(indenter: Indenter, late: PointContact, mesh: Mesh) -> Mesh:
 
 def _resolved(
     indenter: Indenter,
-    wish: AutomaticGrid,
+    request: AutomaticGrid,
     contact: PointContact,
     size: NDArray[np.float64],
     quantities: tuple[str, ...],
@@ -230,7 +233,7 @@ def _resolved(
     return refine_mesh(
         pressing,
         quantities,
-        wish.tolerance,
+        request.tolerance,
         fewest=fewest,
         finest=np.maximum(fewest, finest),
         most_cells=most,

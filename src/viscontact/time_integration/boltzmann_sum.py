@@ -76,18 +76,20 @@ class BoltzmannSum(HereditaryIntegral):
         """Response to a jump; see `HereditaryIntegral.jump`."""
         self._next_jumps = True
         past = self._history_at(self._time, rise=0.0)
-        met = self._compliance.instant
-        return HereditaryResponse(past - met * self._value, met, resolved=True)
+        compliance = self._compliance.instant
+        return HereditaryResponse(past - compliance * self._value, compliance, resolved=True)
 
     def ramp(self, duration: float) -> HereditaryResponse:
         """Response to a step of a duration [s]; see `HereditaryIntegral.ramp`."""
         rise = longest_smooth_rise(self._compliance, duration, after_jump=self._jumped)
         self._next_jumps = False
-        met = self._compliance.mean(duration - rise, duration)
+        compliance = self._compliance.mean(duration - rise, duration)
         crept = self._compliance(duration) - self._compliance.instant
         resolved = is_resolved(crept, self._compliance.instant, whole=rise == duration)
         past = self._history_at(self._time + duration, rise=rise)
-        return HereditaryResponse(past - met * self._value, met, resolved, held=1 - rise / duration)
+        return HereditaryResponse(
+            past - compliance * self._value, compliance, resolved, held=1 - rise / duration
+        )
 
     def accept(self, value: NDArray[np.float64]) -> None:
         """Add the increment to the new value of the field, and close the step."""

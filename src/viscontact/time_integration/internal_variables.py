@@ -102,8 +102,8 @@ class InternalVariables(HereditaryIntegral):
         history = step.old.sum() * self._value
         for field, decay in zip(self._fields, step.decay, strict=True):
             history += np.multiply(decay, field, out=self._term)
-        met = self._compliance.instant + float(step.new.sum())
-        return HereditaryResponse(history, met, step.resolved, step.held)
+        compliance = self._compliance.instant + float(step.new.sum())
+        return HereditaryResponse(history, compliance, step.resolved, step.held)
 
 
 @dataclass(frozen=True, eq=False)
