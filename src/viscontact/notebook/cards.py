@@ -33,12 +33,12 @@ from viscontact.surfaces import Surface
 from viscontact.units.formatting import format_quantity
 
 
-def display_html(noun: Displayable) -> str:
+def display_html(obj: Displayable) -> str:
     """Return the display of an object in HTML: small drawings and a table.
 
     Parameters
     ----------
-    noun : Displayable
+    obj : Displayable
         Indenter, law, material, load, grid, case, surface, record, fit, master curve, material
         card, or ``ds.viscontact`` of a result.
 
@@ -47,15 +47,15 @@ def display_html(noun: Displayable) -> str:
     str
         HTML that needs nothing from outside and takes the colours of the page around it.
     """
-    return as_html(_cards(noun))
+    return as_html(_cards(obj))
 
 
-def display_text(noun: Displayable) -> str:
+def display_text(obj: Displayable) -> str:
     """Return the display of an object as a table for a terminal.
 
     Parameters
     ----------
-    noun : Displayable
+    obj : Displayable
         Indenter, law, material, load, grid, case, surface, record, fit, master curve, material
         card, or ``ds.viscontact`` of a result.
 
@@ -66,32 +66,32 @@ def display_text(noun: Displayable) -> str:
     Sphere
       radius  10 mm
     """
-    return as_text(_cards(noun))
+    return as_text(_cards(obj))
 
 
-def _cards(noun: Displayable) -> Iterator[Card]:
-    if isinstance(noun, ResultAccessor):
-        yield result_card(noun.result)
+def _cards(obj: Displayable) -> Iterator[Card]:
+    if isinstance(obj, ResultAccessor):
+        yield result_card(obj.result)
         return
-    measured = next((make for kind, make in _MEASURED.items() if isinstance(noun, kind)), None)
+    measured = next((make for kind, make in _MEASURED.items() if isinstance(obj, kind)), None)
     if measured is not None:
-        yield measured(noun)
-        yield from (_card(part) for part in _found(noun))
+        yield measured(obj)
+        yield from (_card(part) for part in _found(obj))
         return
-    if not isinstance(noun, DisplayableGroup):
-        yield _card(noun)
+    if not isinstance(obj, DisplayableGroup):
+        yield _card(obj)
         return
-    parts = noun.display_parts()
+    parts = obj.display_parts()
     words = [(name, part) for name, part in parts.items() if isinstance(part, str)]
-    yield Card(noun.display_title, words)
+    yield Card(obj.display_title, words)
     for name, part in parts.items():
         if isinstance(part, Displayable):
             title = f"{name}: {_name_of(part)}" if _name_of(part) not in name else name
             yield Card(_sentence_case(title), _rows(part), _drawings(part))
 
 
-def _card(noun: Displayable) -> Card:
-    return Card(_sentence_case(_name_of(noun)), _rows(noun), _drawings(noun))
+def _card(obj: Displayable) -> Card:
+    return Card(_sentence_case(_name_of(obj)), _rows(obj), _drawings(obj))
 
 
 def _material_card(card: MaterialCard) -> Card:
@@ -99,14 +99,14 @@ def _material_card(card: MaterialCard) -> Card:
     return Card(f"Material card: {card.name}", rows)
 
 
-def _found(noun: Displayable) -> Iterator[Displayable]:
+def _found(obj: Displayable) -> Iterator[Displayable]:
     """Laws, materials and shift rules in fits and material cards."""
-    if isinstance(noun, Fit):
-        yield noun.law
-    elif isinstance(noun, IndentationFit):
-        yield noun.material
-    elif isinstance(noun, MaterialCard):
-        yield from (part for part in (noun.material, noun.shift) if part is not None)
+    if isinstance(obj, Fit):
+        yield obj.law
+    elif isinstance(obj, IndentationFit):
+        yield obj.material
+    elif isinstance(obj, MaterialCard):
+        yield from (part for part in (obj.material, obj.shift) if part is not None)
 
 
 #: Objects with thousands of numbers, which need a card of their own.
@@ -121,30 +121,30 @@ _MEASURED: dict[type[Displayable], Callable[[Any], Card]] = {
 }
 
 
-def _name_of(noun: Displayable) -> str:
-    return in_plain_words(type(noun).__name__)
+def _name_of(obj: Displayable) -> str:
+    return in_plain_words(type(obj).__name__)
 
 
 def _sentence_case(name: str) -> str:
     return name[:1].upper() + name[1:]
 
 
-def _rows(noun: Displayable) -> list[tuple[str, ...]]:
-    arguments = list(argument_rows(describe(noun)))
-    own = _name_of(noun)
+def _rows(obj: Displayable) -> list[tuple[str, ...]]:
+    arguments = list(argument_rows(describe(obj)))
+    own = _name_of(obj)
     rows: list[tuple[str, ...]] = [
         row for row in arguments if row not in (("shape", own), ("law", own))
     ]
     known = {value for _, value in arguments}
-    return [*rows, *(row for row in _following(noun) if row[1] not in known)]
+    return [*rows, *(row for row in _following(obj) if row[1] not in known)]
 
 
-def _following(noun: Displayable) -> Iterator[tuple[str, str]]:
+def _following(obj: Displayable) -> Iterator[tuple[str, str]]:
     """Quantities that follow from the arguments: cell size, radii of curvature."""
-    if isinstance(noun, Grid):
-        yield "cell", " × ".join(format_quantity(extent, "m") for extent in noun.cell_size)
-    if isinstance(noun, Indenter):
-        x, y = noun.curvatures
+    if isinstance(obj, Grid):
+        yield "cell", " × ".join(format_quantity(extent, "m") for extent in obj.cell_size)
+    if isinstance(obj, Indenter):
+        x, y = obj.curvatures
         if x > 0 and x == y:
             yield "radius of curvature", format_quantity(1 / x, "m")
         elif x > 0 or y > 0:
@@ -155,18 +155,18 @@ def _following(noun: Displayable) -> Iterator[tuple[str, str]]:
             )
 
 
-def _drawings(noun: Displayable) -> list[Element]:
+def _drawings(obj: Displayable) -> list[Element]:
     try:
-        return _drawn(noun)
+        return _drawn(obj)
     except ValueError:  # a user's own object may not be defined everywhere
         return []
 
 
-def _drawn(noun: Displayable) -> list[Element]:
-    if isinstance(noun, Indenter):
-        return indenter_drawings(noun)
-    if isinstance(noun, Law | Material):
-        return law_drawings(noun if isinstance(noun, Law) else noun.law)
-    if isinstance(noun, LoadHistory):
-        return load_drawings(noun)
+def _drawn(obj: Displayable) -> list[Element]:
+    if isinstance(obj, Indenter):
+        return indenter_drawings(obj)
+    if isinstance(obj, Law | Material):
+        return law_drawings(obj if isinstance(obj, Law) else obj.law)
+    if isinstance(obj, LoadHistory):
+        return load_drawings(obj)
     return []

@@ -26,7 +26,7 @@ STORED_CLASSES: dict[str, Any] = {
 LARGEST_ARRAY = 4096
 
 
-def describe(noun: Any) -> Any:
+def describe(obj: Any) -> Any:
     """Describe an object as plain data: its type's name and its arguments in SI units.
 
     Examples
@@ -34,20 +34,20 @@ def describe(noun: Any) -> Any:
     >>> describe(Grid((4, 8), (0.1, 0.2)))
     {'type': 'Grid', 'shape': [4, 8], 'size': [0.1, 0.2], 'periodic': False}
     """
-    if is_dataclass(noun) and not isinstance(noun, type):
-        arguments = {item.name: describe(getattr(noun, item.name)) for item in fields(noun)}
-        return {"type": type(noun).__name__, **arguments}
-    if isinstance(noun, np.ndarray):
+    if is_dataclass(obj) and not isinstance(obj, type):
+        arguments = {item.name: describe(getattr(obj, item.name)) for item in fields(obj)}
+        return {"type": type(obj).__name__, **arguments}
+    if isinstance(obj, np.ndarray):
         # JSON has no NaN, which marks the holes of a map.
-        is_map = noun.ndim > 1 and (noun.size > LARGEST_ARRAY or not np.isfinite(noun).all())
-        return _fingerprint(noun) if is_map else noun.tolist()
-    if isinstance(noun, np.generic):
-        return noun.item()
-    if isinstance(noun, tuple | list):
-        return [describe(item) for item in noun]
-    if noun is None or isinstance(noun, str | int | float):
-        return noun
-    return {"type": type(noun).__name__, "repr": repr(noun)}
+        is_map = obj.ndim > 1 and (obj.size > LARGEST_ARRAY or not np.isfinite(obj).all())
+        return _fingerprint(obj) if is_map else obj.tolist()
+    if isinstance(obj, np.generic):
+        return obj.item()
+    if isinstance(obj, tuple | list):
+        return [describe(item) for item in obj]
+    if obj is None or isinstance(obj, str | int | float):
+        return obj
+    return {"type": type(obj).__name__, "repr": repr(obj)}
 
 
 def rebuild(description: Any) -> Any:
@@ -67,12 +67,12 @@ def rebuild(description: Any) -> Any:
             f"an array of shape {description['shape']} is too large, or has holes, and is not kept "
             "in a result; build the indenter from its source again"
         )
-    noun = STORED_CLASSES.get(description.get("type", ""))
-    if noun is None:
+    kind = STORED_CLASSES.get(description.get("type", ""))
+    if kind is None:
         raise ValueError(
-            f"no noun is called {description.get('type')!r}; known are {sorted(STORED_CLASSES)}"
+            f"no object is called {description.get('type')!r}; known are {sorted(STORED_CLASSES)}"
         )
-    return noun(**{key: rebuild(value) for key, value in description.items() if key != "type"})
+    return kind(**{key: rebuild(value) for key, value in description.items() if key != "type"})
 
 
 def _fingerprint(array: np.ndarray[Any, Any]) -> dict[str, Any]:

@@ -1,1 +1,1 @@
-"""Runs: one or many, prepared, forecast, recorded in a directory, as processes."""
+"""Runs: single or parallel, their checks and forecasts, run directories and processes."""

@@ -1,4 +1,4 @@
-"""What can be told of a run before it is started, in words."""
+"""Report of a check: what a run needs, is expected to find, and will warn of."""
 
 from __future__ import annotations
 
@@ -16,31 +16,15 @@ from viscontact.runs.preparation import PreparedRun
 from viscontact.simulation.setup import RunSetup
 from viscontact.units.formatting import format_number, format_quantity
 
-#: A load is as large as the largest from this part of it on.
+#: Loads from this fraction of the largest one on count as the largest.
 LARGEST_LOAD_FRACTION = 0.999
 
-#: An end of the body within so many times the grid is drawn as well.
+#: Ends of the body up to this multiple of the grid are drawn as well.
 FARTHEST_END = 1.3
 
 
 def predicted(prepared: PreparedRun) -> Forecast:
-    """Foresee a run.
-
-    Parameters
-    ----------
-    prepared : PreparedRun
-        A case, checked.
-
-    Returns
-    -------
-    Forecast
-        What it will need and what it may find.
-
-    Raises
-    ------
-    CaseError
-        If no contact can carry the load.
-    """
+    """Return the forecast of a checked case; CaseError if no contact can carry the load."""
     try:
         return forecast(prepared.run, errors=prepared.case.errors)
     except ValueError as error:
@@ -48,33 +32,14 @@ def predicted(prepared: PreparedRun) -> Forecast:
 
 
 def verdict(prepared: PreparedRun, expected: Forecast) -> str:
-    """Say in a line whether anything is wrong with a case.
-
-    Parameters
-    ----------
-    prepared : PreparedRun
-        A case, checked.
-    expected : Forecast
-        What was predicted of it.
-    """
+    """Return a line that says if the case has problems."""
     has_warnings = bool(warnings_of(prepared, expected))
-    told = "can be read, but:" if has_warnings else "no problems found"
-    return f"{prepared.case.document.path}: {told}"
+    verdict = "can be read, but:" if has_warnings else "no problems found"
+    return f"{prepared.case.document.path}: {verdict}"
 
 
 def drawn_size(run: RunSetup) -> tuple[float, float]:
-    """Return how much of the body is drawn: the grid, and more if the body ends not far beyond it.
-
-    Parameters
-    ----------
-    run : RunSetup
-        A run that has been checked.
-
-    Returns
-    -------
-    tuple of float
-        Extents along x and y [m].
-    """
+    """Extents of the drawn region along x and y [m]: the grid, and nearby ends of the body."""
     size = list(run.grid.size)
     for axis in (0, 1):
         beyond = np.linspace(1.0, FARTHEST_END, 400) * size[axis] / 2
@@ -88,15 +53,7 @@ def drawn_size(run: RunSetup) -> tuple[float, float]:
 
 
 def needs(prepared: PreparedRun, expected: Forecast) -> list[tuple[str, str]]:
-    """Return what a run needs: grid, steps, memory, time, each with its name.
-
-    Parameters
-    ----------
-    prepared : PreparedRun
-        A case, checked.
-    expected : Forecast
-        What was predicted of it.
-    """
+    """Return grid, steps, memory and time of a run as rows of name and value."""
     run = prepared.run
     (nx, ny), (lx, ly), (dx, dy) = run.grid.shape, run.grid.size, run.grid.cell_size
     chosen = " (automatic)" if run.problem.automatic_grid is not None else ""
@@ -119,25 +76,25 @@ def needs(prepared: PreparedRun, expected: Forecast) -> list[tuple[str, str]]:
 
 
 def _grid_error(run: RunSetup) -> list[tuple[str, str]]:
-    """How exact the cells are, and when, where they were chosen for it."""
+    """Estimated errors of an automatic grid, and the times for which they hold."""
     if run.mesh is None or not run.mesh.errors:
         return []
-    told = [
+    errors = [
         f"{name.replace('_', ' ')} {format_number(100 * error, 1)} %"
         for name, error in run.mesh.errors.items()
     ]
     # Broken here: a terminal would break between a number and its unit.
     when = ";\n".join(_when_largest(run))
-    return [("grid error", f"{', '.join(told)},\n{when}")]
+    return [("grid error", f"{', '.join(errors)},\n{when}")]
 
 
 def _when_largest(run: RunSetup) -> Iterator[str]:
-    """When the load is largest, for which the cells were chosen; and what is so at other times."""
+    """Times of the largest load, for which the cells were chosen, and a remark on other times."""
     problem, load = run.problem, run.problem.load
     crest, point = problem.largest_load
     kinks = load.kinks[load.kinks <= problem.end]
     instants = np.union1d(problem.instants, [*kinks, crest])
-    # On the left of a jump, say, it is at one instant only.
+    # On the left of a jump, for example, the load is largest at a single instant.
     is_largest = load.level_at(instants) >= LARGEST_LOAD_FRACTION * point.level
     is_largest |= instants == crest
     first, last = (format_quantity(float(instants[is_largest][k]), "s", 3) for k in (0, -1))
@@ -164,20 +121,12 @@ def _kept(fields: str | Sequence[float]) -> str:
 
 
 def expectations(prepared: PreparedRun, expected: Forecast) -> tuple[str, list[tuple[str, str]]]:
-    """Return what a run may find: how that is known, and rows; no rows without a load.
-
-    Parameters
-    ----------
-    prepared : PreparedRun
-        A case, checked.
-    expected : Forecast
-        What was predicted of it.
-    """
+    """Return title and rows of the expected contact; no rows without a load."""
     found, control = expected.estimate, prepared.run.problem.load.control
     title = "What to expect, by a quick elastic solve on few cells:"
     if found is None:
         return title, []
-    # What is prescribed is known.
+    # Of force and approach, the one that is not prescribed.
     follows = (
         ("approach", format_quantity(found.approach, "m", 3))
         if control == "force"
@@ -191,27 +140,19 @@ def expectations(prepared: PreparedRun, expected: Forecast) -> tuple[str, list[t
             "wide",
         ),
         ("cells in it", f"{expected.cells_along:.0f} along, {expected.cells_across:.0f} across"),
-        ("peak pressure", _peak_told(expected, found)),
+        ("peak pressure", _peak_pressure(expected, found)),
         follows,
     ]
 
 
-def _peak_told(expected: Forecast, found: ContactEstimate) -> str:
-    told = format_quantity(found.peak_pressure, "Pa", 3)
+def _peak_pressure(expected: Forecast, found: ContactEstimate) -> str:
+    peak = format_quantity(found.peak_pressure, "Pa", 3)
     is_sharp = not SINGULAR_KINDS.isdisjoint(expected.warnings)
-    return f"{MESH_DEPENDENT} ({told} on a coarse one)" if is_sharp else told
+    return f"{MESH_DEPENDENT} ({peak} on a coarse one)" if is_sharp else peak
 
 
 def warnings_of(prepared: PreparedRun, expected: Forecast) -> list[str]:
-    """Return what a run would warn of, as far as the coarse solve can tell.
-
-    Parameters
-    ----------
-    prepared : PreparedRun
-        A case, checked.
-    expected : Forecast
-        What was predicted of it.
-    """
+    """Return the accuracy warnings that the coarse solve predicts for a run."""
     grid = prepared.run.grid
     if expected.estimate is None:
         return list(expected.warnings.values())
@@ -224,7 +165,7 @@ def warnings_of(prepared: PreparedRun, expected: Forecast) -> list[str]:
             f"along x and y, and the grid {ends}; enlarge grid.size"
         )
     across = (expected.cells_along, expected.cells_across)
-    # Where a contact goes on from period to period there is nothing that the cells lie across.
+    # A contact that continues from period to period has no extent along that axis.
     ended = [n for n, k in zip(across, grid.shape, strict=True) if not grid.periodic or n < k]
     if min(ended, default=math.inf) < WARNING_CELLS:
         warnings.append(

@@ -27,29 +27,17 @@ from viscontact.simulation.warning_rules import (
     setup_warnings,
 )
 
-#: So many of a run's first instants are looked at for a load that comes before the data do.
+#: Number of first instants of a run at which a load before the first measured time is looked for.
 FIRST_INSTANTS = 200
 
 
 def predicted_warnings(
     run: RunSetup, estimate: ContactEstimate | None, compliance: float
 ) -> dict[str, str]:
-    """Doubts about the material, the steps and the estimated contact of a run.
+    """Warnings about the material, the steps and the estimated contact of a run, by kind.
 
-    Parameters
-    ----------
-    run : RunSetup
-        A run that has been checked.
-    estimate : ContactEstimate or None
-        Its largest contact, coarsely; None without a load.
-    compliance : float
-        The contact compliance of that estimate [1/Pa].
-
-    Returns
-    -------
-    dict of str to str
-        Sentences by kind of doubt, as a run would say them; empty if there is none. Those about
-        a mesh that was given are left to who knows whether the grid fits.
+    The estimate is None without a load; `compliance` is the one that it was made with [1/Pa].
+    Warnings about a given mesh are not included.
     """
     warnings = setup_warnings(run) | _range_warnings(run.problem) | _step_warnings(run.problem)
     return warnings if estimate is None else warnings | _contact_warnings(run, estimate, compliance)
@@ -74,7 +62,10 @@ def _contact_warnings(run: RunSetup, found: ContactEstimate, compliance: float) 
 def _corner_warnings(
     run: RunSetup, geometry: Geometry, found: ContactEstimate, compliance: float
 ) -> dict[str, str]:
-    """Doubt about a peak at a corner; far coarser than the run's, a solve tells little of it."""
+    """Warning about a peak at a corner, on cells at most four times finer than the estimate's.
+
+    An estimate on far coarser cells than the run's says little about the peak.
+    """
     coarse = found.rim.grid.cell_size
     finest = tuple(max(own, each / 4) for own, each in zip(run.grid.cell_size, coarse, strict=True))
     grid = replace(run.grid, size=(finest[0] * run.grid.shape[0], finest[1] * run.grid.shape[1]))
@@ -101,7 +92,7 @@ def _step_warnings(problem: Problem) -> dict[str, str]:
     load, steps = problem.load, problem.planned_steps
     times = np.array([step.time for step in steps])
     before_jumps = np.array([step.before_jump for step in steps])
-    # In one call: a load at a hundred thousand times takes seconds one by one.
+    # One call for all times: a hundred thousand single calls take seconds.
     levels = np.where(before_jumps, load.level_at(times, side="left"), load.level_at(times))
     loaded = levels > 0
     warnings: dict[str, str] = {}

@@ -1,4 +1,4 @@
-"""What a run will need and what it may find, before it is started."""
+"""Forecast of a run: memory, run time, estimated contact and expected warnings."""
 
 from __future__ import annotations
 
@@ -19,69 +19,33 @@ from viscontact.runs.free_memory import available_memory
 from viscontact.runs.resources import run_memory
 from viscontact.simulation.setup import RunSetup
 
-#: Plain convolutions' time that the first step and each later one take at tolerance 1e-6, and
-#: what a step takes besides [s]; measured on the shipped rollers and spheres.
+#: Time of the first and of each later step at tolerance 1e-6, in times of a plain convolution, and
+#: the overhead of a step [s]; measured on the shipped rollers and spheres.
 FIRST_STEP, LATER_STEP, STEP_OVERHEAD = 30.0, 3.5, 3e-3
 
-#: A larger grid is not timed but extrapolated.
+#: Cells up to which a convolution is timed; for larger grids the time is extrapolated.
 _TIMED_CELLS = 2**18
 
 
 @dataclass(frozen=True)
 class Forecast:
-    """What a run will need and what it may find.
+    """Requirements and expected results of a run."""
 
-    Parameters
-    ----------
-    memory : float
-        Bytes that the run will hold.
-    available : float
-        Bytes that are free.
-    seconds : float
-        How long it will take on this machine, within a factor of two or three [s].
-    estimate : ContactEstimate or None
-        The contact under the largest load, by a coarse elastic solve; None without a load.
-    compliance : str
-        How much creep it has, in words: all of it under a force, none under an approach, that is,
-        where the contact and where the pressure is largest.
-    cells_along, cells_across : float
-        Cells over the estimated length and width.
-    fits : bool
-        Whether the grid holds the estimated contact.
-    warnings : dict of str to str
-        What the run will warn of besides, as far as it can be told, by kind of doubt.
-    """
-
-    memory: float
-    available: float
-    seconds: float
-    estimate: ContactEstimate | None
-    compliance: str
-    cells_along: float
-    cells_across: float
-    fits: bool
-    warnings: dict[str, str]
+    memory: float  # required [bytes]
+    available: float  # free memory [bytes]
+    seconds: float  # run time on this machine, within a factor of two or three [s]
+    estimate: ContactEstimate | None  # under the largest load; None without a load
+    compliance: str  # creep of the estimate, in words: all under a force, none under an approach
+    cells_along: float  # cells over the estimated length
+    cells_across: float  # cells over the estimated width
+    fits: bool  # the grid contains the estimated contact
+    warnings: dict[str, str]  # predicted accuracy warnings, by kind
 
 
 def forecast(run: RunSetup, *, errors: bool = False) -> Forecast:
-    """Foresee a run.
+    """Return the forecast of a checked run; `errors` adds the time of its coarser runs.
 
-    Parameters
-    ----------
-    run : RunSetup
-        A run that has been checked.
-    errors : bool
-        Whether the errors of its scalars are estimated as well.
-
-    Returns
-    -------
-    Forecast
-        What it will need and what it may find.
-
-    Raises
-    ------
-    ValueError
-        If the coarse solve finds no contact that can carry the load.
+    ValueError if the coarse solve finds no contact that can carry the load.
 
     Examples
     --------
@@ -147,7 +111,7 @@ def _seconds(run: RunSetup, *, errors: bool) -> float:
 
 
 def _convolution_time(grid: Grid) -> float:
-    """Seconds for a plain zero-padded convolution, the measure of all work in a run."""
+    """Duration of a plain zero-padded convolution [s], the unit of work of a run."""
     cells = grid.shape[0] * grid.shape[1]
     shrink = max(1.0, math.sqrt(cells / _TIMED_CELLS))
     shape = [fft.next_fast_len(max(4, int(2 * n / shrink)), real=True) for n in grid.shape]

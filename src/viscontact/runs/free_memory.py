@@ -1,4 +1,4 @@
-"""How much memory a program may still take, as far as the system says."""
+"""Free memory of the machine, or of the container."""
 
 from __future__ import annotations
 
@@ -9,15 +9,8 @@ from pathlib import Path
 
 
 def available_memory() -> float:
-    """Return how many bytes of memory a program may still take.
+    """Memory that is free for a program [bytes]; infinity where the system does not report it.
 
-    Returns
-    -------
-    float
-        Bytes; infinity where the system does not say.
-
-    Examples
-    --------
     >>> available_memory() > 1e6
     True
     """
@@ -35,7 +28,7 @@ def _linux_memory() -> float:
 
 
 def _container_memory() -> float:
-    """What a control group leaves, where one limits the process."""
+    """Memory left by the control group of the process [bytes]; infinity without a limit."""
     group = Path("/sys/fs/cgroup")
     try:
         limit = (group / "memory.max").read_text(encoding="ascii").strip()
@@ -51,7 +44,7 @@ def _physical_memory() -> float:
 
 def _windows_memory() -> float:
     if sys.platform != "win32":  # where the rest does not exist, for type checkers either
-        raise OSError("only Windows is asked in this way")
+        raise OSError("only Windows reports its memory in this way")
 
     class Status(ctypes.Structure):
         _fields_ = (
@@ -62,5 +55,5 @@ def _windows_memory() -> float:
 
     status = Status(length=ctypes.sizeof(Status))
     if not ctypes.windll.kernel32.GlobalMemoryStatusEx(ctypes.byref(status)):
-        raise OSError("the system does not say how much memory is free")
+        raise OSError("the system does not report the free memory")
     return float(status.free)

@@ -21,10 +21,10 @@ from viscontact.runs.free_memory import available_memory
 from viscontact.runs.resources import PROGRAM, fitting, least_memory
 from viscontact.runs.single import simulate
 
-#: What a run is given as: the arguments of `simulate` by name, or what makes its result.
+#: Specification of a run: arguments of `simulate` by name, or a function that returns a result.
 Recipe = Mapping[str, Any] | Callable[[], xr.Dataset]
 
-#: Libraries that would start a thread for each core, in each process; they read it when imported.
+#: Libraries that start a thread per core in each process, unless the environment limits them.
 _LIBRARIES = ("OPENBLAS", "MKL", "OMP", "BLIS")
 
 
@@ -36,42 +36,40 @@ def simulate_many(
     Parameters
     ----------
     runs : iterable of mapping or callable
-        Each the arguments of `simulate` by name, or a function without arguments that returns a
-        result. They are sent to the processes: what they hold must be picklable, so that a
-        ``lambda`` will not do, a function of a module or a `functools.partial` of one will.
+        Arguments of `simulate` by name for each run, or a function without arguments that
+        returns a result. They are sent to other processes and must be picklable: a function of a
+        module or a `functools.partial` of one, not a ``lambda``.
     workers : int, optional
-        So many processes at once; as many as there are cores when left out, fewer if so many runs
-        do not fit into the memory that is free. Each computes on one thread if the run's own
-        ``threads`` does not say otherwise.
+        Number of parallel processes; by default the number of cores, or fewer if the runs do not
+        fit into the free memory. Each computes on one thread unless the run sets ``threads``.
     return_exceptions : bool, optional
-        Let what a run raises take the place of its result, so that the others are not lost.
+        Return the exception of a failed run in place of its result, and keep the other results.
 
     Returns
     -------
     list of xarray.Dataset
-        One for each run, in their order; each the same to the last bit as from `simulate`.
+        One result for each run, in their order, bit-identical to that of `simulate`.
 
     Raises
     ------
     ValueError, ConvergenceError, DomainError, ...
-        What the first run that fails raises, with a note that says which it was. The runs at work
-        then are ended, as they are by Ctrl-C.
+        The exception of the first run that fails, with a note that names the run. All other runs
+        are stopped, as by Ctrl-C.
     RuntimeError
-        If a process is gone, because it was killed, as systems do that run out of memory, or
-        because it could not start.
+        If a process could not start, or was killed, for example because memory ran out.
 
     Warns
     -----
     AccuracyWarning
-        What the runs warn of, each told with its number.
+        The warnings of the runs, each with the number of its run.
     RuntimeWarning
-        If memory is too short for so many at once. What a run takes whose grid is not given is not
-        known before, nor that of a function.
+        If the memory is too small for `workers` runs at once. The memory of a function, or of a
+        run without a given grid, is not known in advance.
 
     Notes
     -----
-    New processes begin by importing the script that called. So the call must stand behind
-    ``if __name__ == "__main__":`` in a script; a notebook needs nothing of the kind.
+    New processes import the calling script first. In a script, put the call under
+    ``if __name__ == "__main__":``; in a notebook this is not necessary.
 
     Examples
     --------
@@ -110,7 +108,7 @@ def _checked(workers: int | None) -> int:
 
 
 def _affordable(recipes: list[Recipe], wanted: int) -> int:
-    """How many of the runs are made at once: no more than fit into memory, as far as is known."""
+    """Number of parallel runs that fit into the free memory, as far as is known."""
     needs, available = sorted(map(_least_memory, recipes))[-wanted:], available_memory()
     count = max(1, fitting(needs, available))
     if count < len(needs):
@@ -134,7 +132,7 @@ def _least_memory(recipe: Recipe) -> float:
 
 @contextmanager
 def _single_threaded() -> Iterator[None]:
-    """Within it, processes begin whose libraries start no threads of their own accord."""
+    """Limit numerical libraries to one thread in the processes that are started meanwhile."""
     names = [f"{library}_NUM_THREADS" for library in _LIBRARIES]
     unset = [name for name in names if name not in os.environ]
     os.environ.update(dict.fromkeys(unset, "1"))
@@ -152,15 +150,15 @@ def _begin_worker() -> None:
 
 
 def _end_with_parent() -> None:
-    # It waits for runs from a pipe of which it holds both ends: a parent that is killed does not
-    # end it.
+    # A worker holds both ends of the pipe that it reads runs from, so it would not notice that its
+    # parent has been killed.
     if (parent := multiprocessing.parent_process()) is not None:
         parent.join()
         os._exit(1)
 
 
 def _outcome(recipe: Recipe) -> tuple[xr.Dataset, list[tuple[str, type[Warning]]]]:
-    """The result of a run, and what it warned of."""
+    """Result and warnings of a run."""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         ds = recipe() if callable(recipe) else simulate(**recipe)

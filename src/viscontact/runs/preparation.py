@@ -1,4 +1,4 @@
-"""From a case to a run that has been checked."""
+"""Checked run of a case, refused if it needs more memory than is free."""
 
 from __future__ import annotations
 
@@ -14,31 +14,16 @@ from viscontact.units.formatting import format_number
 
 @dataclass(frozen=True, eq=False)
 class PreparedRun:
-    """A case, and the run it makes."""
+    """A checked case and its run."""
 
     case: Case
     run: RunSetup
 
 
 def prepared(case: Case, threads: int = 1) -> PreparedRun:
-    """Check everything that can be checked before the first step.
+    """Set up the run of a case, on some threads of one Fourier transform.
 
-    Parameters
-    ----------
-    case : Case
-        A case that has been read.
-    threads : int
-        Threads of one Fourier transform.
-
-    Returns
-    -------
-    PreparedRun
-        Ready to run.
-
-    Raises
-    ------
-    CaseError
-        If it cannot be run, or needs more memory than is free.
+    CaseError if it cannot be run, or needs more memory than is free.
     """
     _refuse_beyond_memory(case)
     run = _prepared_run(case, threads)
@@ -54,7 +39,7 @@ def _prepared_run(case: Case, threads: int) -> RunSetup:
 
 
 def _refuse_beyond_memory(case: Case) -> None:
-    """Refuse the grid before anything of its size is allocated."""
+    """Refuse a grid that is too large before arrays of its size are allocated."""
     if not isinstance(case.grid, Grid):
         return
     _refuse_beyond(case, case.grid, least_memory(case.grid, case.material))

@@ -41,7 +41,7 @@ def simulate(
     progress: Progress | None = None,
     errors: bool = True,
 ) -> xr.Dataset:
-    """Press an indenter on a creeping half-space and return what happens over time.
+    """Simulate an indenter pressed on a creeping half-space, and return its contact over time.
 
     Parameters
     ----------
@@ -52,12 +52,12 @@ def simulate(
     load : LoadHistory
         Force or approach, eccentricity and prescribed tilts over time.
     grid : Grid or AutomaticGrid, optional
-        Cells that carry the pressure, or requirements on them: then, and when left out, the run
-        chooses the cells.
+        Cells that carry the pressure, or requirements on cells that the run chooses; chosen by
+        the run as well when left out.
     times : array_like or AdaptiveTimes, optional
         Instants of the result, strictly increasing, none before 0 [s]; chosen from load and
         law when left out. With `adaptive_times` the run chooses its steps, and ``time`` holds
-        those it took.
+        the instants at which they end.
     indenter_material : Material, optional
         Material of the indenter; rigid when left out.
     tolerance : float, optional
@@ -79,31 +79,31 @@ def simulate(
         Scalars over ``time``, fields over (time or field_time, x, y), all in SI units, each
         with ``units`` and ``long_name``; the case, warnings and tolerance as attributes.
 
-        Where errors are estimated, a scalar has ``<name>_error`` beside it, over ``time`` and in
-        its own unit: the half width of an error bar, which 95 of 100 true errors do not exceed.
-        It is inf for a peak pressure without a limit (at a sharp edge or point), NaN where
-        nothing is known, 0 for what is zero because nothing touches, and some three times
-        `tolerance` of what is prescribed.
+        Where errors are estimated, each scalar has a variable ``<name>_error`` over ``time``, in
+        the scalar's unit: the half width of an error bar, which 95 of 100 true errors do not
+        exceed. It is inf for a peak pressure without a limit (at a sharp edge or point), NaN
+        where the error is unknown, 0 for a scalar that is zero without contact, and about three
+        times `tolerance` for a prescribed quantity.
 
-        If the run has enlarged its grid, fields are on the last one: beyond the grid of an
-        earlier instant pressure is 0, and gap and displacement are NaN. The attribute
-        ``grid_enlarged`` says when.
+        If the run has enlarged its grid, the fields are on the last grid: outside the grid of an
+        earlier instant, pressure is 0 and gap and displacement are NaN. The attribute
+        ``grid_enlarged`` lists the times of enlargement.
 
     Raises
     ------
     ValueError
-        If an argument makes no sense, with a remedy.
+        If an argument is invalid; the message says what to change.
     ConvergenceError, DomainError
         If the run stops; ``partial`` holds the completed steps as a dataset.
 
     Warns
     -----
     AccuracyWarning
-        If the result is coarser than one would expect; kept in the attribute ``warnings``.
+        If the result is less accurate than expected; kept in the attribute ``warnings``.
 
     See Also
     --------
-    march : the generator underneath, which yields one state after the other.
+    march : Generator of the states of a run, one after the other.
 
     Examples
     --------
@@ -146,25 +146,9 @@ def labelled(
     wall_time: float,
     bars: ErrorBars | None = None,
 ) -> xr.Dataset:
-    """Label the states of a run, with what is known of the run as attributes.
+    """Dataset of the states of a run, at least one, with the attributes of the run.
 
-    Parameters
-    ----------
-    run : RunSetup
-        Before its first step, on the grid that it started with.
-    states : sequence of ContactState
-        Its states so far, at least one.
-    fields : str or sequence of float
-        As in `simulate`.
-    wall_time : float
-        Duration of the computation [s].
-    bars : ErrorBars, optional
-        Errors of the scalars.
-
-    Returns
-    -------
-    xarray.Dataset
-        As `simulate` returns it.
+    `run` is as before its first step, on the grid that it started with; `wall_time` in seconds.
     """
     warned = [text for state in states for text in state.warnings]
     warned += bars.warnings if bars is not None else ()
