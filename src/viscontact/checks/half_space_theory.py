@@ -77,7 +77,7 @@ class Geometry:
 
     @cached_property
     def ends(self) -> bool:
-        """Whether the body ends within the grid."""
+        """True if the body ends within the grid."""
         return bool(np.isinf(self.open_gap).any())
 
     @cached_property
@@ -193,7 +193,7 @@ def corner_warnings(
 
 
 def _touches_seam(geometry: Geometry, rim: Rim) -> bool:
-    """Whether contact lies at a step from the period's last cells to its first.
+    """True if contact lies at a step from the period's last cells to its first.
 
     A step is much larger than the differences between neighbouring cells elsewhere.
     """
@@ -209,7 +209,7 @@ def _touches_seam(geometry: Geometry, rim: Rim) -> bool:
 
 
 def _spans(contact: NDArray[np.bool_], cells: int) -> bool:
-    """Whether a contact extends over a number of cells along both axes."""
+    """True if a contact extends over a number of cells along both axes."""
     return all(int(contact.any(axis=axis).sum()) >= cells for axis in (0, 1))
 
 
@@ -219,7 +219,7 @@ def _half_width(rim: Rim) -> float:
 
 
 def _ends_within(geometry: Geometry, rim: Rim, distance: float) -> bool:
-    """Whether the indenter ends within a distance [m] of the box around the contact."""
+    """True if the indenter ends within a distance [m] of the box around the contact."""
     block = []
     for axis, lines in enumerate((rim.rows, rim.columns)):
         touched = lines[rim.contact.any(axis=1 - axis)]

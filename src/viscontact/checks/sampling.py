@@ -61,7 +61,7 @@ class Sampling:
         return np.reshape(found, (-1, 3)).T
 
     def reaches_beyond(self, motion: NDArray[np.float64], depth: float) -> bool:
-        """Whether the moved body lies deeper than a depth [m] at a point outside the grid."""
+        """True if the moved body lies deeper than a depth [m] at a point outside the grid."""
         far_x, far_y, least = self._rings
         # Called at every step; nearly always no ring comes close.
         deepest = motion[0] + abs(motion[1]) * far_x + abs(motion[2]) * far_y - least
@@ -97,7 +97,7 @@ class Sampling:
 
     @cached_property
     def sees_all(self) -> bool:
-        """Whether nothing is missed anywhere."""
+        """True if nothing is missed anywhere."""
         return not self.missed.any()
 
     def _sampled_points(self) -> Iterator[Points]:

@@ -19,7 +19,7 @@ MIN_ANGLE = 0.06
 
 
 def touches_end(open_gap: NDArray[np.float64], contact: NDArray[np.bool_]) -> bool:
-    """Whether a contact reaches a cell beside which the indenter ends (open gap +inf).
+    """True if a contact reaches a cell beside which the indenter ends (open gap +inf).
 
     Examples
     --------
@@ -44,7 +44,7 @@ def is_sharp(
     cell: tuple[float, float],
     strain: float,
 ) -> bool:
-    """Whether a body has a point, a ridge or a corner near a place, towards the half-space.
+    """True if a body has a point, a ridge or a corner near a place, towards the half-space.
 
     The largest pressure lies at `place` [m], the point within `reach` of it along x and y [m]. A
     rounding within a quarter of a cell [m] counts as sharp; angles are compared with `strain`, from

@@ -152,24 +152,27 @@ class BoundedCG:
 
     def _step(self) -> None:
         """Steps 4 and 5: step to the least energy on the direction, or towards the cut pressure."""
+        # Step 5: where a step of about the last length leads to tension, step towards the cut and
+        # balanced pressure instead of cutting afterwards.
         projected = self._projected_trial()
         if projected is not None and self._step_to_projected(projected):
             return
+        # Step 4: exact line search, length = -<r, d> / <d, J K d>.
         direction, before = self._direction, self.iterate
         change = self._unit_displacement_of(direction)
         curvature = self.problem.compliance * _inner(direction, change)
         if curvature <= 0:
             self._slope = 0.0
             return
-        # Step 4: exact line search, -<r, d> / <d, J K d>.
         self._length = length = -_inner(self._residual, direction) / curvature
         self.iterate = _stepped(before, length, direction, change)
+        # Step 5: cut off tension; a plane factor restores the balances.
         if float(self.iterate.pressure.min()) >= 0 or self._project_to_feasible(
             self.iterate.pressure
         ):
             return
-        # Step 5: no plane factor balances the cut pressure. Adding a plane and cutting does, as all
-        # active cells together can carry the load.
+        # No plane factor balances the cut pressure. Adding a plane and cutting does, as all active
+        # cells together can carry the load.
         self._slope = 0.0
         constraints, plane, area = self.problem.constraints, self.patch.plane, self.patch.cell_area
         nearest = project_onto_balance(
@@ -186,6 +189,7 @@ class BoundedCG:
 
     def _step_to_projected(self, projected: NDArray[np.float64]) -> bool:
         """Step towards a feasible pressure, at most all the way; whether that is far enough."""
+        # Exact line search on the segment from the iterate to the projected pressure.
         before, step = self.iterate, projected - self.iterate.pressure
         change = self._unit_displacement_of(step)
         curvature = self.problem.compliance * _inner(step, change)
@@ -212,7 +216,7 @@ class BoundedCG:
         self.iterate = Guess(pressure, moved.unit_displacement, moved.motion)
 
     def _is_feasible(self) -> bool:
-        """Whether the pressure is non-negative and balanced to rounding."""
+        """True if the pressure is non-negative and balanced to rounding."""
         sums = self.patch.plane.sums(self.iterate.pressure) * self.patch.cell_area
         off = self.problem.constraints.imbalance(sums, self.patch.arm)
         return float(self.iterate.pressure.min()) >= 0 and off < BALANCE_TOLERANCE

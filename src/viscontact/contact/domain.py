@@ -46,7 +46,7 @@ class Patch:
         return field[self.rows, self.columns]
 
     def holds(self, rows: slice, columns: slice) -> bool:
-        """Whether a block of cells lies within the patch."""
+        """True if a block of cells lies within the patch."""
         return _within(rows, self.rows) and _within(columns, self.columns)
 
 
@@ -63,13 +63,6 @@ class ContactDomain:
     grid is not mirrored and has no patches: nothing is padded there, and the preconditioner is the
     exact inverse.
 
-    Attributes
-    ----------
-    whole : Patch
-        The patch of all cells that are worked with.
-    convolution : Convolution or PeriodicConvolution
-        Deflection of all of them under a pressure, in double precision.
-
     Examples
     --------
     >>> domain = ContactDomain(Grid((4, 8), (1.0, 1.0)), mirrored=(False, True))
@@ -77,7 +70,8 @@ class ContactDomain:
     (4, 4)
     """
 
-    convolution: Operator
+    whole: Patch  # all cells of the domain
+    convolution: Operator  # pressure to unit displacement on all cells, in double precision
 
     def __init__(
         self,
@@ -213,7 +207,7 @@ class ContactDomain:
 
 
 def mirrored_axes(open_gap: NDArray[np.float64], even_load: tuple[bool, bool]) -> tuple[bool, bool]:
-    """Whether a problem is even across x = 0, and across y = 0: gap and load both are."""
+    """Symmetry of a problem across x = 0 and across y = 0: True if gap and load are even."""
     along_x, along_y = (even_load[axis] and is_even(open_gap, axis) for axis in (0, 1))
     return along_x, along_y
 
@@ -241,7 +235,7 @@ def _guarded(span: slice) -> slice:
 
 
 def _within(inner: slice, outer: slice) -> bool:
-    """Whether a slice lies within another."""
+    """True if a slice lies within another."""
     return bool(outer.start <= inner.start and inner.stop <= outer.stop)
 
 

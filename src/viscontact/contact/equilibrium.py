@@ -60,15 +60,16 @@ def solve_contact(
     The unit displacement of a guess must belong to its pressure; tension in it is cut off and its
     balances are restored. Without a guess, or if it does not converge, the solve starts from the
     solution on a coarser grid, and on the coarsest from a Winkler foundation. The tolerance bounds
-    the relative residual and the relative imbalance. If the iteration stagnates or uses up
-    `max_iterations`, the best pressure is returned with ``converged`` False.
+    the relative residual and the relative imbalance. ``converged`` is False if the iteration
+    stagnates or uses up `max_iterations`.
     """
+    # Start from the guess.
     found = None
     if guess is not None:
         found = _solve_from(guess, problem, domain, tolerance, max_iterations)
         if found.converged:
             return found
-    # After a large change of the load, a guess can be worse than none.
+    # Cold start: after a large change of the load, a guess can be worse than none.
     start = _cold_start(problem, domain)
     cold = _solve_from(start, problem, domain, tolerance, max_iterations)
     if found is None:
@@ -128,7 +129,7 @@ def _is_balanced(
     pressure: NDArray[np.float64],
     tolerance: float,
 ) -> bool:
-    """Whether force and moments of a pressure meet the constraints."""
+    """True if force and moments of a pressure meet the constraints."""
     whole = domain.whole
     off = problem.constraints.imbalance(whole.plane.sums(pressure) * whole.cell_area, whole.arm)
     return off <= tolerance

@@ -85,6 +85,7 @@ def choose_mesh(problem: Problem, end: float | None) -> Mesh:
     largest = next(each for each in found if each.point.level == highest)
     reach = np.array([each.estimate.reach for each in found], dtype=np.float64).max(axis=0)
     size = 2 * MARGIN * reach
+    # Steps 2 to 5.
     choice = _first_choice(indenter, request, largest, size)
     smallest = smallest_contact(indenter, compliance, load, end, found)
     if min(np.divide(smallest.estimate.extents, largest.estimate.extents)) < SMALLER:

@@ -80,14 +80,16 @@ def refine_mesh(
     names, shape = tuple(quantities), _good_shape(fewest, finest)
     trials: list[MeshTrial] = []
     while True:
+        # Step 1: errors on this mesh.
         trial = try_mesh(pressing, shape, exact)
         trials.append(trial)
         following = _refined(trial, names, tolerance, finest)
         is_last = following == shape or math.prod(following) > most_cells
         is_exact = PEAK not in names or (_factors(trial, (PEAK,), tolerance) == 1).all()
+        # Step 4: a singular peak is not refined for.
         if not is_exact and _has_no_limit(trials, patient=not is_last):
             names = tuple(name for name in names if name != PEAK)
-        # The first mesh that is fine enough for the remaining quantities, and not by chance.
+        # Step 2: the first mesh that is fine enough for the remaining quantities, not by chance.
         enough = [
             each
             for each in trials
@@ -96,6 +98,7 @@ def refine_mesh(
         ]
         if enough:
             return Resolution(enough[0], names, enough[0].cells)
+        # Step 3: the next mesh, or the end of what is allowed.
         following = _refined(trial, names, tolerance, finest)
         if following == shape or math.prod(following) > most_cells:
             needed = trial.cells * float(_factors(trial, names, tolerance).prod())
@@ -104,7 +107,7 @@ def refine_mesh(
 
 
 def _agree(trial: MeshTrial, finer: MeshTrial, names: Sequence[str], tolerance: float) -> bool:
-    """Whether two meshes agree in these quantities to the tolerance."""
+    """True if two meshes agree in these quantities to the tolerance."""
     which = [GRID_QUANTITIES.index(name) for name in names]
     return np.allclose(trial.values[which], finer.values[which], rtol=tolerance, atol=0.0)
 

@@ -117,6 +117,7 @@ class AdaptiveSteps:
         if step.is_jump:
             self._advance(step)
             return True
+        # Proposed factor of the duration (Hairer, Norsett & Wanner, section II.4), limited below.
         factor = SAFETY_FACTOR * (self._allowed / max(error, 1e-30)) ** (1 / ERROR_ORDER)
         # Error too large: repeat with a shorter duration.
         if error > self._allowed and step.duration > MIN_STEP_FRACTION * self._end:

@@ -153,12 +153,14 @@ class BoltzmannSum(HereditaryIntegral):
         if not self._ahead_from <= step < self._ahead_from + len(self._ahead):
             self._ahead = self._summed(self._planned[step : step + BLOCK_STEPS], 0)
             self._ahead_from = step
+        # Increments since the block was computed are added singly.
         recent = self._summed(self._planned[step : step + 1], self._ahead_from)[0]
         return np.asarray(self._ahead[step - self._ahead_from] + recent)
 
     def _summed(self, ends: NDArray[np.float64], first: int) -> NDArray[np.float64]:
         """Displacements at some times from the increments so far, from the index `first` on."""
         began, ended = (each[first : self._count] for each in (self._began, self._ended))
+        # Ages of each increment's rise at these times: its weight is the mean of J over them.
         since_began = np.maximum(ends[:, None] - began, 0.0)
         since_ended = np.clip(ends[:, None] - ended, 0.0, since_began)
         weights = self._compliance.mean(since_ended, since_began)

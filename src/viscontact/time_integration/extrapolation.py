@@ -59,7 +59,7 @@ def predict(past: Sequence[ElasticReference], time: float, drive: float) -> Elas
 
 
 def _is_steady(drives: Sequence[float]) -> bool:
-    """Whether the drive moves one way, by steps of similar size."""
+    """True if the drive moves one way, by steps of similar size."""
     steps = np.diff(drives)
     sizes = np.abs(steps)
     same_sign = bool((steps > 0).all() or (steps < 0).all())

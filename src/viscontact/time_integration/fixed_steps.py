@@ -36,7 +36,7 @@ class Step:
 
     @property
     def is_jump(self) -> bool:
-        """Whether the load jumps in this step."""
+        """True if the load jumps in this step."""
         return self.duration == 0
 
     @property

@@ -85,7 +85,7 @@ class HereditaryIntegral(ABC):
 
 
 def is_resolved(crept: float, instant: float, *, whole: bool) -> bool:
-    """Whether a step is short against the law, so that pressure may change much over it.
+    """True if a step is short against the law, so that pressure may change much over it.
 
     `crept` is J at its end less J(0), `instant` is J(0) [1/Pa]. With J(0) = 0 no step is short, but
     one over whose `whole` length the field may rise is followed well.

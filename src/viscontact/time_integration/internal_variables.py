@@ -74,6 +74,7 @@ class InternalVariables(HereditaryIntegral):
     def accept(self, value: NDArray[np.float64]) -> None:
         """Update the internal variables with the new value of the field, and close the step."""
         self._jumped = self._next_jumps
+        # d(t + h) = decay d(t) + w_old q(t) + w_new q(t + h), term by term.
         for field, decay, old, new in zip(
             self._fields, self._next.decay, self._next.old, self._next.new, strict=True
         ):
@@ -98,6 +99,7 @@ class InternalVariables(HereditaryIntegral):
 
     def _response(self) -> HereditaryResponse:
         """Response to the step whose weights are set."""
+        # History: all of the displacement that does not depend on the new value.
         step = self._next
         history = step.old.sum() * self._value
         for field, decay in zip(self._fields, step.decay, strict=True):
