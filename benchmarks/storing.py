@@ -18,8 +18,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from viscontact.case import read_case
-from viscontact.runs.directory.recorded_run import Recorded
-from viscontact.runs.directory.recorder import RunRecord
+from viscontact.runs.directory.recorded_run import RecordedRun
+from viscontact.runs.directory.recorder import Recorder
 from viscontact.runs.preparation import prepared
 from viscontact.simulation.setup import RunSetup
 from viscontact.simulation.state_generator import march_run
@@ -40,7 +40,7 @@ def march(run: RunSetup) -> int:
 def record(run: RunSetup, fields: str) -> int:
     """Record a run in a directory of its own; return the size of the result [bytes]."""
     with TemporaryDirectory() as folder:
-        recording = RunRecord(Recorded(Path(folder), run, fields))
+        recording = Recorder(RecordedRun(Path(folder), run, fields))
         for _ in recording.steps():
             pass
         recording.finish()

@@ -32,7 +32,7 @@ from viscontact.cli.run import checked_run, execution
 from viscontact.cli.terminal.interruption import watched_interruption
 from viscontact.runs.directory import recorder
 from viscontact.runs.directory.lock import locked
-from viscontact.runs.directory.recorder import RunRecord
+from viscontact.runs.directory.recorder import Recorder
 from viscontact.simulation import stepper
 
 __all__ = ["folder", "whole"]  # fixtures
@@ -96,7 +96,7 @@ def test_run_that_was_killed_as_it_finished_is_finished(
         raise Killed
 
     with monkeypatch.context() as patched:
-        patched.setattr(recorder, "remove_traces", die)
+        patched.setattr(recorder, "remove_restart_files", die)
         with pytest.raises(Killed):
             main(["run", "case.yaml", "-q"])
     assert "state.npz" in contents("case")
@@ -209,7 +209,7 @@ def test_earlier_result_stays_until_the_new_run_has_its_first_instant(
     assert contents("case") == before
     # and what comes to be there first is not gone on with as the earlier run
     with monkeypatch.context() as patched:
-        patched.setattr(RunRecord, "_write", die)
+        patched.setattr(Recorder, "_write", die)
         with pytest.raises(Killed):
             main(["run", "case.yaml", "--overwrite", *heavier])
     assert contents("case")["result.nc"] == before["result.nc"]
@@ -347,14 +347,14 @@ def test_request_before_the_first_step_changes_nothing(
 def test_request_while_the_run_is_opened_leaves_nothing(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    opening = recorder.new_writer
+    opening = recorder.ResultWriter
 
     def asked(*arguments: Any) -> Any:
         writer = opening(*arguments)
         signal.raise_signal(signal.SIGINT)
         return writer
 
-    monkeypatch.setattr(recorder, "new_writer", asked)
+    monkeypatch.setattr(recorder, "ResultWriter", asked)
     assert main(["run", "case.yaml"]) == 130
     assert [path.name for path in folder.iterdir()] == ["case.yaml"]
 

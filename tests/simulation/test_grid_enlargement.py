@@ -15,8 +15,8 @@ from simulation.measured_swing import write_swing
 from simulation.test_march import differing, steps_of, through_a_file
 from viscontact.grid import AutomaticGrid
 from viscontact.problem.problem import Problem
-from viscontact.runs.directory.recorded_run import Recorded
-from viscontact.runs.directory.recorder import RunRecord
+from viscontact.runs.directory.recorded_run import RecordedRun
+from viscontact.runs.directory.recorder import Recorder
 from viscontact.runs.single import labelled
 from viscontact.simulation.grid_enlargement import next_grid
 from viscontact.simulation.march import March
@@ -199,10 +199,10 @@ def test_contact_that_the_automatic_extent_has_not_foreseen_is_followed(tmp_path
 SOME = [0.0, 0.75, 2.0, 3.0]
 
 
-def recorded(directory: Path, fields: str | list[float] = "all") -> Recorded:
+def recorded(directory: Path, fields: str | list[float] = "all") -> RecordedRun:
     directory.mkdir(exist_ok=True)
     prepare, small = RUNS["sphere"]
-    return Recorded(directory, growing(prepare(small)), fields)
+    return RecordedRun(directory, growing(prepare(small)), fields)
 
 
 @pytest.mark.parametrize("fields", ["all", SOME])
@@ -210,7 +210,7 @@ def test_recorded_result_is_the_one_that_is_returned(
     fields: str | list[float], tmp_path: Path
 ) -> None:
     of = recorded(tmp_path, fields)
-    finish(RunRecord(of))
+    finish(Recorder(of))
     states = states_of(of.run)
     if fields != "all":
         states = [each if each.time in fields else each.without_fields() for each in states]
@@ -229,12 +229,12 @@ def test_run_that_is_stopped_after_every_step_ends_in_the_same_bits(
 ) -> None:
     monkeypatch.setattr("viscontact.runs.directory.recorder.PAUSE", pause)
     monkeypatch.setattr("viscontact.runs.directory.recorder.SHARE", 0.0)
-    finish(RunRecord(recorded(tmp_path / "whole", fields)))
+    finish(Recorder(recorded(tmp_path / "whole", fields)))
     stopped = recorded(tmp_path / "stopped", fields)
-    stop_after(RunRecord(stopped), 1)
+    stop_after(Recorder(stopped), 1)
     for instants in range(2, len(stopped.run.problem.instants)):
-        stop_after(RunRecord.resume(stopped), instants)
-    finish(RunRecord.resume(stopped))
+        stop_after(Recorder.resume(stopped), instants)
+    finish(Recorder.resume(stopped))
     assert same_bits(tmp_path / "stopped", tmp_path / "whole")
     notes = []
     for name in ("stopped", "whole"):
@@ -249,8 +249,8 @@ def test_result_that_is_ahead_of_the_state_on_a_larger_grid_is_gone_on_with(
     """As where a process is killed between the two, just after the grid has grown."""
     monkeypatch.setattr("viscontact.runs.directory.recorder.PAUSE", 0.0)
     monkeypatch.setattr("viscontact.runs.directory.recorder.SHARE", 0.0)
-    finish(RunRecord(recorded(tmp_path / "whole")))
-    record = RunRecord(recorded(tmp_path / "ahead"))
+    finish(Recorder(recorded(tmp_path / "whole")))
+    record = Recorder(recorded(tmp_path / "ahead"))
     saved = b""
     for state in record.steps():
         assert state is not None
@@ -261,5 +261,5 @@ def test_result_that_is_ahead_of_the_state_on_a_larger_grid_is_gone_on_with(
     with vc.open_results(tmp_path / "ahead") as ds:
         assert ds.sizes["x"] == 30
     (tmp_path / "ahead" / "state.npz").write_bytes(saved)
-    finish(RunRecord.resume(recorded(tmp_path / "ahead")))
+    finish(Recorder.resume(recorded(tmp_path / "ahead")))
     assert same_bits(tmp_path / "ahead", tmp_path / "whole")

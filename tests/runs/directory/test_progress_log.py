@@ -64,32 +64,43 @@ def test_cut_anywhere_the_log_goes_on_with_the_same_lines(kept: int, tmp_path: P
     # A killed process leaves a part of the line it was at; all parts of it are tried.
     for end in range(ends[kept], len(whole), 7):
         path.write_bytes(whole[:end])
-        with ProgressLog.resume(path, kept) as log:
+        reached = state(kept - 1).time if kept else None
+        with ProgressLog.resume(path, kept, reached) as log:
             assert log.count == kept
-            assert path.read_bytes() == whole[: ends[kept]]
+            assert path.read_bytes() == whole[:end]  # until the next line
             for row in range(kept, 6):
                 log.append(state(row))
         assert path.read_bytes() == whole
 
 
+LINE = b'{"time": 1.0}\n'
+
+
 @pytest.mark.parametrize(
-    ("content", "found"), [(b"", 0), (b"{}\n{}\n{}", 2), (b"\xff\n" + b"x" * 200_000, 1)]
+    ("content", "reason"),
+    [
+        (b"", "is not the course of this run so far"),
+        (LINE + LINE + LINE[:-1], "is not the course of this run so far"),
+        (LINE + LINE + LINE.replace(b"1", b"2"), "is not the course of this run so far"),
+        (LINE + b"{}\n" + LINE, "is damaged"),
+        (b"\xff\n" + b"x" * 200_000, "is damaged"),
+    ],
 )
 def test_log_that_lacks_lines_is_refused_and_left_alone(
-    content: bytes, found: int, tmp_path: Path
+    content: bytes, reason: str, tmp_path: Path
 ) -> None:
     path = tmp_path / "progress.jsonl"
     path.write_bytes(content)
-    with pytest.raises(ValueError, match=rf"has {found} whole lines.*had written 3.*--overwrite"):
-        ProgressLog.resume(path, 3)
+    with pytest.raises(ValueError, match=rf"{reason}.*--overwrite"):
+        ProgressLog.resume(path, 3, 1.0)
     assert path.read_bytes() == content
 
 
 def test_log_that_cannot_be_read_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="cannot be read"):
-        ProgressLog.resume(tmp_path / "progress.jsonl", 1)
+        ProgressLog.resume(tmp_path / "progress.jsonl", 1, 1.0)
     with pytest.raises(ValueError, match="cannot be read"):
-        ProgressLog.resume(tmp_path, 1)
+        ProgressLog.resume(tmp_path, 1, 1.0)
 
 
 def test_line_that_found_no_room_is_taken_back(tmp_path: Path) -> None:

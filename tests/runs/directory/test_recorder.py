@@ -23,8 +23,8 @@ from viscontact.problem.problem import Problem
 from viscontact.run_files import PROGRESS_NAME, STATE_NAME
 from viscontact.runs.directory.checkpoint import Checkpoint, load_checkpoint, save_checkpoint
 from viscontact.runs.directory.npz_archive import read_plain, write_plain
-from viscontact.runs.directory.recorded_run import ChangedCaseError, Recorded
-from viscontact.runs.directory.recorder import RunRecord
+from viscontact.runs.directory.recorded_run import ChangedCaseError, RecordedRun
+from viscontact.runs.directory.recorder import Recorder
 from viscontact.simulation import stepper
 from viscontact.simulation.setup import RunSetup, prepare_run
 
@@ -38,26 +38,26 @@ def sphere_run(force: float = 0.1, count: int = COUNT) -> RunSetup:
 
 
 @pytest.fixture
-def recorded(tmp_path: Path) -> Recorded:
+def recorded(tmp_path: Path) -> RecordedRun:
     """A run of a sphere, and an empty directory for it."""
-    return Recorded(tmp_path, sphere_run(), [0.0, 1.0])
+    return RecordedRun(tmp_path, sphere_run(), [0.0, 1.0])
 
 
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The directory of the same run, uninterrupted."""
     directory = tmp_path_factory.mktemp("whole")
-    finish(RunRecord(Recorded(directory, sphere_run(), [0.0, 1.0])))
+    finish(Recorder(RecordedRun(directory, sphere_run(), [0.0, 1.0])))
     return directory
 
 
-def finish(record: RunRecord) -> None:
+def finish(record: Recorder) -> None:
     for _ in record.steps():
         pass
     record.finish()
 
 
-def stop_after(record: RunRecord, instants: int) -> None:
+def stop_after(record: Recorder, instants: int) -> None:
     """March so far, then leave everything as a process that is killed would."""
     for number, _ in enumerate(record.steps(), record.resumed.instants + 1):
         if number == instants:
@@ -151,12 +151,12 @@ def test_pickled_objects_are_never_loaded() -> None:
 
 @pytest.mark.parametrize("instants", [1, 2, 7, COUNT])
 def test_run_goes_on_to_the_same_bits(
-    instants: int, recorded: Recorded, whole: Path, monkeypatch: pytest.MonkeyPatch
+    instants: int, recorded: RecordedRun, whole: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("viscontact.runs.directory.recorder.PAUSE", 0.0)
     monkeypatch.setattr("viscontact.runs.directory.recorder.SHARE", 0.0)
-    stop_after(RunRecord(recorded), instants)
-    record = RunRecord.resume(recorded)
+    stop_after(Recorder(recorded), instants)
+    record = Recorder.resume(recorded)
     expected = (instants, recorded.run.problem.instants[instants - 1])
     assert record.resumed == record.saved == record.shown == expected
     finish(record)
@@ -167,17 +167,17 @@ def test_run_goes_on_to_the_same_bits(
 
 
 def test_run_that_is_stopped_after_every_step_ends_in_the_same_bits(
-    recorded: Recorded, whole: Path
+    recorded: RecordedRun, whole: Path
 ) -> None:
-    stop_after(RunRecord(recorded), 1)
+    stop_after(Recorder(recorded), 1)
     for instants in range(2, COUNT + 1):
-        stop_after(RunRecord.resume(recorded), instants)
-    finish(RunRecord.resume(recorded))
+        stop_after(Recorder.resume(recorded), instants)
+    finish(Recorder.resume(recorded))
     assert same_bits(recorded.directory, whole)
 
 
 def test_what_a_checkpoint_saves_is_on_the_disk_in_an_order_that_a_power_cut_respects(
-    recorded: Recorded, monkeypatch: pytest.MonkeyPatch
+    recorded: RecordedRun, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("viscontact.runs.directory.recorder.PAUSE", 0.0)
     monkeypatch.setattr("viscontact.runs.directory.recorder.SHARE", 0.0)
@@ -195,7 +195,7 @@ def test_what_a_checkpoint_saves_is_on_the_disk_in_an_order_that_a_power_cut_res
 
     monkeypatch.setattr(os, "fsync", flush)
     monkeypatch.setattr(os, "replace", replacing)
-    record = RunRecord(recorded)
+    record = Recorder(recorded)
     lines = recorded.directory / PROGRESS_NAME
     for _ in record.steps():
         if record.saved.instants == 1:  # from here on the directory is this run's
@@ -214,7 +214,7 @@ def test_what_a_checkpoint_saves_is_on_the_disk_in_an_order_that_a_power_cut_res
 
 
 def test_file_system_that_flushes_no_directories_is_no_obstacle(
-    recorded: Recorded, whole: Path, monkeypatch: pytest.MonkeyPatch
+    recorded: RecordedRun, whole: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     flush = os.fsync
 
@@ -224,12 +224,12 @@ def test_file_system_that_flushes_no_directories_is_no_obstacle(
         flush(descriptor)
 
     monkeypatch.setattr(os, "fsync", flushing)
-    finish(RunRecord(recorded))
+    finish(Recorder(recorded))
     assert same_bits(recorded.directory, whole)
 
 
 def test_course_of_a_finished_run_is_on_the_disk_before_its_state_is_gone(
-    recorded: Recorded, monkeypatch: pytest.MonkeyPatch
+    recorded: RecordedRun, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     flushed: list[tuple[int, int]] = []
 
@@ -237,25 +237,25 @@ def test_course_of_a_finished_run_is_on_the_disk_before_its_state_is_gone(
         flushed.append((os.fstat(descriptor).st_ino, os.fstat(descriptor).st_size))
 
     monkeypatch.setattr(os, "fsync", flush)
-    finish(RunRecord(recorded))
+    finish(Recorder(recorded))
     course = (recorded.directory / PROGRESS_NAME).stat()
     assert (course.st_ino, course.st_size) in flushed
 
 
 def test_run_that_is_killed_loses_the_steps_since_its_last_checkpoint_only(
-    recorded: Recorded, whole: Path, monkeypatch: pytest.MonkeyPatch
+    recorded: RecordedRun, whole: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("viscontact.runs.directory.recorder.PAUSE", 1e9)  # after the first step
-    stop_after(RunRecord(recorded), 7)
+    stop_after(Recorder(recorded), 7)
     assert len((recorded.directory / PROGRESS_NAME).read_bytes().splitlines()) == 7
-    record = RunRecord.resume(recorded)
+    record = Recorder.resume(recorded)
     assert record.resumed == record.saved == record.shown == (1, 0.0)
     finish(record)
     assert same_bits(recorded.directory, whole)
 
 
-def test_state_of_an_older_kind_is_refused_in_one_line(recorded: Recorded) -> None:
-    stop_after(RunRecord(recorded), 2)
+def test_state_of_an_older_kind_is_refused_in_one_line(recorded: RecordedRun) -> None:
+    stop_after(Recorder(recorded), 2)
     path = recorded.directory / STATE_NAME
     with path.open("rb") as file:
         saved = read_plain(file)
@@ -263,14 +263,14 @@ def test_state_of_an_older_kind_is_refused_in_one_line(recorded: Recorded) -> No
         write_plain(file, {**saved, "token": "0123", "steps": 2})
     (recorded.directory / "steps.log").write_bytes(b"viscontact steps 1\n")
     with pytest.raises(ValueError, match=r"another version of viscontact; .* --overwrite$") as told:
-        RunRecord.resume(recorded)
+        Recorder.resume(recorded)
     assert "\n" not in str(told.value)
 
 
 def test_first_step_that_fails_changes_nothing(
-    recorded: Recorded, monkeypatch: pytest.MonkeyPatch
+    recorded: RecordedRun, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    stop_after(RunRecord(recorded), 3)
+    stop_after(Recorder(recorded), 3)
     before = contents(recorded.directory)
 
     solve = stepper.solve_contact
@@ -280,66 +280,66 @@ def test_first_step_that_fails_changes_nothing(
 
     other = dataclasses.replace(recorded, run=sphere_run(0.2))
     monkeypatch.setattr(stepper, "solve_contact", failing)
-    record = RunRecord(other)
+    record = Recorder(other)
     with pytest.raises(vc.ConvergenceError):
         list(record.steps())
     record.close()
     assert contents(recorded.directory) == before
 
 
-def test_result_of_another_run_is_not_gone_on_with(recorded: Recorded, tmp_path: Path) -> None:
+def test_result_of_another_run_is_not_gone_on_with(recorded: RecordedRun, tmp_path: Path) -> None:
     (tmp_path / "other").mkdir()
-    other = Recorded(tmp_path / "other", sphere_run(0.2), [0.0, 1.0])
+    other = RecordedRun(tmp_path / "other", sphere_run(0.2), [0.0, 1.0])
     for each in (recorded, other):
-        stop_after(RunRecord(each), 5)
+        stop_after(Recorder(each), 5)
     shutil.copy(other.directory / "result.nc", recorded.directory / "result.nc")
     shutil.rmtree(other.directory)
     before = contents(recorded.directory)
     with pytest.raises(ValueError, match="is of another run than"):
-        RunRecord.resume(recorded)
+        Recorder.resume(recorded)
     assert contents(recorded.directory) == before
 
 
-def test_changed_run_is_refused_with_the_difference(recorded: Recorded) -> None:
-    stop_after(RunRecord(recorded), 2)
+def test_changed_run_is_refused_with_the_difference(recorded: RecordedRun) -> None:
+    stop_after(Recorder(recorded), 2)
     before = contents(recorded.directory)
     with pytest.raises(ChangedCaseError) as refusal:
-        RunRecord.resume(dataclasses.replace(recorded, run=sphere_run(0.2)))
+        Recorder.resume(dataclasses.replace(recorded, run=sphere_run(0.2)))
     assert [str(each) for each in refusal.value.changes] == [
         "load.force[1]: was 0.1, is now 0.2",
     ]
     with pytest.raises(ChangedCaseError, match="fields"):
-        RunRecord.resume(dataclasses.replace(recorded, fields="none"))
+        Recorder.resume(dataclasses.replace(recorded, fields="none"))
     assert contents(recorded.directory) == before
 
 
 def test_state_of_another_version_is_refused(
-    recorded: Recorded, monkeypatch: pytest.MonkeyPatch
+    recorded: RecordedRun, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(Checkpoint.__init__, "__defaults__", ("0.0.1",))
-    stop_after(RunRecord(recorded), 2)
+    stop_after(Recorder(recorded), 2)
     with pytest.raises(ValueError, match=r"was saved by viscontact 0\.0\.1"):
-        RunRecord.resume(recorded)
+        Recorder.resume(recorded)
 
 
 def test_durations_are_right_when_the_clock_is_set_back(
-    recorded: Recorded, monkeypatch: pytest.MonkeyPatch
+    recorded: RecordedRun, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     shown = iter(range(10**9, 0, -3600))
     monkeypatch.setattr(clock, "time", lambda: float(next(shown)))
     began = clock.monotonic()
-    stop_after(RunRecord(recorded), 5)
-    finish(RunRecord.resume(recorded))
+    stop_after(Recorder(recorded), 5)
+    finish(Recorder.resume(recorded))
     with vc.open_results(recorded.directory) as ds:
         assert 0 < ds.attrs["wall_time"] < clock.monotonic() - began
 
 
 def test_hard_link_to_a_result_keeps_it_as_it_was(
-    recorded: Recorded, monkeypatch: pytest.MonkeyPatch
+    recorded: RecordedRun, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("viscontact.runs.directory.recorder.PAUSE", 0.0)
     monkeypatch.setattr("viscontact.runs.directory.recorder.SHARE", 0.0)
-    record = RunRecord(recorded)
+    record = Recorder(recorded)
     linked = recorded.directory / "snapshot.nc"
     for _ in record.steps():
         if record.saved.instants == 4:
@@ -350,23 +350,23 @@ def test_hard_link_to_a_result_keeps_it_as_it_was(
 
 
 def test_a_run_stays_with_the_transforms_it_was_begun_with(
-    recorded: Recorded, monkeypatch: pytest.MonkeyPatch
+    recorded: RecordedRun, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     run = dataclasses.replace(recorded.run, transforms="scipy")
-    begun = RunRecord(dataclasses.replace(recorded, run=run))
+    begun = Recorder(dataclasses.replace(recorded, run=run))
     next(iter(begun.steps()))
     begun.close()
     monkeypatch.setattr(fourier, "ducc0", object())  # as if it had been installed since
     faster = dataclasses.replace(recorded, run=sphere_run())
     assert faster.run.transforms == "ducc0"
-    finish(RunRecord.resume(faster))
+    finish(Recorder.resume(faster))
     assert vc.open_results(recorded.directory).attrs["transforms"] == "scipy"
 
 
 def test_a_run_whose_transforms_are_gone_is_not_gone_on_with(
-    recorded: Recorded, monkeypatch: pytest.MonkeyPatch
+    recorded: RecordedRun, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    begun = RunRecord(recorded)
+    begun = Recorder(recorded)
     next(iter(begun.steps()))
     begun.close()
     path = recorded.directory / STATE_NAME
@@ -374,4 +374,4 @@ def test_a_run_whose_transforms_are_gone_is_not_gone_on_with(
     save_checkpoint(path, saved)
     monkeypatch.setattr(fourier, "ducc0", None)
     with pytest.raises(ValueError, match=r"begun with the Fourier transforms of ducc0.*fast"):
-        RunRecord.resume(recorded)
+        Recorder.resume(recorded)

@@ -13,7 +13,7 @@ from viscontact.cli.run.resuming import standing
 from viscontact.cli.run.run_directory import chosen_directory
 from viscontact.cli.terminal.messages import refuse, say
 from viscontact.run_files import CASE_NAME, RESULT_NAME, STATE_NAME
-from viscontact.runs.directory.recorded_run import Recorded
+from viscontact.runs.directory.recorded_run import RecordedRun
 from viscontact.runs.preparation import PreparedRun, prepared
 from viscontact.runs.processes.job import Standing
 from viscontact.runs.processes.request import RunRequest
@@ -25,7 +25,7 @@ class CheckedRun:
 
     request: RunRequest
     prepared: PreparedRun
-    recorded: Recorded
+    recorded: RecordedRun
 
     def standing(self) -> Standing:
         """Return whether the run is new, stopped or finished; refuse it in all other cases."""
@@ -47,7 +47,7 @@ def checked_run(request: RunRequest) -> CheckedRun:
     directory = _directory(request)
     found = prepare(request.case, request.settings, request.threads)
     case = found.case
-    recorded = Recorded(directory, found.run, case.fields, case.title, case.errors)
+    recorded = RecordedRun(directory, found.run, case.fields, case.title, case.errors)
     return CheckedRun(request, found, recorded)
 
 

@@ -18,8 +18,8 @@ from viscontact.cli.terminal.streams import printing, unwritten
 from viscontact.errors import ConvergenceError, DomainError
 from viscontact.run_files import RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.lock import DirectoryInUse, locked
-from viscontact.runs.directory.recorded_run import ChangedCaseError, remove_traces
-from viscontact.runs.directory.recorder import RunRecord, Undisturbed
+from viscontact.runs.directory.recorded_run import ChangedCaseError, remove_restart_files
+from viscontact.runs.directory.recorder import Recorder, Undisturbed
 from viscontact.runs.processes.job import Standing
 from viscontact.runs.processes.request import RunRequest
 from viscontact.units.formatting import format_quantity
@@ -70,22 +70,22 @@ def _print_summary(directory: Path) -> None:
         say(f"{directory}: the run is finished; its table cannot be printed: {why}")
 
 
-def _new_record(checked: CheckedRun, interruption: Interruption) -> RunRecord:
+def _new_record(checked: CheckedRun, interruption: Interruption) -> Recorder:
     recorded, postponed = checked.recorded, interruption.postponed
     if checked.request.resume:
         checked.say(f"{recorded.directory}: nothing is saved there yet; starting at the beginning")
     write = partial(write_case, recorded.directory, checked.prepared.case)
     try:
-        return _opened_record(postponed, partial(RunRecord, recorded, write, postponed))
+        return _opened_record(postponed, partial(Recorder, recorded, write, postponed))
     except OSError as error:
         refuse(f"{recorded.directory}: cannot be written: {error}")
 
 
-def _resumed_record(checked: CheckedRun, interruption: Interruption) -> RunRecord:
+def _resumed_record(checked: CheckedRun, interruption: Interruption) -> Recorder:
     recorded, postponed = checked.recorded, interruption.postponed
     write = partial(write_case, recorded.directory, checked.prepared.case)
     try:
-        record = _opened_record(postponed, partial(RunRecord.resume, recorded, write, postponed))
+        record = _opened_record(postponed, partial(Recorder.resume, recorded, write, postponed))
     except ChangedCaseError as error:
         refuse_changed(recorded.directory, checked.prepared.case, error.changes)
     except ValueError as error:
@@ -104,7 +104,7 @@ def _resumed_record(checked: CheckedRun, interruption: Interruption) -> RunRecor
     return record
 
 
-def _opened_record(postponed: Undisturbed, make: Callable[[], RunRecord]) -> RunRecord:
+def _opened_record(postponed: Undisturbed, make: Callable[[], Recorder]) -> Recorder:
     """Open a record completely; on a request to stop in the meantime, close it again."""
     with ExitStack() as opened:
         with postponed():
@@ -114,7 +114,7 @@ def _opened_record(postponed: Undisturbed, make: Callable[[], RunRecord]) -> Run
     return record
 
 
-def _march(checked: CheckedRun, record: RunRecord, interruption: Interruption) -> None:
+def _march(checked: CheckedRun, record: Recorder, interruption: Interruption) -> None:
     """March and record; the completed steps are kept however it ends."""
     try:
         with interruption.marching():
@@ -137,7 +137,7 @@ def _march(checked: CheckedRun, record: RunRecord, interruption: Interruption) -
         stop("interrupted", kept, f"continue with: {_remedy(checked, record)}", code=INTERRUPTED)
 
 
-def _complete_march(checked: CheckedRun, record: RunRecord, interruption: Interruption) -> bool:
+def _complete_march(checked: CheckedRun, record: Recorder, interruption: Interruption) -> bool:
     """March to the end and save everything; False after a request to stop."""
     recorded = checked.recorded
     run = recorded.run
@@ -161,13 +161,13 @@ def _stop_if_requested(interruption: Interruption) -> None:
         raise KeyboardInterrupt
 
 
-def _publish(record: RunRecord) -> None:
+def _publish(record: Recorder) -> None:
     # The steps since the last checkpoint can be shown, but not resumed from within a step.
     with suppress(OSError, KeyboardInterrupt):
         record.publish()
 
 
-def _kept(checked: CheckedRun, record: RunRecord) -> str:
+def _kept(checked: CheckedRun, record: Recorder) -> str:
     directory = checked.recorded.directory
     if _is_gone(checked, record):
         return f"{directory} no longer exists, and neither does what it kept"
@@ -176,19 +176,19 @@ def _kept(checked: CheckedRun, record: RunRecord) -> str:
     return f"{directory} keeps {checked.made(*record.shown)}"
 
 
-def _resumable(checked: CheckedRun, record: RunRecord) -> str:
+def _resumable(checked: CheckedRun, record: Recorder) -> str:
     saved = record.saved.instants
     lost = saved < record.shown.instants and not _is_gone(checked, record)
     return _kept(checked, record) + (f"; a resumed run continues after {saved}" if lost else "")
 
 
-def _remedy(checked: CheckedRun, record: RunRecord) -> str:
+def _remedy(checked: CheckedRun, record: Recorder) -> str:
     """Command to type next: it resumes the run, or repeats it where no step is saved."""
     keeps = record.shown.instants and not _is_gone(checked, record)
     return checked.request.resuming if keeps else checked.request.repeating
 
 
-def _is_gone(checked: CheckedRun, record: RunRecord) -> bool:
+def _is_gone(checked: CheckedRun, record: Recorder) -> bool:
     """True if the directory has been removed or moved during the run."""
     files = (checked.recorded.directory / name for name in (RESULT_NAME, STATE_NAME))
     return record.shown.instants > 0 and not any(file.exists() for file in files)
@@ -206,7 +206,7 @@ def _say_finished(checked: CheckedRun) -> None:
 def remove_leftovers(directory: Path) -> None:
     """Remove temporary files of a finished run whose process was killed at its end."""
     with suppress(OSError, DirectoryInUse), locked(directory):
-        remove_traces(directory)
+        remove_restart_files(directory)
 
 
 @contextmanager

@@ -14,7 +14,7 @@ from viscontact.cli.run.run_directory import is_of_a_run, refuse_no_directory, r
 from viscontact.cli.terminal.messages import refuse
 from viscontact.run_files import CASE_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.differences import Difference, differences
-from viscontact.runs.directory.recorded_run import Recorded
+from viscontact.runs.directory.recorded_run import RecordedRun
 from viscontact.runs.directory.stored_result import StoredRun, stored_run
 from viscontact.runs.processes.job import Standing
 from viscontact.runs.processes.request import RunRequest
@@ -27,7 +27,7 @@ _MAX_CHANGES = 12
 _IRRELEVANT = ("title",)
 
 
-def standing(request: RunRequest, recorded: Recorded, case: Case) -> Standing:
+def standing(request: RunRequest, recorded: RecordedRun, case: Case) -> Standing:
     """Return whether the run of a directory is new, stopped or finished; refuse it otherwise."""
     directory = recorded.directory
     refuse_no_directory(directory)

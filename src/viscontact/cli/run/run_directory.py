@@ -13,7 +13,7 @@ from viscontact.case.reader import digest
 from viscontact.case.yaml_source import parse
 from viscontact.cli.terminal.messages import refuse
 from viscontact.run_files import CASE_NAME, PROGRESS_NAME, RESULT_NAME, STATE_NAME
-from viscontact.runs.directory.atomic_files import put_in_place
+from viscontact.runs.directory.atomic_files import replacing
 from viscontact.runs.directory.checkpoint import is_checkpoint
 from viscontact.runs.directory.lock import DirectoryInUse, locked
 from viscontact.runs.directory.progress_log import is_course
@@ -123,16 +123,8 @@ def _write(path: Path, content: bytes) -> None:
     """Replace a file; a link is replaced as well, so that its target is not changed."""
     if not path.is_symlink() and path.is_file() and path.read_bytes() == content:
         return
-    fresh = path.with_name(f".{path.name}.new")
-    fresh.unlink(missing_ok=True)
-    try:
-        with fresh.open("xb") as file:
-            file.write(content)
-        put_in_place(fresh, path)
-    except BaseException:
-        with suppress(OSError):
-            fresh.unlink()
-        raise
+    with replacing(path) as file:
+        file.write(content)
 
 
 def _refuse_other_programs(directory: Path) -> None:

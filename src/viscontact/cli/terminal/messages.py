@@ -6,7 +6,7 @@ import sys
 from contextlib import suppress
 from typing import NoReturn
 
-from viscontact.runs.processes.exit_codes import DONE, INTERRUPTED, REFUSED, STOPPED
+from viscontact.runs.processes.request import DONE, INTERRUPTED, REFUSED, STOPPED
 
 __all__ = ["DONE", "INTERRUPTED", "REFUSED", "STOPPED", "CommandError", "refuse", "say", "stop"]
 

@@ -1,24 +1,21 @@
-"""Files that change their place at once, and stay changed after a power cut."""
+"""Atomic and durable replacement of files."""
 
 from __future__ import annotations
 
 import errno
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from typing import BinaryIO
 
 #: Windows does not replace a file that a program has open.
 MAY_BE_HELD = os.name == "nt"
 
 
 def flush_to_disk(path: Path) -> None:
-    """Wait until what was written to a file is on the disk.
-
-    Parameters
-    ----------
-    path : Path
-        The file; nobody in this process holds it open.
-    """
-    # Windows flushes only what may be written.
+    """Wait until the contents of a closed file are on the disk."""
+    # Windows flushes only files that may be written.
     descriptor = os.open(path, os.O_RDWR)
     try:
         os.fsync(descriptor)
@@ -27,14 +24,9 @@ def flush_to_disk(path: Path) -> None:
 
 
 def flush_directory(directory: Path) -> None:
-    """Wait until the names in a directory are on the disk, where the system can be asked for that.
+    """Wait until the names in a directory are on the disk, where the system has a call for that.
 
-    Windows does so by itself; some file systems of a network know no such call.
-
-    Parameters
-    ----------
-    directory : Path
-        The directory.
+    Windows does so by itself; some network file systems refuse the call.
     """
     if os.name == "nt":
         return
@@ -49,20 +41,39 @@ def flush_directory(directory: Path) -> None:
 
 
 def put_in_place(fresh: Path, path: Path) -> None:
-    """Put a file in another one's place, all at once and durably.
-
-    Parameters
-    ----------
-    fresh : Path
-        The new file, closed and complete, on the same file system.
-    path : Path
-        Its place; at any moment the old file or the new one is there, even if the power is cut.
+    """Replace a file by a closed one on the same file system, atomically and durably.
 
     Raises
     ------
     PermissionError
-        On Windows, while a program has the file open that is there.
+        On Windows, while a program has the old file open.
     """
     flush_to_disk(fresh)
     fresh.replace(path)
     flush_directory(path.parent)
+
+
+@contextmanager
+def replacing(path: Path) -> Iterator[BinaryIO]:
+    """Open a new hidden file, which replaces another one at the end of a block without failure."""
+    fresh = fresh_name(path)
+    # Not written through: it may be a link.
+    fresh.unlink(missing_ok=True)
+    try:
+        with fresh.open("xb") as file:
+            yield file
+        put_in_place(fresh, path)
+    except BaseException:
+        fresh.unlink(missing_ok=True)
+        raise
+
+
+def fresh_name(path: Path) -> Path:
+    """Return the name of a new file until it replaces another one.
+
+    Examples
+    --------
+    >>> fresh_name(Path("state.npz")).name
+    '.state.npz.new'
+    """
+    return path.with_name(f".{path.name}.new")

@@ -1,4 +1,4 @@
-"""`state.npz`: what it takes to go on with a run, saved all at once or not at all."""
+"""Restart state of a run, saved atomically in `state.npz`."""
 
 from __future__ import annotations
 
@@ -7,32 +7,34 @@ from pathlib import Path
 from typing import Any
 
 from viscontact import __version__
-from viscontact.runs.directory.atomic_files import put_in_place
+from viscontact.runs.directory.atomic_files import replacing
 from viscontact.runs.directory.npz_archive import outline_of, read_plain, write_plain
-from viscontact.runs.directory.result_validation import REMEDY
 from viscontact.time_integration.restart_data import RestartData
+
+#: Remedy for files from which a run cannot be resumed.
+REMEDY = "start the run anew with --overwrite"
 
 
 @dataclass(frozen=True)
 class Checkpoint:
-    """A run as it was after one of its steps.
+    """State of a run between two of its steps.
 
     Attributes
     ----------
     case : dict
-        The run's description, which another run's must equal to go on from here.
+        Description of the run; only a run with an equal one continues from here.
     lines : int
         Lines of the progress log.
     reached : float or None
-        The last instant that was recorded [s]; None before the first.
+        Last recorded instant [s]; None before the first.
     result : dict
-        Where the writer of the result stood.
+        Position of the result's writer.
     march : dict
-        What the march restart_data; empty before the first step.
+        Restart data of the march; empty before the first step.
     transforms : str
-        Whose Fourier transforms the run is made with.
+        Library of the Fourier transforms.
     version : str
-        The program that saved it.
+        Version of the program that saved it.
     """
 
     case: dict[str, Any]
@@ -45,41 +47,14 @@ class Checkpoint:
 
 
 def save_checkpoint(path: Path, checkpoint: Checkpoint) -> None:
-    """Save a checkpoint in the place of the one before.
-
-    Parameters
-    ----------
-    path : Path
-        The file; at any moment the old one or the new one is there, even if the power is cut.
-    checkpoint : Checkpoint
-        What to save.
-
-    Raises
-    ------
-    OSError
-        If it cannot be written; the old one is still there.
-    """
-    fresh = path.with_name(f".{path.name}.new")
-    # What lies there is not written to: it may be a link to anything.
-    fresh.unlink(missing_ok=True)
-    try:
-        with fresh.open("xb") as file:
-            # Not `asdict`, which would copy every array.
-            write_plain(file, vars(checkpoint))
-        put_in_place(fresh, path)
-    except BaseException:
-        fresh.unlink(missing_ok=True)
-        raise
+    """Save a checkpoint in place of the previous one, which stays if that fails with an OSError."""
+    with replacing(path) as file:
+        # Not `asdict`, which would copy every array.
+        write_plain(file, vars(checkpoint))
 
 
 def is_checkpoint(path: Path) -> bool:
-    """Whether a file was saved as a checkpoint, by any version, be it damaged since in part.
-
-    Parameters
-    ----------
-    path : Path
-        The file, if there is one.
-    """
+    """Whether a file was saved as a checkpoint, by any version; parts of it may be damaged."""
     try:
         with path.open("rb") as file:
             outline = outline_of(file)
@@ -89,22 +64,12 @@ def is_checkpoint(path: Path) -> bool:
 
 
 def load_checkpoint(path: Path) -> Checkpoint:
-    """Load a checkpoint.
-
-    Parameters
-    ----------
-    path : Path
-        The file.
-
-    Returns
-    -------
-    Checkpoint
-        As it was saved, to the last bit.
+    """Load a checkpoint, equal to what was saved to the last bit.
 
     Raises
     ------
     ValueError
-        If the file is damaged, or not ours, or another version's.
+        If the file is damaged, of another origin, or of another version.
     """
     try:
         with path.open("rb") as file:

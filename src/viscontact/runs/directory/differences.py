@@ -1,4 +1,4 @@
-"""What differs between two descriptions of a run."""
+"""Differences between two descriptions of a run."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ class _Nothing:
         return "not there"
 
 
-#: Stands for a value where there is none.
+#: A value that is missing.
 NOTHING = _Nothing()
 
 
@@ -23,9 +23,9 @@ class Difference(NamedTuple):
     Attributes
     ----------
     where : str
-        The keys that lead there.
+        Path of keys.
     before, now : object
-        What stands there; `NOTHING` if there is no such place.
+        The values; `NOTHING` where there is none.
 
     Examples
     --------
@@ -42,19 +42,7 @@ class Difference(NamedTuple):
 
 
 def differences(before: Any, now: Any, where: str = "") -> tuple[Difference, ...]:
-    """Compare two pieces of plain data.
-
-    Parameters
-    ----------
-    before, now : object
-        Dicts, lists, texts and numbers.
-    where : str
-        Where they stand.
-
-    Returns
-    -------
-    tuple of Difference
-        The places where they differ; empty if they are the same.
+    """Compare dicts, lists, texts and numbers below a path of keys.
 
     Examples
     --------
@@ -79,7 +67,7 @@ def differences(before: Any, now: Any, where: str = "") -> tuple[Difference, ...
 
 
 def _is_same(one: Any, other: Any) -> bool:
-    # NaN differs from itself, but not for us
+    # Two NaN count as equal.
     return bool(one == other or (one != one and other != other))
 
 

@@ -1,4 +1,4 @@
-"""One run at a time in a directory."""
+"""File lock of a run directory, against a second run."""
 
 from __future__ import annotations
 
@@ -19,20 +19,15 @@ class DirectoryInUse(RuntimeError):  # noqa: N818 - a state of the directory, no
 
 @contextmanager
 def locked(directory: str | Path) -> Iterator[None]:
-    """Keep other runs out of a directory for as long as the block runs; never waits.
+    """Lock an existing directory against other runs during a block, without waiting.
 
     The lock is the operating system's: it ends with its process, however that ends, and a file
     ``.lock`` that is left over locks nothing.
 
-    Parameters
-    ----------
-    directory : path
-        The directory; it must exist.
-
     Raises
     ------
     DirectoryInUse
-        If another run, of this process or another one, has locked it.
+        If another run, of this or another process, has locked it.
     OSError
         If it cannot be locked: it may not be written to, or its file system has no locks.
 
@@ -66,7 +61,7 @@ def locked(directory: str | Path) -> Iterator[None]:
     try:
         yield
     finally:
-        # While it is locked nobody else can be given this file; Windows removes it by itself.
+        # While it is locked no other process can get this file; Windows removes it by itself.
         with suppress(OSError):
             path.unlink()
         lock.release()
@@ -85,18 +80,18 @@ def is_locked(directory: Path) -> bool:
 
 
 def _leave_name(descriptor: int) -> None:
-    """Say in the locked file whose it is; no more than a hint, so that it may fail."""
+    """Write the process into the locked file; only a hint, so that it may fail."""
     with suppress(OSError):
         os.ftruncate(descriptor, 0)
         os.write(descriptor, f"{os.getpid()} on {platform.node()}\n".encode())
 
 
 def _owner(path: Path) -> str:
-    """Return who has the lock, in brackets; nothing if it does not say."""
+    """Return the process that holds the lock, in brackets; empty if it is not known."""
     try:
         with path.open(encoding="utf-8") as file:
             said = file.read(200).strip()
-    except (OSError, ValueError):  # Windows lets nobody read what is locked
+    except (OSError, ValueError):  # Windows refuses to read a locked file
         return ""
     number, _, host = said.partition(" on ")
     return f" (process {number} on {host})" if number.isdecimal() and host.isprintable() else ""

@@ -1,4 +1,4 @@
-"""What a result's file holds, and how its rows are written and copied."""
+"""Layout of a result's netCDF file, and how its rows are written and copied."""
 
 from __future__ import annotations
 
@@ -27,14 +27,14 @@ from viscontact.results.variables import (
 from viscontact.state import ContactState
 from viscontact.time_integration.run_times import field_instants
 
-#: Memory that rows on their way from one file to another may take [bytes].
+#: Memory for rows that are copied from one file to another [bytes].
 BLOCK = 2**23
 #: Tolerance from which fields are stored in single precision, which rounds by a tenth of it.
 SINGLE_PRECISION = 10 * 2.0**-24
 
 
 class Extent(NamedTuple):
-    """How many rows there are along each of a result's growing dimensions.
+    """Number of rows along each unlimited dimension of a result.
 
     Attributes
     ----------
@@ -138,22 +138,7 @@ class Contents:
 
 
 def created(path: Path, layout: Layout, attributes: Mapping[str, Any]) -> netCDF4.Dataset:
-    """Create a result without rows; what was at its place is replaced.
-
-    Parameters
-    ----------
-    path : Path
-        The file.
-    layout : Layout
-        What it is to hold.
-    attributes : mapping
-        Global attributes.
-
-    Returns
-    -------
-    netCDF4.Dataset
-        Open for appending.
-    """
+    """Create a result without rows and with global attributes, open for appending."""
     file = netCDF4.Dataset(str(path), "w", format="NETCDF4")
     file.set_auto_maskandscale(False)
     file.setncatts(attributes)
@@ -185,46 +170,23 @@ def _create(
 
 
 def opened(path: Path, mode: Literal["r", "a"]) -> netCDF4.Dataset:
-    """Open a result as plain numbers, ``"r"`` for reading or ``"a"`` for appending.
-
-    Parameters
-    ----------
-    path : Path
-        The file.
-    mode : str
-        As for `netCDF4.Dataset`.
-
-    Raises
-    ------
-    OSError
-        If it cannot be opened.
-    """
+    """Open a result without masks, ``"r"`` for reading or ``"a"`` for appending."""
     file = netCDF4.Dataset(str(path), mode)
-    # Else NaN, the fill value, would travel as a mask.
+    # NaN is the fill value and would be masked.
     file.set_auto_maskandscale(False)
     _keep_little(file)
     return file
 
 
 def _keep_little(file: netCDF4.Dataset) -> None:
-    """Let HDF5 write fields when they come: else some dozen rows wait, and closing takes long."""
+    """Let HDF5 write fields at once: its default cache holds some dozen rows until closing."""
     for name in FIELDS:
         if name in file.variables:
             file.variables[name].set_var_chunk_cache(size=1, nelems=1, preemption=1.0)
 
 
 def write_scalars(file: netCDF4.Dataset, row: int, states: Sequence[ContactState]) -> None:
-    """Write the scalars of states, and their instants, from a row on.
-
-    Parameters
-    ----------
-    file : netCDF4.Dataset
-        Open for appending.
-    row : int
-        Row of the first state.
-    states : sequence of ContactState
-        States in order; their fields are not needed.
-    """
+    """Write the scalars of consecutive states, and their instants, from a row on."""
     if not states:
         return
     for name, variable in {"time": COORDINATES["time"], **SCALARS}.items():
@@ -233,45 +195,19 @@ def write_scalars(file: netCDF4.Dataset, row: int, states: Sequence[ContactState
 
 
 def read_scalars(file: netCDF4.Dataset) -> dict[str, NDArray[np.float64]]:
-    """Read all scalars, and their instants.
-
-    Parameters
-    ----------
-    file : netCDF4.Dataset
-        A result.
-    """
+    """Read all scalars, and their instants, by name."""
     names = ("time", *SCALARS)
     return {name: np.asarray(file.variables[name][:], dtype=np.float64) for name in names}
 
 
 def write_errors(file: netCDF4.Dataset, values: Mapping[str, NDArray[np.float64]]) -> None:
-    """Write the errors of the scalars, for all rows at once.
-
-    Parameters
-    ----------
-    file : netCDF4.Dataset
-        Open for appending, laid out for errors.
-    values : mapping of str to ndarray
-        The errors by the scalar's name.
-    """
+    """Write the errors of the scalars, for all rows, by the names of the scalars."""
     for name, errors in values.items():
         file.variables[error_name(name)][: len(errors)] = errors
 
 
 def write_fields(file: netCDF4.Dataset, layout: Layout, row: int, state: ContactState) -> None:
-    """Write the fields of a state, and their instant, into a row.
-
-    Parameters
-    ----------
-    file : netCDF4.Dataset
-        Open for appending.
-    layout : Layout
-        Its layout, with fields.
-    row : int
-        The row of the fields.
-    state : ContactState
-        The state, on the grid of the layout or a smaller one.
-    """
+    """Write the fields of a state on the grid of the layout or a smaller one, and their instant."""
     for name in FIELDS:
         values = on_wider(name, getattr(state, name), state.grid, layout.grid)
         file.variables[name][row] = values
@@ -296,7 +232,7 @@ def copy_rows(
 
 
 def _blocks(last: int, shape: tuple[int, ...]) -> Iterator[slice]:
-    """Yield rows in pieces that fit into the memory meant for them."""
+    """Yield slices of rows that fit into `BLOCK`."""
     size = max(1, BLOCK // (8 * int(np.prod(shape))))
     for row in range(0, last, size):
         yield slice(row, min(row + size, last))

@@ -1,4 +1,4 @@
-"""Plain data in a file: arrays as NumPy writes them, all else as JSON, both checked when read."""
+"""Plain data in an `.npz` archive: arrays in NumPy's format, the rest as JSON, with checksums."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 
 from viscontact.time_integration.restart_data import RestartData
 
-#: Where the outline lies among the arrays, and what stands in it for an array.
+#: Name of the JSON outline among the arrays, and the key in it that refers to an array.
 _OUTLINE, _ARRAY = "outline", "__array__"
 
-#: What reading says of bytes that are not what was written.
+#: Exceptions of reading damaged bytes.
 _DAMAGE = (
     *(ValueError, LookupError, TypeError, OverflowError, EOFError, OSError),
     *(zipfile.BadZipFile, zlib.error, struct.error),
@@ -25,14 +25,7 @@ _DAMAGE = (
 
 
 def write_plain(file: BinaryIO, restart_data: RestartData) -> None:
-    """Write plain data as an ``.npz`` archive.
-
-    Parameters
-    ----------
-    file : binary file
-        Where to.
-    restart_data : dict
-        Arrays, numbers, texts and None, in lists and dicts.
+    """Write arrays, numbers, texts and None, in lists and dicts, as an ``.npz`` archive.
 
     Examples
     --------
@@ -51,7 +44,7 @@ def write_plain(file: BinaryIO, restart_data: RestartData) -> None:
 
 
 def _add(archive: zipfile.ZipFile, name: str, array: NDArray[Any]) -> None:
-    """Add an array as NumPy does, but without copies of it, which take more than a step may."""
+    """Add an array in NumPy's format without copying it, which would take longer than a step."""
     kept = array if array.flags.c_contiguous or array.flags.f_contiguous else array.copy()
     with archive.open(f"{name}.npy", "w", force_zip64=True) as member:
         header = np.lib.format.header_data_from_array_1_0(kept)
@@ -62,22 +55,12 @@ def _add(archive: zipfile.ZipFile, name: str, array: NDArray[Any]) -> None:
 
 
 def read_plain(file: BinaryIO) -> RestartData:
-    """Read what `write_plain` has written.
-
-    Parameters
-    ----------
-    file : binary file
-        Where from; its length and checksums are looked at.
-
-    Returns
-    -------
-    dict
-        The same data, to the last bit.
+    """Read the data of `write_plain`, equal to the last bit.
 
     Raises
     ------
     ValueError
-        If anything in it is not as it was written.
+        If the file is incomplete or a checksum is wrong.
 
     Examples
     --------
@@ -91,7 +74,7 @@ def read_plain(file: BinaryIO) -> RestartData:
     try:
         # Without pickles: reading a file must never run what is in it.
         with np.load(file, allow_pickle=False) as archive:
-            # Before any header is believed, lest a damaged one asks for all memory there is.
+            # Before any header is used: a damaged one could ask for all memory.
             if archive.zip.testzip() is not None:
                 raise ValueError("a checksum is wrong")
             read = _filled(json.loads(bytes(archive[_OUTLINE]).decode()), archive)
@@ -103,17 +86,12 @@ def read_plain(file: BinaryIO) -> RestartData:
 
 
 def outline_of(file: BinaryIO) -> Any:
-    """Read what `write_plain` has written but for the arrays, which need not be sound.
-
-    Parameters
-    ----------
-    file : binary file
-        Where from.
+    """Read the outline of the data of `write_plain`, without the arrays, which may be damaged.
 
     Raises
     ------
     ValueError
-        If there is no such thing in it.
+        If there is none.
 
     Examples
     --------

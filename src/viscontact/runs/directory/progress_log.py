@@ -1,4 +1,4 @@
-"""The course of a run as lines of text, to be followed while it goes on."""
+"""Progress log: a line of JSON for each instant of a run."""
 
 from __future__ import annotations
 
@@ -6,33 +6,35 @@ import json
 import math
 import os
 from contextlib import AbstractContextManager
+from itertools import islice
 from pathlib import Path
 from typing import Any, Self
 
 from viscontact.results.variables import SCALARS
+from viscontact.runs.directory.checkpoint import REMEDY
 from viscontact.state import ContactState, Outcome
 
-#: How much of a file is read at once [bytes].
-BLOCK = 2**16
+#: Longest first line of a progress log [bytes].
+LONGEST_LINE = 2**16
 
 
 class ProgressLog(AbstractContextManager["ProgressLog"]):
     r"""A file with a line of JSON for each state.
 
     A line holds the instant, all scalars of the result in SI units by their names there, the
-    outcome by its name, and the warnings met first at that instant. What is not a number, such as
-    the eccentricity without contact, is null. Numbers read back are the same to the last bit. A
-    line is written at once: when the process is killed, the last line may be cut short, no other.
+    outcome by its name, and the warnings that are new at that instant. A value that is not finite,
+    such as the eccentricity without contact, is null. Numbers keep all their bits. A line is
+    written at once: when the process is killed, only the last line may be incomplete.
 
     Parameters
     ----------
     path : path
-        The file; what is there is replaced.
+        The file; an existing one is replaced.
 
     Attributes
     ----------
     count : int
-        Lines so far.
+        Number of lines.
 
     Examples
     --------
@@ -56,49 +58,37 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
         self._file = self._path.open("w+b", buffering=0)
 
     @classmethod
-    def resume(cls, path: str | Path, lines: int) -> Self:
-        """Go on with a file from a line, cutting off what is behind it.
+    def resume(cls, path: Path, lines: int, reached: float | None) -> Self:
+        """Continue a log after some of its lines, the last of them of a given instant [s].
 
-        Parameters
-        ----------
-        path : path
-            The file.
-        lines : int
-            Lines to be kept.
-
-        Returns
-        -------
-        ProgressLog
-            The next state that is appended makes the next line.
+        Lines beyond these are cut off by the next `append`, so that the file is unchanged if the
+        run is refused for another reason.
 
         Raises
         ------
         ValueError
-            If the file has fewer whole lines, or cannot be read; it is left as it is.
+            If the lines are not all there, cannot be read, or are not of this run.
         """
         try:
-            end, found = _end_of(Path(path), lines)
+            with path.open("rb") as file:
+                found = [line for line in islice(file, lines) if line.endswith(b"\n")]
+            times = [float(json.loads(line)["time"]) for line in found]
         except OSError as error:
-            raise ValueError(f"{path} cannot be read, so the run cannot go on: {error}") from error
-        if found < lines:
+            raise ValueError(f"{path} cannot be read ({error.strerror}); {REMEDY}") from error
+        except (ValueError, LookupError, TypeError, OverflowError, RecursionError) as error:
             raise ValueError(
-                f"{path} has {found} whole lines, and the run had written {lines}; "
-                "start it anew with --overwrite"
-            )
+                f"{path} is damaged, or was written by something else; {REMEDY}"
+            ) from error
+        if len(found) < lines or (times[-1] if times else None) != reached:
+            raise ValueError(f"{path} is not the course of this run so far; {REMEDY}")
         log = cls.__new__(cls)
-        log.count, log._path = lines, Path(path)
-        log._file = log._path.open("r+b", buffering=0)
-        log._file.truncate(end)
-        log._file.seek(end)
+        log.count, log._path = lines, path
+        log._file = path.open("r+b", buffering=0)
+        log._file.seek(sum(map(len, found)))
         return log
 
     def append(self, state: ContactState) -> None:
-        """Write the line of a state.
-
-        Parameters
-        ----------
-        state : ContactState
-            The next state of the run; its fields are not needed.
+        """Write the line of the next state.
 
         Raises
         ------
@@ -108,6 +98,7 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
         line = json.dumps(_entries(state), allow_nan=False, ensure_ascii=False) + "\n"
         encoded = line.encode()
         begin = self._file.tell()
+        self._file.truncate(begin)
         if self._file.write(encoded) != len(encoded):
             self._file.truncate(begin)
             self._file.seek(begin)
@@ -115,15 +106,7 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
         self.count += 1
 
     def flush_to_disk(self) -> None:
-        """Wait until all lines are on the disk, so that they outlast a power cut.
-
-        A file that somebody has removed meanwhile is written anew.
-
-        Raises
-        ------
-        OSError
-            If they cannot be brought there.
-        """
+        """Wait until all lines are on the disk; a file that has been removed is written anew."""
         if not os.path.lexists(self._path):
             self._write_anew()
         os.fsync(self._file.fileno())
@@ -151,16 +134,10 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
 
 
 def is_course(path: Path) -> bool:
-    """Whether a file begins with a line as a `ProgressLog` writes it.
-
-    Parameters
-    ----------
-    path : Path
-        The file, if there is one.
-    """
+    """Whether a file begins with a line as a `ProgressLog` writes it."""
     try:
         with path.open("rb") as file:
-            line = json.loads(file.readline(BLOCK))
+            line = json.loads(file.readline(LONGEST_LINE))
     except (OSError, ValueError, RecursionError):
         return False
     return isinstance(line, dict) and {"time", "outcome"} <= set(line)
@@ -171,17 +148,7 @@ def _entries(state: ContactState) -> dict[str, Any]:
     for name, variable in SCALARS.items():
         number = float(getattr(state, name))
         whole = variable.kind.startswith("i")
-        # JSON has no word for what is no number.
+        # JSON has no NaN.
         entries[name] = (int(number) if whole else number) if math.isfinite(number) else None
     outcome = Outcome(state.outcome).name.lower()
     return {**entries, "outcome": outcome, "warnings": list(state.warnings)}
-
-
-def _end_of(path: Path, lines: int) -> tuple[int, int]:
-    """Return where a number of lines ends [bytes], and how many whole lines were found."""
-    found = position = 0
-    with path.open("rb") as file:
-        while found < lines and (block := file.readline(BLOCK)):
-            position += len(block)
-            found += block.endswith(b"\n")
-    return position, found

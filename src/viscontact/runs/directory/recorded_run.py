@@ -1,37 +1,40 @@
-"""What is recorded of a run, and what takes it up again from what is saved."""
+"""Description of a recorded run, and its state at the last checkpoint."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import islice
 from pathlib import Path
 from typing import Any
 
 from viscontact.fourier import transforms_by
 from viscontact.results.provenance import describe
 from viscontact.run_files import PROGRESS_NAME, RESULT_NAME, STATE_NAME
-from viscontact.runs.directory.checkpoint import Checkpoint, is_checkpoint, load_checkpoint
+from viscontact.runs.directory.atomic_files import fresh_name
+from viscontact.runs.directory.checkpoint import (
+    REMEDY,
+    Checkpoint,
+    is_checkpoint,
+    load_checkpoint,
+)
 from viscontact.runs.directory.differences import Difference, differences
 from viscontact.runs.directory.netcdf_layout import Contents
 from viscontact.runs.directory.progress_log import ProgressLog
-from viscontact.runs.directory.result_validation import REMEDY
 from viscontact.runs.directory.result_writer import ResultWriter, working_files
 from viscontact.runs.directory.stored_result import stored_run
 from viscontact.simulation.march import March
 from viscontact.simulation.provenance import describe_problem, run_attributes
 from viscontact.simulation.setup import RunSetup
-from viscontact.time_integration.restart_data import RestartData
 
 
 class ChangedCaseError(ValueError):
-    """A run that cannot be gone on with, because it is another one now.
+    """A run that cannot be resumed, because its case has changed.
 
     Attributes
     ----------
     changes : tuple of Difference
-        What differs.
+        The values that differ.
     """
 
     def __init__(self, changes: Sequence[Difference]) -> None:
@@ -40,21 +43,21 @@ class ChangedCaseError(ValueError):
 
 
 @dataclass(frozen=True)
-class Recorded:
-    """What is recorded of which run.
+class RecordedRun:
+    """A run, its directory, and the choice of what is recorded.
 
     Attributes
     ----------
     directory : Path
-        Where.
+        Run directory.
     run : RunSetup
         The run.
     fields : "all", "none" or sequence of float
         Instants [s] whose fields are kept.
     title : str
-        The result's title.
+        Title of the result.
     errors : bool
-        Whether the errors of the scalars are estimated once the march is over.
+        Whether the errors of the scalars are estimated after the march.
     """
 
     directory: Path
@@ -65,7 +68,7 @@ class Recorded:
 
     @property
     def case(self) -> dict[str, Any]:
-        """The run in plain words: what must be the same to go on with it."""
+        """Description of the run as plain data, which a run that is resumed must equal."""
         described = {
             **describe_problem(self.run.problem, self.run.grid),
             "fields": describe(self.fields),
@@ -76,189 +79,98 @@ class Recorded:
 
     @property
     def contents(self) -> Contents:
-        """What the result is to hold."""
-        about = {name: json.dumps(self.case[name]) for name in ("fields", "errors")}
+        """Contents of the result."""
+        case, problem = self.case, self.run.problem
+        about = {name: json.dumps(case[name]) for name in ("fields", "errors")}
         attributes = {"title": self.title, **run_attributes(self.run), **about}
-        grid, problem = self.run.grid, self.run.problem
         return Contents(
-            grid, problem.instants, self.fields, attributes, self.errors, problem.tolerance
+            self.run.grid,
+            problem.instants,
+            self.fields,
+            attributes,
+            self.errors,
+            problem.tolerance,
         )
 
-    def by(self, transforms: str) -> Recorded:
-        """The same by the Fourier transforms that it was begun with.
+    @property
+    def result_path(self) -> Path:
+        """Path of the result."""
+        return self.directory / RESULT_NAME
 
-        Parameters
-        ----------
-        transforms : str
-            Their library.
+    def load_checkpoint(self) -> Checkpoint:
+        """Load the last checkpoint.
+
+        Raises
+        ------
+        FileNotFoundError
+            If there is none.
+        ChangedCaseError
+            If it is of another case.
+        ValueError
+            If it cannot be read.
+        """
+        saved = load_checkpoint(self.directory / STATE_NAME)
+        if changes := differences(saved.case, self.case):
+            raise ChangedCaseError(changes)
+        return saved
+
+    def with_transforms(self, library: str) -> RecordedRun:
+        """Return the run with the library of Fourier transforms with which it was begun.
 
         Raises
         ------
         ValueError
-            If they are not installed.
+            If that is not installed.
         """
         try:
-            transforms_by(transforms)
+            transforms_by(library)
         except ValueError as error:
             raise ValueError(
-                f"{self.directory}: the run was begun with the Fourier transforms of {transforms}, "
+                f"{self.directory}: the run was begun with the Fourier transforms of {library}, "
                 f"and to the last bit no others do: {error}; or start the run anew with --overwrite"
             ) from error
-        return replace(self, run=replace(self.run, transforms=transforms))
+        return replace(self, run=replace(self.run, transforms=library))
+
+    def resumed_march(self, saved: Checkpoint) -> March:
+        """Return the march at a checkpoint; refuse one that does not fit with a ValueError."""
+        try:
+            return March(self.run, saved.march or None)
+        except (KeyError, IndexError, TypeError, ValueError, AttributeError) as error:
+            path = self.directory / STATE_NAME
+            raise ValueError(f"{path}: does not fit the run it says it is of; {REMEDY}") from error
+
+    def resumed_writer(self, saved: Checkpoint) -> ResultWriter:
+        """Return the writer of the result at a checkpoint.
+
+        Raises
+        ------
+        ValueError
+            If the result is of another run, cannot be read, or has fewer rows.
+        """
+        path = self.result_path
+        try:
+            is_other = path.is_file() and stored_run(path).case != self.case
+        except ValueError as error:
+            raise ValueError(f"{error}; {REMEDY}") from error
+        if is_other:
+            raise ValueError(f"{path} is of another run than {STATE_NAME} beside it; {REMEDY}")
+        return ResultWriter.resume(path, self.contents, saved.result)
+
+    def new_log(self) -> ProgressLog:
+        """Return a new progress log; a link in its place is replaced, not written through."""
+        path = self.directory / PROGRESS_NAME
+        path.unlink(missing_ok=True)
+        return ProgressLog(path)
+
+    def resumed_log(self, saved: Checkpoint) -> ProgressLog:
+        """Return the progress log with the lines of a checkpoint, or raise a ValueError."""
+        return ProgressLog.resume(self.directory / PROGRESS_NAME, saved.lines, saved.reached)
 
 
-def saved_state(recorded: Recorded) -> Checkpoint:
-    """Load what is saved of a run.
-
-    Parameters
-    ----------
-    recorded : Recorded
-        The run.
-
-    Raises
-    ------
-    FileNotFoundError
-        If nothing is saved.
-    ChangedCaseError
-        If what is saved is of another case.
-    ValueError
-        If it cannot be read.
-    """
-    saved = load_checkpoint(recorded.directory / STATE_NAME)
-    if changes := differences(saved.case, recorded.case):
-        raise ChangedCaseError(changes)
-    return saved
-
-
-def restored_march(recorded: Recorded, saved: Checkpoint) -> March:
-    """Return the march as it was when its state was saved.
-
-    Parameters
-    ----------
-    recorded : Recorded
-        The run.
-    saved : Checkpoint
-        Its state.
-
-    Raises
-    ------
-    ValueError
-        If the two do not fit together.
-    """
-    try:
-        return March(recorded.run, saved.march or None)
-    except (KeyError, IndexError, TypeError, ValueError, AttributeError) as error:
-        path = recorded.directory / STATE_NAME
-        raise ValueError(f"{path}: does not fit the run it says it is of; {REMEDY}") from error
-
-
-def new_writer(recorded: Recorded) -> ResultWriter:
-    """Return the writer of a new result.
-
-    Parameters
-    ----------
-    recorded : Recorded
-        The run.
-    """
-    return ResultWriter(recorded.directory / RESULT_NAME, recorded.contents)
-
-
-def same_writer(recorded: Recorded, position: RestartData) -> ResultWriter:
-    """Return the writer of a result that is there, at a position of its.
-
-    Parameters
-    ----------
-    recorded : Recorded
-        The run.
-    position : dict
-        From `ResultWriter.position`.
-
-    Raises
-    ------
-    ValueError
-        If the result is another run's, cannot be read, or has not come that far.
-    """
-    path = recorded.directory / RESULT_NAME
-    try:
-        is_other = path.is_file() and stored_run(path).case != recorded.case
-    except ValueError as error:
-        raise ValueError(f"{error}; {REMEDY}") from error
-    if is_other:
-        raise ValueError(f"{path} is of another run than {STATE_NAME} beside it; {REMEDY}")
-    return ResultWriter.resume(path, recorded.contents, position)
-
-
-def new_lines(recorded: Recorded) -> ProgressLog:
-    """Return a new progress log; a link in its place is replaced, not written through.
-
-    Parameters
-    ----------
-    recorded : Recorded
-        The run.
-    """
-    path = recorded.directory / PROGRESS_NAME
-    path.unlink(missing_ok=True)
-    return ProgressLog(path)
-
-
-def check_lines(recorded: Recorded, saved: Checkpoint) -> None:
-    """Make certain that the progress log has the lines that a state knows of; change nothing.
-
-    Parameters
-    ----------
-    recorded : Recorded
-        The run.
-    saved : Checkpoint
-        Its state.
-
-    Raises
-    ------
-    ValueError
-        If those lines are not all there, or are something else's.
-    """
-    path = recorded.directory / PROGRESS_NAME
-    try:
-        with path.open(encoding="utf-8") as file:
-            lines = [json.loads(line) for line in islice(file, saved.lines)]
-            reached = float(lines[-1]["time"]) if lines else None
-    except OSError as error:
-        raise ValueError(f"{path} cannot be read ({error.strerror}); {REMEDY}") from error
-    except (ValueError, LookupError, TypeError, OverflowError, RecursionError) as error:
-        raise ValueError(
-            f"{path} is damaged, or was written by something else; {REMEDY}"
-        ) from error
-    if len(lines) < saved.lines or reached != saved.reached:
-        raise ValueError(f"{path} is not the course of this run so far; {REMEDY}")
-
-
-def same_lines(recorded: Recorded, saved: Checkpoint) -> ProgressLog:
-    """Return the progress log that is there, cut to the lines that a state knows of.
-
-    Parameters
-    ----------
-    recorded : Recorded
-        The run.
-    saved : Checkpoint
-        Its state.
-
-    Raises
-    ------
-    ValueError
-        If those lines are not all there; nothing has been changed then.
-    """
-    return ProgressLog.resume(recorded.directory / PROGRESS_NAME, saved.lines)
-
-
-def remove_traces(directory: Path) -> None:
-    """Remove what nobody needs once a run is over, and nothing that is somebody else's.
-
-    Parameters
-    ----------
-    directory : Path
-        The run's.
-    """
-    if is_checkpoint(directory / STATE_NAME):
-        (directory / STATE_NAME).unlink()
-    (directory / f".{STATE_NAME}.new").unlink(missing_ok=True)
-    for file in working_files(directory / RESULT_NAME):
+def remove_restart_files(directory: Path) -> None:
+    """Remove the files of a run directory that a finished run does not need."""
+    state = directory / STATE_NAME
+    if is_checkpoint(state):
+        state.unlink()
+    for file in (fresh_name(state), *working_files(directory / RESULT_NAME)):
         file.unlink(missing_ok=True)

@@ -4,24 +4,14 @@ from __future__ import annotations
 
 import time as clock
 from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, nullcontext, suppress
+from contextlib import AbstractContextManager, ExitStack, nullcontext, suppress
 from typing import NamedTuple, Self
 
 from viscontact.accuracy.error_bars import ErrorBars, error_bars
 from viscontact.run_files import STATE_NAME
 from viscontact.runs.directory.checkpoint import Checkpoint, save_checkpoint
 from viscontact.runs.directory.progress_log import ProgressLog
-from viscontact.runs.directory.recorded_run import (
-    Recorded,
-    check_lines,
-    new_lines,
-    new_writer,
-    remove_traces,
-    restored_march,
-    same_lines,
-    same_writer,
-    saved_state,
-)
+from viscontact.runs.directory.recorded_run import RecordedRun, remove_restart_files
 from viscontact.runs.directory.result_writer import ResultWriter
 from viscontact.simulation.march import March
 from viscontact.simulation.state_generator import Progress
@@ -41,7 +31,7 @@ class Reached(NamedTuple):
     time: float | None
 
 
-class RunRecord:
+class Recorder:
     """A run under way, recorded in its directory.
 
     A checkpoint publishes the result and saves the restart state of the march. It comes after the
@@ -52,28 +42,28 @@ class RunRecord:
     Attributes
     ----------
     saved : Reached
-        What `resume` would continue from.
+        Finished instants at the last checkpoint, from which `resume` continues.
     shown : Reached
         Finished instants that the published result holds.
     resumed : Reached
-        What the run was resumed from.
+        Finished instants when the run was resumed.
     """
 
     _writer: ResultWriter
 
     def __init__(
         self,
-        recorded: Recorded,
+        recorded: RecordedRun,
         on_begin: Callable[[], None] | None = None,
         undisturbed: Undisturbed = nullcontext,
     ) -> None:
         self._set_up(recorded, March(recorded.run), on_begin, undisturbed)
-        self._writer = new_writer(recorded)
+        self._writer = ResultWriter(recorded.result_path, recorded.contents)
 
     @classmethod
     def resume(
         cls,
-        recorded: Recorded,
+        recorded: RecordedRun,
         on_begin: Callable[[], None] | None = None,
         undisturbed: Undisturbed = nullcontext,
     ) -> Self:
@@ -90,30 +80,27 @@ class RunRecord:
         OSError
             If something cannot be written; the checkpoint is still there.
         """
-        saved = saved_state(recorded)
-        recorded = recorded.by(saved.transforms)
+        saved = recorded.load_checkpoint()
+        recorded = recorded.with_transforms(saved.transforms)
         record = cls.__new__(cls)
-        record._set_up(recorded, restored_march(recorded, saved), on_begin, undisturbed)
+        record._set_up(recorded, recorded.resumed_march(saved), on_begin, undisturbed)
         if not saved.march:
             # Before the first step the directory may still hold the files of an earlier run.
-            record._writer = new_writer(recorded)
+            record._writer = ResultWriter(recorded.result_path, recorded.contents)
             return record
-        check_lines(recorded, saved)
-        record._writer = same_writer(recorded, saved.result)
-        try:
-            record._lines = same_lines(recorded, saved)
+        with ExitStack() as opened:
+            record._lines = opened.enter_context(recorded.resumed_log(saved))
+            record._writer = opened.enter_context(recorded.resumed_writer(saved))
             if on_begin is not None:
                 on_begin()
-        except BaseException:
-            record.close()
-            raise
+            opened.pop_all()
         record._instants, record._time = int(saved.result["rows"]), saved.reached
         record.saved = record.shown = record.resumed = record._reached
         return record
 
     def _set_up(
         self,
-        recorded: Recorded,
+        recorded: RecordedRun,
         march: March,
         on_begin: Callable[[], None] | None,
         undisturbed: Undisturbed,
@@ -232,7 +219,7 @@ class RunRecord:
             self._writer.finish(bars)
             self.shown = self._reached
             self.close()
-            remove_traces(self._recorded.directory)
+            remove_restart_files(self._recorded.directory)
 
     def close(self) -> None:
         """Close all files; never fails, and further calls do nothing."""
@@ -265,7 +252,7 @@ class RunRecord:
         self._save(begun=False)
         if self._on_begin is not None:
             self._on_begin()
-        self._lines = new_lines(self._recorded)
+        self._lines = self._recorded.new_log()
 
     def _save(self, *, begun: bool = True) -> None:
         recorded = self._recorded

@@ -30,7 +30,7 @@ from viscontact.runs.directory.netcdf_layout import (
     write_fields,
     write_scalars,
 )
-from viscontact.runs.directory.result_validation import check_result, stored_grid
+from viscontact.runs.directory.stored_result import check_result, stored_grid
 from viscontact.state import ContactState
 
 #: Rows of scalars that wait in memory at most.

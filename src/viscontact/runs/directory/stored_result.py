@@ -1,4 +1,4 @@
-"""What a result on disk says of itself: whose it is, and whether it is whole."""
+"""Result of an earlier process: its description, and whether a run can be resumed from it."""
 
 from __future__ import annotations
 
@@ -8,24 +8,26 @@ from pathlib import Path
 from typing import Any
 
 import netCDF4
+import numpy as np
 
+from viscontact.grid import Grid
 from viscontact.results.recorded_case import parse_case
-from viscontact.runs.directory.netcdf_layout import opened
+from viscontact.runs.directory.checkpoint import REMEDY
+from viscontact.runs.directory.netcdf_layout import Extent, Layout, opened
 
 
 @dataclass(frozen=True)
 class StoredRun:
-    """A result that lies in a directory.
+    """Description of a stored result.
 
     Attributes
     ----------
     rows : int
-        Its instants.
+        Number of its instants.
     complete : bool
-        Whether its run was over.
+        Whether its run was finished.
     case : dict or None
-        The run in plain words, as `Recorded.case`; None if it does not say, as one that
-        viscontact has not written.
+        The run in plain words, as `RecordedRun.case`; None in a file of another origin.
     """
 
     rows: int
@@ -34,17 +36,12 @@ class StoredRun:
 
 
 def stored_run(path: Path) -> StoredRun:
-    """Read what a result says of itself.
-
-    Parameters
-    ----------
-    path : Path
-        The file.
+    """Read the description of a stored result.
 
     Raises
     ------
     ValueError
-        If it cannot be read as a result.
+        If the file cannot be read as a result.
     """
     try:
         with opened(path, "r") as file:
@@ -63,3 +60,60 @@ def _case(file: netCDF4.Dataset) -> dict[str, Any] | None:
     fields = json.loads(str(file.getncattr("fields")))
     errors = json.loads(str(file.getncattr("errors"))) if "errors" in file.ncattrs() else False
     return {**case, "fields": fields, "errors": errors}
+
+
+def check_result(path: Path, layout: Layout, extent: Extent) -> None:
+    """Refuse a result that cannot be resumed: damaged, of another layout, or with fewer rows.
+
+    Raises
+    ------
+    ValueError
+        With the reason and a remedy.
+    """
+    if not path.is_file():
+        raise ValueError(f"{path} is not there, so the run cannot go on; {REMEDY}")
+    try:
+        with opened(path, "r") as file:
+            fault = _fault(file, layout, extent) or _fault_of_scalars(file, layout, extent)
+    except (OSError, RuntimeError, ValueError) as error:
+        raise ValueError(f"{path} cannot be read as a netCDF result ({error}); {REMEDY}") from error
+    if fault:
+        raise ValueError(f"{path} is not the result of this run so far: {fault}; {REMEDY}")
+
+
+def stored_grid(path: Path, grid: Grid) -> Grid:
+    """Return the grid of a result, whose run may have enlarged the given grid."""
+    try:
+        with opened(path, "r") as file:
+            return grid.widened((len(file.dimensions["x"]), len(file.dimensions["y"])))
+    except (OSError, RuntimeError, ValueError, KeyError):
+        return grid  # `check_result` reports what is wrong with the file
+
+
+def _fault(file: netCDF4.Dataset, layout: Layout, extent: Extent) -> str:
+    for name, (variable, dimensions) in layout.columns.items():
+        if name not in file.variables:
+            return f"it has no {name}"
+        found: Any = file.variables[name]
+        if found.dimensions != dimensions or found.dtype != np.dtype(variable.kind):
+            return f"its {name} is another kind of variable"
+    if layout.axis is None and "field_time" in file.dimensions:
+        return "it has fields"
+    for name, centres in (("x", layout.grid.x), ("y", layout.grid.y)):
+        if not np.array_equal(file.variables[name][:], centres):
+            return f"its {name} is another grid's"
+    there = layout.extent_of(file)
+    if there.rows < extent.rows or there.field_rows < extent.field_rows:
+        return (
+            f"it has {there.rows} instants and {there.field_rows} with fields, "
+            f"and {extent.rows} and {extent.field_rows} are wanted"
+        )
+    return ""
+
+
+def _fault_of_scalars(file: netCDF4.Dataset, layout: Layout, extent: Extent) -> str:
+    for name, (_, dimensions) in layout.columns.items():
+        if len(dimensions) == 1:
+            file.variables[name][:]  # raises where it is damaged
+    times = file.variables["time"][: extent.rows]
+    return "" if (np.diff(times) > 0).all() else "its times do not increase"

@@ -1,1 +1,1 @@
-"""Runs as processes of their own: asked for, started, followed, and asked to stop."""
+"""Runs in processes of their own: arguments, start, progress and stop."""

@@ -1,4 +1,4 @@
-"""A run as a process of its own, which ends when the one that began it is gone."""
+"""Run in a process of its own, which ends when its parent process is gone."""
 
 from __future__ import annotations
 
@@ -11,25 +11,25 @@ from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from typing import Any
 
-from viscontact.runs.processes.exit_codes import DONE, INTERRUPTED, REFUSED, STOPPED
 from viscontact.runs.processes.job import Job
 from viscontact.runs.processes.progress import Course
+from viscontact.runs.processes.request import DONE, INTERRUPTED, REFUSED, STOPPED
 
 
 @dataclass(frozen=True)
 class Ended:
-    """How one of several runs ended.
+    """End of one of several runs.
 
     Attributes
     ----------
     job : Job
         The run.
     outcome : str
-        In a word.
+        One word.
     code : int
-        0 done, 1 stopped, 130 interrupted, be it before it began.
+        0 done, 1 stopped, 130 interrupted, also before it began.
     said : tuple of str
-        What it had to say for itself.
+        Lines of its error output.
     """
 
     job: Job
@@ -39,27 +39,16 @@ class Ended:
 
 
 class Child:
-    """A run at work.
+    """Process of a run, which locks its directory, saves and handles signals as a single run does.
 
-    A process of its own, so that all that holds for a run holds for each of many: the lock of its
-    directory, what it saves and when, how it meets signals. What it says is kept for the end.
-
-    Parameters
-    ----------
-    job : Job
-        The run.
+    Its error output is kept until its end. An OSError means that the system starts no process.
 
     Attributes
     ----------
     job : Job
         The run.
     course : Course
-        How far it has come.
-
-    Raises
-    ------
-    OSError
-        If the system starts no further process.
+        Progress of the run.
     """
 
     def __init__(self, job: Job) -> None:
@@ -74,20 +63,20 @@ class Child:
             self._opened = opened.pop_all()  # until it has ended
 
     def ask_to_stop(self) -> None:
-        """Ask it to finish its step, save and end; once is enough."""
-        # It takes the end of its input as a request, on any system. If Ctrl-C has reached it as
-        # well, the two are one request; Ctrl-C does not count twice.
+        """Request that the run finishes its step, saves and ends; further calls do nothing."""
+        # The end of its input is the request, on any system. Together with a Ctrl-C that has
+        # reached the process too, it counts as one request.
         self._asked = True
         if self._process.stdin is not None:
             self._process.stdin.close()
 
     def ended(self) -> Ended | None:
-        """How it has ended; None while it is at work."""
+        """Return how the run has ended; None while it continues."""
         code = self._process.poll()
         return None if code is None else self._ended(code)
 
     def wait(self) -> Ended:
-        """Wait for its end."""
+        """Wait for the end of the run."""
         return self._ended(self._process.wait())
 
     def _ended(self, code: int) -> Ended:
@@ -96,7 +85,7 @@ class Child:
         self._opened.close()
         if code == DONE:
             return Ended(self.job, "done", DONE)
-        # Before it has met signals, they end it at once.
+        # Until the process handles signals, they end it at once.
         by_request = {INTERRUPTED, -signal.SIGINT, -signal.SIGTERM}
         if code == INTERRUPTED or (self._asked and code in by_request):
             return Ended(self.job, "interrupted", INTERRUPTED)
@@ -104,15 +93,15 @@ class Child:
             why = f"{self.job.directory}: the run was killed by signal {-code}"
             way_on = f"continue with: {replace(self.job.request, quiet=False).resuming}"
             return Ended(self.job, "killed", STOPPED, (*lines, why, way_on))
-        # Others have begun: that nothing was changed is true of this one alone.
+        # Not the exit code of a refusal: other runs of the command have begun.
         return Ended(self.job, "refused" if code == REFUSED else "stopped", STOPPED, lines)
 
 
 def _started(job: Job, said: Any) -> subprocess.Popen[bytes]:
     request = replace(job.request, output=job.directory, quiet=True)
-    # -P: what lies in the working directory is not imported in place of a library.
+    # -P: no file of the working directory is imported in place of a library.
     command = [sys.executable, "-P", "-m", "viscontact.cli.child_run", "run", *request.words()]
     environment = {**os.environ, "PYTHONIOENCODING": "utf-8"}
-    # Nothing is ever written to its input. That it ends, as it does with this process, asks it to.
+    # Nothing is written to its input, whose end, also with this process, requests a stop.
     held, nowhere = subprocess.PIPE, subprocess.DEVNULL
     return subprocess.Popen(command, stdin=held, stdout=nowhere, stderr=said, env=environment)

@@ -1,4 +1,4 @@
-"""A run that is to be computed by a process of its own."""
+"""Run that is to be computed by a process of its own."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from viscontact.runs.processes.request import RunRequest
 
 
 class Standing(Enum):
-    """How a run stands to its directory."""
+    """State of a run in its directory."""
 
     NEW = "begins"
     STOPPED = "goes on"
@@ -24,21 +24,21 @@ class Job:
     Attributes
     ----------
     request : RunRequest
-        What is asked for, its directory included.
+        Arguments of the run, with its directory.
     directory : Path
         That directory.
     name : str
-        What it is called among the others.
+        Name among the other runs.
     standing : Standing
-        Whether it begins, goes on, or is over already.
+        Whether the run begins, is resumed, or is finished already.
     instants : int or None
-        How many it will have; None where it chooses its steps.
+        Number of instants; None where the run chooses its steps.
     end : float
-        Its last instant [s].
+        Last instant [s].
     work : float
-        Cells times steps: how much there is to do, compared with the others.
+        Cells times steps, a relative measure of the computing time.
     memory : float
-        What it will hold [bytes].
+        Memory of the run [bytes].
     """
 
     request: RunRequest

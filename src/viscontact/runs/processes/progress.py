@@ -1,4 +1,4 @@
-"""How far a run of another process has come, as its directory tells."""
+"""Progress of a run in another process, read from its directory."""
 
 from __future__ import annotations
 
@@ -13,21 +13,16 @@ from viscontact.runs.processes.job import Job, Standing
 
 
 class Course:
-    """How far a run has come.
-
-    Parameters
-    ----------
-    job : Job
-        The run, before its process is started.
+    """Progress of a run, made before its process is started.
 
     Attributes
     ----------
     instants : int
-        How many are complete.
+        Number of finished instants.
     time : float
         The last of them [s].
     first, last : mapping
-        What the run's lines say of its first and its last instant; empty without any.
+        Lines of the progress log of the first and last instant; empty without any.
     """
 
     def __init__(self, job: Job) -> None:
@@ -36,20 +31,20 @@ class Course:
         self.last: Mapping[str, Any] = {}
         self._job, self._path = job, job.directory / PROGRESS_NAME
         self._file, self._read = 0, 0
-        # Lines of an earlier run, which this one replaces, tell nothing.
+        # Lines of an earlier run, which this one replaces, do not count.
         self._earlier = None if job.standing is Standing.STOPPED else self._marks()
         self.look()
 
     @property
     def part(self) -> float:
-        """How much of the run is done: 1 for all of it."""
+        """Fraction of the run that is finished."""
         job = self._job
         if job.instants is None:
             return min(self.time / job.end, 1.0) if job.end > 0 else 0.0
         return min(self.instants / job.instants, 1.0)
 
     def look(self) -> None:
-        """Read what has been written meanwhile; what cannot be read is left for the next time."""
+        """Read the new lines; what cannot be read yet is left for the next call."""
         marks = self._marks()
         if marks is None or marks == self._earlier:
             return
@@ -68,7 +63,7 @@ class Course:
                 self.instants += whole.count(b"\n") + 1
 
     def _marks(self) -> tuple[int, int, int] | None:
-        """What tells one state of the file from another; None without a file."""
+        """Marks that differ between two states of the file; None without a file."""
         with suppress(OSError):
             found: stat_result = self._path.stat()
             return found.st_ino, found.st_size, found.st_mtime_ns
@@ -76,7 +71,7 @@ class Course:
 
 
 def _line(text: bytes) -> dict[str, Any]:
-    """A line of the run; what is none raises one of the errors that are awaited above."""
+    """Parse a line; the caller suppresses the errors of one that is damaged."""
     found: dict[str, Any] = json.loads(text)
     float(found["time"])
     return found

@@ -1,4 +1,4 @@
-"""What `run` is asked for."""
+"""Arguments of `viscontact run`, and exit codes."""
 
 from __future__ import annotations
 
@@ -9,21 +9,24 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+#: Exit codes: finished, stopped during the run, refused before it, interrupted.
+DONE, STOPPED, REFUSED, INTERRUPTED = 0, 1, 2, 130
+
 
 @dataclass(frozen=True)
 class RunRequest:
-    """The words behind ``viscontact run``.
+    """Arguments of ``viscontact run``.
 
     Attributes
     ----------
     case : Path
         The case file.
     output : Path or None
-        The run's directory; beside the file when left out.
+        Run directory; next to the file when left out.
     overwrite : bool
         Replace the result that the directory holds.
     resume : bool
-        Go on with it.
+        Continue it.
     settings : tuple of str
         The values of ``--set``.
     threads : int
@@ -42,7 +45,7 @@ class RunRequest:
 
     @property
     def resuming(self) -> str:
-        """The command that goes on with the run, to be copied into a shell.
+        """Shell command that resumes the run.
 
         Examples
         --------
@@ -53,11 +56,11 @@ class RunRequest:
 
     @property
     def repeating(self) -> str:
-        """The same command once more."""
+        """The same shell command again."""
         return command(*self.words())
 
     def words(self) -> Iterator[str]:
-        """What is typed behind ``viscontact run``, the case first."""
+        """Words after ``viscontact run``, the case first."""
         yield no_option(self.case)
         if self.output is not None:
             yield from ("-o", no_option(self.output))
@@ -71,24 +74,12 @@ class RunRequest:
 
 
 def no_option(path: Path) -> str:
-    """Return a path so that nobody takes it for an option.
-
-    Parameters
-    ----------
-    path : Path
-        As it was given.
-    """
+    """Return a path that cannot be read as an option."""
     return f"./{path}" if str(path).startswith("-") else str(path)
 
 
 def command(*words: str) -> str:
-    """Return a command that runs, quoted for the shell.
-
-    Parameters
-    ----------
-    *words : str
-        What is typed behind ``viscontact run``.
-    """
+    """Return a ``viscontact run`` command with these words, quoted for the shell."""
     whole = ["viscontact", "run", *words]
     # Windows quotes in its own way.
     return subprocess.list2cmdline(whole) if os.name == "nt" else shlex.join(whole)

@@ -9,10 +9,9 @@ from dataclasses import replace
 from viscontact.run_files import RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.lock import is_locked
 from viscontact.runs.processes.child import Child, Ended
-from viscontact.runs.processes.exit_codes import DONE, INTERRUPTED
 from viscontact.runs.processes.job import Job, Standing
 from viscontact.runs.processes.progress import Course
-from viscontact.runs.processes.request import RunRequest
+from viscontact.runs.processes.request import DONE, INTERRUPTED, RunRequest
 from viscontact.web.workspace.folder import Folder, RunEntry
 
 #: Time for estimating errors, as a part of the time of the march [-].
