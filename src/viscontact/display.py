@@ -14,13 +14,13 @@ else:
 class Displayable:
     """Base class of objects with a display in readable units, in notebooks and when printed.
 
-    ``repr`` stays that of the dataclass, which can be typed in again.
+    ``repr`` stays that of the dataclass, which can be evaluated again.
 
     Notes
     -----
-    Drawings and tables are made by `viscontact.notebook`, on a higher floor than the classes that
-    derive from this one. It is reached through the package's lazy names, late, so that nothing is
-    imported before it is displayed; only this module may do so.
+    Drawings and tables are made by `viscontact.notebook`, a layer above the classes that derive
+    from this one. It is accessed through the package's lazy names, so that it is imported only when
+    an object is displayed; no other module does so.
     """
 
     __slots__ = ()
@@ -33,7 +33,7 @@ class Displayable:
 
 
 def result_plots(result: object) -> Any:
-    """Return the figures of a result, `viscontact.plot.ResultPlots`, imported late as above."""
+    """Return the figures of a result, `viscontact.plot.ResultPlots`, imported when first used."""
     return viscontact.plot.ResultPlots(result)
 
 

@@ -1,4 +1,4 @@
-"""What can go wrong, by name."""
+"""Warnings and exceptions of runs."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import Any
 
 
 class AccuracyWarning(UserWarning):
-    """The result stands, but something about it is coarser than a user would expect.
+    """Warning that a result is usable, but less accurate than expected.
 
     Examples
     --------
@@ -17,19 +17,19 @@ class AccuracyWarning(UserWarning):
     >>> with warnings.catch_warnings():
     ...     warnings.simplefilter("ignore", AccuracyWarning)
     ...     ds = vc.simulate(vc.Sphere(0.01), rubber, vc.step(1.0), coarse, [0.0], errors=False)
-    >>> ds.attrs["warnings"][:18]  # which stays with the result
+    >>> ds.attrs["warnings"][:18]  # also kept in the result
     'only 6 cells lie a'
     """
 
 
 class RunError(RuntimeError):
-    """A run that stopped after its first step.
+    """Base of the exceptions of a run that stops after its first step.
 
     Attributes
     ----------
     partial : xarray.Dataset or None
-        The steps completed before the run stopped, or None if there are none to give. After a
-        ConvergenceError the last one may be the failed one; its outcome says so.
+        The steps completed before the run stopped, or None if there are none. After a
+        ConvergenceError the last one may be the failed one, as its outcome shows.
     """
 
     def __init__(self, message: str, partial: Any = None) -> None:
@@ -38,18 +38,18 @@ class RunError(RuntimeError):
 
 
 class ConvergenceError(RunError):
-    """The contact solver stopped short of the tolerance at some step.
+    """The contact solver has not reached the tolerance in a step.
 
     Attributes
     ----------
     partial : xarray.Dataset or None
-        The steps until then, or None if there are none. The last may be the failed one; its
-        ``outcome`` says so.
+        The completed steps, or None if there are none. The last one may be the failed one, as its
+        ``outcome`` shows.
 
     Examples
     --------
     >>> error = ConvergenceError("stopped at t = 2 s")
-    >>> error.partial is None  # nothing was completed before
+    >>> error.partial is None  # no step was completed
     True
     """
 
@@ -60,7 +60,7 @@ class DomainError(RunError):
     Attributes
     ----------
     partial : xarray.Dataset or None
-        The steps until then, or None if there are none.
+        The completed steps, or None if there are none.
 
     Examples
     --------

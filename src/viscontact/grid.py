@@ -30,7 +30,7 @@ class Grid(Displayable):
     size : tuple of float
         Extents (lx, ly) of the whole grid [m].
     periodic : bool, optional
-        Whether the grid is one period of a surface that is periodic along x and y; otherwise it
+        If true, the grid is one period of a surface that is periodic along x and y; otherwise it
         is a part of a half-space without load outside.
 
     Raises
@@ -77,7 +77,7 @@ class Grid(Displayable):
 
     @property
     def area(self) -> float:
-        """Area of the whole grid [m²]: of a period, mean pressure is force over it."""
+        """Area of the whole grid [m²]; the mean pressure of a period is its force over this."""
         return self.size[0] * self.size[1]
 
     @property
@@ -101,7 +101,7 @@ class Grid(Displayable):
         Returns
         -------
         tuple of float
-            A cell's centre [m].
+            Centre of the cell [m].
 
         Examples
         --------
@@ -117,7 +117,7 @@ class Grid(Displayable):
         Parameters
         ----------
         shape : tuple of int
-            Numbers of cells, not smaller than now, and larger by even numbers.
+            Numbers of cells, larger than those of this grid by even numbers, or equal.
 
         Returns
         -------
@@ -158,7 +158,7 @@ class Grid(Displayable):
         wider : Grid
             This grid, `widened`.
         beyond : float
-            Its value outside this grid.
+            Value outside this grid.
 
         Returns
         -------
@@ -180,19 +180,19 @@ class Grid(Displayable):
 
 @dataclass(frozen=True)
 class AutomaticGrid(Displayable):
-    """A grid chosen by the run, fine enough for a tolerance.
+    """Automatic grid, whose cells the run chooses for a tolerance.
 
     Parameters
     ----------
     tolerance : float, optional
-        Relative error of the named quantities that the mesh may cause, between 1e-4 and 0.5 [-].
+        Largest relative error of `quantities` due to the mesh, between 1e-4 and 0.5 [-].
     quantities : sequence of str, optional
-        Quantities with this accuracy: ``"peak_pressure"``, ``"contact_area"``, ``"approach"``.
+        Any of ``"peak_pressure"``, ``"contact_area"``, ``"approach"``; all when left out.
 
     Raises
     ------
     ValueError
-        If the tolerance is out of range, or there is no such quantity.
+        If the tolerance is out of range, or a quantity is unknown.
 
     Examples
     --------
@@ -236,7 +236,7 @@ def _centres(cells: int, extent: float) -> NDArray[np.float64]:
 def height_over_neighbours(gap: NDArray[np.float64], axis: int) -> NDArray[np.float64]:
     """Half the height of each point over the mean of its two neighbours along an axis [m].
 
-    The gap falls where the surface rises; 0 at dips, at the ends of a line and beside holes (+inf).
+    The gap falls where the surface rises. 0 at dips, at the ends of a line and at holes (+inf).
 
     Examples
     --------

@@ -47,11 +47,11 @@ class ContactState:
     force : float
         Integral of the pressure [N].
     eccentricity_x, eccentricity_y : float
-        Where that resultant acts; NaN without contact, and on a periodic grid, which has no
-        middle [m].
+        Position of that resultant [m]; NaN without contact, and on a periodic grid, which has no
+        centre.
     approach : float
-        Rigid approach of the bodies, positive when they come closer; on a periodic grid to the
-        mean plane of the displaced surface [m].
+        Rigid approach of the bodies, positive when they come closer; on a periodic grid relative
+        to the mean plane of the displaced surface [m].
     tilt_x, tilt_y : float
         Rigid slopes, positive when they press the +x or +y end deeper [rad].
     contact_area : float
@@ -61,8 +61,8 @@ class ContactState:
     peak_pressure, mean_pressure : float
         Largest cell pressure, and force over area [Pa].
     work : float
-        Work of the load on the contact since the start; exact for an elastic body, across jumps
-        and in the first instant, of second order in the step elsewhere [J].
+        Work of the load on the contact since the start [J]; exact for an elastic body, across
+        jumps and at the first instant, otherwise second-order accurate in the step.
     loss_per_cycle : float
         Work lost in the last complete cycle of the load; NaN before the first is complete [J].
     time_error : float
@@ -73,7 +73,7 @@ class ContactState:
     residual : float
         Largest gap under pressure or penetration elsewhere, over the largest displacement [-].
     cells_across : int
-        Cells across the contact along its shorter way, counted in cells.
+        Number of cells across the contact along its shorter direction.
     outcome : Outcome
         Outcome of the solver.
     warnings : tuple of str
@@ -115,6 +115,6 @@ class ContactState:
     warnings: tuple[str, ...] = ()
 
     def without_fields(self) -> ContactState:
-        """Return the same state with empty fields, so that a long run can be kept."""
+        """Return the same state with empty fields, to save memory in long runs."""
         nothing = np.empty((0, 0))
         return replace(self, pressure=nothing, gap=nothing, displacement=nothing)

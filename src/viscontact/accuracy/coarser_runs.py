@@ -1,4 +1,4 @@
-"""Coarser companions of a run, whose differences from it tell how far it is off."""
+"""Coarser runs of the same problem, for error estimation."""
 
 from __future__ import annotations
 
@@ -19,83 +19,49 @@ from viscontact.simulation.setup import RunSetup, plan_memory
 from viscontact.state import ContactState
 from viscontact.time_integration.fixed_steps import plan_steps
 
-#: Cells of the companions, in cells of the run, and whether they lie about the origin as the run's
-#: do: where a cell's centre was, there may be an edge between two.
+#: Cell sizes of the coarser runs, in cells of the run, and whether their numbers of cells keep the
+#: parity of the run's: otherwise an edge may lie where a cell's centre was.
 CELL_RATIOS = ((1.5, False), (2.4, True))
 
-#: Their steps, in steps of the run, and how many steps the run must have for that.
+#: Least number of steps of the run, and step sizes of its coarser runs, in steps of the run.
 STEP_RATIOS = ((16, (2, 4)), (7, (2, 2)), (0, (1, 1)))
 
-#: Cells that the coarsest companion has across the largest contact; fewer are no contact.
+#: Least number of cells across the largest contact on the coarsest grid.
 MIN_ACROSS = 4.5
 
-#: The least difference that is worth a run.
+#: Least ratio of the coarsest grid's cells to the run's.
 MIN_COARSENING = 1.6
 
-#: Scalars of a history by name, each over its instants, among them ``time``.
+#: Scalars over the instants of a run by name, including ``time``.
 History = Mapping[str, NDArray[np.float64]]
 
 
 @dataclass(frozen=True, eq=False)
 class CoarserRun:
-    """A run beside a run.
+    """Setup of a coarser run."""
 
-    Attributes
-    ----------
-    spacing : float
-        Its cells, in cells of the run.
-    step_ratio : float
-        Its steps, in steps of the run: 2 for every second one, 0.5 for halves.
-    run : RunSetup
-        What is marched.
-    """
-
-    spacing: float
-    step_ratio: float
+    spacing: float  # cell size, in cells of the original run
+    step_ratio: float  # steps, in steps of the original run: 2 for every second, 0.5 for halves
     run: RunSetup
 
 
 @dataclass(frozen=True, eq=False)
 class CoarserResult:
-    """What a companion has come to.
+    """Result of a coarser run."""
 
-    Attributes
-    ----------
-    spacing, step_ratio : float
-        As of the companion.
-    scalars : mapping of str to ndarray
-        The scalars over its instants, ``time`` among them.
-    at_end : ndarray of bool
-        Where contact reaches the end of the body.
-    spots : ndarray
-        Cells of the run across the spots of which contact consists, in the mean.
-    is_sharp : bool
-        Whether the largest pressure lies on a point or a ridge of the body.
-    """
-
-    spacing: float
-    step_ratio: float
+    spacing: float  # as in CoarserRun
+    step_ratio: float  # as in CoarserRun
     scalars: History
-    at_end: NDArray[np.bool_]
-    spots: NDArray[np.float64]
-    is_sharp: bool
+    at_end: NDArray[np.bool_]  # instants at which the contact reaches the end of the body
+    spots: NDArray[np.float64]  # mean width of the contact spots, in cells of the original run
+    is_sharp: bool  # the largest pressure lies on a point or a ridge of the body
 
 
 def plan_coarser_runs(run: RunSetup, history: History) -> Iterator[CoarserRun]:
-    """Yield the companions of a run that is over, the cheapest first.
+    """Yield the coarser runs of a completed run, the cheapest first.
 
-    Parameters
-    ----------
-    run : RunSetup
-        The run.
-    history : mapping of str to ndarray
-        Its ``time`` [s] and its ``cells_across``.
-
-    Yields
-    ------
-    CoarserRun
-        Two that are coarser in cells and in steps. Where steps are so few that none can be left
-        out, and the bodies creep, one more with halved steps on the coarsest grid.
+    Two are coarser in cells and in steps. If the run has too few steps to leave any out, and the
+    bodies creep, a third one has halved steps on the coarsest grid.
     """
     times = history["time"]
     paces = _paces(len(plan_steps(times, run.problem.load)))
@@ -110,12 +76,7 @@ def plan_coarser_runs(run: RunSetup, history: History) -> Iterator[CoarserRun]:
 
 
 def usual_coarsening(steps: int) -> tuple[tuple[float, int], ...]:
-    """Return spacings and paces of the companions that a run of so many steps has.
-
-    Parameters
-    ----------
-    steps : int
-        Its steps.
+    """Ratios of cells and of steps of the coarser runs of a run with a number of steps.
 
     Examples
     --------
@@ -133,22 +94,10 @@ def _paces(steps: int) -> tuple[int, int]:
 
 
 def coarser_grid(grid: Grid, spacing: float, alike: bool) -> Grid:
-    """Return a grid of larger cells over the same region and a little more.
+    """Grid of cells larger by a factor over the same region; `alike` keeps even numbers even.
 
-    Parameters
-    ----------
-    grid : Grid
-        The finer one.
-    spacing : float
-        Cells of the coarser one, in its cells.
-    alike : bool
-        Whether numbers of cells stay even or odd.
-
-    Returns
-    -------
-    Grid
-        A cell larger than the other at least, lest the contact touch its rim; of the same size if
-        periodic.
+    It extends at least one cell further, so that the contact does not touch its rim; a period keeps
+    its size.
 
     Examples
     --------
@@ -170,19 +119,9 @@ def coarser_grid(grid: Grid, spacing: float, alike: bool) -> Grid:
 def march_coarser_run(
     coarser_run: CoarserRun, on_step: Callable[[], None] | None = None
 ) -> CoarserResult | None:
-    """March a companion.
+    """Solve a coarser run; None if it stops before its end.
 
-    Parameters
-    ----------
-    coarser_run : CoarserRun
-        What to march.
-    on_step : callable, optional
-        Called after each of its steps; what it raises ends the march.
-
-    Returns
-    -------
-    CoarserResult or None
-        None if it could not be marched to its end: it tells nothing then.
+    `on_step` is called after each step, and may stop the run by an exception.
     """
     run, states, ends, spots = coarser_run.run, [], [], []
     peak = 0.0
@@ -212,17 +151,17 @@ def march_coarser_run(
     )
 
 
-#: Scalars of a state from which its errors are estimated.
+#: Scalars of a state that are used to estimate its errors.
 SCALARS = ("time", *scalars_with_error(), "cells_across")
 
 
 def history_of(states: Sequence[ContactState]) -> History:
-    """Return the scalars of states over their instants."""
+    """Scalars of states over their instants."""
     return {name: np.array([getattr(state, name) for state in states], float) for name in SCALARS}
 
 
 def _spacings(across: float) -> tuple[tuple[float, bool], ...]:
-    """The spacings, closer together where the run has few cells across its contact."""
+    """Ratios of cells, closer to 1 if the run has few cells across its contact."""
     coarsest = CELL_RATIOS[-1][0]
     most = min(coarsest, max(across / MIN_ACROSS, MIN_COARSENING))
     closer = (most - 1) / (coarsest - 1)
@@ -245,7 +184,7 @@ def _coarser_run(
 
 
 def _peaks_at_point(coarser_run: CoarserRun, state: ContactState) -> bool:
-    """Whether its largest pressure lies at what is sharp to the cells of the run beside it."""
+    """Test whether the largest pressure lies at a point that is sharp on the original cells."""
     run = coarser_run.run
     place = run.grid.largest_at(state.pressure)
     dx, dy = run.grid.cell_size

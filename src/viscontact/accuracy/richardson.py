@@ -7,12 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-#: Orders of convergence that are believed: a rim between cells makes errors of about first order,
-#: smooth pressure of second; nothing here is better than that.
+#: Bounds of the order of convergence: errors of a rim between cells are of about first order, those
+#: of smooth pressure of second.
 LOWEST_ORDER, HIGHEST_ORDER = 0.5, 2.0
 
-#: Below this order a value that moves on and on has no limit: a logarithm has order 0, the inverse
-#: root of an edge -1/2.
+#: Values with a smaller observed order have no limit: a logarithm has order 0, the inverse square
+#: root at an edge -1/2.
 NO_ORDER = 0.2
 
 #: Relative changes up to this do not show whether there is a limit.
@@ -26,56 +26,29 @@ _SPAN, _HALVINGS = (-4.0, 8.0), 44
 class Richardson:
     """Error, order and convergence of the values on the finest of three spacings.
 
-    Attributes
-    ----------
-    error : ndarray
-        Estimated error of the finest values, without sign, in their unit; inf where they have no
-        limit.
-    order : ndarray
-        Observed order of convergence [-]; NaN where the values go to and fro, or stand still.
-    converges : ndarray of bool
-        False where the values grow or fall from each spacing to the next by as much or more, as a
-        singular pressure does.
-
-    Examples
-    --------
     >>> found = richardson([1.01, 1.04, 1.16], [1.0, 2.0, 4.0])
     >>> round(float(found.error), 6), round(float(found.order), 6)
     (0.01, 2.0)
     """
 
-    error: NDArray[np.float64]
-    order: NDArray[np.float64]
-    converges: NDArray[np.bool_]
+    error: NDArray[np.float64]  # estimated, without sign, in the unit of the values; inf: no limit
+    order: NDArray[np.float64]  # observed [-]; NaN where the values oscillate or do not change
+    converges: NDArray[np.bool_]  # False where differences do not decrease, as at a singularity
 
 
 def richardson(values: ArrayLike, spacings: ArrayLike) -> Richardson:
     """Estimate the error of the values on the finest of three spacings.
 
-    Parameters
-    ----------
-    values : array_like, shape (3, ...)
-        The same values on three spacings, finest first, all in one unit.
-    spacings : array_like, shape (3,)
-        Cells or steps, strictly increasing, in any one unit.
-
-    Returns
-    -------
-    Richardson
-        Error, observed order and verdict for each value; shapes as of ``values[0]``.
-
-    Raises
-    ------
-    ValueError
-        If there are not three sets of values, or the spacings are not positive and increasing.
+    `values` has shape (3, ...), finest first, all in one unit; `spacings` are three cell or step
+    sizes, strictly increasing, in any unit. ValueError for other shapes or spacings.
 
     Notes
     -----
     With f = f0 + c h^p the three values give (f3 - f2)/(f2 - f1) = (h3^p - h2^p)/(h2^p - h1^p),
     whose right side rises with p (Roache 1998, Verification and Validation in Computational
     Science and Engineering, section 5.10). The error of f1 is then |f2 - f1|/((h2/h1)^p - 1), with
-    p kept within 0.5 and 2. Where values go to and fro no p is observed; the error is the larger
-    one of what the two differences amount to at first order.
+    p kept within 0.5 and 2. Where values oscillate no p is observed; the error is the larger one of
+    the two first-order estimates from the differences.
 
     Examples
     --------
@@ -114,7 +87,7 @@ def _checked(
 def _observed_order(
     fine: NDArray[np.float64], coarse: NDArray[np.float64], lengths: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """The order at which both differences are of one power law; NaN where there is none."""
+    """Order of the power law that both differences follow; NaN where there is none."""
     monotone = fine * coarse > 0
     wanted = np.where(monotone, np.abs(coarse), 1.0) / np.where(monotone, np.abs(fine), 1.0)
     low, high = (np.full(wanted.shape, end) for end in _SPAN)
@@ -127,7 +100,7 @@ def _observed_order(
 
 def _ratio(order: NDArray[np.float64], lengths: NDArray[np.float64]) -> NDArray[np.float64]:
     """(h3^p - h2^p)/(h2^p - h1^p), at p = 0 the ratio of the logarithms."""
-    # Nowhere 0/0: an order that close to 0 differs from it by less than rounding.
+    # Avoids 0/0: an order that close to 0 differs from it by less than rounding.
     power = np.where(np.abs(order) < 1e-9, 1e-9, order)
     first, second = (np.log(lengths[k + 1] / lengths[k]) for k in (0, 1))
     ratio: NDArray[np.float64] = (

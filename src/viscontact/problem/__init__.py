@@ -1,1 +1,1 @@
-"""The contact problem that a run solves: bodies, load, grid, times and tolerances."""
+"""Contact problem that a run solves: bodies, load, grid, times and tolerances."""

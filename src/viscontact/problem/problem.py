@@ -1,4 +1,4 @@
-"""Contact problem: the bodies, what presses them, and what is requested of the solution."""
+"""Contact problem: bodies, load, and requirements on the solution."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ from viscontact.time_integration.requested_times import AdaptiveTimes
 from viscontact.time_integration.run_times import field_instants, run_instants
 from viscontact.units.numbers import as_real
 
-#: Tolerances that are accepted: below, rounding decides; above, the result is no solution [-].
+#: Range of tolerances [-]: smaller ones are below rounding, larger ones give no solution.
 FINEST_TOLERANCE, COARSEST_TOLERANCE = 1e-13, 1e-2
 
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """A contact problem as a user states it; what follows from it is computed once.
+    """Contact problem in the terms of the user; derived quantities are computed once.
 
     Attributes
     ----------
@@ -48,7 +48,7 @@ class Problem:
     fields : {"all", "none"} or sequence of float
         Times whose fields are kept [s].
     step_ratio : float
-        Longest step through given times, in longest steps that the load allows [-].
+        Longest step between given times, relative to the longest one that the load allows [-].
     """
 
     indenter: Indenter
@@ -104,7 +104,7 @@ class Problem:
 
     @cached_property
     def instants(self) -> NDArray[np.float64]:
-        """Times of the states; of adaptive steps those that have to be met, the end last [s]."""
+        """Times of the states [s]; of adaptive steps the prescribed ones, the end last."""
         return run_instants(self.times, self.fields, self.load, self.compliance)
 
     @cached_property
@@ -119,35 +119,35 @@ class Problem:
 
     @cached_property
     def largest_load(self) -> tuple[float, LoadPoint]:
-        """When the load of the run is largest [s], and what it prescribes then."""
+        """Time of the largest load of the run [s], and its point."""
         return largest_load(self.load, self.end)
 
     @cached_property
     def planned_steps(self) -> tuple[Step, ...]:
-        """Steps through the given times; not for adaptive ones."""
+        """Steps through the given times; not for adaptive steps."""
         return plan_steps(self.instants, self.load, self.step_ratio)
 
     @property
     def step_count(self) -> float:
-        """Number of steps; where the run chooses them, the expected one."""
+        """Number of steps, estimated for adaptive ones."""
         if self.adaptive is None:
             return float(len(self.planned_steps))
         return estimated_steps(self.adaptive, self.load, self.compliance)
 
     def steps(self) -> FixedSteps | AdaptiveSteps:
-        """Return the steps from the start, none of them taken."""
+        """Return the sequence of steps from the start."""
         if self.adaptive is None:
             return FixedSteps(self.planned_steps)
         return AdaptiveSteps(self.adaptive, self.instants, self.load, self.compliance)
 
     @property
     def measured_until(self) -> float:
-        """Last time on which the laws rest on data [s]; inf for formulas."""
+        """Last time of the data of the laws [s]; inf for formulas."""
         return min(body.known_until for body in self.bodies)
 
     @property
     def measured_from(self) -> float:
-        """First time on which the laws rest on data [s]; 0 for formulas."""
+        """First time of the data of the laws [s]; 0 for formulas."""
         return max(body.known_from for body in self.bodies)
 
     @property

@@ -1,5 +1,5 @@
-"""Units: quantities in words become SI numbers, SI numbers become readable words.
+"""Units: parsing of quantities to SI numbers, and formatting of SI numbers.
 
-Case files and the command line take ``"5 mm"``; everything behind them is SI. Tables and
-figures turn SI numbers back into units a person reads.
+Case files and the command line accept ``"5 mm"``; all calculations are in SI units. Tables and
+figures show readable units.
 """

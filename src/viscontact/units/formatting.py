@@ -50,7 +50,7 @@ def readable_unit(unit: str, *values: ArrayLike) -> ReadableUnit:
         The SI unit of the values: ``"m"``, ``"m2"``, ``"s"``, ``"N"``, ``"Pa"``, ``"1/Pa"``,
         ``"Pa s"``, ``"rad"``, ``"J"``, ``"J/mol"`` or ``"1"``.
     *values : array_like
-        Everything that shares the unit [SI]; values that are not finite are disregarded.
+        All values that share the unit [SI]; values that are not finite are ignored.
 
     Returns
     -------
@@ -86,14 +86,14 @@ def _unit_of(size: float, unit: str) -> ReadableUnit:
 
 
 def _prefixed(size: float, symbol: str) -> ReadableUnit:
-    # Kilometres, kiloseconds and kiloradians are not in daily use, nor are picometres; the
-    # forces and works of a sharp tip are small enough for all prefixes.
+    # Kilometres, kiloseconds, kiloradians and picometres are unusual; force and work at a sharp tip
+    # are small enough for all prefixes.
     top = 1.0 if symbol in ("m", "m²", "s", "rad") else math.inf
     bottom = 0.0 if symbol in ("N", "J") else 1e-9
     # An area keeps its unit down to a hundredth: 0.7 mm² reads better than 700000 µm².
     power, least = (2, 0.01) if symbol == "m²" else (1, 1.0)
     usable = [(p**power, name) for p, name in _PREFIXES if bottom <= p <= top]
-    # One in a thousand of slack: 0.9999 mm stays in millimetres.
+    # With a margin of 0.1 %, 0.9999 mm stays in millimetres.
     fitting = [entry for entry in usable if least * entry[0] <= size * 1.001] or usable[:1]
     factor, prefix = fitting[-1]
     return ReadableUnit(prefix + symbol, factor)
@@ -143,11 +143,11 @@ def format_number(value: float, digits: int = 4) -> str:
     """
     if math.isnan(value):
         return "-"
-    # Two values that differ by rounding only are to print alike: 4.7825 is 4.782 or 4.783.
+    # Values that differ by rounding print alike; otherwise 4.7825 is 4.782 or 4.783.
     value = float(f"{value:.{max(9, digits + 2) - 1}e}")
     if value == 0.0 or not 1e-4 <= abs(value) < 1e6:
         return f"{value:.{digits}g}"
-    # Of the rounded number: 9.99999 has two digits in front once it is written 10.00.
+    # Digits of the rounded number: 9.99999 has two before the point when written as 10.00.
     rounded = abs(float(f"{value:.{digits - 1}e}"))
     decimals = max(0, digits - 1 - math.floor(math.log10(rounded)))
     return f"{value:.{decimals}f}"
@@ -176,7 +176,7 @@ def format_compact(value: float, digits: int = 3) -> str:
 
 
 def time_labels(times: Iterable[float]) -> tuple[str, ...]:
-    """Format instants [s] for a legend, all in one unit, with as many digits as tell them apart.
+    """Format instants [s] for a legend, all in one unit, with enough digits to differ.
 
     Examples
     --------

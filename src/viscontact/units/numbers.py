@@ -1,4 +1,4 @@
-"""Checks of the numbers that users give, in the units of their arguments."""
+"""Validation of numeric arguments, in their units."""
 
 from __future__ import annotations
 
@@ -99,7 +99,7 @@ def check_fields(
 
 
 def store(instance: object, **values: object) -> None:
-    """Set fields of a frozen dataclass while it is being made."""
+    """Set fields of a frozen dataclass during its construction."""
     for name, value in values.items():
         object.__setattr__(instance, name, value)
 

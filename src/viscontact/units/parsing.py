@@ -13,7 +13,7 @@ from typing import Any
 from viscontact.units.dimensions import DIMENSIONS, OTHER_DIMENSIONS, Dimension
 from viscontact.units.temperatures import ZERO_CELSIUS
 
-# Degrees have an offset, unlike units that are factors; C alone is not a coulomb here.
+# Degrees have an offset, other units are factors only; C is a degree here, not a coulomb.
 _DEGREES = {
     **dict.fromkeys(("k", "kelvin", "degk", "°k"), (1.0, 0.0)),
     **dict.fromkeys(("c", "celsius", "degc", "°c", "℃"), (1.0, ZERO_CELSIUS)),
@@ -62,7 +62,7 @@ class Scale:
         plain = float(number)
         if not math.isfinite(plain):
             return math.inf
-        if plain == 0.0:  # or too small for a float, and its exponent perhaps for a decimal
+        if plain == 0.0:  # or too small for a float, perhaps also for a decimal
             return self.offset
         if self.factor == 1.0 and self.offset == 0.0:
             return plain
@@ -127,7 +127,7 @@ def _split(text: str, wanted: Dimension) -> tuple[str, str]:
         raise ValueError(f"{_shown(text)} is not a finite number; {hint}")
     if re.match(r"\s*[+-]?\d+,\d", text):
         raise ValueError(f"cannot read {_shown(text)}: write a decimal point, not a comma; {hint}")
-    # Blanks at the ends are cut off first: a pattern that looks for them tries every run of them.
+    # Blanks at the ends are stripped first: a pattern for them would retry every run of blanks.
     match = _QUANTITY.fullmatch(text.strip())
     if match is None:
         raise ValueError(f"cannot read {_shown(text)} as {wanted.name}: no number in front; {hint}")
@@ -160,7 +160,7 @@ def _parsed_unit(unit: str, text: str, wanted: Dimension) -> Any:
         plain = "1" + plain
     try:
         if len(unit) > 60 or not _UNIT.fullmatch(unit):
-            raise ValueError("characters that no unit has")
+            raise ValueError("characters that do not occur in units")
         return _registry().parse_units(plain)
     except Exception as error:  # pint raises many kinds, of its tokenizer and parser too
         raise ValueError(
