@@ -72,7 +72,8 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
 
     Notes
     -----
-    Global attributes of its own: `warnings` and `grid_enlarged`, a line each; `wall_time` [s],
+    An OSError of any method leaves the result as it was published last; the run can be resumed
+    from there. Global attributes of its own: `warnings` and `grid_enlarged`, a line each; `wall_time` [s],
     summed over resumptions; `complete`, 1 once the run is finished.
 
     Examples
@@ -148,14 +149,7 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
         }
 
     def append(self, state: ContactState) -> None:
-        """Add the next state of the run; it is safe after the next `publish`.
-
-        Raises
-        ------
-        OSError
-            If it cannot be written: the result is as it was published last, and the run can be
-            resumed from there.
-        """
+        """Add the next state of the run; it is safe after the next `publish`."""
         rows, field_rows = self._done
         self._make_room(state.grid)
         if self._layout.axis == "time" or state.time in self._kept:
@@ -180,13 +174,7 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
         -------
         bool
             False if another program holds the result, as happens on Windows: then `position` is
-            not reached yet.
-
-        Raises
-        ------
-        OSError
-            If that fails; the result is as it was published last.
-        """
+            not reached yet."""
         return self._published == self._done or self._publish()
 
     def reopen(self) -> None:
@@ -195,25 +183,13 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
             self._file()
 
     def history(self) -> dict[str, NDArray[np.float64]]:
-        """Return all scalars and instants so far.
-
-        Raises
-        ------
-        OSError
-            If they cannot be written.
-        """
+        """Return all scalars and instants so far."""
         with self._writing():
             self._write_waiting()
             return read_scalars(self._file())
 
     def finish(self, bars: ErrorBars | None = None) -> None:
-        """Publish the complete result, with the errors of its scalars, and close it.
-
-        Raises
-        ------
-        OSError
-            If that fails; the result is as it was published last.
-        """
+        """Publish the complete result, with the errors of its scalars, and close it."""
         if bars is not None:
             with self._writing():
                 write_errors(self._file(), bars.values)
