@@ -37,11 +37,9 @@ from viscontact.state import ContactState
 WAITING = 4096
 #: Number and distance [s] of the attempts to replace a result that another program holds open.
 TRIES, PAUSE = 40, 0.25
+_COUNTS = {"rows": 0, "field_rows": 0, "wall_time": 0.0}
 #: Position of a writer before its first row.
-START: Mapping[str, Any] = {
-    **{"rows": 0, "field_rows": 0},
-    **{"warnings": (), "wall_time": 0.0, "cells": None, "enlarged": ()},
-}
+START: Mapping[str, Any] = {**_COUNTS, "warnings": (), "cells": None, "enlarged": ()}
 
 
 def working_files(path: Path) -> tuple[Path, Path]:
@@ -72,9 +70,9 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
 
     Notes
     -----
-    An OSError of any method leaves the result as it was published last; the run can be resumed
-    from there. Global attributes of its own: `warnings` and `grid_enlarged`, a line each; `wall_time` [s],
-    summed over resumptions; `complete`, 1 once the run is finished.
+    An OSError of any method leaves the result as it was published last. The global attributes
+    are given and `warnings` and `grid_enlarged`, a line each; `wall_time` [s], summed over
+    resumptions; `complete`, 1 once the run is finished.
 
     Examples
     --------
@@ -174,11 +172,12 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
         -------
         bool
             False if another program holds the result, as happens on Windows: then `position` is
-            not reached yet."""
+            not reached yet.
+        """
         return self._published == self._done or self._publish()
 
     def reopen(self) -> None:
-        """Make the working file for the next rows, as the next `append` does otherwise."""
+        """Make the working file for the next rows."""
         with self._writing():
             self._file()
 
