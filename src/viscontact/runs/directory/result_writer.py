@@ -168,11 +168,7 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
     def publish(self) -> bool:
         """Replace the result by one with all states so far, at once and durably.
 
-        Returns
-        -------
-        bool
-            False if another program holds the result, as happens on Windows: then `position` is
-            not reached yet.
+        False, and `position` is not reached yet, if another program holds the result on Windows.
         """
         return self._published == self._done or self._publish()
 
