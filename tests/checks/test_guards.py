@@ -341,7 +341,7 @@ GUARDS = {
     ),
     "a law that takes creep back": Guard(
         ValueError,
-        "never falls",
+        "never decrease",
         met=Job(material=vc.Material(Shrinking(1e-6, 0.3, 1.0, 1e-7), 0.5), times=[0, 1]),
         missed=Job(
             material=vc.Material(Shrinking(1e-6, 0.3, 1.0, 1e-7), 0.5),

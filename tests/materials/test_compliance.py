@@ -110,7 +110,7 @@ def test_a_series_is_remembered_exactly_and_a_short_run_of_any_law_too():
             Material(law, 0.3).contact_compliance(), instants, numbers=10_000
         )
         assert plan.error == 0.0
-        assert "exact" in plan.method or "law as it stands" in plan.method
+        assert "exact" in plan.method or "given law" in plan.method
 
 
 @pytest.mark.parametrize(("steps", "numbers"), [(10_000, 100), (1_000, 100_000)])

@@ -167,7 +167,7 @@ class Output(Section):
     errors: bool = Field(
         default=True,
         description="whether the errors of the scalars are estimated after the last step, from two "
-        "coarser companions of the run, which takes about two thirds of its time",
+        "coarser runs, which take about two thirds of the time of the run",
     )
 
 

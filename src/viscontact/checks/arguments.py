@@ -32,11 +32,11 @@ def check_magnitudes(problem: Problem) -> None:
 
 
 def check_creep(problem: Problem) -> None:
-    """Refuse a law that is no creep within the run: no number, negative, or falling."""
+    """Refuse a law whose creep within the run is not a number, negative or decreasing."""
     compliance, times = problem.compliance, problem.instants
-    # A memory in exponentials is fitted to ten times the first step at least.
+    # A Prony series is fitted at least to ten times the first step.
     end = max(float(times[-1]), 10 * float(np.diff(times).min(initial=times[-1])))
-    # Steps between the instants asked for are as short as they like.
+    # Steps between the requested instants may be arbitrarily short.
     instants = times[:: max(1, len(times) // CREEP_SAMPLES)]
     if end > 0:
         instants = np.union1d(instants, np.geomspace(1e-6 * end, end, CREEP_SAMPLES))
@@ -46,8 +46,8 @@ def check_creep(problem: Problem) -> None:
     if wrong.any():
         raise ValueError(
             f"material: its law gives a contact compliance of {values[wrong][0]:.4g} /Pa at t = "
-            f"{format_quantity(instants[wrong][0], 's')}; creep is a number, not negative, and "
-            "never falls. Mend the law"
+            f"{format_quantity(instants[wrong][0], 's')}; creep must be a number, not "
+            "negative, and never decrease; correct the law"
         )
 
 

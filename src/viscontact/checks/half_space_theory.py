@@ -142,20 +142,20 @@ def body_warnings(geometry: Geometry, rim: Rim) -> dict[str, str]:
     if geometry.grid.periodic and _touches_seam(geometry, rim):
         warnings["seam"] = (
             f"the contact {reach} the border of the period, where the body does not continue: "
-            "beside its next period it has a step, at which the peak pressure depends on the mesh; "
-            "press a body that fits to itself, or not periodically"
+            "at the border it has a step, at which the peak pressure depends on the mesh; use a "
+            "body that continues there, or a grid that is not periodic"
         )
     if geometry.ends and touches_end(rim.cut(geometry.open_gap), rim.contact):
         warnings["end"] = (
             f"the contact {reach} the end of the indenter's profile: pressure is singular there "
-            "and the peak pressure depends on the mesh. The half-space goes on beyond it: a body "
-            "that ends there as well gives way more"
+            "and the peak pressure depends on the mesh. The half-space continues beyond it; a "
+            "body that ends there too is more compliant"
         )
     if geometry.indenter_gives and _ends_within(geometry, rim, half_width):
         warnings["end_face"] = (
-            "the indenter ends within a half width of the contact, but its material is taken for a "
-            "half-space that goes on there; a free end face gives way more, so that pressure near "
-            "it is lower and the approach larger"
+            "the indenter ends within a half width of the contact, but its material is modelled as "
+            "a half-space that continues there; a free end face is more compliant, so that the "
+            "pressure near it is lower and the approach larger"
         )
     if half_width > THIN_BODY * geometry.thickness:
         warnings["thickness"] = (

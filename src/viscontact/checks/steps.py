@@ -59,8 +59,9 @@ def touch_warnings(duration: float, share: float) -> dict[str, str]:
 def release_warnings(duration: float, share: float) -> dict[str, str]:
     """Warn of a contact of a creeping body that is lost in one step [s] as the load falls.
 
-    Over one linear step the rim, which is left early, bears a load for too long: the remaining dent
-    is off by up to a third. `share` is the fall over the largest load of the history [-].
+    Over one linear step the rim, which loses contact early, is loaded for too long: the remaining
+    indentation has an error of up to a third. `share` is the fall over the largest load of the
+    history [-].
 
     Examples
     --------
@@ -72,8 +73,8 @@ def release_warnings(duration: float, share: float) -> dict[str, str]:
     return {
         "release": (
             f"the contact is lost as the load falls by {share:.0%} of its largest in a single step "
-            f"of {format_quantity(duration, 's', 3)}; use several steps there, as the dent that "
-            "stays depends on them"
+            f"of {format_quantity(duration, 's', 3)}; use several steps there, as the "
+            "remaining indentation depends on them"
         )
     }
 

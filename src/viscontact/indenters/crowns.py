@@ -141,7 +141,7 @@ class TwoRadiiCrown(Profile):
     crown_length : float
         Length of the first arc along x [m].
     end_radius : float
-        Radius of the second arc, that goes on from there [m].
+        Radius of the second arc, which continues the first [m].
     end_length : float, optional
         Where the roller ends sharply, from its middle [m]; where the second arc ends when left
         out.

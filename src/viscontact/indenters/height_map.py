@@ -40,7 +40,7 @@ class HeightMap(Indenter):
     Notes
     -----
     The gap is max(height) - height, bilinear between the mesh points, and +inf outside the map
-    and within a mesh step of holes. Only the values at the positions asked for are used: on a
+    and within a mesh step of holes. Only the values at the requested positions are used: on a
     grid coarser than the map, details between the grid points are missed, not averaged. The
     arrays are copied and made read-only.
 

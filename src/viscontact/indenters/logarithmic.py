@@ -12,8 +12,8 @@ from viscontact.indenters.profile import Profile
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import check_fields, positive, real
 
-#: ISO/TS 16281's profile: its amplitude over the roller's diameter on short rollers and on long
-#: ones, those beyond so many diameters, whose crowns take half of that at either end.
+#: Profile of ISO/TS 16281: amplitude over roller diameter on short and on long rollers, and largest
+#: length of a short roller in diameters; a crown on a long roller takes half of it at either end.
 ISO_SHORT, ISO_LONG, ISO_LONGEST_SHORT = 0.00035, 0.0005, 2.5
 
 #: The finite drop of Johns and Gohar: e^(-1/2)/2, to the four digits that they print.
@@ -100,7 +100,7 @@ class LogarithmicProfile(Profile):
         Notes
         -----
         Lundberg (1939), Forschung auf dem Gebiete des Ingenieurwesens 10, 201-211. An even line
-        load w on |x| < L dents an elastic half-space less at x than in the middle by
+        load w on |x| < L displaces an elastic half-space less at x than in the middle by
         (w / (π E*)) ln(1 / (1 - (x/L)²)), farther from the ends than the contact is wide.
 
         Examples

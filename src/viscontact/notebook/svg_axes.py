@@ -18,24 +18,12 @@ _MOST_DECADES = 3
 
 @dataclass(frozen=True)
 class Scale:
-    """An axis.
+    """Scale of an axis, linear or logarithmic."""
 
-    Attributes
-    ----------
-    label : str
-        The quantity with its unit.
-    low, high : float
-        Its ends [SI, or their decimal logarithms].
-    ticks : tuple of (float, str)
-        Places along it, as `place` tells them, and what is written there.
-    logarithmic : bool
-        Whether it is.
-    """
-
-    label: str
-    low: float
+    label: str  # quantity with its unit
+    low: float  # end [SI, or its decimal logarithm]
     high: float
-    ticks: tuple[tuple[float, str], ...]
+    ticks: tuple[tuple[float, str], ...]  # positions as returned by `place`, and their labels
     logarithmic: bool = False
 
     def place(self, values: ArrayLike) -> NDArray[np.float64]:

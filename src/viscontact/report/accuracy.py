@@ -27,7 +27,7 @@ def accuracy_lines(ds: xr.Dataset) -> Iterator[tuple[str, str]]:
     """Yield further statements on a run's accuracy: title and text."""
     residual = ds["residual"].values
     tolerance = float(ds.attrs.get("tolerance", math.nan))
-    asked = "" if math.isnan(tolerance) else f"; asked for: {tolerance:.1e}"
+    asked = "" if math.isnan(tolerance) else f"; requested: {tolerance:.1e}"
     yield (
         "Residual",
         f"{float(residual.max(initial=0.0)):.1e} at most, of the largest displacement{asked}. "
@@ -41,7 +41,7 @@ def accuracy_lines(ds: xr.Dataset) -> Iterator[tuple[str, str]]:
     inversion = float(ds.attrs.get("inversion_error", 0.0))
     if inversion > 0:
         yield "Law", f"converted numerically; error {format_bound(inversion)} (estimated)"
-    yield "Companions", _companions(ds)
+    yield "Coarser runs", _coarser_runs(ds)
     if _is_marked(ds):
         yield "Depends on the mesh", f"{WHY_MESH_DEPENDENT}."
 
@@ -56,10 +56,10 @@ def _balance(ds: xr.Dataset) -> str:
         return "the approach is prescribed; the force is the pressure's integral"
     known = largest_error(ds, "force")
     if known is None or not math.isfinite(known.part):
-        return "force and moments of the pressure are those of the load, to the tolerance asked for"
+        return "force and moments of the pressure are those of the load, to the requested tolerance"
     return (
         f"the pressure's integral differs from the load by {format_bound(known.part)} of it; "
-        "its moments are the load's to the tolerance asked for"
+        "its moments are the load's to the requested tolerance"
     )
 
 
@@ -85,15 +85,15 @@ def _cells(ds: xr.Dataset) -> str:
     counted = f"{x.size} × {y.size} cells{size}"
     if not touching.size:
         return counted
-    return f"{counted}; {int(touching.max())} across the contact, the shorter way, when largest"
+    return f"{counted}; {int(touching.max())} across its shorter side when largest"
 
 
-def _companions(ds: xr.Dataset) -> str:
+def _coarser_runs(ds: xr.Dataset) -> str:
     if not any(str(name).endswith("_error") and name != "time_error" for name in ds.data_vars):
-        return "none were run: no errors of the numbers above are known"
+        return "none: the errors of the numbers above are not estimated"
     return (
-        "two coarser runs beside this one, from which the errors are extrapolated: of 100 true "
-        "errors 95 are meant to lie within the ones that are stated"
+        "two coarser runs of the same problem, from which the errors are estimated: 95 of 100 true "
+        "errors are expected to lie within the stated ones"
     )
 
 

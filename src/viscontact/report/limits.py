@@ -42,7 +42,7 @@ def warnings_of(ds: xr.Dataset) -> list[str]:
 
 def assumptions(ds: xr.Dataset) -> Iterator[tuple[str, str]]:
     """Yield the assumptions of the theory with this run's numbers: title and text."""
-    yield "Half-space", f"the surface goes on without end, and the body below it{_size(ds)}"
+    yield "Half-space", f"the surface is unbounded, and so is the body below it{_size(ds)}"
     yield (
         "Small slopes",
         (
@@ -81,7 +81,7 @@ def _approach(ds: xr.Dataset) -> str:
     part = float(approach.max()) / shorter
     largest = format_quantity(float(approach.max()), "m", 3)
     return (
-        f"Largest approach here: {largest}, {format_number(part, 2)} of the contact's shorter way."
+        f"Largest approach here: {largest}, {format_number(part, 2)} of the contact's shorter side."
     )
 
 

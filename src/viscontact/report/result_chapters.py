@@ -31,7 +31,7 @@ def title_of(ds: xr.Dataset) -> str:
 
 
 def heading_of(ds: xr.Dataset, label: str) -> str:
-    """Heading of a run: its title with its label, which tells it from others of that title.
+    """Heading of a run: its title, with a label if several runs have that title.
 
     Examples
     --------

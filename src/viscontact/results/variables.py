@@ -137,12 +137,12 @@ SCALARS = {
     ),
     "work": _scalar("J", "work of the load on the contact since the start", "Work", 12),
     "loss_per_cycle": _scalar(
-        "J", "work that the last whole cycle of the load has cost", "Loss per cycle", 13
+        "J", "work lost in the last complete cycle of the load", "Loss per cycle", 13
     ),
-    "time_error": Variable("1", "estimated relative error of pressure owed to the time steps"),
+    "time_error": Variable("1", "estimated relative error of pressure due to the time steps"),
     "iterations": Variable("1", "iterations of the contact solver", "i4"),
     "residual": Variable("1", "relative violation of the contact conditions"),
-    "cells_across": Variable("1", "cells across the contact, along its shorter way", "i4"),
+    "cells_across": Variable("1", "cells across the contact, along its shorter direction", "i4"),
     "outcome": Variable("1", "how the instant ended", "i1"),
 }
 

@@ -196,7 +196,7 @@ def _state(
 ) -> ContactState:
     force, moment_x, moment_y = (float(resultant) for resultant in solution.resultants)
     touching = force > 0
-    # Where the surface goes on without end there is no middle that a force could be off.
+    # A periodic surface has no centre from which the force could be offset.
     centred = touching and not rim.grid.periodic
     peak = float(solution.pressure.max())
     # A few cells enclose next to nothing; but no mean pressure exceeds the peak.

@@ -80,7 +80,7 @@ def plan_hereditary_integral(
     series, error = as_exponentials(compliance, first, last)
     steps = len(instants)
     if steps <= MAX_SUMMED_STEPS and 8.0 * steps * numbers <= MAX_HISTORY_BYTES:
-        method = "sum over all earlier steps, with the law as it stands"
+        method = "direct sum over all earlier steps, with the given law"
         return HereditaryPlan(compliance, instants, steps, method, 0.0, series)
     method = (
         f"sum of {len(series.times)} exponentials, within {error:.1e} of the law's creep "

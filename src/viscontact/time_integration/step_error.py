@@ -126,8 +126,8 @@ class TimeErrors:
     def restart_data(self) -> RestartData:
         """Restart data of the estimate."""
         return {
-            "owed": self._term_errors,
-            "wrong": self._pressure_error,
+            "term_errors": self._term_errors,
+            "pressure_error": self._pressure_error,
             "jumped": self._jumped,
             "past": [{"duration": duration, "values": values} for duration, values in self._past],
             "pending": None if self._pending is None else list(self._pending),
@@ -137,7 +137,8 @@ class TimeErrors:
 
     def restore(self, restart_data: RestartData) -> None:
         """Continue from restart data of the same run."""
-        self._term_errors, self._pressure_error = restart_data["owed"], restart_data["wrong"]
+        self._term_errors = restart_data["term_errors"]
+        self._pressure_error = restart_data["pressure_error"]
         self._jumped = restart_data["jumped"]
         self._past = [(point["duration"], point["values"]) for point in restart_data["past"]]
         self._rate = self._last_rate()

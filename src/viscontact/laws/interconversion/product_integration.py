@@ -89,13 +89,13 @@ def march(function: Function, mean: Mean, nodes: Floats, load: Load | None) -> t
     return at_once, np.append(begun, _at_nodes(rates, steps)[1:])
 
 
-def _rates(kernel: Kernel, nodes: Floats, owed: Floats, first: float | None) -> Floats:
+def _rates(kernel: Kernel, nodes: Floats, target: Floats, first: float | None) -> Floats:
     """Return the mean rates of the unknown on all steps, the first of which may be known."""
     begins, steps = np.append(0.0, nodes[:-1]), np.diff(nodes, prepend=0.0)
     rates, bends = np.zeros(nodes.size), np.zeros(nodes.size)
-    rates[0] = owed[0] / kernel.whole[0] if first is None else first
+    rates[0] = target[0] / kernel.whole[0] if first is None else first
     for i, (whole, bent) in enumerate(_pasts(kernel, nodes, begins, steps), start=1):
-        rest = owed[i] - whole @ rates[:i] - bent @ bends[:i]
+        rest = target[i] - whole @ rates[:i] - bent @ bends[:i]
         if i == 1:  # the first step is long and may hide a power: no parabola rests on it
             rates[i] = rest / kernel.whole[i]
             continue

@@ -225,7 +225,7 @@ def _nearest_poles(
     """
     half = np.diff(poles) / 2
     middle = (poles[:-1, None] - poles) + half[:, None]
-    # F falls from +inf to -inf between two poles: its sign half-way tells the root's half.
+    # F falls from +inf to -inf between two poles: the sign half-way shows the half of the root.
     right = (weights / middle).sum(axis=1) > constant
     nearest, side = np.arange(half.size) + right, np.where(right, -1.0, 1.0)
     if constant > 0 and poles.size > 0:

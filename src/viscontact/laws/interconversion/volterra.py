@@ -32,8 +32,8 @@ from viscontact.laws.interconversion.product_integration import (
 STEPS = 20
 # f may change by this part before the first node; the inverse is straight in t up to there.
 _FIRST_CHANGE = 1e-5
-# A power starts the march this far ahead of the first instant asked for: what its first steps
-# lack in shape has then decayed.
+# A power law starts this far before the first requested instant: errors of its first steps have
+# then decayed.
 _AHEAD = 1e-5
 _MOST_DECADES = 60
 
