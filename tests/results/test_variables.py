@@ -106,6 +106,27 @@ def test_new_entry_is_in_figures_and_report(extended: xr.Dataset) -> None:
     assert re.search(rf"<dt>{LABEL}</dt><dd>300 ± 10", report_page(extended).replace("\xa0", " "))
 
 
+def test_dimensionless_scalar_has_no_brackets(
+    ds: xr.Dataset,
+    monkeypatch: pytest.MonkeyPatch,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    entry = Variable("1", "shape", label="Aspect", has_error=True, places=EVERYWHERE, rank=20)
+    monkeypatch.setitem(variables.SCALARS, "contact_aspect", entry)
+    values = {
+        "contact_aspect": ("time", [1.0, 2.0, 3.0], {"units": "1"}),
+        "contact_aspect_error": ("time", [0.01] * 3, {"units": "1"}),
+    }
+    vc.save(ds.assign(values), tmp_path / "result.nc")
+    assert main(["show", str(tmp_path / "result.nc")]) == 0
+    assert "aspect" in (table := capsys.readouterr().out)
+    assert "[]" not in table
+    page = report_page(ds.assign(values))
+    assert "contact aspect" in page
+    assert "[]" not in re.sub(r"<script.*?</script>", "", page, flags=re.DOTALL)
+
+
 def test_page_receives_the_list_of_scalars(extended: xr.Dataset, tmp_path: Path) -> None:
     data = run_data(extended)
     assert data["facts"][NEW] == LABEL

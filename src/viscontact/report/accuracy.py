@@ -18,7 +18,7 @@ from viscontact.units.formatting import format_quantity
 def error_rows(ds: xr.Dataset) -> list[tuple[str, ...]]:
     """Return the table of results and their errors."""
     return [
-        (f"{row.title} [{row.unit}]", row.first, row.last, row.largest, _worst(row), row.when)
+        (row.heading, row.first, row.last, row.largest, _worst(row), row.when)
         for row in summary_rows(ds)
     ]
 

@@ -188,7 +188,7 @@ def _section(fields: ShownFields, along: Literal["x", "y"], title: str) -> Eleme
 
 def _panel(panel: dict[str, Any]) -> Element:
     note = element("span", f" ({panel['note']})") if panel["note"] else None
-    unit = f" [{panel['unit']}]"
+    unit = f" [{panel['unit']}]" if panel["unit"] else ""
     return element(
         "div",
         element("p", panel["label"] + unit, note, class_="panel-title"),

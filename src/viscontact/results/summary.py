@@ -71,6 +71,11 @@ class SummaryRow:
         return self.name.replace("_", " ")
 
     @property
+    def heading(self) -> str:
+        """Its title with the unit in brackets."""
+        return f"{self.title} [{self.unit}]" if self.unit else self.title
+
+    @property
     def largest_error(self) -> str:
         """The largest error in short: as a part of the largest value, and when."""
         if not self.part:

@@ -134,7 +134,8 @@ def _columns(
         unit = readable_unit(ds[name].attrs["units"], largest)
         foot = "largest\nerror" if name == "time" else _error_in_percent(largest_error(ds, name))
         cells = _cells(ds, name, rows, unit.factor, errors=errors)
-        columns.append(_Column((*name.split("_"), f"[{unit.symbol}]"), cells, foot))
+        head = unit.label(name.replace("_", " ")).split()
+        columns.append(_Column(tuple(head), cells, foot))
     return columns
 
 

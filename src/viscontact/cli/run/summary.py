@@ -85,7 +85,7 @@ def _table(ds: xr.Dataset, rows: list[SummaryRow], width: int) -> Table:
 
 
 def _columns(ds: xr.Dataset, rows: list[SummaryRow]) -> dict[str, list[str]]:
-    columns = {"": [f"{row.title} [{row.unit}]" for row in rows]}
+    columns = {"": [row.heading for row in rows]}
     first, last = (f"t = {format_quantity(float(ds['time'][index]), 's')}" for index in (0, -1))
     # A load that starts at 0 has no values at its first instant.
     if not all(row.first.split()[0] in ("0", "-") for row in rows):
