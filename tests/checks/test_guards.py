@@ -147,7 +147,7 @@ def pressed_punch(depth: float) -> Job:
 
 END, SLOPE, WIDE = "end of the indenter's profile", "indenter's slope", "half width is"
 crowned = vc.Roller(1.0, 0.05, crown_radius=2.0)
-# Grid points are map points: nothing stands out between them.
+# Grid points are map points: nothing is higher between them.
 on_map: dict[str, Any] = {
     "load": vc.step(hertz_force(0.1) / 5),
     "grid": vc.Grid((101, 101), (0.202, 0.202)),
@@ -186,13 +186,13 @@ GUARDS = {
     ),
     "a map finer than the grid": Guard(
         vc.AccuracyWarning,
-        "the height map stands out",
+        "the height map rises",
         met=Job(mapped(0.25, 0.005, roughness=1e-4), grid=vc.Grid((32, 32), (0.28, 0.28))),
         missed=Job(mapped(0.25, 0.005), grid=vc.Grid((32, 32), (0.28, 0.28))),
     ),
     "a turned map finer than the grid": Guard(
         vc.AccuracyWarning,
-        "the height map stands out",
+        "the height map rises",
         met=Job(
             mapped(0.25, 0.005, roughness=1e-4).rotated(0.3), grid=vc.Grid((32, 32), (0.28, 0.28))
         ),
@@ -212,7 +212,7 @@ GUARDS = {
     ),
     "a map that leaps from point to point": Guard(
         vc.AccuracyWarning,
-        "the height map stands out",
+        "the height map rises",
         # A third of a per cent of the approach, and the peak pressure is half as much again.
         met=Job(mapped(0.1, 0.002, roughness=1e-5), **on_map),
         missed=Job(mapped(0.1, 0.002), **on_map),

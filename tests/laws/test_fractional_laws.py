@@ -220,7 +220,7 @@ def test_laws_are_hashable_and_survive_as_plain_data(law):
         (lambda: PowerLaw(1.0, 1.1, 1.0), r"PowerLaw: exponent .*not above 1 \(a dashpot\)"),
         (lambda: PowerLaw(1.0, 0.5, -1.0), r"PowerLaw: reference_time"),
         (lambda: PowerLaw(1.0, 0.5, 1.0, -1.0), r"PowerLaw: instant .*>= 0"),
-        (lambda: PowerLaw(1.0, 1.0, 1.0).relaxation(1.0), "instant compliance > 0 beside a dashp"),
+        (lambda: PowerLaw(1.0, 1.0, 1.0).relaxation(1.0), "instant compliance > 0 with a dashp"),
         (
             lambda: PowerLaw.from_uniaxial(1.0, 0.5, 1.0, bulk_modulus=1.0),
             "bulk_modulus 1 Pa is too small",

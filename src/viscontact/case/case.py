@@ -15,7 +15,7 @@ from viscontact.problem.problem import Problem
 from viscontact.run_files import CASE_NAME, PROGRESS_NAME, RESULT_NAME, STATE_NAME
 from viscontact.units.formatting import format_quantity
 
-#: Files of a run beside its case; names with a leading dot are reserved as well.
+#: Files of a run other than its case; names with a leading dot are reserved as well.
 _RUN_NAMES = (CASE_NAME, RESULT_NAME, PROGRESS_NAME, STATE_NAME)
 
 
@@ -68,7 +68,7 @@ class Case(DisplayableGroup, Problem):
 
     @property
     def text(self) -> str:
-        """YAML text of the case as run: with overrides, and with its files beside it."""
+        """YAML text of the case as run: with overrides, and with its files next to it."""
         if not self.files:
             return self.document.text
         names = self.file_names
@@ -78,7 +78,7 @@ class Case(DisplayableGroup, Problem):
 
     @property
     def file_names(self) -> dict[Path, str]:
-        """Name of each file beside the case as run: its own name, if that is free."""
+        """Name of each file next to the case as run: its own name, if that is free."""
         names: dict[Path, str] = {}
         taken = {name.lower() for name in _RUN_NAMES}
         for key, path in self.files.items():

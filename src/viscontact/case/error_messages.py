@@ -75,7 +75,7 @@ def corrected(data: dict[str, Any], errors: list[ErrorDetails]) -> dict[str, Any
         if near is not None:
             changed = deepcopy(data) if changed is None else changed
             path = _key_path(data, error)
-            # A name may stand in place of the section.
+            # A name may replace the section.
             if isinstance(_at(changed, path), dict):
                 path = (*path, _union_key(error))
             _at(changed, path[:-1])[path[-1]] = near

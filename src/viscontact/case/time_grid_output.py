@@ -157,7 +157,7 @@ _Fields = Annotated[
 
 
 class Output(Section):
-    """Results to keep besides the scalars of every step."""
+    """Results to keep in addition to the scalars of every step."""
 
     fields: _Fields | None = Field(
         default=None,

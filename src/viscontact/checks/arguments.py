@@ -113,5 +113,5 @@ def check_balance(
 
 
 def _wanders(load: LoadHistory) -> bool:
-    """Whether the place where the force acts, or what is prescribed of the tilts, changes."""
+    """True if the position of the force, or the prescription of the tilts, changes."""
     return any(np.ndim(getattr(load, name)) > 0 for name in TAIL if getattr(load, name) is not None)

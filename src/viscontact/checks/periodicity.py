@@ -104,9 +104,9 @@ def _refuse_map(
     slack = LENGTH_TOLERANCE * period
     if centres[0] < lines[0] - slack or centres[-1] > lines[-1] + slack:
         raise ValueError(
-            f"grid.shape: the height map has {lines.size} points along {axis}, and a cell beside "
-            f"its last one would see none of it; use {lines.size} cells along {axis} or fewer, or "
-            "resample the map"
+            f"grid.shape: the height map has {lines.size} points along {axis}, so that a cell "
+            f"next to its last one would lie outside it; use {lines.size} cells along {axis} or "
+            "fewer, or resample the map"
         )
 
 

@@ -86,7 +86,7 @@ class Sampling:
                 (x, y), (self.grid.x, self.grid.y), self.grid.cell_size, strict=True
             )
         ]
-        # Not known outside the grid, and beside the end of the body.
+        # Unknown outside the grid, and next to the end of the body.
         seen = scipy.ndimage.map_coordinates(
             np.nan_to_num(self.open_gap, posinf=np.nan), places, order=1, cval=np.nan
         )
@@ -124,7 +124,7 @@ def map_warnings(missed: float, cell: float, strain: float) -> dict[str, str]:
         return {}
     return {
         "map": (
-            "from one of the grid's points to the next the height map stands out by "
+            "between neighbouring points of the grid the height map rises by "
             f"{format_quantity(missed, 'm', 3)}: peaks of pressure there depend on the mesh; use "
             "smaller cells, and a map that is smooth over several of them"
         )
@@ -149,7 +149,7 @@ def sampling_warnings(
     cell = max(sampling.grid.cell_size)
     warnings = map_warnings(missed, cell, strain) | texture_warnings(sampling.indenter.period, cell)
     if sampling.grid.periodic:
-        return warnings  # the next period is beside it, not the body
+        return warnings  # the neighbour is the next period, not the body
     # All pressure lies within the grid, so the displacement falls outwards from the grid's rim.
     rim_displacement = max(displacement[[0, -1]].max(), displacement[:, [0, -1]].max())
     if sampling.reaches_beyond(motion, rim_displacement * (1 + 1e-9)):

@@ -19,7 +19,7 @@ MIN_ANGLE = 0.06
 
 
 def touches_end(open_gap: NDArray[np.float64], contact: NDArray[np.bool_]) -> bool:
-    """True if a contact reaches a cell beside which the indenter ends (open gap +inf).
+    """True if a contact reaches a cell next to which the indenter ends (open gap +inf).
 
     Examples
     --------

@@ -177,7 +177,7 @@ class PlacedIndenter(Indenter):
 
     Examples
     --------
-    A roller lying along y, 1 mm beside the origin:
+    A roller lying along y, 1 mm off the origin:
 
     >>> import math
     >>> from viscontact.indenters import Roller

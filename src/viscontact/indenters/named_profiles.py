@@ -46,7 +46,7 @@ def named_profile(name: str, of_roller: Mapping[str, Any], arguments: Mapping[st
         hint = f"; did you mean {near[0]!r}?" if near else "."
         raise ValueError(
             f"roller profile {name!r} is unknown{hint} The names are "
-            f"{', '.join(map(repr, PROFILES))}; a table of (x, drop) or a profile may stand there"
+            f"{', '.join(map(repr, PROFILES))}; or give a table of (x, drop) or a profile"
         )
     takes = signature(make).parameters
     unknown = [key for key in arguments if key not in takes]

@@ -22,8 +22,8 @@ class Revolved(Indenter):
     Parameters
     ----------
     r : array_like
-        Distances from the axis, increasing, not negative; a body that begins beside the axis is
-        hollow. A point given twice is a kink, on the axis a tip [m].
+        Distances from the axis, increasing, not negative; a body that begins away from the axis
+        is hollow. A point given twice is a kink, on the axis a tip [m].
     drops : array_like
         How far the surface lies below any level; its highest point becomes zero [m].
     interpolation : str, optional

@@ -46,6 +46,6 @@ class Torus(Indenter):
         check_fields(self, "ring_radius", "tube_radius")
 
     def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
-        """Return the drop of the section's arc, +inf beside the ring; see `Indenter.gap`."""
+        """Return the drop of the section's arc, +inf outside the ring; see `Indenter.gap`."""
         distance = np.hypot(*positions(x, y)) - self.ring_radius
         return arc_drop(np.abs(distance), self.tube_radius)

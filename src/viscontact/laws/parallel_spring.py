@@ -60,7 +60,7 @@ class BesideSpring(Law):
     """
 
     law: Law
-    shear_modulus: float = field(metadata={"unit": "Pa", "name": "modulus of the spring beside"})
+    shear_modulus: float = field(metadata={"unit": "Pa", "name": "modulus of the parallel spring"})
 
     def __post_init__(self) -> None:
         if not isinstance(self.law, Law):

@@ -162,7 +162,7 @@ class PowerLaw(Law):
             return np.asarray(relaxed / (2 * self.instant))
         if n == 1:
             raise ValueError(
-                "PowerLaw.instant: a relaxation modulus needs an instant compliance > 0 beside a "
+                "PowerLaw.instant: a relaxation modulus needs an instant compliance > 0 with a "
                 "dashpot (exponent 1), got 0.0 1/Pa; without one a step in strain takes an "
                 "infinite stress (a Dirac impulse)"
             )

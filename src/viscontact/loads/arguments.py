@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.units.numbers import unit_of
 
-#: Arguments of histories besides force and approach.
+#: Arguments of histories other than force and approach.
 TILTS = ("tilt_x", "tilt_y")
 TAIL = ("eccentricity_x", "eccentricity_y", *TILTS)
 

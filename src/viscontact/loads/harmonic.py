@@ -118,7 +118,7 @@ class HarmonicHistory(LoadHistory):
         return tuple(itertools.pairwise(ends))
 
     def is_even(self, axis: int) -> bool:
-        """Whether the load is even along an axis; see `LoadHistory.is_even`."""
+        """True if the load is even along an axis; see `LoadHistory.is_even`."""
         if axis == 0:
             return not (self.eccentricity_x or self.tilt_x)
         return not (self.eccentricity_y or self.tilt_y)

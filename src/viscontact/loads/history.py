@@ -121,4 +121,4 @@ class LoadHistory(Displayable, ABC):
 
     @abstractmethod
     def is_even(self, axis: int) -> bool:
-        """Whether the load is even along an axis, 0 for across x = 0, 1 for across y = 0."""
+        """True if the load is even along an axis, 0 for across x = 0, 1 for across y = 0."""

@@ -105,7 +105,7 @@ class PiecewiseHistory(LoadHistory):
         return plateaus
 
     def is_even(self, axis: int) -> bool:
-        """Whether the load is even along an axis; see `LoadHistory.is_even`."""
+        """True if the load is even along an axis; see `LoadHistory.is_even`."""
         along = "xy"[axis]
         return not any(np.any(getattr(self, name + along)) for name in ("eccentricity_", "tilt_"))
 

@@ -137,7 +137,7 @@ def _require_inverse(creep_compliance: TimeFunction, relaxation_modulus: TimeFun
     if instant == 0 and math.isfinite(modulus):
         raise ValueError(
             f"relaxation_modulus: wanted M(0) infinite where J(0) = 0, got {modulus!r} Pa; a "
-            "dashpot beside the springs gives M an impulse, which this solution cannot take"
+            "dashpot parallel to the springs gives M an impulse, which this solution cannot take"
         )
     if instant != 0 and not math.isclose(instant * modulus, 1.0, rel_tol=1e-6):
         raise ValueError(

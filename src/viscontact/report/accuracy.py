@@ -85,7 +85,7 @@ def _cells(ds: xr.Dataset) -> str:
     counted = f"{x.size} × {y.size} cells{size}"
     if not touching.size:
         return counted
-    return f"{counted}; {int(touching.max())} across its shorter side when largest"
+    return f"{counted}; {int(touching.max())} across the shorter side of the largest contact"
 
 
 def _coarser_runs(ds: xr.Dataset) -> str:

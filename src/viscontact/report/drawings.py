@@ -28,7 +28,7 @@ def geometry(ds: xr.Dataset) -> Element:
 
 
 def is_drawn_from_fields(ds: xr.Dataset) -> bool:
-    """Whether the geometry is drawn from the fields: measured maps are not stored in results."""
+    """True if the geometry is drawn from the fields: results do not store measured maps."""
     return is_left_out(case_of(ds).get("indenter"))
 
 

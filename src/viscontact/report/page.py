@@ -73,8 +73,8 @@ def report_page(ds: xr.Dataset, *, label: str = "") -> str:
     ds : xarray.Dataset
         What `viscontact.simulate` or `viscontact.open_results` returned.
     label : str, optional
-        What the run is called among others whose cases have the same title; it stands in the
-        heading beside that title, or alone if it begins with it.
+        Name of the run among others whose cases have the same title; the heading shows it after
+        that title, or alone if it begins with it.
 
     Returns
     -------

@@ -59,7 +59,7 @@ def recorded_grid(results: xr.Dataset) -> Grid:
 
 
 def prescribes_approach(ds: xr.Dataset) -> bool:
-    """Whether a run's load prescribes the approach; the force then follows."""
+    """True if the load of a run prescribes the approach, so that the force is computed."""
     load = case_of(ds).get("load") or {}
     return load.get("control") == "approach" or load.get("type") == "ApproachHistory"
 

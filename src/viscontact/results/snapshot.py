@@ -42,7 +42,7 @@ class Snapshot:
 
     @property
     def touching(self) -> bool:
-        """Whether the bodies are in contact at this instant."""
+        """True if the bodies are in contact at this instant."""
         return bool(np.any(self.pressure > 0))
 
     @property

@@ -22,7 +22,7 @@ FREE = 2
 
 
 def overrun(pressure: NDArray[np.float64], free: int = 1) -> tuple[bool, bool]:
-    """Whether pressure has reached the outermost cells, `free` of them a side, along x and y.
+    """True for x and for y if pressure has reached the `free` outermost cells of a side.
 
     Examples
     --------

@@ -48,7 +48,7 @@ class LoadCycleWork:
 
 
 def _meets(step: Step, moment: LoadInstant) -> bool:
-    """Whether a step ends at a (time, side); without a jump there, on both sides."""
+    """True if a step ends at a (time, side); without a jump there, on both sides."""
     time, side = moment
     other = (step.before_jump and side == "right") or (step.is_jump and side == "left")
     return step.time == time and not other

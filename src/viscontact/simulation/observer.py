@@ -157,7 +157,7 @@ class Observer:
         self._open = found | self._open
 
     def _corner_warnings(self, time: float, solution: StepSolution) -> dict[str, str]:
-        """Whether the largest pressure so far lies at a corner; where it hardly grew, it stayed."""
+        """Warn of a largest pressure at a corner, searched again only after the peak has grown."""
         peak = float(solution.pressure.max())
         if peak <= PEAK_CHECK_RATIO * self._peak_checked:
             return {}

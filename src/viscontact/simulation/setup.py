@@ -32,7 +32,7 @@ ADAPTIVE_STEPS, STEP_COUNT_SAFETY = 500, 3.0
 
 @dataclass(frozen=True, eq=False)
 class RunSetup:
-    """What a run needs, checked and complete.
+    """Checked and complete setup of a run.
 
     Attributes
     ----------
@@ -63,12 +63,12 @@ class RunSetup:
 
     @property
     def grows(self) -> bool:
-        """Whether the grid may be enlarged when the contact outgrows it: an automatic one may."""
+        """True if the grid is automatic, and may be enlarged when the contact outgrows it."""
         return self.problem.automatic_grid is not None
 
     @property
     def mirrored(self) -> tuple[bool, bool]:
-        """Whether shape and load are even across x = 0, and y = 0: then one half is computed."""
+        """True for x = 0 and for y = 0 if shape and load are even: one half is computed."""
         return _mirrored(self.problem, self.open_gap, self.grid)
 
     def on(self, grid: Grid) -> RunSetup:

@@ -37,7 +37,7 @@ def march(
     threads: int = 1,
     progress: Progress | None = None,
 ) -> Iterator[ContactState]:
-    """Press an indenter on a creeping half-space and yield the state at each instant.
+    """Simulate an indenter pressed on a creeping half-space, and yield its state at each instant.
 
     Parameters
     ----------
@@ -48,8 +48,8 @@ def march(
     load : LoadHistory
         Force or approach, eccentricity and prescribed tilts over time.
     grid : Grid or AutomaticGrid, optional
-        Cells that carry the pressure, or requirements on them: then, and when left out, the run
-        chooses the cells.
+        Cells that carry the pressure, or requirements on cells that the run chooses; chosen by
+        the run as well when left out.
     times : array_like or AdaptiveTimes, optional
         Instants of the states, strictly increasing, none before 0 [s]; chosen from load and
         law when left out. At a jump the state is the one just after it. With `adaptive_times`
@@ -88,7 +88,7 @@ def march(
     so the error falls with the square of the step; the paper's piecewise-constant rule (Spinu &
     Cerlinca 2018, eq. 12) is of first order. Over steps long against the law (always, if it is a
     dashpot at first) the pressure rises over a part of the step only, to avoid ringing, and the
-    error is of first order; an `AccuracyWarning` says so where it matters.
+    error is of first order; an `AccuracyWarning` reports it where it matters.
 
     Examples
     --------

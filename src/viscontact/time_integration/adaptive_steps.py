@@ -71,7 +71,7 @@ def estimated_steps(
 class AdaptiveSteps:
     """Controller that chooses each step by the error of the last one.
 
-    `stops` are times to be hit, besides the load's kinks and the end [s].
+    `stops` are times to be hit, in addition to the load's kinks and the end [s].
     """
 
     def __init__(

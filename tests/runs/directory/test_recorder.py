@@ -295,7 +295,7 @@ def test_result_of_another_run_is_not_gone_on_with(recorded: RecordedRun, tmp_pa
     shutil.copy(other.directory / "result.nc", recorded.directory / "result.nc")
     shutil.rmtree(other.directory)
     before = contents(recorded.directory)
-    with pytest.raises(ValueError, match="is of another run than"):
+    with pytest.raises(ValueError, match="belongs to another run than"):
         Recorder.resume(recorded)
     assert contents(recorded.directory) == before
 

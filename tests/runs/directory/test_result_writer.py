@@ -256,7 +256,7 @@ def _other(path: Path, grid: vc.Grid = GRID, fields: Any = SOME, rows: int = 5) 
 
 
 SPOILED: dict[str, tuple[Callable[[Path], object], str]] = {
-    "missing": (lambda path: path.unlink(), "is not there"),
+    "missing": (lambda path: path.unlink(), "is missing"),
     "empty": (lambda path: path.write_bytes(b""), "cannot be read"),
     "foreign": (lambda path: path.write_bytes(b"\x89PNG" * 999), "cannot be read"),
     "cut short": (lambda path: os.truncate(path, path.stat().st_size // 2), "cannot be read"),

@@ -36,7 +36,7 @@ class Line(Section):
 
     @property
     def arguments(self) -> dict[str, Any]:
-        """Arguments of `viscontact.Roller` for this profile, besides its name."""
+        """Arguments of `viscontact.Roller` for this profile, without its name."""
         given = {name: getattr(self, name) for name in type(self).model_fields}
         return {
             name: value for name, value in given.items() if name != "kind" and value is not None

@@ -26,7 +26,7 @@ Output = Annotated[
         "-o",
         "--output",
         metavar="DIR",
-        help="Run directory; by default CASE/ beside the case file. Several runs get a directory "
+        help="Run directory; by default CASE/ next to the case file. Several runs get a directory "
         "each in DIR.",
     ),
 ]

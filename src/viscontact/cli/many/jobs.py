@@ -66,7 +66,7 @@ class ManyRequest:
             yield from ("-j", str(self.jobs))
 
     def _output(self, case: Path, name: str) -> Path | None:
-        """Directory of a run: CASE/ or CASE_KEY=VALUE/, by default beside the case file."""
+        """Directory of a run: CASE/ or CASE_KEY=VALUE/, by default next to the case file."""
         if self.common.output is None and not name:
             return None
         if not case.stem:

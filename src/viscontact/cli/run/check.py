@@ -52,7 +52,7 @@ def draw_body(
     picture: Path | None,
     width: str | float | None = None,
 ) -> None:
-    """Draw the indenter on the grid and beside it, with the expected contact shaded."""
+    """Draw the indenter on the grid and around it, with the expected contact shaded."""
     plot, found, run = plot_package(), expected.estimate, prepared.run
     contact = found and (found.centre_x, found.centre_y, found.length, found.width)
     path = prepared.case.document.path

@@ -68,7 +68,7 @@ def _warnings(lines: Path, of_result: str) -> Iterator[str]:
 
 
 def _table(ds: xr.Dataset, rows: list[SummaryRow], width: int) -> Table:
-    """Table with the errors beside their numbers, or below them on a narrow terminal."""
+    """Table with the errors next to their numbers, or below them on a narrow terminal."""
     columns = _columns(ds, rows)
     whole = sum(max(map(len, [heading, *cells])) + _GAP for heading, cells in columns.items())
     narrow = whole > width

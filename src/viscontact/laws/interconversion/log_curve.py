@@ -239,7 +239,7 @@ def mean_power(exponent: float, start: Floats, end: Floats) -> Floats:
     """Return the mean of t^n over intervals of time, t^n where they have no length.
 
     It is b^n times (1 - r^(n+1)) / ((n+1)(1 - r)) with r = a/b, whose differences do not cancel
-    however close a and b are; for n < -1, where b^n may vanish beside r^n, with a and b exchanged.
+    however close a and b are; for n < -1, where b^n may vanish against r^n, with a and b exchanged.
     Infinite from 0 on if n <= -1.
     """
     length, power = end - start, exponent + 1

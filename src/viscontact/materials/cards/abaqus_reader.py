@@ -121,7 +121,7 @@ def _sections(blocks: list[Block]) -> list[_Section]:
 def _collect(section: _Section, block: Block) -> None:
     if block.keyword in section.blocks:
         raise ValueError(
-            f"{block.where}: *{block.keyword} stands there twice in material {section.name!r}"
+            f"{block.where}: *{block.keyword} occurs twice in material {section.name!r}"
         )
     section.blocks[block.keyword] = block
 

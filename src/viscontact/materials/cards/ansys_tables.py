@@ -112,6 +112,6 @@ def _table(found: dict[int, Numbered], command: Command) -> DataTable | None:
         return DataTable(command)  # filled, and forgotten
     key = f"{label} {command.word(4)}" if label == "PRONY" else label
     if key in material.tables:
-        raise ValueError(f"{command.where}: TB,{key.replace(' ', ',,,,')} stands there twice")
+        raise ValueError(f"{command.where}: TB,{key.replace(' ', ',,,,')} occurs twice")
     material.tables[key] = DataTable(command)
     return material.tables[key]

@@ -54,7 +54,7 @@ def save_checkpoint(path: Path, checkpoint: Checkpoint) -> None:
 
 
 def is_checkpoint(path: Path) -> bool:
-    """Whether a file was saved as a checkpoint, by any version; parts of it may be damaged."""
+    """True if a file was saved as a checkpoint, by any version; parts of it may be damaged."""
     try:
         with path.open("rb") as file:
             outline = outline_of(file)
@@ -79,8 +79,8 @@ def load_checkpoint(path: Path) -> Checkpoint:
     version = saved.get("version")
     if version != __version__:
         raise ValueError(
-            f"{path}: was saved by viscontact {version}, and this is {__version__}; go on with "
-            "that version, or start the run anew with --overwrite"
+            f"{path}: was saved by viscontact {version}, and this is {__version__}; continue "
+            "with that version, or start the run again with --overwrite"
         )
     try:
         return Checkpoint(**saved)

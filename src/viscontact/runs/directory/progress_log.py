@@ -134,7 +134,7 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
 
 
 def is_course(path: Path) -> bool:
-    """Whether a file begins with a line as a `ProgressLog` writes it."""
+    """True if a file begins with a line of a `ProgressLog`."""
     try:
         with path.open("rb") as file:
             line = json.loads(file.readline(LONGEST_LINE))

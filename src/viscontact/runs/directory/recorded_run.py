@@ -153,7 +153,7 @@ class RecordedRun:
         except ValueError as error:
             raise ValueError(f"{error}; {REMEDY}") from error
         if is_other:
-            raise ValueError(f"{path} is of another run than {STATE_NAME} beside it; {REMEDY}")
+            raise ValueError(f"{path} belongs to another run than {STATE_NAME}; {REMEDY}")
         return ResultWriter.resume(path, self.contents, saved.result)
 
     def new_log(self) -> ProgressLog:

@@ -71,7 +71,7 @@ def check_result(path: Path, layout: Layout, extent: Extent) -> None:
         With the reason and a remedy.
     """
     if not path.is_file():
-        raise ValueError(f"{path} is not there, so the run cannot go on; {REMEDY}")
+        raise ValueError(f"{path} is missing, so the run cannot be continued; {REMEDY}")
     try:
         with opened(path, "r") as file:
             fault = _fault(file, layout, extent) or _fault_of_scalars(file, layout, extent)

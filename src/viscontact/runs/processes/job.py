@@ -12,9 +12,9 @@ from viscontact.runs.processes.request import RunRequest
 class Standing(Enum):
     """State of a run in its directory."""
 
-    NEW = "begins"
-    STOPPED = "goes on"
-    FINISHED = "is over"
+    NEW = "new"
+    STOPPED = "stopped"
+    FINISHED = "finished"
 
 
 @dataclass(frozen=True)

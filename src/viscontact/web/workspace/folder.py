@@ -32,7 +32,7 @@ _SHIPPED = (".npz", ".csv")
 
 @dataclass(frozen=True)
 class RunEntry:
-    """Entry of a run, stored beside it: its request, its size and its state.
+    """Entry of a run, stored in its directory: its request, its size and its state.
 
     `end` is its last instant [s], `work` its cells times steps [-], `memory` its need [bytes],
     `instants` their number (None for adaptive steps), and `said` the messages of its process.
@@ -66,7 +66,7 @@ class Folder:
 
     @property
     def case(self) -> Path:
-        """Path of a case that is not run, beside the files that it may name."""
+        """Path of a case that is not run, next to the files that it may name."""
         return self.path / _FILES / CASE_NAME
 
     def files(self) -> list[dict[str, Any]]:
