@@ -17,7 +17,7 @@ from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from viscontact.grid import COARSEST, FINEST
-from viscontact.loads.standard import MOST_CYCLES
+from viscontact.loads.harmonic import MOST_CYCLES
 from viscontact.units.dimensions import DIMENSIONS
 from viscontact.units.parsing import parse_quantity
 

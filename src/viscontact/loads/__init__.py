@@ -2,9 +2,9 @@
 
 from viscontact.loads.approach import ApproachHistory
 from viscontact.loads.force import ForceHistory
-from viscontact.loads.harmonic import HarmonicHistory
+from viscontact.loads.harmonic import HarmonicHistory, harmonic
 from viscontact.loads.history import LoadHistory, LoadPoint
-from viscontact.loads.standard import harmonic, ramp, step, triangle
+from viscontact.loads.standard import ramp, step, triangle
 
 __all__ = [
     "ApproachHistory",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,12 +13,17 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact.loads import arguments
 from viscontact.loads.force import NEGLIGIBLE
 from viscontact.loads.history import Control, Cycle, LoadHistory, LoadPoint
-from viscontact.units.numbers import finite
+from viscontact.loads.level import positive_duration, prescribed_level, refuse_eccentric_approach
+from viscontact.units.formatting import format_quantity
+from viscontact.units.numbers import finite, unit_of, whole
 
 #: Default steps of a cycle. Linear interpolation over 1/128 of a sine has a mean error of 2e-4 of
 #: the amplitude, and the loss of a cycle an error of about 6e-4.
 STEPS_PER_CYCLE = 128
 
+
+#: Upper limit on the cycles of a harmonic load; each takes dozens of steps.
+MOST_CYCLES = 100_000
 
 _LEVEL_UNITS = {"force": "N", "approach": "m"}  # by the value of `control`
 
@@ -122,3 +128,100 @@ class HarmonicHistory(LoadHistory):
         if axis == 0:
             return not (self.eccentricity_x or self.tilt_x)
         return not (self.eccentricity_y or self.tilt_y)
+
+
+def harmonic(
+    mean: float | None = None,
+    amplitude: float | None = None,
+    period: float | None = None,
+    cycles: int | None = None,
+    phase: float = 0.0,
+    *,
+    approach: float | None = None,
+    eccentricity_x: float = 0.0,
+    eccentricity_y: float = 0.0,
+    tilt_x: float | None = None,
+    tilt_y: float | None = None,
+) -> HarmonicHistory:
+    """Return a force or an approach that oscillates about a mean, then stays constant.
+
+    Parameters
+    ----------
+    mean : float
+        Mean force, not less than the amplitude [N].
+    amplitude : float
+        Amplitude of the force [N] or, with `approach`, of the approach [m].
+    period : float
+        Time of a cycle, positive [s].
+    cycles : int
+        Number of cycles, at least 1.
+    phase : float, optional
+        The level is mean + amplitude sin(2 π t/period + phase) [rad].
+    approach : float
+        Instead of the mean force: the mean approach [m].
+    eccentricity_x, eccentricity_y, tilt_x, tilt_y : float, optional
+        As in `step`.
+
+    Returns
+    -------
+    HarmonicHistory
+        Exact at every instant. It starts with a jump unless its first level is zero. Runs take
+        at least 128 steps a cycle, whatever the requested instants.
+
+    Raises
+    ------
+    ValueError
+        If not exactly one of mean and approach is given, something else is missing or not
+        finite, a force would be negative, or a tilt and an eccentricity contradict each other.
+
+    Examples
+    --------
+    >>> load = harmonic(mean=10.0, amplitude=5.0, period=2.0, cycles=3)
+    >>> load.level_at([0.0, 0.5, 1.5, 6.0, 99.0]).tolist()
+    [10.0, 15.0, 5.0, 10.0, 10.0]
+    """
+    control, middle = prescribed_level("harmonic", mean, approach, force_is="mean")
+    deviation = _number("amplitude", amplitude, control)
+    if control == "force" and abs(deviation) > middle:
+        raise ValueError(
+            "harmonic: the force must never be negative, but swings between "
+            f"{format_quantity(middle - deviation, 'N', 9)} and "
+            f"{format_quantity(middle + deviation, 'N', 9)}; give a mean of at least the amplitude"
+        )
+    turns = whole("harmonic: cycles", cycles, 1, MOST_CYCLES)
+    tail = _scalar_tail(control, eccentricity_x, eccentricity_y, tilt_x, tilt_y)
+    return HarmonicHistory(
+        control=control,
+        mean=middle,
+        amplitude=deviation,
+        period=positive_duration("harmonic: period", period),
+        cycles=turns,
+        phase=_number("phase", phase),
+        **tail,
+    )
+
+
+def _scalar_tail(
+    control: Control,
+    eccentricity_x: float,
+    eccentricity_y: float,
+    tilt_x: float | None,
+    tilt_y: float | None,
+) -> dict[str, Any]:
+    if control == "approach":
+        refuse_eccentric_approach(eccentricity_x, eccentricity_y)
+    given = {
+        "eccentricity_x": eccentricity_x,
+        "eccentricity_y": eccentricity_y,
+        "tilt_x": tilt_x,
+        "tilt_y": tilt_y,
+    }
+    # The checks of a history with one point; below, a list of one number is refused as well.
+    arguments.tail(HarmonicHistory, 1, **given)
+    return {name: None if value is None else _number(name, value) for name, value in given.items()}
+
+
+def _number(name: str, value: object, control: Control = "force") -> float:
+    """Return field `name` of a harmonic load as a float, or refuse it."""
+    unit = unit_of(HarmonicHistory, name, control) or ""
+    return finite(f"harmonic: {name}", value, unit)

@@ -1,20 +1,13 @@
-"""Standard load histories: step, ramp, triangle, harmonic."""
+"""Standard piecewise linear loads: step, ramp, triangle."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
-from viscontact.loads import arguments
 from viscontact.loads.approach import ApproachHistory
 from viscontact.loads.force import ForceHistory
-from viscontact.loads.harmonic import HarmonicHistory
 from viscontact.loads.history import Control
-from viscontact.units.formatting import format_quantity
-from viscontact.units.numbers import finite, unit_of, whole
-
-#: Upper limit on the cycles of a harmonic load; each takes dozens of steps.
-MOST_CYCLES = 100_000
+from viscontact.loads.level import positive_duration, prescribed_level, refuse_eccentric_approach
 
 
 def step(
@@ -56,7 +49,7 @@ def step(
     >>> step(approach=1e-5).at(0.0).approach
     1e-05
     """
-    control, held = _control("step", force, approach)
+    control, held = prescribed_level("step", force, approach)
     return _history(control, [0.0], [held], eccentricity_x, eccentricity_y, tilt_x, tilt_y)
 
 
@@ -98,8 +91,8 @@ def ramp(
     >>> ramp(10.0, duration=4.0).force_at([1.0, 4.0, 9.0]).tolist()
     [2.5, 10.0, 10.0]
     """
-    control, end = _control("ramp", force, approach)
-    duration = _positive_duration("ramp: duration", duration)
+    control, end = prescribed_level("ramp", force, approach)
+    duration = positive_duration("ramp: duration", duration)
     times, levels = [0.0, duration], [0.0, end]
     return _history(control, times, levels, eccentricity_x, eccentricity_y, tilt_x, tilt_y)
 
@@ -145,82 +138,11 @@ def triangle(
     >>> triangle(10.0, rise=2.0, fall=4.0).force_at([1.0, 2.0, 3.0, 6.0]).tolist()
     [5.0, 10.0, 7.5, 0.0]
     """
-    control, peak = _control("triangle", force, approach)
-    rise = _positive_duration("triangle: rise", rise)
-    fall = rise if fall is None else _positive_duration("triangle: fall", fall)
+    control, peak = prescribed_level("triangle", force, approach)
+    rise = positive_duration("triangle: rise", rise)
+    fall = rise if fall is None else positive_duration("triangle: fall", fall)
     times, levels = [0.0, rise, rise + fall], [0.0, peak, 0.0]
     return _history(control, times, levels, eccentricity_x, eccentricity_y, tilt_x, tilt_y)
-
-
-def harmonic(
-    mean: float | None = None,
-    amplitude: float | None = None,
-    period: float | None = None,
-    cycles: int | None = None,
-    phase: float = 0.0,
-    *,
-    approach: float | None = None,
-    eccentricity_x: float = 0.0,
-    eccentricity_y: float = 0.0,
-    tilt_x: float | None = None,
-    tilt_y: float | None = None,
-) -> HarmonicHistory:
-    """Return a force or an approach that oscillates about a mean, then stays constant.
-
-    Parameters
-    ----------
-    mean : float
-        Mean force, not less than the amplitude [N].
-    amplitude : float
-        Amplitude of the force [N] or, with `approach`, of the approach [m].
-    period : float
-        Time of a cycle, positive [s].
-    cycles : int
-        Number of cycles, at least 1.
-    phase : float, optional
-        The level is mean + amplitude sin(2 π t/period + phase) [rad].
-    approach : float
-        Instead of the mean force: the mean approach [m].
-    eccentricity_x, eccentricity_y, tilt_x, tilt_y : float, optional
-        As in `step`.
-
-    Returns
-    -------
-    HarmonicHistory
-        Exact at every instant. It starts with a jump unless its first level is zero. Runs take
-        at least 128 steps a cycle, whatever the requested instants.
-
-    Raises
-    ------
-    ValueError
-        If not exactly one of mean and approach is given, something else is missing or not
-        finite, a force would be negative, or a tilt and an eccentricity contradict each other.
-
-    Examples
-    --------
-    >>> load = harmonic(mean=10.0, amplitude=5.0, period=2.0, cycles=3)
-    >>> load.level_at([0.0, 0.5, 1.5, 6.0, 99.0]).tolist()
-    [10.0, 15.0, 5.0, 10.0, 10.0]
-    """
-    control, middle = _control("harmonic", mean, approach, force_is="mean")
-    deviation = _number("amplitude", amplitude, control)
-    if control == "force" and abs(deviation) > middle:
-        raise ValueError(
-            "harmonic: the force must never be negative, but swings between "
-            f"{format_quantity(middle - deviation, 'N', 9)} and "
-            f"{format_quantity(middle + deviation, 'N', 9)}; give a mean of at least the amplitude"
-        )
-    turns = whole("harmonic: cycles", cycles, 1, MOST_CYCLES)
-    tail = _scalar_tail(control, eccentricity_x, eccentricity_y, tilt_x, tilt_y)
-    return HarmonicHistory(
-        control=control,
-        mean=middle,
-        amplitude=deviation,
-        period=_positive_duration("harmonic: period", period),
-        cycles=turns,
-        phase=_number("phase", phase),
-        **tail,
-    )
 
 
 def _history(
@@ -234,64 +156,5 @@ def _history(
 ) -> ForceHistory | ApproachHistory:
     if control == "force":
         return ForceHistory(times, levels, eccentricity_x, eccentricity_y, tilt_x, tilt_y)
-    _refuse_eccentric_approach(eccentricity_x, eccentricity_y)
+    refuse_eccentric_approach(eccentricity_x, eccentricity_y)
     return ApproachHistory(times, levels, tilt_x, tilt_y)
-
-
-def _scalar_tail(
-    control: Control,
-    eccentricity_x: float,
-    eccentricity_y: float,
-    tilt_x: float | None,
-    tilt_y: float | None,
-) -> dict[str, Any]:
-    if control == "approach":
-        _refuse_eccentric_approach(eccentricity_x, eccentricity_y)
-    given = {
-        "eccentricity_x": eccentricity_x,
-        "eccentricity_y": eccentricity_y,
-        "tilt_x": tilt_x,
-        "tilt_y": tilt_y,
-    }
-    # The checks of a history with one point; below, a list of one number is refused as well.
-    arguments.tail(HarmonicHistory, 1, **given)
-    return {name: None if value is None else _number(name, value) for name, value in given.items()}
-
-
-def _number(name: str, value: object, control: Control = "force") -> float:
-    """Return field `name` of a harmonic load as a float, or refuse it."""
-    unit = unit_of(HarmonicHistory, name, control) or ""
-    return finite(f"harmonic: {name}", value, unit)
-
-
-def _refuse_eccentric_approach(eccentricity_x: float, eccentricity_y: float) -> None:
-    for name, value in (("eccentricity_x", eccentricity_x), ("eccentricity_y", eccentricity_y)):
-        if value:
-            raise ValueError(
-                f"{name} goes with a force, got {format_quantity(value, 'm', 9)} with an approach: "
-                "no force is prescribed that could act there; leave it out, or prescribe the tilt"
-            )
-
-
-def _control(
-    history: str, force: float | None, approach: float | None, force_is: str = "force"
-) -> tuple[Control, float]:
-    if (force is None) == (approach is None):
-        what = "missing" if force is None else "given twice over"
-        raise ValueError(
-            f"{history}: {force_is} is {what}; give {force_is}= in N or approach= in m, and only "
-            "one of them"
-        )
-    if approach is not None:
-        return "approach", finite(f"{history}: approach", approach, "m")
-    return "force", finite(f"{history}: {force_is}", force, "N")
-
-
-def _positive_duration(name: str, value: float | None) -> float:
-    duration = finite(name, value, "s")
-    if duration <= 0:
-        raise ValueError(
-            f"{name} must be a positive time in s, got {value!r}; for a jump use step(...) or "
-            "a repeated time in ForceHistory"
-        )
-    return duration

@@ -1,0 +1,104 @@
+"""Common keys of load sections: level, eccentricity, tilts."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from pydantic import Field, model_validator
+
+from viscontact.case.loads.levels import APPROACH_EXAMPLE, Tilt
+from viscontact.case.quantities import (
+    Force,
+    Offset,
+    Pressure,
+    Section,
+)
+from viscontact.loads import LoadHistory
+from viscontact.loads.history import Control
+from viscontact.units.dimensions import DIMENSIONS
+
+#: Example of a mean pressure; that of a modulus would be too large.
+PRESSURE_EXAMPLE = "2 MPa"
+
+_FREE = "prescribed slope along {}, in place of the moment balance; free: no moment"
+
+
+class Load(Section):
+    """A force or an approach over time, its eccentricity, and prescribed tilts."""
+
+    eccentricity_x: Offset = Field(default=0.0, description="position of the force along x")
+    eccentricity_y: Offset = Field(default=0.0, description="position of the force along y")
+    tilt_x: Tilt = Field(default=None, description=_FREE.format("x"))
+    tilt_y: Tilt = Field(default=None, description=_FREE.format("y"))
+
+    @abstractmethod
+    def build(self, area: float = 1.0) -> LoadHistory:
+        """Return the history; a mean pressure acts on the given area [m²]."""
+
+    @cached_property
+    def built(self) -> LoadHistory:
+        """The history, built once: its file is read once. A mean pressure acts on 1 m²."""
+        return self.build()
+
+    @property
+    def table(self) -> Path | None:
+        """File of the history, if there is one."""
+        return None
+
+    @property
+    def is_by_pressure(self) -> bool:
+        """True if a mean pressure is prescribed, which needs an area."""
+        return getattr(self, "mean_pressure", None) is not None
+
+    @property
+    def _tail(self) -> dict[str, Any]:
+        """Arguments that the file gives; the constructor has defaults for the others."""
+        given = [name for name in Load.model_fields if name in self.model_fields_set]
+        return {name: getattr(self, name) for name in given}
+
+    @model_validator(mode="after")
+    def _accepted(self) -> Load:
+        # Errors of the constructor are reported among the problems of the file.
+        _ = self.built
+        return self
+
+
+class Controlled(Load):
+    """History whose level is a force or an approach."""
+
+    force: Force | None = Field(default=None, description="prescribed force")
+    approach: Offset | None = Field(
+        default=None,
+        description="prescribed approach, in place of the force",
+        examples=[APPROACH_EXAMPLE],
+    )
+    mean_pressure: Pressure | None = Field(
+        default=None,
+        description="on a periodic grid, in place of the force: force over the grid's area",
+        examples=[PRESSURE_EXAMPLE],
+    )
+
+    def _height(self, area: float) -> dict[Control, float]:
+        if self.mean_pressure is None:
+            return force_or_approach(self.approach, "force", self.force)
+        for name in ("force", "approach"):
+            if getattr(self, name) is not None:
+                raise ValueError(f"mean_pressure and {name} exclude each other; give one of them")
+        return {"force": self.mean_pressure * area}
+
+
+def force_or_approach(approach: float | None, name: str, value: float | None) -> dict[Any, float]:
+    """Argument that is given, the level by its name or the approach; both are refused."""
+    if approach is not None and value is not None:
+        raise ValueError(f"{name} and approach exclude each other; give one of them")
+    if approach is not None:
+        return {"approach": approach}
+    if value is not None:
+        return {name: value}
+    force = DIMENSIONS["force"].example
+    raise ValueError(
+        f"{name} is missing; write e.g. '{name}: {force}', or 'approach: {APPROACH_EXAMPLE}'"
+    )

@@ -1,0 +1,136 @@
+"""Section of a load by points, from a table, or in sentences."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import Field
+
+from viscontact.case.data_file import DataFile
+from viscontact.case.errors import dotted
+from viscontact.case.loads.base import PRESSURE_EXAMPLE, Load
+from viscontact.case.loads.levels import ForceOrApproach, Level
+from viscontact.case.loads.load_table import read_load_table
+from viscontact.case.loads.sentence_history import SentenceError, course_of
+from viscontact.case.loads.sentences import Sentences
+from viscontact.case.quantities import (
+    Instant,
+    Pressure,
+)
+from viscontact.loads import ApproachHistory, ForceHistory, LoadHistory
+from viscontact.loads.history import Control
+from viscontact.units.formatting import format_quantity
+
+
+class History(Load):
+    """A force or an approach by points, from a table, or in sentences."""
+
+    kind: Literal["history"]
+    points: list[Annotated[tuple[Instant, ForceOrApproach], Field(strict=False)]] | None = Field(
+        default=None,
+        description="[time, force] or [time, approach] each, linear between them; a time given "
+        "twice is a jump",
+        examples=[[["0 s", "0 N"], ["1 s", "10 kN"]]],
+    )
+    mean_pressure: list[Annotated[tuple[Instant, Pressure], Field(strict=False)]] | None = Field(
+        default=None,
+        description="on a periodic grid: [time, pressure] each, in place of points",
+        examples=[[["0 s", "0 MPa"], ["1 s", PRESSURE_EXAMPLE]]],
+    )
+    file: DataFile | None = Field(
+        default=None,
+        description="CSV with a header such as: time [s], force [kN], eccentricity_x [mm]; or "
+        "approach [um] in place of the force",
+        examples=["load.csv"],
+    )
+    sentences: Sentences | None = None
+
+    @property
+    def table(self) -> Path | None:
+        """File of the history, if there is one."""
+        return None if self.file is None else Path(self.file)
+
+    def build(self, area: float = 1.0) -> LoadHistory:
+        """Return the history, from its points, its file or its sentences."""
+        given = [self.points, self.mean_pressure, self.file, self.sentences]
+        if given.count(None) != len(given) - 1:
+            raise ValueError(
+                "give points (e.g. '[[0 s, 0 N], [1 s, 10 kN]]'), mean_pressure, file or sentences "
+                "(e.g. 'ramp to 10 kN in 1 s'), and only one of them"
+            )
+        if self.file is not None:
+            return self._from_file(Path(self.file))
+        if self.mean_pressure is not None:
+            return self._from_pressures(area)
+        if self.sentences is not None:
+            return self._from_sentences()
+        return self._from_points()
+
+    def _from_points(self) -> LoadHistory:
+        if not self.points:
+            raise ValueError("points is empty; write e.g. '[[0 s, 0 N], [1 s, 10 kN]]'")
+        times, levels = zip(*self.points, strict=True)
+        control = _common_control(levels)
+        for place, level in enumerate(levels, start=1):
+            if control == "force" and level.value < 0:
+                raise ValueError(
+                    f"points[{place}]: a force must be zero or more, got "
+                    f"{format_quantity(level.value, 'N', 6)}: a negative force pulls, and adhesion "
+                    "is not modelled"
+                )
+        return _history(control, times, [level.value for level in levels], self._tail)
+
+    def _from_pressures(self, area: float) -> LoadHistory:
+        if not self.mean_pressure:
+            raise ValueError("mean_pressure is empty; write e.g. '[[0 s, 0 MPa], [1 s, 2 MPa]]'")
+        times, pressures = zip(*self.mean_pressure, strict=True)
+        return _history("force", times, [each * area for each in pressures], self._tail)
+
+    def _from_sentences(self) -> LoadHistory:
+        sentences = [sentence for entry in self.sentences or () for sentence in entry]
+        try:
+            course = course_of(sentences)
+        except SentenceError as error:
+            # A text has no entries, so the message names the key of the section.
+            key = ("sentences", error.entry - 1)
+            raise ValueError(f"{dotted(key)}: {error}") from error
+        except ValueError as error:
+            raise ValueError(f"sentences: {error}") from error
+        return _history(*course, self._tail)
+
+    def _from_file(self, path: Path) -> LoadHistory:
+        columns = read_load_table(path)
+        twice = sorted(columns.keys() & self.model_fields_set)
+        if twice:
+            raise ValueError(f"{twice[0]} is given in the case and in {path.name}; give it once")
+        control: Control = "approach" if "approach" in columns else "force"
+        times, levels = columns.pop("times"), columns.pop(control)
+        return _history(control, times, levels, {**self._tail, **columns})
+
+
+def _common_control(levels: Sequence[Level]) -> Control:
+    for place, level in enumerate(levels, start=1):
+        if level.control != levels[0].control:
+            words = {"force": "a force", "approach": "a length"}
+            raise ValueError(
+                f"points[{place}]: it is {words[level.control]}, {words[levels[0].control]} "
+                "in the first point; either the force or the approach is prescribed, throughout"
+            )
+    return levels[0].control
+
+
+def _history(
+    control: Control, times: Sequence[float], levels: Sequence[float], tail: dict[str, Any]
+) -> LoadHistory:
+    if control == "force":
+        return ForceHistory(times, levels, **tail)
+    tilts = {name: tail[name] for name in ("tilt_x", "tilt_y") if name in tail}
+    for name in tail.keys() - tilts.keys():
+        if any(tail[name] if isinstance(tail[name], list) else [tail[name]]):
+            raise ValueError(
+                f"{name} goes with a force; with an approach no force is prescribed that could "
+                "act there, so leave it out, or prescribe the tilt"
+            )
+    return ApproachHistory(times, levels, **tilts)
