@@ -100,7 +100,7 @@ def test_parabolic_section_is_a_key(case: Path) -> None:
     ],
     ids=["half of drops", "heights as measured", "both halves, two rows of header"],
 )
-def test_profile_is_read_from_a_csv_beside_the_case(case: Path, text: str) -> None:
+def test_profile_is_read_from_a_csv_next_to_the_case(case: Path, text: str) -> None:
     (case.parent / "crown.csv").write_text(text)
     words = "indenter.profile={kind: table, file: crown.csv, interpolation: linear}"
     found = read_case(case, [words])
@@ -148,7 +148,7 @@ def test_profile_of_one_shape_in_a_list_keeps_its_place(case: Path) -> None:
         ("cross_section=square", "unknown value 'square'. Allowed: circle, parabola"),
     ],
 )
-def test_slip_in_a_profile_is_told_at_its_key(case: Path, setting: str, said: str) -> None:
+def test_slip_in_a_profile_is_reported_at_its_key(case: Path, setting: str, said: str) -> None:
     assert said in refusal(case, f"indenter.{setting}")
 
 
@@ -166,7 +166,7 @@ def test_slip_in_a_profile_is_told_at_its_key(case: Path, setting: str, said: st
         ("x [mm],drop [um]\n0,0\n6,8\n3,1\n", "positions must increase, got 6 mm followed by"),
     ],
 )
-def test_broken_profile_file_is_told_at_the_key_file(case: Path, text: str, said: str) -> None:
+def test_broken_profile_file_is_reported_at_the_key_file(case: Path, text: str, said: str) -> None:
     (case.parent / "crown.csv").write_text(text)
     found = refusal(case, "indenter.profile={kind: table, file: crown.csv}")
     assert found.startswith("--set indenter.profile.file: ")
@@ -228,7 +228,7 @@ def test_shape_arrives_as_it_is_written(case: Path, words: str) -> None:
 
 
 @pytest.mark.parametrize(("shape", "along"), [("revolved", "r"), ("swept", "y")])
-def test_body_is_read_from_a_csv_beside_the_case(case: Path, shape: str, along: str) -> None:
+def test_body_is_read_from_a_csv_next_to_the_case(case: Path, shape: str, along: str) -> None:
     (case.parent / "section.csv").write_text(f"{along} [mm],height [um]\n0,2\n1,2\n3,-2\n")
     words = f"indenter={{shape: {shape}, file: section.csv, interpolation: linear}}"
     found = read_case(case, [words])
@@ -265,7 +265,7 @@ def test_list_of_shapes_is_their_sum_each_in_its_place(case: Path) -> None:
         ("{shape: sphere, radius: 1 mm, faces: 3}", "It goes with shape: pyramid"),
     ],
 )
-def test_slip_in_a_shape_is_told_at_its_key(case: Path, words: str, said: str) -> None:
+def test_slip_in_a_shape_is_reported_at_its_key(case: Path, words: str, said: str) -> None:
     found = refusal(case, f"indenter={words}")
     assert said in found
     assert "math.radians" not in found

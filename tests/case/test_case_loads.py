@@ -107,7 +107,7 @@ IN_AND_OUT = vc.ApproachHistory([0, 1, 3], [0, 2e-6, -1e-6])
         ),
     ],
 )
-def test_load_is_the_noun_made_by_hand(load: Any, noun: vc.LoadHistory, tmp_path: Path) -> None:
+def test_load_is_the_load_made_by_hand(load: Any, noun: vc.LoadHistory, tmp_path: Path) -> None:
     assert type(noun) is type(read(tmp_path, load=load).load)
     assert read(tmp_path, load=load).load == noun
 

@@ -108,7 +108,7 @@ def problem(folder: Path, material: Any, files: dict[str, str] | None = None) ->
         ),
     ],
 )  # fmt: skip
-def test_law_by_formula_is_the_noun_made_by_hand(
+def test_law_by_formula_is_the_law_made_by_hand(
     material: dict[str, Any], law: vc.Law, tmp_path: Path
 ) -> None:
     found = read(tmp_path, {**material, "poisson_ratio": 0.38}).material
@@ -265,7 +265,7 @@ def test_bad_card_is_refused_at_its_key(changes: dict[str, Any], said: str, tmp_
 
 
 @pytest.mark.parametrize("material", [MAXWELL, TABLE, CARDED | {"temperature": "40 degC"}])
-def test_thickness_is_told_beside_any_law(material: dict[str, Any], tmp_path: Path) -> None:
+def test_thickness_is_given_with_any_law(material: dict[str, Any], tmp_path: Path) -> None:
     files = {"pmma.csv": PMMA, "a.inp": CARD}
     case = read(
         tmp_path,

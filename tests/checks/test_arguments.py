@@ -79,7 +79,7 @@ def test_a_force_is_let_through_just_where_some_pressure_balances_it(solid, plac
         assert balanced
 
 
-def test_a_centred_force_beside_the_body_is_refused():
+def test_a_centred_force_outside_the_body_is_refused():
     corner = np.tri(8, k=-1, dtype=bool)[:, ::-1]  # one side of a diagonal
     reach = LoadSupport(corner, vc.Grid((8, 8), (1.0, 1.0)))
     with pytest.raises(ValueError, match="outside the hull of what can touch"):

@@ -603,7 +603,7 @@ def warned(capsys: pytest.CaptureFixture[str], settings: list[str]) -> str:
 
 @pytest.mark.parametrize("told", FORETOLD.values(), ids=FORETOLD)
 @pytest.mark.usefixtures("case")
-def test_check_foretells_what_the_run_says(
+def test_check_predicts_the_warnings_of_the_run(
     told: tuple[Any, ...], capsys: pytest.CaptureFixture[str]
 ) -> None:
     settings, words, *others = told

@@ -431,7 +431,7 @@ def test_load_file_travels_with_the_run(folder: Path) -> None:
         np.testing.assert_array_equal(first.approach, second.approach)
 
 
-def test_check_foresees_grid_steps_memory_time_and_contact(
+def test_check_predicts_grid_steps_memory_time_and_contact(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["check", "case.yaml"]) == 0
@@ -456,7 +456,7 @@ def test_check_foresees_grid_steps_memory_time_and_contact(
         ),
     ],
 )
-def test_check_tells_when_the_error_of_an_automatic_grid_is_so_small(
+def test_check_says_when_the_error_of_an_automatic_grid_is_so_small(
     folder: Path, capsys: pytest.CaptureFixture[str], load: str, when: str
 ) -> None:
     settings = ["--set", f"load={load}", "--set", "grid={tolerance: 5 %}"]
@@ -469,7 +469,7 @@ def test_check_tells_when_the_error_of_an_automatic_grid_is_so_small(
     assert max(len(line.rstrip()) for line in printed.splitlines()) <= 80
 
 
-def test_check_foresees_an_approach_and_adaptive_steps(
+def test_check_predicts_an_approach_and_adaptive_steps(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     load = ["--set", "load={kind: ramp, approach: 100 um, duration: 1 s}"]
@@ -515,7 +515,7 @@ def test_check_warns_of_a_grid_that_the_contact_will_overrun(
     assert "fewer than 10 cells across" in capsys.readouterr().out
 
 
-def test_check_doubts_a_contact_too_large_for_small_strains(
+def test_check_warns_of_a_contact_too_large_for_small_strains(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     # Hertz with Phi(5 s): a = 1.143 mm of a radius of 10 mm at 4 N, and a grows with W^(1/3):
@@ -566,7 +566,7 @@ def test_export_holds_every_scalar_to_the_last_digit(finished: Path, tmp_path: P
     assert {row["outcome"] for row in rows} == {"converged"}
 
 
-def test_show_tells_the_loss_per_cycle_and_a_memory_that_is_not_exact(
+def test_show_prints_the_loss_per_cycle_and_an_inexact_memory(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     swing = "load={kind: harmonic, mean: 2 N, amplitude: 1 N, period: 1 s, cycles: 3}"
@@ -608,9 +608,7 @@ def test_approach_control_is_shown_and_drawn_like_any_run(
         assert ds.outcome[-1] == vc.Outcome.NO_CONTACT
 
 
-def test_plot_draws_a_figure_into_the_run_or_where_it_is_told(
-    finished: Path, tmp_path: Path
-) -> None:
+def test_plot_draws_a_figure_into_the_run_or_a_given_file(finished: Path, tmp_path: Path) -> None:
     assert main(["plot", str(finished), "history"]) == 0
     assert (finished / "history.png").read_bytes().startswith(b"\x89PNG")
     file = tmp_path / "map.svg"
@@ -789,7 +787,7 @@ def test_command_is_installed_and_works_as_a_module() -> None:
     assert (done.returncode, done.stdout) == (0, f"viscontact {vc.__version__}\n")
 
 
-def test_two_runs_of_one_name_are_told_apart() -> None:
+def test_two_runs_of_one_name_are_distinguished() -> None:
     same = [Path("a/case"), Path("b/case")]
     assert figures._labels(same) == [str(path) for path in same]
     assert figures._labels([Path("a"), Path("b")]) == ["a", "b"]
@@ -861,7 +859,7 @@ def test_run_needs_no_standard_streams(closed: str, folder: Path) -> None:
         pytest.param("| sleep 0; exit ${PIPESTATUS[0]}", "", marks=pytest.mark.slow),
     ],
 )
-def test_finished_run_whose_table_nobody_gets_is_finished(
+def test_finished_run_whose_table_is_not_read_is_finished(
     reader: str, buffered: str, folder: Path
 ) -> None:
     done = _shell(f"export PYTHONUNBUFFERED={buffered}; $V run case.yaml {reader}")

@@ -42,9 +42,7 @@ def test_without_a_name_the_library_is_listed(capsys: pytest.CaptureFixture[str]
 
 
 @pytest.mark.parametrize("name", library.names())
-def test_a_shipped_material_tells_where_it_is_from(
-    name: str, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_shipped_material_names_its_source(name: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["material", name]) == 0
     printed = " ".join(capsys.readouterr().out.split())
     entry = library.entry(name)

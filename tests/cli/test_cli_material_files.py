@@ -108,12 +108,12 @@ def test_a_card_is_shown_with_what_it_leaves_out(capsys: pytest.CaptureFixture[s
     assert rows["10 s"] == f"{500 * (1 + np.exp(-1.0)):.1f}"
 
 
-def test_a_card_is_told_by_its_content(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_card_is_recognised_by_its_content(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["material", "ansys.txt", *IN_MPA]) == 0
     assert "ansys.txt: RelaxationSeries, Poisson's ratio 0.5" in capsys.readouterr().out
 
 
-def test_check_tells_what_stands_in_a_card_and_is_not_used(
+def test_check_names_the_unused_entries_of_a_card(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     card = "{law: card, file: two.dat, modulus_unit: MPa, time_unit: s, temperature_unit: degC"

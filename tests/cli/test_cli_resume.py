@@ -234,7 +234,7 @@ def test_result_without_its_state_is_not_lost(
 # --- signals ----------------------------------------------------------------------------------
 
 
-def test_command_that_is_told_goes_on_with_the_run(
+def test_printed_command_continues_the_run(
     folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     given = ["-o", "a b", "--set", "load.force=5 N", "--set", "title=it's", "--threads", "2"]
@@ -359,7 +359,7 @@ def test_request_while_the_run_is_opened_leaves_nothing(
     assert [path.name for path in folder.iterdir()] == ["case.yaml"]
 
 
-def test_fault_that_comes_while_a_request_waits_is_told(
+def test_fault_that_comes_while_a_request_waits_is_reported(
     folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     save, saved = recorder.save_checkpoint, []
@@ -472,7 +472,7 @@ def test_run_whose_terminal_is_closed_stops_in_order(folder: Path) -> None:
         assert 3 < ds.sizes["time"] == len(progress.read_text(encoding="utf-8").splitlines()) < 1001
 
 
-def test_show_and_plot_tell_of_a_run_that_can_go_on(
+def test_show_and_plot_report_a_run_that_can_be_continued(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     undo = at_instant(4, lambda: signal.raise_signal(signal.SIGTERM))

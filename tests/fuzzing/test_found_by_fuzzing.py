@@ -135,7 +135,7 @@ def test_many_tables_of_one_name_keep_their_lines(tmp_path: Path) -> None:
     assert "case.toml:6002: indenter[2001].shape" in said
 
 
-def test_only_the_first_of_very_many_problems_are_told(tmp_path: Path) -> None:
+def test_only_the_first_of_very_many_problems_are_reported(tmp_path: Path) -> None:
     said = refusal(tmp_path / "case.yaml", CASE + "".join(f"k{i}: 1\n" for i in range(1000)))
     assert said.count("\n") == 200
     assert said.endswith("and 800 more")

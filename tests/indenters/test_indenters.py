@@ -90,7 +90,7 @@ def test_round_shapes_are_even_under_exchange_of_x_and_y(round_one, x, y):
 
 
 @pytest.mark.parametrize("indenter", SYMMETRIC, ids=repr)
-def test_nouns_are_frozen_and_rebuilt_from_their_fields(indenter):
+def test_indenters_are_frozen_and_rebuilt_from_their_fields(indenter):
     fields = {field.name: getattr(indenter, field.name) for field in dataclasses.fields(indenter)}
     assert type(indenter)(**fields) == indenter
     with pytest.raises(dataclasses.FrozenInstanceError):

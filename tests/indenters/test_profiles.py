@@ -155,7 +155,7 @@ def dent_of_even_line_load(x: float, half_width: float) -> float:
 
 
 @pytest.mark.parametrize("x", [0.2, 0.5, 0.8, 0.9])
-def test_lundberg_profile_is_the_dent_of_an_even_line_load(x: float) -> None:
+def test_lundberg_profile_is_the_displacement_by_an_even_line_load(x: float) -> None:
     amplitude = 1 / math.pi  # under w = E*, of the half length 1: Q = 2 E*
     profile = vc.LogarithmicProfile.lundberg(1.0, force=2.0, effective_modulus=1.0)
     assert profile.amplitude == pytest.approx(amplitude)
@@ -165,7 +165,7 @@ def test_lundberg_profile_is_the_dent_of_an_even_line_load(x: float) -> None:
 
 
 @pytest.mark.parametrize("half_width", [0.01, 0.05])
-def test_end_drop_of_johns_and_gohar_is_the_dent_of_an_even_hertzian_pressure(
+def test_end_drop_of_johns_and_gohar_is_the_displacement_by_an_even_hertzian_pressure(
     half_width: float,
 ) -> None:
     # b² = 4 A R on a half length of 1.

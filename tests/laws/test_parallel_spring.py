@@ -88,7 +88,7 @@ def test_means_are_integrals_over_their_length(law):
         assert beside.mean_creep(end, end) == pytest.approx(beside(end), rel=1e-12)
 
 
-def test_spring_beside_a_spring_is_a_spring():
+def test_two_parallel_springs_are_a_spring():
     beside = BesideSpring(Elastic(2.0), 3.0)
     np.testing.assert_allclose(beside([0.0, 1e-9, 1.0, 1e9]), 0.1, rtol=1e-12)
 
@@ -102,7 +102,7 @@ def test_pair_ends_on_the_spring_or_on_both():
 @pytest.mark.parametrize(
     "kind", [TabulatedCreep, pytest.param(TabulatedRelaxation, marks=pytest.mark.slow)]
 )
-def test_measured_law_beside_a_spring_is_the_table_of_the_sum(kind):
+def test_measured_law_with_a_parallel_spring_is_the_table_of_the_sum(kind):
     law, spring = FractionalZener(5.0, 1.0, 3.0, 0.5), 2.0
     times = np.logspace(-5, 7, 241)
     values = law(times) if kind is TabulatedCreep else law.relaxation(times)

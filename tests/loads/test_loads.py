@@ -153,7 +153,7 @@ def test_ramp_grows_then_holds():
     assert ramp(10.0, 4.0).force_at([0, 1, 4, 5]).tolist() == [0, 2.5, 10, 10]
 
 
-def test_triangle_comes_back_to_zero_and_falls_as_it_rises_unless_told():
+def test_triangle_comes_back_to_zero_and_falls_as_it_rises_by_default():
     assert triangle(10.0, 2.0).force_at([0, 1, 2, 3, 4, 5]).tolist() == [0, 5, 10, 5, 0, 0]
     assert triangle(10.0, 2.0, 4.0).force_at([2, 4, 6]).tolist() == [10, 5, 0]
 

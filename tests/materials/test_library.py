@@ -189,7 +189,7 @@ def test_wrong_points_are_refused(change: dict[str, Any], message: str) -> None:
         read_points({**POINTS, "times": [1.0], "values": [1.0], **change}, None)
 
 
-def test_the_material_of_a_case_file_is_read_whatever_stands_beside_it(tmp_path: Any) -> None:
+def test_the_material_of_a_case_file_is_read_whatever_else_it_holds(tmp_path: Any) -> None:
     section = "law: maxwell\nshear_modulus: 1 GPa\nviscosity: 1 GPa s\npoisson_ratio: 0.5\n"
     whole, alone = tmp_path / "case.yaml", tmp_path / "alone.yaml"
     indented = "".join(f"  {line}\n" for line in section.splitlines())

@@ -203,7 +203,7 @@ def test_bulk_modulus_is_taken_by_keyword_only():
         Material(Elastic(1.0), None, 2.0)
 
 
-def test_thickness_is_told_by_keyword_and_changes_no_compliance():
+def test_thickness_is_given_by_keyword_and_changes_no_compliance():
     thin = Material(Zener(3.0, 0.4, 7.0), 0.3, thickness=0.01)
     assert thin.thickness == 0.01
     endless = Material(Zener(3.0, 0.4, 7.0), 0.3)

@@ -308,7 +308,7 @@ def test_titles_are_text_and_never_markup(tmp_path: Path) -> None:
         assert attack in _text(root)
 
 
-def test_a_result_tells_what_was_found() -> None:
+def test_a_result_shows_its_key_numbers() -> None:
     ds = maxwell_sphere((0.0, 1.0, 10.0, 100.0, 300.0))
     ds["contact_area"][-1] = 57.634e-6
     ds["contact_area_error"] = "time", np.full(5, 0.149e-6)
@@ -325,7 +325,7 @@ def test_a_result_tells_what_was_found() -> None:
     np.testing.assert_allclose(found, exact, rtol=0.005)
 
 
-def test_a_result_that_is_none_is_told_so() -> None:
+def test_a_dataset_that_is_no_result_is_reported() -> None:
     assert "It has no time" in str(xr.Dataset().viscontact)
     empty = maxwell_sphere().isel(time=slice(0, 0))
     assert "holds no instant" in empty.viscontact._repr_html_()
@@ -339,7 +339,7 @@ def test_a_long_table_stays_small() -> None:
     assert len(vc.TabulatedCreep(times, 1e-9 * (1 + times**0.2))._repr_html_()) < 30_000
 
 
-def test_a_body_that_cannot_be_drawn_is_told_in_words() -> None:
+def test_a_body_that_cannot_be_drawn_is_described_in_words() -> None:
     @dataclass(frozen=True)
     class Narrow(vc.Indenter):
         radius: float
@@ -375,6 +375,6 @@ def test_ipython_displays_drawing_and_table() -> None:
     assert "<svg" in shown["text/html"]
 
 
-def test_an_isotherm_tells_its_temperature_with_all_digits() -> None:
+def test_an_isotherm_shows_its_temperature_with_all_digits() -> None:
     glass = vc.Isotherm(1273.15, _TIMES, {"compliance": 1e-11 * _TIMES**0.2})
     assert "1000 °C" in glass._repr_html_()

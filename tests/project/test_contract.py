@@ -173,7 +173,7 @@ def test_map_shows_its_peaks_first_and_sums_are_not_zeroed_again() -> None:
     assert float(total.gap(0.0, 0.0)) == 4.0
 
 
-def test_nouns_are_frozen() -> None:
+def test_objects_are_frozen() -> None:
     for noun in (BALL, vc.Elastic(1.0), RUBBER, GRID, LOAD):
         with pytest.raises(AttributeError):
             noun.radius = 1.0
@@ -410,7 +410,7 @@ def test_without_contact_everything_is_exactly_zero_and_the_march_goes_on(ds: xr
     assert (again.contact_area > 0).all()
 
 
-def test_without_contact_the_body_just_touches_the_dent_it_left(ds: xr.Dataset) -> None:
+def test_without_contact_the_body_just_touches_its_indentation(ds: xr.Dataset) -> None:
     apart = ds.sel(time=[2.0, 2.5, 3.0])
     np.testing.assert_allclose(apart.gap.min(("x", "y")), 0.0, atol=1e-18)
     # the dent heals, so the touching body rises
@@ -586,7 +586,7 @@ HURRIED = (BALL, SOFTENING, UNLOADED, vc.Grid((48, 48), (3e-3, 3e-3)), [0.0, 20.
         (HURRIED, "a time step of 20 s is long against the law"),
     ],
 )
-def test_doubtful_theory_and_long_steps_are_warned_of(arguments: Any, said: str) -> None:
+def test_theory_beyond_its_limits_and_long_steps_give_warnings(arguments: Any, said: str) -> None:
     with pytest.warns(vc.AccuracyWarning) as warned:
         ds = vc.simulate(*arguments)
     assert any(said in str(each.message) for each in warned)

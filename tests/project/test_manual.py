@@ -104,7 +104,7 @@ def keys(schema: dict[str, Any]) -> Iterator[tuple[str, str]]:
             yield kind["description"], key
 
 
-def test_the_reference_of_case_files_tells_every_key() -> None:
+def test_the_reference_of_case_files_lists_every_key() -> None:
     schema = case_schema()
     page = extension("case_file").case_file_reference(schema)
     rows = set(re.findall(r"^\| `(\w+)` \|", page, re.MULTILINE))
@@ -117,7 +117,7 @@ def test_the_reference_of_case_files_tells_every_key() -> None:
         assert page.count(f"`{kind}`") == 1
 
 
-def test_the_reference_of_case_files_tells_values_bounds_and_what_is_required() -> None:
+def test_the_reference_of_case_files_lists_values_bounds_and_required_keys() -> None:
     page = extension("case_file").case_file_reference(case_schema())
     rows = {row.split(" | ")[0]: row for row in page.splitlines() if row.startswith("| `")}
     assert "| required |" in rows["| `end`"]
@@ -133,7 +133,7 @@ def test_every_key_of_a_case_file_says_what_it_means() -> None:
     assert re.findall(r"^\| `\w+` \|  \|.*$", page, re.MULTILINE) == []
 
 
-def test_the_reference_of_commands_tells_every_command_and_option() -> None:
+def test_the_reference_of_commands_lists_every_command_and_option() -> None:
     page = extension("command_line").command_line_reference()
     sections = re.split(r"^## ", page, flags=re.MULTILINE)[1:]
     commands = typer.main.get_command(app).commands

@@ -197,7 +197,7 @@ def test_the_first_sentence_gives_the_result_with_errors() -> None:
     assert headline(ds).startswith(said)
 
 
-def test_a_contact_that_is_lost_is_told_where_it_was_largest() -> None:
+def test_a_lost_contact_is_reported_where_it_was_largest() -> None:
     ds = _run()
     for name in ("contact_area", "peak_pressure", "pressure"):
         ds[name][-1] = 0.0
@@ -284,7 +284,7 @@ def test_the_citation_is_that_of_the_file(page: _Page) -> None:
 # --- the command
 
 
-def test_report_writes_a_page_beside_the_result(
+def test_report_writes_a_page_next_to_the_result(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     run = tmp_path / "run"

@@ -125,7 +125,7 @@ def test_no_digit_is_printed_beyond_the_second_of_the_error(
     assert abs(float(printed) - value) <= allowed
 
 
-def test_marks_of_errors_are_told_apart() -> None:
+def test_marks_of_errors_differ() -> None:
     assert format_supported(152.234, math.inf) == ">152.2"
     assert format_supported(152.234, math.nan) == "152.2"
     assert format_supported(math.nan, math.inf) == "-"
@@ -241,7 +241,7 @@ def test_summary_of_a_run_has_an_accuracy_column(
     assert "±: the error of each value at that instant" in printed
 
 
-def test_each_value_stands_beside_the_error_of_its_instant(bare: xr.Dataset) -> None:
+def test_each_value_is_followed_by_the_error_of_its_instant(bare: xr.Dataset) -> None:
     error = 0.02 * bare.peak_pressure.values
     error[2] = 0.5 * bare.peak_pressure.values.max()  # the worst, at an instant of no row
     [row] = [
@@ -440,7 +440,7 @@ def test_legend_names_the_band_once_where_there_is_one(
         (0.1, 0.1, "band: error estimate"),
     ],
 )
-def test_legend_tells_of_bands_only_where_they_can_be_seen(
+def test_legend_names_bands_only_where_they_can_be_seen(
     part: float, area_part: float, told: str, bare: xr.Dataset
 ) -> None:
     parts = dict.fromkeys(PARTS, part) | {"force": 0.0, "contact_area": area_part}

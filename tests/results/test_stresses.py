@@ -77,7 +77,7 @@ def test_result_without_fields_or_contact_is_refused() -> None:
         vc.section_stresses(apart)
 
 
-def test_figures_tell_the_largest_stress_and_its_depth(results: xr.Dataset) -> None:
+def test_figures_show_the_largest_stress_and_its_depth(results: xr.Dataset) -> None:
     found = vc.section_stresses(results, np.linspace(0, 1e-3, 101))
     figure = plot.stress_section(results)
     headings = figure.axes[0].get_title(loc="left") + figure.axes[0].get_title(loc="right")

@@ -53,7 +53,7 @@ def test_a_run_of_many_cells_and_steps_takes_300_mb_beyond_its_output(tmp_path: 
 
 @pytest.mark.slow
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="asks Linux for its memory")
-def test_a_run_without_mirror_images_takes_no_more_than_is_foretold(
+def test_a_run_without_mirror_images_takes_no_more_than_predicted(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     # The most arrays of the grid's size: nothing is halved, and all fields are written.

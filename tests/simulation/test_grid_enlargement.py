@@ -155,7 +155,7 @@ def test_run_goes_on_to_the_same_bits_before_and_after_its_grid_grows(kind: str)
         assert differing(whole[count:], steps_of(March(run, restart_data))) == []
 
 
-def test_result_holds_what_is_known_on_the_last_grid_and_tells_when_it_grew() -> None:
+def test_result_is_on_the_last_grid_and_records_when_it_grew() -> None:
     prepare, small = RUNS["sphere"]
     run = growing(prepare(small))
     states = states_of(run)
@@ -175,7 +175,7 @@ def test_result_holds_what_is_known_on_the_last_grid_and_tells_when_it_grew() ->
     assert len(told) == len({state.grid.shape for state in states}) - 1
 
 
-def test_contact_that_the_automatic_extent_has_not_foreseen_is_followed(tmp_path: Path) -> None:
+def test_contact_beyond_the_automatic_extent_is_followed(tmp_path: Path) -> None:
     """Of a long measured load only the largest and the farthest rows are looked at beforehand."""
     write_swing(tmp_path / "load.csv")
     time, force, offset = np.loadtxt(tmp_path / "load.csv", delimiter=",", skiprows=1).T

@@ -88,7 +88,7 @@ def test_a_swinging_load_is_stepped_as_finely_as_it_needs_until_it_rests():
     ]
 
 
-def test_the_ends_of_cycles_are_met_though_nobody_asks_for_them():
+def test_the_ends_of_cycles_are_met_without_a_request():
     load = harmonic(3.0, 1.0, period=0.7, cycles=3)
     taken = {each.time: each for each in plan_steps(np.array([0.0, 1.0, 2.5]), load)}
     assert {0.7, 1.4, 3 * 0.7} <= taken.keys()

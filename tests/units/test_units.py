@@ -171,7 +171,7 @@ RAW = re.compile(r":(?:\.\d+)?[eg]\} /?(?:m|s|N|Pa)\b")
 MAY_BE_RAW = {"arguments.py", "material_writing.py", "animation.py", "page.py"}
 
 
-def test_messages_tell_lengths_times_forces_and_pressures_in_readable_units() -> None:
+def test_messages_give_lengths_times_forces_and_pressures_in_readable_units() -> None:
     package = Path(viscontact.__file__).parent
     found = [
         f"{path.relative_to(package)}:{number}: {line.strip()}"

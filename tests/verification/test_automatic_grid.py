@@ -156,7 +156,7 @@ SHARP = {
 
 
 @pytest.mark.parametrize("name", SHARP)
-def test_a_singular_pressure_is_left_out_and_told(name):
+def test_a_singular_pressure_is_left_out_and_reported(name):
     indenter, load = SHARP[name]
     run = prepare_run(Problem(indenter, STIFF, load, None, [0.0]))
     assert tuple(run.mesh.errors) == QUANTITIES[1:]
@@ -174,7 +174,7 @@ def test_a_singular_pressure_is_left_out_and_told(name):
         assert found == pytest.approx(exact, rel=0.01)
 
 
-def test_a_smooth_contact_is_not_told_to_be_singular():
+def test_a_smooth_contact_is_not_reported_as_singular():
     run = prepare_run(Problem(vc.Sphere(0.01), STIFF, vc.step(10.0), None, [0.0]))
     assert run.mesh.warnings == {}
 
@@ -210,7 +210,7 @@ def test_what_cannot_be_reached_is_refused_with_what_can(monkeypatch):
     assert math.prod(vc.auto_grid(indenter, STIFF, load, float(reachable)).shape) <= 2**13
 
 
-def test_a_contact_that_grows_out_of_all_proportion_is_told():
+def test_a_contact_that_grows_out_of_all_proportion_is_reported():
     fluid = vc.Material(vc.Maxwell(1e9, 1e9), 0.4)
     run = prepare_run(Problem(vc.Paraboloid(0.01, 0.01), fluid, vc.step(1e-3), None, [0.0, 1e6]))
     assert math.prod(run.grid.shape) <= 1.1 * 2**18  # but for good sizes of transforms

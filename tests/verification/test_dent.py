@@ -92,7 +92,7 @@ def test_contact_is_lost_and_made_again_on_time(name):
     assert (np.abs(instants[1:] - events) <= halves[1:] + 2e-4 * RISE).all()
 
 
-def test_ball_without_force_rests_where_the_dent_is():
+def test_ball_without_force_rests_in_the_indentation():
     """Under no force the approach follows the recovering dent; then the ball is pressed again.
 
     Unloaded, a Zener body creeps back with its one retardation time, everywhere. Measured: 1.6e-4

@@ -161,7 +161,7 @@ def test_without_contact_what_is_zero_is_exact() -> None:
     assert (bars["approach"][apart] > 0).all()  # the dent is not exact
 
 
-def test_what_no_companion_tells_is_not_known() -> None:
+def test_an_error_that_no_coarser_run_gives_is_unknown() -> None:
     run, history = pressed(20)
     bars = error_bars_from(run, history, [])
     assert all(np.isnan(bar).all() for bar in bars.values.values())
@@ -177,7 +177,7 @@ def test_what_no_companion_tells_is_not_known() -> None:
     ],
     ids=["cone", "wedge", "punch", "sharp roller"],
 )
-def test_a_singular_peak_is_told(indenter: vc.Indenter, size: float) -> None:
+def test_a_singular_peak_is_reported(indenter: vc.Indenter, size: float) -> None:
     """Love 1939, Sneddon 1965, Johnson 1985 section 5.2: infinite at points, ridges and edges."""
     grid = vc.Grid((40, 41), (size, size))
     with pytest.warns(vc.AccuracyWarning, match="depends on the mesh"):

@@ -103,7 +103,7 @@ def test_pressure_and_approach_unload_as_ting_says(shrinking):
     np.testing.assert_allclose(approach, exact.approach(times), rtol=0, atol=2e-4 * approach.max())
 
 
-def test_a_dent_remains_and_work_is_lost(shrinking):
+def test_an_indentation_remains_and_work_is_lost(shrinking):
     """When the force is gone contact is gone, but not Ting's dent, and work stays in the body.
 
     The dent is 45 % of the deepest approach, the work 53 % of the most that was done. Measured:

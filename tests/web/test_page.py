@@ -190,7 +190,7 @@ def _said_by_the_network(faults: list[str]) -> bool:
 
 
 @pytest.mark.slow
-def test_bad_input_is_told_beside_its_field_in_the_words_of_the_command_line(
+def test_bad_input_is_reported_at_its_field_in_the_words_of_the_command_line(
     browser: Any, server: seen.Server, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     page, watched = seen.new_page(browser, server)
@@ -413,7 +413,7 @@ def test_terms_are_rows_and_variants_bring_their_own_fields(page: Any, server: s
 
 
 @pytest.mark.slow
-def test_results_change_units_and_stand_beside_a_reference(page: Any, server: seen.Server) -> None:
+def test_results_change_units_and_show_a_reference(page: Any, server: seen.Server) -> None:
     seen.visit(page, server, BALL)
     seen.run(page, "#coarse")
     megapascals, unit = seen.fact(page, "Peak pressure").split()

@@ -94,7 +94,7 @@ def test_values_nested_without_end_are_refused(client: TestClient) -> None:
     assert "nested too deeply" in answer.json()["problems"][0]["message"]
 
 
-def test_a_problem_tells_its_key_and_its_line(client: TestClient) -> None:
+def test_a_problem_names_its_key_and_its_line(client: TestClient) -> None:
     text = CASE.replace("4 N", "10 MPa").replace("viscosity: 10 MPa s", "viscosity: 10")
     told = client.post("/api/check", json={"yaml": text}).json()["problems"]
     assert [(each["path"], each["line"]) for each in told] == [
@@ -104,7 +104,7 @@ def test_a_problem_tells_its_key_and_its_line(client: TestClient) -> None:
     assert told[1]["message"].startswith("cannot read '10 MPa' as a force")
 
 
-def test_a_check_tells_what_the_command_line_tells(client: TestClient, typed: Typed) -> None:
+def test_a_check_reports_the_same_as_the_command_line(client: TestClient, typed: Typed) -> None:
     text = CASE.replace("steps: 4", "steps: 4, spacing: log")
     _, printed, _ = typed(text)
     told = client.post("/api/check", json={"yaml": text}).json()
@@ -123,7 +123,7 @@ def test_a_check_tells_what_the_command_line_tells(client: TestClient, typed: Ty
     assert told["memory"] > 1e8
 
 
-def test_doubts_of_a_check_are_those_of_the_command_line(client: TestClient, typed: Typed) -> None:
+def test_a_check_warns_as_the_command_line_does(client: TestClient, typed: Typed) -> None:
     text = CASE.replace("[24, 24]", "[8, 8]")
     _, printed, _ = typed(text)
     told = client.post("/api/check", json={"yaml": text}).json()
@@ -217,7 +217,7 @@ def test_values_and_text_of_a_case_are_the_same(client: TestClient) -> None:
     }
 
 
-def test_a_case_that_nobody_has_named_is_called_by_what_it_is(client: TestClient) -> None:
+def test_a_case_without_a_name_is_named_by_its_content(client: TestClient) -> None:
     values = client.post("/api/case", json={"yaml": CASE}).json()
     assert values["suggested_title"] == "Sphere, radius 10 mm, on Zener 10 MPa, 4 N"
     changed = values["case"] | {"load": {"kind": "ramp", "force": "5 N", "duration": "2 s"}}

@@ -46,7 +46,7 @@ def messages(client: Any, *names: str) -> set[str]:
 DRAWN = ("data", "report.html", "history.csv", "figure/history.svg")
 
 
-def test_a_truncated_result_is_told_and_not_shown(folder: Path) -> None:
+def test_a_truncated_result_is_reported_and_not_shown(folder: Path) -> None:
     result = folder / "runs" / RUN / "run" / "result.nc"
     os.truncate(result, result.stat().st_size // 2)
     with asking(folder) as client:
@@ -56,7 +56,7 @@ def test_a_truncated_result_is_told_and_not_shown(folder: Path) -> None:
         assert told["message"].startswith("the result of this run is damaged; delete the run")
 
 
-def test_a_run_whose_directory_is_deleted_is_told_and_can_be_removed(folder: Path) -> None:
+def test_a_run_whose_directory_is_deleted_is_reported_and_can_be_removed(folder: Path) -> None:
     with asking(folder) as client:
         assert status(client, RUN)["figures"]
         shutil.rmtree(folder / "runs" / RUN)

@@ -98,7 +98,7 @@ def fault(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Response:
         return patient.get("/api/schema")
 
 
-def test_a_fault_of_ours_is_told_as_such(fault: Response) -> None:
+def test_an_internal_error_is_reported_as_such(fault: Response) -> None:
     assert fault.status_code == 500
     assert "please report it" in fault.json()["problems"][0]["message"]
 

@@ -165,7 +165,7 @@ def test_no_more_runs_than_allowed_are_at_work_and_coarse_ones_come_first(tmp_pa
         until(lambda: [path.name for path in (tmp_path / "page" / "runs").iterdir()] == [first])
 
 
-def test_runs_whose_cases_have_one_title_are_told_apart(tmp_path: Path) -> None:
+def test_runs_whose_cases_have_one_title_are_distinguished(tmp_path: Path) -> None:
     with asking(tmp_path / "page", at_once=0) as client:  # all wait
         stronger = CASE.replace("4 N", "8.5 N")
         other = stronger.replace("steps: 4", "steps: 5").replace("10 mm", "9 mm")
@@ -283,7 +283,7 @@ def test_figures_and_reports_of_a_run_can_be_had(client: TestClient) -> None:
 
 
 @pytest.mark.skipif(os.name == "nt", reason="there, sizes of files have no such limit")
-def test_a_full_disk_is_told_and_leaves_nothing_behind(client: TestClient, tmp_path: Path) -> None:
+def test_a_full_disk_is_reported_and_leaves_nothing(client: TestClient, tmp_path: Path) -> None:
     import resource
 
     usual = resource.getrlimit(resource.RLIMIT_FSIZE)

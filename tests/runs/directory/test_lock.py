@@ -71,7 +71,7 @@ def test_other_process_is_kept_out_and_named_until_the_end(tmp_path: Path) -> No
     assert list(tmp_path.iterdir()) == []
 
 
-def test_killed_process_keeps_nobody_out(tmp_path: Path) -> None:
+def test_killed_process_locks_no_other_out(tmp_path: Path) -> None:
     with holder(tmp_path) as process:
         process.kill()
         process.wait(30)
