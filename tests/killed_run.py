@@ -100,7 +100,7 @@ def lines_of(directory: Path) -> list[str]:
 
 
 def resumed_after(said: str) -> int | None:
-    """How many instants a run says that it goes on after; None if it says nothing of the kind."""
+    """Number of instants after which a run reports to continue; None if it does not report it."""
     if found := re.search(r"continuing after (\d+) ", said):
         return int(found[1])
     return 0 if "starting at the beginning" in said else None
@@ -233,9 +233,9 @@ def at_limits(campaign: Campaign, kind: str) -> None:
         size += STEP
 
 
-def outgrown(*arguments: Any, **options: Any) -> RunSetup:
+def outgrown(problem: Problem, threads: int = 1) -> RunSetup:
     """Prepare a run on an automatic grid that is too small."""
-    run = prepare_run(Problem(*arguments, **options)).on(Grid((16, 16), (2e-3, 2e-3)))
+    run = prepare_run(problem, threads).on(Grid((16, 16), (2e-3, 2e-3)))
     return replace(run, problem=replace(run.problem, grid=AutomaticGrid()))
 
 
