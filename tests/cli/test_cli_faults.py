@@ -211,7 +211,7 @@ def test_damaged_file_is_refused_and_everything_left_as_it_is(
     )
 
 
-def test_course_of_another_run_is_not_gone_on_with(
+def test_course_of_another_run_is_not_continued(
     stopped: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = stopped / "progress.jsonl"

@@ -254,7 +254,7 @@ def test_tilt_and_eccentricity_along_one_axis_contradict_each_other(axis):
 
 @pytest.mark.parametrize("make", [step, ramp, triangle])
 def test_force_and_approach_together_are_refused(make):
-    with pytest.raises(ValueError, match=r"given twice over; give force= in N or approach= in m"):
+    with pytest.raises(ValueError, match=r"given twice; give force= in N or approach= in m"):
         make(1.0, approach=1e-4)
 
 

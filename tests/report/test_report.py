@@ -259,7 +259,7 @@ def test_a_measured_surface_is_drawn_from_the_fields() -> None:
     assert "Not drawn" not in page.text
     assert "as the grid of this run resolves it" in page.text
     told = _Page(report_page(ds.drop_vars(["gap", "displacement"]))).text
-    assert "Not drawn: the surface is a measured one" in told
+    assert "Not drawn: the surface is measured" in told
 
 
 def test_a_long_run_stays_below_15_megabytes(page: _Page) -> None:

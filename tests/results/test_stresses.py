@@ -64,7 +64,7 @@ def test_poisson_ratio_that_varies_is_refused_until_one_is_given() -> None:
         vc.section_stresses(bulky)
     assert vc.section_stresses(bulky, poisson_ratio=0.5).von_mises.max() > 0
     bulky.attrs.pop("case")
-    with pytest.raises(ValueError, match="does not tell Poisson's ratio"):
+    with pytest.raises(ValueError, match="does not contain Poisson's ratio"):
         vc.section_stresses(bulky)
 
 

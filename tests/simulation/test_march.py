@@ -150,7 +150,7 @@ def run(request: pytest.FixtureRequest) -> RunSetup:
     return RUNS[request.param]()
 
 
-def test_run_goes_on_from_what_it_carried_after_any_step(run: RunSetup) -> None:
+def test_run_continues_from_restart_data_after_any_step(run: RunSetup) -> None:
     whole = steps_of(March(run))
     assert len(whole) > 7
     march = March(run)

@@ -169,7 +169,7 @@ def test_columns_argument_names_unknown_quantities(tmp_path: Path) -> None:
         ("time [s], D [1/Pa]\n", "has a header and no rows"),
         ("time,D\ns,1/Pa\n", "has a header and no rows"),
         ("1, 2\n3, 4\n", "data.csv:1: there is no header"),
-        ("foo, bar\n3, 4\n", "knows no column of 'foo', 'bar'; names are e.g. time, "),
+        ("foo, bar\n3, 4\n", "none of the columns 'foo', 'bar' is known; names are e.g. time, "),
         ("time, D\n3, 4\n", "data.csv:1: column 'time': has no unit; write e.g. 'time [s]'"),
         ("time, D\n, \n3, 4", "column 'time': has no unit"),
         ("time, D\ns, -\n3, 4", "data.csv:2: column 'D': has no unit"),

@@ -31,7 +31,7 @@ def parse(text: str) -> tuple[dict[str, Any], dict[KeyPath, int]]:
     """
     if endless := _ENDLESS_KEY.search(text):
         raise SourceError(
-            f"a key of more than {_MOST_PARTS} parts is none of a case file",
+            f"a key of more than {_MOST_PARTS} parts does not occur in case files",
             text.count("\n", 0, endless.start()) + 1,
         )
     try:

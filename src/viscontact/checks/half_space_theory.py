@@ -161,7 +161,7 @@ def body_warnings(geometry: Geometry, rim: Rim) -> dict[str, str]:
         warnings["thickness"] = (
             f"the contact's half width {be} {half_width / geometry.thickness:.2g} of the body's "
             f"thickness of {format_quantity(geometry.thickness, 'm', 3)}; half-space theory is "
-            f"meant for less than {THIN_BODY:g}, beyond it what the body rests on counts"
+            f"meant for less than {THIN_BODY:g}, beyond it the support of the body matters"
         )
     return warnings
 

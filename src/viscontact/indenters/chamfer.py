@@ -34,7 +34,7 @@ class Chamfer(Profile):
     Raises
     ------
     ValueError
-        If a length or the angle makes no sense, or there is no room for the chamfer or the
+        If a length or the angle is invalid, or there is no room for the chamfer or the
         rounding.
 
     Notes

@@ -27,7 +27,7 @@ class Wedge(Indenter):
     Raises
     ------
     ValueError
-        If the angle or the length makes no sense.
+        If the angle or the length is invalid.
 
     Examples
     --------
@@ -64,7 +64,7 @@ class Pyramid(Indenter):
     Raises
     ------
     ValueError
-        If the angle makes no sense, or there are fewer than 3 faces.
+        If the angle is invalid, or there are fewer than 3 faces.
 
     Notes
     -----

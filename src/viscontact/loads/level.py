@@ -16,7 +16,7 @@ def prescribed_level(
     ('approach', 1e-06)
     """
     if (force is None) == (approach is None):
-        what = "missing" if force is None else "given twice over"
+        what = "missing" if force is None else "given twice"
         raise ValueError(
             f"{history}: {force_is} is {what}; give {force_is}= in N or approach= in m, and only "
             "one of them"

@@ -19,27 +19,13 @@ Rows = Sequence[tuple[str, ...]]
 
 @dataclass(frozen=True)
 class Card:
-    """Title, table and drawings of one object.
-
-    Attributes
-    ----------
-    title : str
-        Heading of the card.
-    rows : sequence of tuple of str
-        The table: names, and one value or more of each.
-    drawings : sequence of Element
-        To the left of the table.
-    heads : tuple of str
-        Above the columns of values; none for a single one.
-    lead : str
-        A sentence below the title.
-    """
+    """Title, table and drawings of one object."""
 
     title: str
-    rows: Rows
-    drawings: Sequence[Element] = ()
-    heads: tuple[str, ...] = ()
-    lead: str = ""
+    rows: Rows  # of the table: a name, and one value or more
+    drawings: Sequence[Element] = ()  # to the left of the table
+    heads: tuple[str, ...] = ()  # of the columns of values; none for a single column
+    lead: str = ""  # sentence below the title
 
     def text(self) -> str:
         """Write title, sentence and table for a terminal."""

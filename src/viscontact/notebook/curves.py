@@ -21,9 +21,9 @@ _POINTS = 121
 _AROUND = 100.0
 #: Number of cycles of a harmonic load that are drawn, and points of each.
 _MOST_CYCLES, _POINTS_OF_CYCLE = 5, 48
-#: The level after the last point of a history is drawn over this part of its time.
+#: The level after the last point of a history is drawn over this fraction of its time.
 _HELD = 0.25
-#: The drawing begins by so much of its length earlier.
+#: The drawing begins earlier by this fraction of its length.
 _BEFORE = 0.05
 #: Beyond this ratio of last to first compliance its axis is logarithmic.
 _DECADES = 20.0

@@ -12,7 +12,7 @@ from viscontact.units.formatting import format_quantity, readable_unit
 
 #: Steps between ticks, of a decade.
 _STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
-#: More decades than these are ticked every second, third, ... one.
+#: Largest number of decades that all have a tick; of more, every second, third, ... has one.
 _MOST_DECADES = 3
 
 
@@ -27,13 +27,7 @@ class Scale:
     logarithmic: bool = False
 
     def place(self, values: ArrayLike) -> NDArray[np.float64]:
-        """Positions of values along the axis, from 0 to 1.
-
-        Parameters
-        ----------
-        values : array_like
-            Any shape [SI].
-        """
+        """Positions of values [SI] along the axis, from 0 to 1."""
         at = np.asarray(values, dtype=np.float64)
         if self.logarithmic:  # 0 lies before any place
             at = np.log10(np.where(at > 0, at, np.nan))
@@ -41,15 +35,8 @@ class Scale:
 
 
 def linear(quantity: str, unit: str, low: float, high: float, most: int = 4) -> Scale:
-    """Make a linear axis.
+    """Linear axis between two ends, `low` < `high` [SI].
 
-    Parameters
-    ----------
-    low, high : float
-        Its ends, `low` below `high` [SI].
-
-    Examples
-    --------
     >>> axis = linear("x", "m", -0.01, 0.01)
     >>> axis.label, [text for _, text in axis.ticks]
     ('x [mm]', ['−10', '−5', '0', '5', '10'])
@@ -67,15 +54,8 @@ def linear(quantity: str, unit: str, low: float, high: float, most: int = 4) -> 
 def logarithmic(
     quantity: str, unit: str, low: float, high: float, *, each_with_unit: bool = False
 ) -> Scale:
-    """Make a logarithmic axis, ticked at decades.
+    """Logarithmic axis between two ends, 0 < `low` < `high` [SI], with ticks at decades.
 
-    Parameters
-    ----------
-    low, high : float
-        Its ends, 0 < `low` < `high` [SI].
-
-    Examples
-    --------
     >>> axis = logarithmic("time", "s", 0.01, 10.0, each_with_unit=True)
     >>> [text for _, text in axis.ticks]
     ['10 ms', '100 ms', '1 s', '10 s']

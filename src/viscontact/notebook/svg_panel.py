@@ -26,29 +26,17 @@ ROOM = WIDTH - _LEFT - _RIGHT, _HEIGHT - _TOP - _BOTTOM
 #: Width of a letter, about [px].
 _LETTER = 6.2
 _INK, _FAINT = "currentColor", "0.65"
-#: A path needs no point that lies on the line between its neighbours to so much [px].
+#: Points of a path within this distance of the line between their neighbours are left out [px].
 _FLAT = 0.03
 
 
 @dataclass(frozen=True)
 class Mark:
-    """Something drawn over the axes.
+    """Curve over the axes."""
 
-    Attributes
-    ----------
-    x, y : array_like
-        Points of a line [SI]; a gap where one is not finite.
-    kind : str
-        ``"line"``; ``"body"``: filled up to the top; ``"ground"``: filled down to the bottom;
-        ``"dots"``: points alone.
-    colour : str
-        Of a line.
-    dashed : bool
-        Whether the line is.
-    """
-
-    x: ArrayLike
+    x: ArrayLike  # points [SI]; a gap where one is not finite
     y: ArrayLike
+    #: A body is filled up to the top, the ground down to the bottom.
     kind: Literal["line", "body", "ground", "dots"] = "line"
     colour: str = BLUE
     dashed: bool = False
@@ -63,13 +51,7 @@ def panel(
     aside: str = "",
     height: int = _HEIGHT,
 ) -> Element:
-    """Draw lines over two axes.
-
-    Parameters
-    ----------
-    height : int, optional
-        Of the whole drawing [px].
-    """
+    """Drawing of curves over two axes; `height` in pixels."""
     frame = _Frame(x, y, height)
     parts = [part for mark in marks for part in frame.drawn(mark)]
     head = _text(4, 13, heading, font_weight="600")

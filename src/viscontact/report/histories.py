@@ -19,10 +19,10 @@ from viscontact.units.formatting import format_compact, format_quantity, readabl
 
 Floats = NDArray[np.float64]
 
-#: A curve that varies by less than this part is drawn as the constant it is.
+#: A curve with a smaller relative variation is drawn as a constant.
 _CONSTANT = 1e-6
-#: An axis goes beyond its curve by so much of the curve's span or, if more, of its largest value:
-#: one very large error does not flatten the curve.
+#: Margin of an axis beyond its curve, in spans of the curve or, if more, in its largest value, so
+#: that a single very large error does not flatten the curve.
 _SPAN, _SIZE = 1.0, 0.5
 #: Decades between the instant 0 and the first step on a logarithmic axis.
 _BEFORE = 0.5

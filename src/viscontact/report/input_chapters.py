@@ -38,7 +38,7 @@ def inputs_chapter(ds: xr.Dataset) -> Iterator[Element]:
     if tables:
         yield element("div", *tables, class_="inputs")
     else:
-        yield element("p", "This result does not tell what it was made from.", class_="faint")
+        yield element("p", "This result does not contain its case.", class_="faint")
     if text := case_file(ds):
         source = f"data:application/yaml;charset=utf-8,{quote(text)}"
         link = element("a", "Download", class_="download", download=CASE_NAME, href=source)

@@ -68,8 +68,8 @@ def _size(ds: xr.Dataset) -> str:
     length, width = (float(ds[name].max()) for name in ("contact_length", "contact_width"))
     return (
         f". Largest contact here: {format_quantity(length, 'm', 3)} along x, "
-        f"{format_quantity(width, 'm', 3)} along y. A part that is not large against it in every "
-        "direction gives way differently."
+        f"{format_quantity(width, 'm', 3)} along y. A part that is not large compared with it in "
+        "every direction deforms differently."
     )
 
 

@@ -27,8 +27,8 @@ def recorded_surface(ds: xr.Dataset) -> HeightMap:
     missing = {"gap", "displacement"} - set(ds.variables)
     if missing or not ds["gap"].size:
         raise ValueError(
-            "the surface is a measured one, which a result does not keep, and there are no fields "
-            "to tell it from; store some (output.fields)"
+            "the surface is measured, results do not store it, and there are no fields to "
+            "compute it from; store some (output.fields)"
         )
     over = str(ds["gap"].dims[0])
     last = ds[["gap", "displacement"]].isel({over: -1}).transpose("x", "y")

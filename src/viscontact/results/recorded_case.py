@@ -46,7 +46,7 @@ def recorded_poisson_ratio(results: xr.Dataset) -> float:
             "with an elastic bulk modulus Poisson's ratio varies in time, and the stresses depend "
             "on more than the present pressure; for an estimate give poisson_ratio="
         )
-    raise ValueError("the result does not tell Poisson's ratio; give poisson_ratio=")
+    raise ValueError("the result does not contain Poisson's ratio; give poisson_ratio=")
 
 
 def recorded_grid(results: xr.Dataset) -> Grid:

@@ -52,7 +52,7 @@ def section_stresses(
     ------
     ValueError
         If no pressure is stored, Poisson's ratio is not known or varies in time, or an argument
-        makes no sense.
+        is invalid.
 
     Notes
     -----

@@ -46,13 +46,13 @@ class SummaryRow:
         At the first and the last instant, and where its magnitude is largest; each with the error
         that it has then, unless that is negligible.
     error : str
-        The largest error over the run, in the unit; or that it is not known, or why there is none.
+        The largest error over the run, in the unit, or the reason why there is none.
     part : str
-        That as a part of the largest value; empty where there is none.
+        The same relative to the largest value; empty where there is none.
     when : str
-        When the error is so large; empty where it is negligible at all instants.
+        Time of the largest error; empty where it is negligible at all instants.
     unknown : int
-        At how many instants the error is not known.
+        Number of instants at which the error is unknown.
     """
 
     name: str

@@ -52,7 +52,7 @@ def auto_grid(
     Raises
     ------
     ValueError
-        If the tolerance makes no sense, no end of the creep is known, no grid fits, or the
+        If the tolerance is invalid, no end of the creep is known, no grid fits, or the
         tolerance would need millions of cells.
 
     Notes

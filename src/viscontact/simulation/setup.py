@@ -94,7 +94,7 @@ def prepare_run(problem: Problem, threads: int = 1) -> RunSetup:
     Raises
     ------
     ValueError
-        If anything in it makes no sense, with a remedy.
+        If any input is invalid; the message says what to change.
     """
     if not (isinstance(threads, Integral) and 1 <= int(threads) <= 1024):
         raise ValueError(f"threads must be a whole number >= 1, and at most 1024, got {threads!r}")

@@ -74,7 +74,7 @@ def march(
     Raises
     ------
     ValueError
-        If an argument makes no sense, with a remedy; before the first step.
+        If an argument is invalid, before the first step; the message says what to change.
     ConvergenceError
         If the contact solver stagnates, from the iterator.
     DomainError

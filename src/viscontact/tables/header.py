@@ -189,7 +189,7 @@ def _angular(quantity: str, unit: str) -> Scale:
 def _require_some(source: str, found: tuple[Column, ...], left: tuple[str, ...]) -> None:
     if not found:
         raise ValueError(
-            f"{source}: knows no column of {', '.join(map(repr, left))}; names are e.g. "
+            f"{source}: none of the columns {', '.join(map(repr, left))} is known; names are e.g. "
             f"{', '.join(QUANTITIES)}, each with its unit, as 'time [s]'"
         )
 

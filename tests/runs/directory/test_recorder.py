@@ -287,7 +287,7 @@ def test_first_step_that_fails_changes_nothing(
     assert contents(recorded.directory) == before
 
 
-def test_result_of_another_run_is_not_gone_on_with(recorded: RecordedRun, tmp_path: Path) -> None:
+def test_result_of_another_run_is_not_continued(recorded: RecordedRun, tmp_path: Path) -> None:
     (tmp_path / "other").mkdir()
     other = RecordedRun(tmp_path / "other", sphere_run(0.2), [0.0, 1.0])
     for each in (recorded, other):
@@ -363,7 +363,7 @@ def test_a_run_stays_with_the_transforms_it_was_begun_with(
     assert vc.open_results(recorded.directory).attrs["transforms"] == "scipy"
 
 
-def test_a_run_whose_transforms_are_gone_is_not_gone_on_with(
+def test_a_run_whose_transforms_are_gone_is_not_continued(
     recorded: RecordedRun, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     begun = Recorder(recorded)
@@ -373,5 +373,5 @@ def test_a_run_whose_transforms_are_gone_is_not_gone_on_with(
     saved = dataclasses.replace(load_checkpoint(path), transforms="ducc0")
     save_checkpoint(path, saved)
     monkeypatch.setattr(fourier, "ducc0", None)
-    with pytest.raises(ValueError, match=r"begun with the Fourier transforms of ducc0.*fast"):
+    with pytest.raises(ValueError, match=r"used the Fourier transforms of ducc0.*fast"):
         Recorder.resume(recorded)

@@ -285,5 +285,5 @@ def test_result_that_is_not_this_runs_is_refused_and_left_alone(
     with pytest.raises(ValueError, match=said) as refusal:
         resumed(path, position)
     assert str(path) in str(refusal.value)
-    assert str(refusal.value).endswith("start the run anew with --overwrite")
+    assert str(refusal.value).endswith("start the run again with --overwrite")
     assert {file.name: file.read_bytes() for file in path.parent.iterdir()} == before

@@ -103,11 +103,11 @@ class TableLaw(FromFile):
         if self.set is not None:
             found = [each for each in sets if each.set_number == self.set]
             if not found:
-                raise ValueError(f"{table.source.name} has no set {self.set:g}; {_told(sets)}")
+                raise ValueError(f"{table.source.name} has no set {self.set:g}; {_set_list(sets)}")
             return found[0]
         if len(sets) > 1:
             raise ValueError(
-                f"{table.source.name} has {len(sets)} sets; say which with set: {_told(sets)}"
+                f"{table.source.name} has {len(sets)} sets; say which with set: {_set_list(sets)}"
             )
         return table
 
@@ -142,7 +142,7 @@ class TableLaw(FromFile):
         return f"{table.source.name}:{table.lines[int(match['row'])]}: column {heading!r}: {why}"
 
 
-def _told(sets: tuple[Table, ...]) -> str:
+def _set_list(sets: tuple[Table, ...]) -> str:
     if all(each.set_number is None for each in sets):
         return "number them in a column Set"
     return ", ".join(

@@ -12,7 +12,7 @@ from viscontact.runs.directory.npz_archive import outline_of, read_plain, write_
 from viscontact.time_integration.restart_data import RestartData
 
 #: Remedy for files from which a run cannot be resumed.
-REMEDY = "start the run anew with --overwrite"
+REMEDY = "start the run again with --overwrite"
 
 
 @dataclass(frozen=True)

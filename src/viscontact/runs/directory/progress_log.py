@@ -106,7 +106,7 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
         self.count += 1
 
     def flush_to_disk(self) -> None:
-        """Wait until all lines are on the disk; a file that has been removed is written anew."""
+        """Wait until all lines are on the disk; a file that has been removed is written again."""
         if not os.path.lexists(self._path):
             self._write_anew()
         os.fsync(self._file.fileno())

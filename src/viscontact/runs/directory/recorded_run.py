@@ -126,8 +126,8 @@ class RecordedRun:
             transforms_by(library)
         except ValueError as error:
             raise ValueError(
-                f"{self.directory}: the run was begun with the Fourier transforms of {library}, "
-                f"and to the last bit no others do: {error}; or start the run anew with --overwrite"
+                f"{self.directory}: the run has used the Fourier transforms of {library}, and no "
+                f"others give the same bits: {error}; or start the run again with --overwrite"
             ) from error
         return replace(self, run=replace(self.run, transforms=library))
 

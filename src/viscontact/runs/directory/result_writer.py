@@ -66,7 +66,7 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
     path : path
         The result. An existing file stays until the first `publish`.
     contents : Contents
-        What it is to hold. A state on a larger grid has the file laid out anew.
+        Contents of the file. A state on a larger grid gives the file a new layout.
 
     Notes
     -----
@@ -226,7 +226,7 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
             raise
 
     def _make_room(self, grid: Grid) -> None:
-        """Lay the working file out anew if the grid of the run has outgrown that of the file."""
+        """Give the working file a new layout if the run has outgrown the grid of the file."""
         room, layout = self._layout.grid.shape, self._layout
         if grid.shape[0] <= room[0] and grid.shape[1] <= room[1]:
             return
