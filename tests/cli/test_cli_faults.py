@@ -73,7 +73,7 @@ def _full(*arguments: Any, **options: Any) -> None:
     ],
 )
 @pytest.mark.parametrize("calls", [0, 4])
-def test_full_disk_stops_the_run_which_goes_on_once_there_is_space(
+def test_full_disk_stops_the_run_which_continues_once_there_is_space(
     calls: int,
     where: Any,
     name: str,
@@ -120,7 +120,7 @@ def test_full_disk_stops_the_run_which_goes_on_once_there_is_space(
 
 @pytest.mark.skipif(resource is None, reason="Windows has no quota for a process")
 @pytest.mark.parametrize("size", [0, 2_000, 20_000, 60_000])
-def test_quota_stops_the_run_which_goes_on_without_it(
+def test_quota_stops_the_run_which_continues_without_it(
     size: int,
     folder: Path,
     whole: xr.Dataset,
@@ -256,7 +256,7 @@ def test_links_are_replaced_and_not_written_through(
     assert same_bits("case", whole)
 
 
-def test_result_that_is_a_link_goes_on_as_a_file(
+def test_result_that_is_a_link_continues_as_a_file(
     stopped: Path,
     whole: xr.Dataset,
     monkeypatch: pytest.MonkeyPatch,
@@ -676,7 +676,7 @@ def test_clock_that_is_set_back_makes_no_duration_negative(
     assert "-" not in "".join(times_left)
 
 
-def test_moved_directory_goes_on_where_it_is(
+def test_moved_directory_continues_where_it_is(
     stopped: Path,
     whole: xr.Dataset,
 ) -> None:

@@ -158,7 +158,7 @@ def test_changed_table_is_refused_in_si_units(
     assert main(["run", "case/case.yaml", "-o", "case", "-q", "--resume"]) == 0
 
 
-def test_run_goes_on_from_its_own_directory(
+def test_run_continues_from_its_own_directory(
     folder: Path, whole: xr.Dataset, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     kill(3, "-q", "-o", "other", "--set", "title=Another")
@@ -546,7 +546,7 @@ def test_request_during_imports_or_after_the_end_is_met_in_order(
         assert not Path("case").exists()
 
 
-def test_case_in_the_directory_of_its_run_goes_on_there(folder: Path, whole: xr.Dataset) -> None:
+def test_case_in_the_directory_of_its_run_continues_there(folder: Path, whole: xr.Dataset) -> None:
     kill(4, "-q", "-o", "runs/one")
     assert main(["run", "runs/one/case.yaml", "--resume", "-q"]) == 0
     assert same_bits("runs/one", whole)

@@ -156,7 +156,7 @@ def test_before_the_first_row_the_body_is_elastic_or_a_power():
     assert stiff(0.0) == 0.0
 
 
-def test_beyond_the_last_row_the_slope_goes_on_or_the_value():
+def test_beyond_the_last_row_the_slope_continues_or_the_value():
     times = [1.0, 10.0, 100.0]
     assert TabulatedCreep(times, [1.0, 2.0, 4.0])(1e4) == pytest.approx(8.0)
     assert TabulatedCreep(times, [1.0, 2.0, 4.0], beyond="last")(1e4) == 4.0

@@ -155,7 +155,7 @@ def test_gap_is_zero_at_the_deepest_point_and_infinite_outside_the_outline(shape
         assert indenter.gap(*outside) == np.inf
 
 
-def test_crown_goes_on_beyond_the_straight_part_as_eq_13_says() -> None:
+def test_crown_continues_beyond_the_straight_part_as_eq_13_says() -> None:
     R, L, R_c, x, y = 5e-3, 10e-3, 75e-3, 14e-3, 1e-3
     section = R - R_c + math.sqrt(R_c**2 - (x - L) ** 2)
     expected = R - math.sqrt(section**2 - y**2)
@@ -394,7 +394,7 @@ def test_value_at_a_jump_is_the_one_just_after_it(ds: xr.Dataset) -> None:
     assert float(ds.force.sel(time=1.0)) == pytest.approx(0.05)
 
 
-def test_without_contact_everything_is_exactly_zero_and_the_march_goes_on(ds: xr.Dataset) -> None:
+def test_without_contact_everything_is_exactly_zero_and_the_march_continues(ds: xr.Dataset) -> None:
     apart = ds.sel(time=[2.0, 2.5, 3.0])
     assert (apart.outcome == vc.Outcome.NO_CONTACT).all()
     for name in (

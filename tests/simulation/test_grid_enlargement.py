@@ -137,7 +137,7 @@ def test_grid_grows_no_further_than_an_automatic_one_may_be(
 
 
 @pytest.mark.parametrize("kind", RUNS)
-def test_run_goes_on_to_the_same_bits_before_and_after_its_grid_grows(kind: str) -> None:
+def test_run_continues_to_the_same_bits_before_and_after_its_grid_grows(kind: str) -> None:
     prepare, small = RUNS[kind]
     run = growing(prepare(small))
     march = March(run)
@@ -243,7 +243,7 @@ def test_run_that_is_stopped_after_every_step_ends_in_the_same_bits(
     assert notes[0] == notes[1]
 
 
-def test_result_that_is_ahead_of_the_state_on_a_larger_grid_is_gone_on_with(
+def test_result_that_is_ahead_of_the_state_on_a_larger_grid_is_continued(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """As where a process is killed between the two, just after the grid has grown."""

@@ -261,7 +261,7 @@ def test_approach_under_a_sudden_load_has_no_time_error(name):
     assert few == pytest.approx(many, rel=1e-7)
 
 
-def test_work_of_a_sudden_load_goes_on_as_the_body_sinks():
+def test_work_of_a_sudden_load_continues_as_the_body_sinks():
     """The elastic (2/5) F approach of the jump, then F times the way: Johnson (1985), eq. 4.23.
 
     Measured: 9e-5 at first, then 3e-5: the mesh.

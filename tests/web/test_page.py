@@ -323,7 +323,7 @@ def test_a_reload_in_mid_run_finds_the_run_and_it_can_be_cancelled(
 
 
 @pytest.mark.slow
-def test_a_server_that_dies_in_mid_run_is_missed_and_gone_on_with(
+def test_a_server_that_dies_in_mid_run_is_missed_and_continued(
     browser: Any, tmp_path: Path
 ) -> None:
     with seen.served(tmp_path) as server:

@@ -114,7 +114,7 @@ def test_a_run_ends_in_the_numbers_of_the_command_line(client: TestClient, tmp_p
 
 
 @pytest.mark.slow
-def test_a_run_is_cancelled_and_goes_on_to_the_same_numbers(
+def test_a_run_is_cancelled_and_continues_to_the_same_numbers(
     client: TestClient, tmp_path: Path
 ) -> None:
     text = CASE.replace("steps: 4", "steps: 400")
@@ -365,7 +365,7 @@ def serving(tmp_path: Path) -> Iterator[Callable[[], Served]]:
 @pytest.mark.slow
 @pytest.mark.skipif(os.name == "nt", reason="there, only the console asks processes to stop")
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL])
-def test_a_server_stopped_in_mid_run_shows_the_run_again_and_goes_on_with_it(
+def test_a_server_stopped_in_mid_run_shows_the_run_again_and_continues_it(
     serving: Callable[[], Served], tmp_path: Path, number: int
 ) -> None:
     text = LONG_CASE.replace("4000", "600")

@@ -175,7 +175,7 @@ def test_run_that_is_killed_within_what_it_writes_ends_in_the_same_bits(
 
 
 @pytest.mark.slow
-def test_disk_that_is_really_full_stops_a_run_which_goes_on_with_more_space(
+def test_disk_that_is_really_full_stops_a_run_which_continues_with_more_space(
     tmp_path: Path, campaign: Callable[[str], None]
 ) -> None:
     kills = RandomKills(tmp_path, "series")

@@ -54,7 +54,7 @@ def test_whole_numbers_of_numpy_stay_whole(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("kept", range(6))
-def test_cut_anywhere_the_log_goes_on_with_the_same_lines(kept: int, tmp_path: Path) -> None:
+def test_cut_anywhere_the_log_continues_with_the_same_lines(kept: int, tmp_path: Path) -> None:
     path = tmp_path / "progress.jsonl"
     with ProgressLog(path) as log:
         for row in range(6):

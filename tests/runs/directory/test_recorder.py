@@ -150,7 +150,7 @@ def test_pickled_objects_are_never_loaded() -> None:
 
 
 @pytest.mark.parametrize("instants", [1, 2, 7, COUNT])
-def test_run_goes_on_to_the_same_bits(
+def test_run_continues_to_the_same_bits(
     instants: int, recorded: RecordedRun, whole: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("viscontact.runs.directory.recorder.PAUSE", 0.0)

@@ -88,7 +88,7 @@ def _until_killed(path: Path, position: dict[str, Any] | None) -> Iterator[dict[
 @pytest.mark.skipif(os.name == "nt", reason="what the dead writer has open cannot be removed")
 @EVERY
 @pytest.mark.parametrize("begin", ["anew", "over another", "resumed"])
-def test_crash_before_any_call_leaves_whole_rows_and_the_run_goes_on(
+def test_crash_before_any_call_leaves_whole_rows_and_the_run_continues(
     begin: str, every: int, tmp_path: Path
 ) -> None:
     crashes = 0
