@@ -185,7 +185,7 @@ class AutomaticGrid(Displayable):
     Parameters
     ----------
     tolerance : float, optional
-        Largest relative error of `quantities` due to the mesh, between 1e-4 and 0.5 [-].
+        Largest relative error of the quantities due to the mesh, between 1e-4 and 0.5 [-].
     quantities : sequence of str, optional
         Any of ``"peak_pressure"``, ``"contact_area"``, ``"approach"``; all when left out.
 

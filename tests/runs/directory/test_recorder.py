@@ -21,7 +21,12 @@ from viscontact import fourier
 from viscontact.contact.equilibrium import ContactSolution
 from viscontact.problem.problem import Problem
 from viscontact.run_files import PROGRESS_NAME, STATE_NAME
-from viscontact.runs.directory.checkpoint import Checkpoint, load_checkpoint, save_checkpoint
+from viscontact.runs.directory.checkpoint import (
+    LAYOUT,
+    Checkpoint,
+    load_checkpoint,
+    save_checkpoint,
+)
 from viscontact.runs.directory.npz_archive import read_plain, write_plain
 from viscontact.runs.directory.recorded_run import ChangedCaseError, RecordedRun
 from viscontact.runs.directory.recorder import Recorder
@@ -316,9 +321,18 @@ def test_changed_run_is_refused_with_the_difference(recorded: RecordedRun) -> No
 def test_state_of_another_version_is_refused(
     recorded: RecordedRun, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(Checkpoint.__init__, "__defaults__", ("0.0.1",))
+    monkeypatch.setattr(Checkpoint.__init__, "__defaults__", ("0.0.1", LAYOUT))
     stop_after(Recorder(recorded), 2)
     with pytest.raises(ValueError, match=r"was saved by viscontact 0\.0\.1"):
+        Recorder.resume(recorded)
+
+
+def test_state_of_another_layout_is_refused(
+    recorded: RecordedRun, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(Checkpoint.__init__, "__defaults__", (vc.__version__, LAYOUT - 1))
+    stop_after(Recorder(recorded), 2)
+    with pytest.raises(ValueError, match=r"earlier state of viscontact; .* --overwrite$"):
         Recorder.resume(recorded)
 
 

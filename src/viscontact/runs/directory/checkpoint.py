@@ -11,6 +11,9 @@ from viscontact.runs.directory.atomic_files import replacing
 from viscontact.runs.directory.npz_archive import outline_of, read_plain, write_plain
 from viscontact.time_integration.restart_data import RestartData
 
+#: Layout of the restart data; raise it with every change of a name or a meaning in them.
+LAYOUT = 2
+
 #: Remedy for files from which a run cannot be resumed.
 REMEDY = "start the run again with --overwrite"
 
@@ -35,6 +38,8 @@ class Checkpoint:
         Library of the Fourier transforms.
     version : str
         Version of the program that saved it.
+    layout : int
+        Layout of the restart data.
     """
 
     case: dict[str, Any]
@@ -44,6 +49,7 @@ class Checkpoint:
     march: RestartData
     transforms: str
     version: str = __version__
+    layout: int = LAYOUT
 
 
 def save_checkpoint(path: Path, checkpoint: Checkpoint) -> None:
@@ -82,6 +88,8 @@ def load_checkpoint(path: Path) -> Checkpoint:
             f"{path}: was saved by viscontact {version}, and this is {__version__}; continue "
             "with that version, or start the run again with --overwrite"
         )
+    if saved.get("layout") != LAYOUT:
+        raise ValueError(f"{path}: was saved by an earlier state of viscontact; {REMEDY}")
     try:
         return Checkpoint(**saved)
     except TypeError as error:
