@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 
 import viscontact as vc
-from viscontact.results.provenance import describe, rebuild
+from viscontact.results.descriptions import describe, rebuild
 
 R, L = 5e-3, 6e-3  # m
 #: Every kind of profile on the same roller.

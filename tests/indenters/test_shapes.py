@@ -13,7 +13,7 @@ import viscontact as vc
 from verification.pressing import ELASTIC, MODULUS, grid_around, press
 from viscontact import reference
 from viscontact.indenters import PlacedIndenter
-from viscontact.results.provenance import describe, rebuild
+from viscontact.results.descriptions import describe, rebuild
 
 SHAPES: dict[str, vc.Indenter] = {
     "ellipsoid": vc.Ellipsoid(3.0, 2.0, 1.0),

@@ -18,7 +18,7 @@ from viscontact.laws import (
     PowerLaw,
     Zener,
 )
-from viscontact.results.provenance import describe, rebuild
+from viscontact.results.descriptions import describe, rebuild
 
 LAWS = {
     "power": PowerLaw(0.5, 0.3, 2.0),

@@ -22,7 +22,7 @@ from viscontact.laws import (
     TabulatedRelaxation,
 )
 from viscontact.laws.interconversion.mittag_leffler import mittag_leffler
-from viscontact.results.provenance import describe, rebuild
+from viscontact.results.descriptions import describe, rebuild
 
 T = np.logspace(-8, 8, 161)
 

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from viscontact.laws import CreepSeries, TabulatedCreep, TabulatedRelaxation
-from viscontact.results.provenance import describe, rebuild
+from viscontact.results.descriptions import describe, rebuild
 
 LAW = CreepSeries(0.2, np.logspace(-2, 1, 6), 10.0 ** np.arange(-3, 6, 1.5))
 

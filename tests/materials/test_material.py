@@ -23,7 +23,7 @@ from viscontact.laws import (
 )
 from viscontact.materials.compliance import SeriesCompliance
 from viscontact.materials.material import Material
-from viscontact.results.provenance import describe, rebuild
+from viscontact.results.descriptions import describe, rebuild
 
 T = np.array([0.0, 0.01, 0.7, 3.0, 40.0, 1e4])
 

@@ -13,7 +13,7 @@ import viscontact as vc
 from synthetic_results import FORCE, RADIUS, SHEAR_MODULUS, VISCOSITY, maxwell_sphere, roller
 from viscontact import reference
 from viscontact.plot import FIGURES
-from viscontact.results.provenance import describe
+from viscontact.results.descriptions import describe
 
 TAU = VISCOSITY / SHEAR_MODULUS
 MODULUS = 4 * SHEAR_MODULUS  # E* = 2G/(1 - nu), nu = 1/2

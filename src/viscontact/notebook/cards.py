@@ -28,7 +28,7 @@ from viscontact.notebook.shapes import indenter_drawings
 from viscontact.notebook.surface_map import surface_card
 from viscontact.results.accessor import ResultAccessor
 from viscontact.results.argument_table import argument_rows, in_plain_words
-from viscontact.results.provenance import describe
+from viscontact.results.descriptions import describe
 from viscontact.surfaces import Surface
 from viscontact.units.formatting import format_quantity
 

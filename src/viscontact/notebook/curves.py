@@ -14,7 +14,7 @@ from viscontact.laws import Elastic, Law, SeriesLaw, TabulatedCreep, TabulatedRe
 from viscontact.loads import HarmonicHistory, LoadHistory
 from viscontact.notebook.svg_axes import Scale, linear, logarithmic
 from viscontact.notebook.svg_panel import ORANGE, Mark, panel
-from viscontact.results.provenance import describe
+from viscontact.results.descriptions import describe
 
 _POINTS = 121
 #: A formula is drawn over its own times, and times shorter and longer by this factor.

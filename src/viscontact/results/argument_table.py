@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from viscontact.laws import Law
-from viscontact.results.provenance import STORED_CLASSES
+from viscontact.results.descriptions import STORED_CLASSES
 from viscontact.units.formatting import format_quantity
 
 _LAWS = {name for name, each in STORED_CLASSES.items() if issubclass(each, Law)}

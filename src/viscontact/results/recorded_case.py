@@ -9,7 +9,7 @@ from typing import Any
 import xarray as xr
 
 from viscontact.grid import Grid
-from viscontact.results.provenance import rebuild
+from viscontact.results.descriptions import rebuild
 
 
 @functools.lru_cache(maxsize=8)

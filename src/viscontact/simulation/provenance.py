@@ -8,7 +8,7 @@ from typing import Any
 from viscontact import __version__
 from viscontact.grid import Grid
 from viscontact.problem.problem import Problem
-from viscontact.results.provenance import describe
+from viscontact.results.descriptions import describe
 from viscontact.simulation.setup import RunSetup
 
 

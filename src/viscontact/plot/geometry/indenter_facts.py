@@ -18,7 +18,7 @@ from viscontact.indenters import (
 )
 from viscontact.indenters.cross_section import Section
 from viscontact.results.argument_table import argument_rows, in_plain_words
-from viscontact.results.provenance import describe
+from viscontact.results.descriptions import describe
 from viscontact.units.formatting import format_compact, readable_unit
 
 # Position at which the drop of an unbounded profile is stated.

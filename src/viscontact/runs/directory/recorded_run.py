@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from viscontact.fourier import transforms_by
-from viscontact.results.provenance import describe
+from viscontact.results.descriptions import describe
 from viscontact.run_files import PROGRESS_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.atomic_files import fresh_name
 from viscontact.runs.directory.checkpoint import (
