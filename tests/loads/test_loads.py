@@ -397,7 +397,7 @@ def test_harmonic_force_that_is_rounding_is_no_load():
         ({"mean": 4.0}, "swings between -1 N and 9 N; give a mean of at least"),
         ({"cycles": 0}, "cycles must be a whole number from 1"),
         ({"cycles": 1.5}, "cycles must be a whole number from 1"),
-        ({"period": 0.0}, "period must be a positive time"),
+        ({"period": 0.0}, "period must be a positive finite number"),
         ({"amplitude": math.nan}, "amplitude must be a finite number in N"),
         ({"mean": None}, "mean is missing; give mean= in N or approach= in m"),
         ({"eccentricity_x": 1.0, "tilt_x": 0.0}, "contradict each other"),

@@ -18,6 +18,7 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from viscontact.grid import COARSEST, FINEST
 from viscontact.loads.harmonic import MOST_CYCLES
+from viscontact.time_integration.requested_times import COARSEST_TIME_ERROR, FINEST_TIME_ERROR
 from viscontact.units.dimensions import DIMENSIONS
 from viscontact.units.parsing import parse_quantity
 
@@ -121,7 +122,7 @@ Exponent = Annotated[float, Field(gt=0, le=1)]
 PoissonRatio = Annotated[float, Field(gt=-1, le=0.5)]
 CellCount = Annotated[int, Field(ge=1, le=_MOST_CELLS)]
 StepCount = Annotated[int, Field(ge=1, le=_MOST_STEPS)]
-TimeTolerance = Annotated[float, Field(ge=1e-6, le=0.1)]
+TimeTolerance = Annotated[float, Field(ge=FINEST_TIME_ERROR, le=COARSEST_TIME_ERROR)]
 CycleCount = Annotated[int, Field(ge=1, le=MOST_CYCLES)]
 
 

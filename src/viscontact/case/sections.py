@@ -13,6 +13,7 @@ from viscontact.case.quantities import Section
 from viscontact.case.time_grid_output import Cells, Output, Time
 from viscontact.grid import Grid
 from viscontact.loads import LoadHistory
+from viscontact.problem.problem import COARSEST_TOLERANCE, FINEST_TOLERANCE
 from viscontact.units.dimensions import DIMENSIONS
 
 
@@ -29,7 +30,7 @@ class CaseFile(Section):
     time: Time = Field(description="instants of the run")
     grid: Cells | None = Field(default=None, description="an automatic grid when left out")
     output: Output = Field(default=Output(), description="results to keep")
-    tolerance: Annotated[float, Field(ge=1e-13, le=1e-2)] = Field(
+    tolerance: Annotated[float, Field(ge=FINEST_TOLERANCE, le=COARSEST_TOLERANCE)] = Field(
         default=1e-6, description="relative error of pressure and balances at every step"
     )
 

@@ -18,6 +18,7 @@ from viscontact.identification.indentation_fit import IndentationFit, compared
 from viscontact.identification.record import IndentationRecord
 from viscontact.laws import Elastic
 from viscontact.materials.material import Material
+from viscontact.units.numbers import whole
 
 Array = NDArray[np.float64]
 
@@ -245,8 +246,7 @@ def _warn_of_vague(shape: Candidate, intervals: list[tuple[float, float]]) -> No
 
 
 def _require_options(terms: int, given: str, confidence: float) -> None:
-    if isinstance(terms, bool) or terms != int(terms) or terms < 1:
-        raise ValueError(f"fit_indentation: terms must be a whole number above 0, got {terms!r}")
+    whole("fit_indentation: terms", terms, 1)
     if given not in ("approach", "force"):
         raise ValueError(f"fit_indentation: given must be approach or force, got {given!r}")
     if not 0 < confidence < 1:

@@ -24,6 +24,7 @@ from viscontact.identification.spectrum import (
     unweighted,
 )
 from viscontact.laws import CreepSeries, RelaxationSeries
+from viscontact.units.numbers import whole
 
 _LEAST_ROWS = 3
 _EXCESS, _TOLERANCE = 1.05, 1e-3
@@ -268,12 +269,9 @@ def _found(
     if terms is None:
         return parsimonious_spectrum(observed, excess=excess, tolerance=tolerance)
     most = observed.values.size // 2
-    if isinstance(terms, bool) or terms != int(terms) or not 0 <= terms <= most:
-        raise ValueError(
-            f"{owner}: terms must be a whole number from 0 to {most}, half the number of values, "
-            f"got {terms!r}"
-        )
-    return spectrum_of(observed, int(terms))
+    return spectrum_of(
+        observed, whole(f"{owner}: terms, at most half the number of values,", terms, 0, most)
+    )
 
 
 def _relaxation_series(found: Spectrum) -> RelaxationSeries:

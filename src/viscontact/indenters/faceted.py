@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.indenters.arguments import acute_angle, positions
 from viscontact.indenters.indenter import Indenter
-from viscontact.units.numbers import as_real, check_fields
+from viscontact.units.numbers import check_fields, store, whole
 
 
 @dataclass(frozen=True)
@@ -59,12 +59,12 @@ class Pyramid(Indenter):
     half_angle : float
         Angle from the axis to a face (not to an edge), between 0 and π/2, both excluded [rad].
     faces : int
-        Number of faces, 3 or more; one of them looks along +x.
+        Number of faces, from 3 to 1000; one of them looks along +x.
 
     Raises
     ------
     ValueError
-        If the angle is invalid, or there are fewer than 3 faces.
+        If the angle is invalid, or the number of faces.
 
     Notes
     -----
@@ -82,13 +82,7 @@ class Pyramid(Indenter):
 
     def __post_init__(self) -> None:
         check_fields(self, "half_angle", check=acute_angle)
-        number = as_real(self.faces)
-        if number is None or not 3 <= number <= 1000 or number != int(number):
-            raise ValueError(
-                f"Pyramid: faces must be a whole number from 3 to 1000, got {self.faces!r}; a body "
-                "with more is a Cone"
-            )
-        object.__setattr__(self, "faces", int(number))
+        store(self, faces=whole("Pyramid: faces", self.faces, 3, 1000))
 
     @classmethod
     def vickers(cls) -> Pyramid:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from viscontact.loads.history import Control
 from viscontact.units.formatting import format_quantity
-from viscontact.units.numbers import finite
+from viscontact.units.numbers import finite, positive
 
 
 def prescribed_level(
@@ -28,13 +28,11 @@ def prescribed_level(
 
 def positive_duration(name: str, value: float | None) -> float:
     """Return a duration [s], or raise ValueError unless it is positive and finite."""
-    duration = finite(name, value, "s")
-    if duration <= 0:
-        raise ValueError(
-            f"{name} must be a positive time in s, got {value!r}; for a jump use step(...) or "
-            "a repeated time in ForceHistory"
-        )
-    return duration
+    try:
+        return positive(name, value, "s")
+    except ValueError as error:
+        remedy = "for a jump use step(...) or a repeated time in ForceHistory"
+        raise ValueError(f"{error}; {remedy}") from None
 
 
 def refuse_eccentric_approach(eccentricity_x: float, eccentricity_y: float) -> None:

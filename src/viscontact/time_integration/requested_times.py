@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.units.numbers import as_real
+from viscontact.units.numbers import as_real, positive, store, whole
+
+#: Range of the relative error that steps chosen by the run may cause [-].
+FINEST_TIME_ERROR, COARSEST_TIME_ERROR = 1e-6, 0.1
 
 #: Upper limit on the number of requested steps.
 _MAX_STEPS = 10_000_000
@@ -39,7 +41,7 @@ def uniform_times(end: float, n: int) -> NDArray[np.float64]:
     >>> uniform_times(10.0, 4).tolist()
     [0.0, 2.5, 5.0, 7.5, 10.0]
     """
-    return np.linspace(0.0, _instant("end", end), _steps(n) + 1)
+    return np.linspace(0.0, positive("end", end, "s"), _steps(n) + 1)
 
 
 def log_times(first: float, end: float, n: int) -> NDArray[np.float64]:
@@ -71,7 +73,7 @@ def log_times(first: float, end: float, n: int) -> NDArray[np.float64]:
     >>> log_times(1.0, 1000.0, 4).round(9).tolist()
     [0.0, 1.0, 10.0, 100.0, 1000.0]
     """
-    first, end, n = _instant("first", first), _instant("end", end), _steps(n)
+    first, end, n = positive("first", first, "s"), positive("end", end, "s"), _steps(n)
     if first >= end:
         raise ValueError(f"first must be earlier than end, got first={first} s and end={end} s")
     # Backwards from the end, so that the end is exact for every n.
@@ -101,10 +103,9 @@ class AdaptiveTimes:
 
     def __post_init__(self) -> None:
         allowed = as_real(self.tolerance)
-        if allowed is None or not 1e-6 <= allowed <= 0.1:
+        if allowed is None or not FINEST_TIME_ERROR <= allowed <= COARSEST_TIME_ERROR:
             raise ValueError(f"tolerance must lie between 1e-6 and 0.1, got {self.tolerance!r}")
-        object.__setattr__(self, "tolerance", allowed)
-        object.__setattr__(self, "end", _instant("end", self.end))
+        store(self, tolerance=allowed, end=positive("end", self.end, "s"))
 
 
 def adaptive_times(end: float, tolerance: float) -> AdaptiveTimes:
@@ -136,19 +137,5 @@ def adaptive_times(end: float, tolerance: float) -> AdaptiveTimes:
     return AdaptiveTimes(end, tolerance)
 
 
-def _instant(name: str, value: object) -> float:
-    """A positive, finite time, or a ValueError [s]."""
-    instant = as_real(value)
-    if instant is None or not (math.isfinite(instant) and instant > 0):
-        raise ValueError(f"{name} must be a positive, finite time in s, got {value!r}")
-    return instant
-
-
 def _steps(n: object) -> int:
-    """A number of steps as an int, or a ValueError."""
-    steps = as_real(n)
-    if steps is None or not (steps.is_integer() and steps >= 1):
-        raise ValueError(f"n, the number of steps, must be a whole number >= 1, got {n!r}")
-    if steps > _MAX_STEPS:
-        raise ValueError(f"n, the number of steps, must be at most {_MAX_STEPS}, got {n!r}")
-    return int(steps)
+    return whole("n, the number of steps,", n, 1, _MAX_STEPS)
