@@ -11,7 +11,7 @@ from viscontact.checks.half_space_theory import SINGULAR_KINDS
 from viscontact.checks.mesh import WARNING_CELLS
 from viscontact.meshing.elastic_estimate import ContactEstimate
 from viscontact.results.stated_errors import MESH_DEPENDENT
-from viscontact.runs.forecast import Forecast, forecast
+from viscontact.runs.forecast import Forecast
 from viscontact.runs.preparation import PreparedRun
 from viscontact.simulation.setup import RunSetup
 from viscontact.units.formatting import format_number, format_quantity
@@ -21,14 +21,6 @@ LARGEST_LOAD_FRACTION = 0.999
 
 #: Ends of the body up to this multiple of the grid are drawn as well.
 FARTHEST_END = 1.3
-
-
-def predicted(prepared: PreparedRun) -> Forecast:
-    """Return the forecast of a checked case; CaseError if no contact can carry the load."""
-    try:
-        return forecast(prepared.run, errors=prepared.case.errors)
-    except ValueError as error:
-        raise prepared.case.error(str(error)) from error
 
 
 def verdict(prepared: PreparedRun, expected: Forecast) -> str:

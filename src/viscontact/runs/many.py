@@ -20,6 +20,7 @@ from viscontact.materials.material import Material
 from viscontact.runs.free_memory import available_memory
 from viscontact.runs.resources import PROGRAM, fitting, least_memory
 from viscontact.runs.single import simulate
+from viscontact.units.numbers import whole
 
 #: Specification of a run: arguments of `simulate` by name, or a function that returns a result.
 Recipe = Mapping[str, Any] | Callable[[], xr.Dataset]
@@ -102,9 +103,7 @@ def simulate_many(
 def _checked(workers: int | None) -> int:
     if workers is None:
         return os.cpu_count() or 1
-    if isinstance(workers, bool) or not isinstance(workers, int) or workers < 1:
-        raise ValueError(f"workers must be a whole number of processes, 1 or more, got {workers!r}")
-    return workers
+    return whole("workers", workers, 1)
 
 
 def _affordable(recipes: list[Recipe], wanted: int) -> int:
@@ -124,9 +123,10 @@ def _affordable(recipes: list[Recipe], wanted: int) -> int:
 
 def _least_memory(recipe: Recipe) -> float:
     given = {} if callable(recipe) else recipe
-    grid, material = given.get("grid"), given.get("material")
-    if isinstance(grid, Grid) and isinstance(material, Material):
-        return least_memory(grid, material)
+    grid, bodies = given.get("grid"), (given.get("material"), given.get("indenter_material"))
+    compliances = [body.contact_compliance() for body in bodies if isinstance(body, Material)]
+    if isinstance(grid, Grid) and compliances:
+        return least_memory(grid, sum(compliances[1:], start=compliances[0]))
     return PROGRAM
 
 

@@ -1,4 +1,4 @@
-"""Checked run of a case, refused if it needs more memory than is free."""
+"""Checked run of a case and its forecast; refused if it needs more memory than is free."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from viscontact.case import Case
 from viscontact.grid import Grid
+from viscontact.runs.forecast import Forecast, forecast
 from viscontact.runs.free_memory import available_memory
 from viscontact.runs.resources import least_memory, needed_memory
 from viscontact.simulation.setup import RunSetup, prepare_run
@@ -31,6 +32,14 @@ def prepared(case: Case, threads: int = 1) -> PreparedRun:
     return PreparedRun(case, run)
 
 
+def predicted(prepared: PreparedRun) -> Forecast:
+    """Return the forecast of a checked case; CaseError if no contact can carry the load."""
+    try:
+        return forecast(prepared.run, errors=prepared.case.errors)
+    except ValueError as error:
+        raise prepared.case.error(str(error)) from error
+
+
 def _prepared_run(case: Case, threads: int) -> RunSetup:
     try:
         return prepare_run(case, threads)
@@ -42,7 +51,7 @@ def _refuse_beyond_memory(case: Case) -> None:
     """Refuse a grid that is too large before arrays of its size are allocated."""
     if not isinstance(case.grid, Grid):
         return
-    _refuse_beyond(case, case.grid, least_memory(case.grid, case.material))
+    _refuse_beyond(case, case.grid, least_memory(case.grid, case.compliance))
 
 
 def _refuse_beyond(case: Case, grid: Grid, needed: float) -> None:

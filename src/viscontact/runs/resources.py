@@ -6,8 +6,7 @@ from collections.abc import Iterable
 from itertools import accumulate
 
 from viscontact.grid import Grid
-from viscontact.materials.compliance import SeriesCompliance
-from viscontact.materials.material import Material
+from viscontact.materials.compliance import ContactCompliance, SeriesCompliance
 from viscontact.simulation.setup import RunSetup
 
 #: Memory of the program [bytes], and number of grid-sized arrays of a run, both measured for a body
@@ -38,15 +37,15 @@ def needed_memory(grid: Grid, fields_kept: int) -> float:
     return PROGRAM + 8.0 * float(nx) * float(ny) * (WORK_ARRAYS + ARRAYS_PER_TERM * fields_kept)
 
 
-def least_memory(grid: Grid, material: Material) -> float:
+def least_memory(grid: Grid, compliance: ContactCompliance) -> float:
     """Lower bound of the memory of a run [bytes], known before it is set up.
 
     >>> from viscontact.laws import Zener
+    >>> from viscontact.materials.material import Material
     >>> rubber = Material(Zener(1e6, 1e6, 1e6), poisson_ratio=0.5)
-    >>> round(least_memory(Grid((1000, 1000), (1.0, 1.0)), rubber) / 1e6)
+    >>> round(least_memory(Grid((1000, 1000), (1.0, 1.0)), rubber.contact_compliance()) / 1e6)
     732
     """
-    compliance = material.contact_compliance()
     # The fields that other laws store depend on the steps, which are not known yet.
     terms = len(compliance.times) if isinstance(compliance, SeriesCompliance) else 1
     return needed_memory(grid, terms)

@@ -15,12 +15,11 @@ from viscontact.runs.check_report import (
     drawn_size,
     expectations,
     needs,
-    predicted,
     verdict,
     warnings_of,
 )
 from viscontact.runs.forecast import Forecast
-from viscontact.runs.preparation import PreparedRun
+from viscontact.runs.preparation import PreparedRun, predicted
 
 #: Width of the first column, so that the values of both lists are aligned.
 _NAMES = len("peak pressure")
