@@ -45,7 +45,7 @@ def main() -> None:
     load = vc.harmonic(FORCE, FORCE / 2, PERIOD, int(np.ceil(options.steps / 128)))
     case = (vc.Paraboloid(RADIUS, RADIUS), material, load, grid)
     times = vc.uniform_times(end, options.steps)
-    plan = prepare_run(Problem(*case, times)).memory
+    plan = prepare_run(Problem(*case, times)).hereditary
     print(f"{options.cells} x {options.cells} cells, {options.steps} steps, one thread")
     print(f"memory: {plan.method}; {plan.fields_kept} fields; error {plan.error:.1e}")
     print(f"{peak_memory():8.0f} MiB before the first step")

@@ -20,12 +20,12 @@ from viscontact.fourier import Transforms
 #: Functions that create arrays, or return them without their subclass.
 MADE = ("zeros", "empty", "ones", "full", "array", "asarray", "ascontiguousarray", "empty_like")
 TRANSFORMS = (
-    "real_forth",
-    "real_back",
-    "complex_forth",
-    "complex_back",
-    "cosine_forth",
-    "cosine_back",
+    "real_forward",
+    "real_inverse",
+    "complex_forward",
+    "complex_inverse",
+    "cosine_forward",
+    "cosine_inverse",
 )
 
 #: Called with the bytes moved and the bytes of a new array (0: none).

@@ -41,27 +41,27 @@ class Transforms(ABC):
         self.threads = threads
 
     @abstractmethod
-    def real_forth(self, field: Field, into: Field, axis: int) -> Field:
+    def real_forward(self, field: Field, into: Field, axis: int) -> Field:
         """Fourier transform of a real field, whose half of the spectrum is put into an array."""
 
     @abstractmethod
-    def real_back(self, spectrum: Field, spare: Field, axis: int) -> Field:
+    def real_inverse(self, spectrum: Field, spare: Field, axis: int) -> Field:
         """Real field, of a spare array's shape, of half a spectrum; both arrays may be used up."""
 
     @abstractmethod
-    def complex_forth(self, field: Field, axis: int) -> Field:
+    def complex_forward(self, field: Field, axis: int) -> Field:
         """Fourier transform of a complex field, in place."""
 
     @abstractmethod
-    def complex_back(self, spectrum: Field, axis: int) -> Field:
+    def complex_inverse(self, spectrum: Field, axis: int) -> Field:
         """Complex field of a spectrum, in place."""
 
     @abstractmethod
-    def cosine_forth(self, field: Field, axis: int) -> Field:
+    def cosine_forward(self, field: Field, axis: int) -> Field:
         """Cosine transform (DCT-II) of a real field, in place."""
 
     @abstractmethod
-    def cosine_back(self, spectrum: Field, axis: int) -> Field:
+    def cosine_inverse(self, spectrum: Field, axis: int) -> Field:
         """Real field of a cosine transform, in place."""
 
 
@@ -70,36 +70,36 @@ class SciPyTransforms(Transforms):
 
     Examples
     --------
-    >>> SciPyTransforms().cosine_forth(np.ones((1, 3)), axis=1).tolist()
+    >>> SciPyTransforms().cosine_forward(np.ones((1, 3)), axis=1).tolist()
     [[6.0, 0.0, 0.0]]
     """
 
     name = "scipy"
 
-    def real_forth(self, field: Field, into: Field, axis: int) -> Field:
-        """See `Transforms.real_forth`."""
+    def real_forward(self, field: Field, into: Field, axis: int) -> Field:
+        """See `Transforms.real_forward`."""
         into[...] = fft.rfft(field, axis=axis, workers=self.threads)
         return into
 
-    def real_back(self, spectrum: Field, spare: Field, axis: int) -> Field:
-        """See `Transforms.real_back`."""
+    def real_inverse(self, spectrum: Field, spare: Field, axis: int) -> Field:
+        """See `Transforms.real_inverse`."""
         length = spare.shape[axis]
         return np.asarray(fft.irfft(spectrum, length, axis=axis, workers=self.threads))
 
-    def complex_forth(self, field: Field, axis: int) -> Field:
-        """See `Transforms.complex_forth`."""
+    def complex_forward(self, field: Field, axis: int) -> Field:
+        """See `Transforms.complex_forward`."""
         return np.asarray(fft.fft(field, axis=axis, overwrite_x=True, workers=self.threads))
 
-    def complex_back(self, spectrum: Field, axis: int) -> Field:
-        """See `Transforms.complex_back`."""
+    def complex_inverse(self, spectrum: Field, axis: int) -> Field:
+        """See `Transforms.complex_inverse`."""
         return np.asarray(fft.ifft(spectrum, axis=axis, overwrite_x=True, workers=self.threads))
 
-    def cosine_forth(self, field: Field, axis: int) -> Field:
-        """See `Transforms.cosine_forth`."""
+    def cosine_forward(self, field: Field, axis: int) -> Field:
+        """See `Transforms.cosine_forward`."""
         return np.asarray(fft.dct(field, 2, axis=axis, overwrite_x=True, workers=self.threads))
 
-    def cosine_back(self, spectrum: Field, axis: int) -> Field:
-        """See `Transforms.cosine_back`."""
+    def cosine_inverse(self, spectrum: Field, axis: int) -> Field:
+        """See `Transforms.cosine_inverse`."""
         return np.asarray(fft.idct(spectrum, 2, axis=axis, overwrite_x=True, workers=self.threads))
 
 
@@ -108,13 +108,13 @@ class DuccTransforms(Transforms):
 
     name = "ducc0"
 
-    def real_forth(self, field: Field, into: Field, axis: int) -> Field:
-        """See `Transforms.real_forth`."""
+    def real_forward(self, field: Field, into: Field, axis: int) -> Field:
+        """See `Transforms.real_forward`."""
         ducc0.fft.r2c(field, axes=(axis,), out=into, nthreads=self.threads)
         return into
 
-    def real_back(self, spectrum: Field, spare: Field, axis: int) -> Field:
-        """See `Transforms.real_back`."""
+    def real_inverse(self, spectrum: Field, spare: Field, axis: int) -> Field:
+        """See `Transforms.real_inverse`."""
         ducc0.fft.c2r(
             spectrum,
             axes=(axis,),
@@ -127,24 +127,24 @@ class DuccTransforms(Transforms):
         )
         return spare
 
-    def complex_forth(self, field: Field, axis: int) -> Field:
-        """See `Transforms.complex_forth`."""
+    def complex_forward(self, field: Field, axis: int) -> Field:
+        """See `Transforms.complex_forward`."""
         ducc0.fft.c2c(field, axes=(axis,), out=field, nthreads=self.threads)
         return field
 
-    def complex_back(self, spectrum: Field, axis: int) -> Field:
-        """See `Transforms.complex_back`."""
+    def complex_inverse(self, spectrum: Field, axis: int) -> Field:
+        """See `Transforms.complex_inverse`."""
         options = {"forward": False, "inorm": 2, "nthreads": self.threads}
         ducc0.fft.c2c(spectrum, axes=(axis,), out=spectrum, **options)
         return spectrum
 
-    def cosine_forth(self, field: Field, axis: int) -> Field:
-        """See `Transforms.cosine_forth`."""
+    def cosine_forward(self, field: Field, axis: int) -> Field:
+        """See `Transforms.cosine_forward`."""
         ducc0.fft.dct(field, type=2, axes=(axis,), out=field, nthreads=self.threads)
         return field
 
-    def cosine_back(self, spectrum: Field, axis: int) -> Field:
-        """See `Transforms.cosine_back`."""
+    def cosine_inverse(self, spectrum: Field, axis: int) -> Field:
+        """See `Transforms.cosine_inverse`."""
         ducc0.fft.dct(spectrum, type=3, axes=(axis,), inorm=2, out=spectrum, nthreads=self.threads)
         return spectrum
 

@@ -54,7 +54,7 @@ def test_a_swing_from_zero_to_zero_is_refused_where_its_crest_lies_outside_the_b
 def test_a_run_that_chooses_its_steps_counts_on_remembering_many():
     # Five hundred steps and the first jump, each with a pressure and a deflection.
     run = prepare_run(Problem(BALL, POWER, vc.ramp(1e-3, 1.0), GRID, vc.adaptive_times(10.0, 1e-3)))
-    assert run.memory.fields_kept == 501
+    assert run.hereditary.fields_kept == 501
 
 
 @given(

@@ -86,11 +86,12 @@ def test_threads_change_transforms_by_rounding_only(threads, library):
                 half = tuple(n // 2 + 1 if k == axis else n for k, n in enumerate(shape))
                 both = []
                 for by in (transforms_by(library), transforms_by(library, threads)):
-                    there = by.real_forth(field.copy(), np.empty(half, pair), axis).copy()
-                    back = by.real_back(there.copy(), np.empty(shape, number), axis)
-                    onwards = by.complex_back(by.complex_forth(there.copy(), 1 - axis), 1 - axis)
+                    there = by.real_forward(field.copy(), np.empty(half, pair), axis).copy()
+                    back = by.real_inverse(there.copy(), np.empty(shape, number), axis)
+                    forward = by.complex_forward(there.copy(), 1 - axis)
+                    onwards = by.complex_inverse(forward, 1 - axis)
                     pairs = as_reals(there.copy())
-                    even = by.cosine_back(by.cosine_forth(pairs, 1 - axis), 1 - axis)
+                    even = by.cosine_inverse(by.cosine_forward(pairs, 1 - axis), 1 - axis)
                     both.append([there, back, onwards.copy(), even])
                 for one, several in zip(*both, strict=True):
                     rounding = 20 * np.finfo(number).eps * np.abs(one).max()

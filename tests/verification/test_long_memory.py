@@ -75,7 +75,7 @@ def test_a_sum_of_exponentials_is_as_good_as_it_says(name, monkeypatch):
     case = (BALL, body.material, load, grid, times)
 
     def marched():
-        plan = prepare_run(Problem(*case)).memory
+        plan = prepare_run(Problem(*case)).hereditary
         return plan, list(vc.march(*case, tolerance=1e-10))
 
     exact, kept = marched()
@@ -100,10 +100,10 @@ def test_memory_of_ten_thousand_steps_is_bounded_and_says_so():
     grid = vc.Grid((256, 256), (1e-3, 1e-3))
     for steps in (3000, 10_000, 100_000):
         times = vc.uniform_times(1000.0, steps)
-        plan = prepare_run(Problem(BALL, body.material, vc.step(FORCE), grid, times)).memory
+        plan = prepare_run(Problem(BALL, body.material, vc.step(FORCE), grid, times)).hereditary
         assert plan.fields_kept <= 40
         assert plan.error < 1e-6
-        assert str(len(plan.memory((1,)).restart_data()["fields"])) in plan.method
+        assert str(len(plan.integral((1,)).restart_data()["fields"])) in plan.method
 
 
 @pytest.mark.slow

@@ -15,7 +15,7 @@ from viscontact.grid import Grid
 from viscontact.materials.compliance import ContactCompliance
 from viscontact.results.variables import scalars_with_error
 from viscontact.simulation.march import March
-from viscontact.simulation.setup import RunSetup, plan_memory
+from viscontact.simulation.setup import RunSetup, plan_history
 from viscontact.state import ContactState
 from viscontact.time_integration.fixed_steps import plan_steps
 
@@ -64,12 +64,14 @@ def plan_coarser_runs(run: RunSetup, history: History) -> Iterator[CoarserRun]:
     bodies creep, a third one has halved steps on the coarsest grid.
     """
     times = history["time"]
-    paces = _paces(len(plan_steps(times, run.problem.load)))
+    step_ratios = _step_ratios(len(plan_steps(times, run.problem.load)))
     spacings = _spacings(float(history["cells_across"].max(initial=0.0)))
-    for (spacing, alike), step_ratio in zip(reversed(spacings), reversed(paces), strict=True):
+    for (spacing, parity), step_ratio in zip(
+        reversed(spacings), reversed(step_ratios), strict=True
+    ):
         kept = times[::-1][::step_ratio][::-1]
-        yield _coarser_run(run, spacing, alike, float(step_ratio), kept)
-    if paces[-1] == 1 and _creeps(run.problem.compliance, times):
+        yield _coarser_run(run, spacing, parity, float(step_ratio), kept)
+    if step_ratios[-1] == 1 and _creeps(run.problem.compliance, times):
         instants = np.unique([0.0, *(step.time for step in plan_steps(times, run.problem.load))])
         middles = (instants[1:] + instants[:-1]) / 2
         yield _coarser_run(run, *spacings[-1], 0.5, np.union1d(times, middles))
@@ -83,25 +85,26 @@ def usual_coarsening(steps: int) -> tuple[tuple[float, int], ...]:
     >>> usual_coarsening(60)
     ((1.5, 2), (2.4, 4))
     """
-    paces = _paces(steps)
+    step_ratios = _step_ratios(steps)
     return tuple(
-        (spacing, step_ratio) for (spacing, _), step_ratio in zip(CELL_RATIOS, paces, strict=True)
+        (spacing, step_ratio)
+        for (spacing, _), step_ratio in zip(CELL_RATIOS, step_ratios, strict=True)
     )
 
 
-def _paces(steps: int) -> tuple[int, int]:
-    return next(paces for least, paces in STEP_RATIOS if steps >= least)
+def _step_ratios(steps: int) -> tuple[int, int]:
+    return next(step_ratios for least, step_ratios in STEP_RATIOS if steps >= least)
 
 
-def coarser_grid(grid: Grid, spacing: float, alike: bool) -> Grid:
-    """Grid of cells larger by a factor over the same region; `alike` keeps even numbers even.
+def coarser_grid(grid: Grid, spacing: float, parity: bool) -> Grid:
+    """Grid of cells larger by a factor over the same region; `parity`: even numbers stay even.
 
     It extends at least one cell further, so that the contact does not touch its rim; a period keeps
     its size.
 
     Examples
     --------
-    >>> coarser_grid(Grid((30, 31), (30.0, 31.0)), 2.0, alike=True)
+    >>> coarser_grid(Grid((30, 31), (30.0, 31.0)), 2.0, parity=True)
     Grid(shape=(16, 17), size=(32.0, 34.0), periodic=False)
     """
     if grid.periodic:
@@ -110,7 +113,7 @@ def coarser_grid(grid: Grid, spacing: float, alike: bool) -> Grid:
     shape = []
     for count in grid.shape:
         coarse = max(4, int(np.ceil(count / spacing - 1e-9)) + 1)
-        shape.append(coarse + ((coarse - count) % 2 == alike))
+        shape.append(coarse + ((coarse - count) % 2 == parity))
     cells = [spacing * cell for cell in grid.cell_size]
     size = (shape[0] * cells[0], shape[1] * cells[1])
     return replace(grid, shape=(shape[0], shape[1]), size=size)
@@ -152,12 +155,14 @@ def march_coarser_run(
 
 
 #: Scalars of a state that are used to estimate its errors.
-SCALARS = ("time", *scalars_with_error(), "cells_across")
+HISTORY_NAMES = ("time", *scalars_with_error(), "cells_across")
 
 
 def history_of(states: Sequence[ContactState]) -> History:
     """Scalars of states over their instants."""
-    return {name: np.array([getattr(state, name) for state in states], float) for name in SCALARS}
+    return {
+        name: np.array([getattr(state, name) for state in states], float) for name in HISTORY_NAMES
+    }
 
 
 def _spacings(across: float) -> tuple[tuple[float, bool], ...]:
@@ -165,7 +170,7 @@ def _spacings(across: float) -> tuple[tuple[float, bool], ...]:
     coarsest = CELL_RATIOS[-1][0]
     most = min(coarsest, max(across / MIN_ACROSS, MIN_COARSENING))
     closer = (most - 1) / (coarsest - 1)
-    return tuple((1 + (spacing - 1) * closer, alike) for spacing, alike in CELL_RATIOS)
+    return tuple((1 + (spacing - 1) * closer, parity) for spacing, parity in CELL_RATIOS)
 
 
 def _creeps(compliance: ContactCompliance, times: NDArray[np.float64]) -> bool:
@@ -173,14 +178,14 @@ def _creeps(compliance: ContactCompliance, times: NDArray[np.float64]) -> bool:
 
 
 def _coarser_run(
-    run: RunSetup, spacing: float, alike: bool, step_ratio: float, times: NDArray[np.float64]
+    run: RunSetup, spacing: float, parity: bool, step_ratio: float, times: NDArray[np.float64]
 ) -> CoarserRun:
-    coarse = run.on(coarser_grid(run.grid, spacing, alike))
+    coarse = run.on(coarser_grid(run.grid, spacing, parity))
     problem = replace(
         run.problem, grid=coarse.grid, times=times, fields="none", step_ratio=max(1.0, step_ratio)
     )
-    memory = plan_memory(problem, coarse.open_gap, coarse.grid)
-    return CoarserRun(spacing, step_ratio, replace(coarse, problem=problem, memory=memory))
+    plan = plan_history(problem, coarse.open_gap, coarse.grid)
+    return CoarserRun(spacing, step_ratio, replace(coarse, problem=problem, hereditary=plan))
 
 
 def _peaks_at_point(coarser_run: CoarserRun, state: ContactState) -> bool:

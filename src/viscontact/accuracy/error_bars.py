@@ -43,18 +43,25 @@ class ErrorModel:
     #: Safety factor, calibrated on exact solutions (tests/verification/test_error_bars.py) so that
     #: 95 of 100 errors are smaller [-].
     factor: float
+    at_end: ErrorModel | None = None  # where contact reaches the body's end
+    of_spots: ErrorModel | None = None  # where contact consists of spots of few cells
 
     def of(self, levels: RefinementLevels) -> Array:
         """Error from the cells."""
         return self.factor * levels.by_cells(self.order)
 
 
-_BULK, _AREA, _EXTENT, _PEAK = (
-    ErrorModel(2.0, 1.5),
-    ErrorModel(2.0, 2.0),
-    ErrorModel(1.0, 0.75),
-    ErrorModel(2.0, 2.0),
-)
+#: Approach, force and work, also where a contact reaches the end of a body: pressure is singular
+#: there, and the cells approximate the end by a staircase.
+_BULK = ErrorModel(2.0, 1.5, at_end=ErrorModel(0.7, 1.2))
+
+#: Area and peak, also where contact consists of spots of fewer cells across, in the mean: some of
+#: them exist on one grid only. Calibrated on self-affine surfaces, 2 to 9 cells across.
+COARSE_SPOT_CELLS = 8.0
+_AREA = ErrorModel(2.0, 2.0, of_spots=ErrorModel(1.0, 1.5))
+_PEAK = ErrorModel(2.0, 2.0, of_spots=ErrorModel(2.0, 4.0))
+
+_EXTENT = ErrorModel(1.0, 0.75)
 
 #: Error models of the scalars. Pressure is smooth except at the rim, which lies between cells.
 ERROR_MODELS = {
@@ -72,15 +79,6 @@ ERROR_MODELS = {
     "work": _BULK,
     "loss_per_cycle": _BULK,
 }
-
-#: Model of approach, force and work where a contact reaches the end of a body: pressure is singular
-#: there, and the cells approximate the end by a staircase.
-BODY_END_MODEL = ErrorModel(0.7, 1.2)
-
-#: Models of area and peak where contact consists of spots of fewer cells across, in the mean: some
-#: of them exist on one grid only. Calibrated on self-affine surfaces, 2 to 9 cells across.
-COARSE_SPOT_CELLS = 8.0
-SPOT_MODEL, SPOT_PEAK_MODEL = ErrorModel(1.0, 1.5), ErrorModel(2.0, 4.0)
 
 #: Smallest error of extents in cells, however well two grids agree; with spots of few cells, or
 #: singular pressure at the rim.
@@ -166,7 +164,7 @@ def error_bars_from(run: RunSetup, history: History, results: Iterable[CoarserRe
         return unknown_bars(len(history["time"]))
     at_end = moving_maximum(end_flags(history["time"], found)) > 0
     of_spots = moving_minimum(spots_across(history["time"], found)) < COARSE_SPOT_CELLS
-    places = _Places(at_end, of_spots)
+    places = _ContactKinds(at_end, of_spots)
     values = {
         name: _bar(run, name, RefinementLevels.of(name, history, found), places, history)
         for name in ERROR_MODELS
@@ -193,7 +191,7 @@ def unknown_bars(count: int) -> ErrorBars:
 
 
 @dataclass(frozen=True, eq=False)
-class _Places:
+class _ContactKinds:
     """Times at which a contact reaches the body's end, and consists of spots of few cells."""
 
     at_end: NDArray[np.bool_]
@@ -201,24 +199,23 @@ class _Places:
 
 
 def _bar(
-    run: RunSetup, name: str, levels: RefinementLevels, places: _Places, history: History
+    run: RunSetup, name: str, levels: RefinementLevels, places: _ContactKinds, history: History
 ) -> Array:
     """Half width of the bars of one scalar over the run's times."""
     own = np.abs(levels.values[0])
     scale = moving_maximum(own)
-    by_cells = ERROR_MODELS[name].of(levels)
-    if ERROR_MODELS[name] is _BULK:
-        by_cells = np.where(places.at_end, BODY_END_MODEL.of(levels), by_cells)
-    if ERROR_MODELS[name] is _AREA:
-        by_cells = np.where(places.of_spots, SPOT_MODEL.of(levels), by_cells)
-    if ERROR_MODELS[name] is _PEAK:
-        by_cells = np.where(places.of_spots, SPOT_PEAK_MODEL.of(levels), by_cells)
+    model = ERROR_MODELS[name]
+    by_cells = model.of(levels)
+    if model.at_end is not None:
+        by_cells = np.where(places.at_end, model.at_end.of(levels), by_cells)
+    if model.of_spots is not None:
+        by_cells = np.where(places.of_spots, model.of_spots.of(levels), by_cells)
     nothing = np.where(np.isnan(by_cells), np.nan, 0.0)
     parts = [
         moving_maximum(np.divide(part, scale, out=nothing.copy(), where=scale > 0))
         for part in (by_cells, levels.by_steps)
     ]
-    solver = SOLVER_ERROR_FACTOR * run.problem.tolerance + run.memory.error
+    solver = SOLVER_ERROR_FACTOR * run.problem.tolerance + run.hereditary.error
     solver += run.problem.compliance.inversion_error
     bar = (parts[0] + np.nan_to_num(parts[1]) + solver) * scale
     bar = np.maximum(
@@ -228,7 +225,7 @@ def _bar(
 
 
 def _least_bar(
-    run: RunSetup, name: str, differs: NDArray[np.bool_], places: _Places, history: History
+    run: RunSetup, name: str, differs: NDArray[np.bool_], places: _ContactKinds, history: History
 ) -> Array | float:
     """Lower limit of the bars: parts of a cell for extents, the balance of moments for tilts."""
     if name in EXTENTS:

@@ -12,11 +12,17 @@ from viscontact.grid import Grid
 from viscontact.loads import LoadHistory, LoadPoint
 from viscontact.loads.arguments import TAIL
 from viscontact.problem.problem import Problem
+from viscontact.time_integration.run_times import field_instants
 from viscontact.units.formatting import format_quantity
 
 #: Instants at which a law is looked at before it is used, and a fall that is not rounding or the
 #: error of a conversion.
 CREEP_SAMPLES, NOTABLE_FALL = 200, 0.01
+
+
+def check_times(problem: Problem) -> None:
+    """Refuse times that are not in order, and fields at times without a state."""
+    field_instants(problem.fields, problem.instants)
 
 
 def check_magnitudes(problem: Problem) -> None:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 class WarningCollector:
     """Accuracy warnings by kind, each issued once."""
 
-    said: dict[str, str] = field(default_factory=dict)  # sentences issued so far, by kind
+    issued: dict[str, str] = field(default_factory=dict)  # sentences issued so far, by kind
 
     def new(self, *found: dict[str, str]) -> tuple[str, ...]:
         """Keep the sentences of kinds that have not been issued yet, and return them."""
@@ -17,7 +17,7 @@ class WarningCollector:
             kind: text
             for warnings in found
             for kind, text in warnings.items()
-            if kind not in self.said
+            if kind not in self.issued
         }
-        self.said.update(fresh)
+        self.issued.update(fresh)
         return tuple(fresh.values())

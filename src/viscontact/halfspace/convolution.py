@@ -91,21 +91,23 @@ class Convolution:
         transforms, spectrum, second = self._transforms, self._spectrum, self._second
         lines = _within(spectrum, self.shape, second)
         if self._even[self._first]:
-            lines[...] = transforms.cosine_forth(block, self._first)
+            lines[...] = transforms.cosine_forward(block, self._first)
         else:
-            transforms.real_forth(block, lines, self._first)
+            transforms.real_forward(block, lines, self._first)
         _beyond(spectrum, self.shape, second)[...] = 0
-        spectrum = self._along_second(transforms.cosine_forth, transforms.complex_forth, spectrum)
+        ways = transforms.cosine_forward, transforms.complex_forward
+        spectrum = self._along_second(*ways, spectrum)
         spectrum *= self._symbol
         return spectrum
 
     def _back(self, spectrum: NDArray[Any]) -> NDArray[Any]:
         transforms = self._transforms
-        spectrum = self._along_second(transforms.cosine_back, transforms.complex_back, spectrum)
+        ways = transforms.cosine_inverse, transforms.complex_inverse
+        spectrum = self._along_second(*ways, spectrum)
         lines = _within(spectrum, self.shape, self._second)
         if self._even[self._first]:
-            return transforms.cosine_back(lines, self._first)
-        return transforms.real_back(lines, self._block, self._first)
+            return transforms.cosine_inverse(lines, self._first)
+        return transforms.real_inverse(lines, self._block, self._first)
 
     def _along_second(
         self,

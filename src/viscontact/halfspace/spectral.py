@@ -102,20 +102,20 @@ class Spectra:
 
     def _forth(self, block: NDArray[Any]) -> NDArray[Any]:
         for axis in self._even:
-            block = self._transforms.cosine_forth(block, axis)
+            block = self._transforms.cosine_forward(block, axis)
         if self._fourier:
-            block = self._transforms.real_forth(block, self._spectrum, self._fourier[0])
+            block = self._transforms.real_forward(block, self._spectrum, self._fourier[0])
         for axis in self._fourier[1:]:
-            block = self._transforms.complex_forth(block, axis)
+            block = self._transforms.complex_forward(block, axis)
         return block
 
     def _back(self, spectrum: NDArray[Any]) -> NDArray[Any]:
         for axis in self._fourier[1:]:
-            spectrum = self._transforms.complex_back(spectrum, axis)
+            spectrum = self._transforms.complex_inverse(spectrum, axis)
         if self._fourier:
-            spectrum = self._transforms.real_back(spectrum, self._block, self._fourier[0])
+            spectrum = self._transforms.real_inverse(spectrum, self._block, self._fourier[0])
         for axis in self._even:
-            spectrum = self._transforms.cosine_back(spectrum, axis)
+            spectrum = self._transforms.cosine_inverse(spectrum, axis)
         return spectrum
 
     def _waves(self, axis: int, cells: int, edge: float) -> NDArray[np.float64]:

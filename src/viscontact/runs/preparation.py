@@ -28,7 +28,7 @@ def prepared(case: Case, threads: int = 1) -> PreparedRun:
     """
     _refuse_beyond_memory(case)
     run = _prepared_run(case, threads)
-    _refuse_beyond(case, run.grid, needed_memory(run.grid, run.memory.fields_kept))
+    _refuse_beyond(case, run.grid, needed_memory(run.grid, run.hereditary.fields_kept))
     return PreparedRun(case, run)
 
 

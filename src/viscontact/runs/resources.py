@@ -21,7 +21,7 @@ BYTES_PER_STEP = 2000.0
 def run_memory(run: RunSetup) -> float:
     """Memory of a checked run [bytes], with the scalars of its steps."""
     kept = BYTES_PER_STEP * run.problem.step_count
-    return needed_memory(run.grid, run.memory.fields_kept) + kept
+    return needed_memory(run.grid, run.hereditary.fields_kept) + kept
 
 
 def needed_memory(grid: Grid, fields_kept: int) -> float:

@@ -128,10 +128,10 @@ class March:
     def _enlarge(self, grid: Grid) -> None:
         """Continue from the same state on a larger grid."""
         run = self._run.on(grid)
-        domain = _domain_of(run)
-        self._stepper.map_fields(run, domain)
-        self._observer.map_fields(run, GridEnlargement(self._domain, domain))
-        self._run, self._domain = run, domain
+        enlargement = GridEnlargement(self._domain, _domain_of(run))
+        self._stepper.map_fields(run, enlargement)
+        self._observer.map_fields(run, enlargement)
+        self._run, self._domain = run, enlargement.large
 
     def _complete(self, step: Step, trial: TrialStep) -> ContactState | None:
         solution = self._stepper.accept(step, trial)

@@ -56,11 +56,11 @@ class Observer:
         self._outline = trace_outline(run.problem.indenter, run.grid)
         self._geometry = geometry_of(run.problem, run.open_gap, run.grid)
 
-    def map_fields(self, run: RunSetup, onto: GridEnlargement) -> None:
+    def map_fields(self, run: RunSetup, enlargement: GridEnlargement) -> None:
         """Continue the same run on a larger grid."""
         self._set_geometry(run)
         if self._before is not None:
-            self._before = onto.solution(self._before)
+            self._before = enlargement.solution(self._before)
 
     def evaluate(self, step: Step, point: LoadPoint, solution: StepSolution) -> ContactState:
         """Return the state at the end of a step, still without warnings."""
@@ -105,7 +105,7 @@ class Observer:
         """Return the state after a step as plain data."""
         before = self._before
         return {
-            "said": self._warnings.said,
+            "issued": self._warnings.issued,
             "open": self._open,
             "work": self._work,
             "before": before and vars(before) | {"outcome": int(before.outcome)},
@@ -115,12 +115,12 @@ class Observer:
             "cells_at_largest": self._cells_at_largest,
             "spots_at_largest": self._cells_across_spots(),
             "peak": [self._peak, self._peak_time, self._peak_reported],
-            "looked_at": self._peak_checked,
+            "peak_checked": self._peak_checked,
         }
 
     def restore(self, restart_data: RestartData) -> None:
         """Continue the same run from restart data."""
-        self._warnings.said = dict(restart_data["said"])
+        self._warnings.issued = dict(restart_data["issued"])
         self._open, self._work = dict(restart_data["open"]), restart_data["work"]
         before, point = restart_data["before"], restart_data["point"]
         self._before = (
@@ -134,7 +134,7 @@ class Observer:
         self._cells_at_largest = restart_data["cells_at_largest"]
         self._spots_at_largest = restart_data["spots_at_largest"]
         self._peak, self._peak_time, self._peak_reported = restart_data["peak"]
-        self._peak_checked = restart_data["looked_at"]
+        self._peak_checked = restart_data["peak_checked"]
 
     def _cells_across_spots(self) -> float:
         """Cells across the spots of the largest contact, counted on demand."""

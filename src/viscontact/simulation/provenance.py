@@ -21,8 +21,8 @@ def run_attributes(run: RunSetup) -> dict[str, Any]:
         "case": json.dumps(describe_problem(run.problem, run.grid)),
         "tolerance": run.problem.tolerance,
         "transforms": run.transforms,
-        "memory": run.memory.method,
-        "memory_error": run.memory.error,
+        "memory": run.hereditary.method,
+        "memory_error": run.hereditary.error,
         "inversion_error": run.problem.compliance.inversion_error,
     }
 

@@ -13,6 +13,7 @@ from viscontact.checks.arguments import (
     check_creep,
     check_jumps,
     check_magnitudes,
+    check_times,
     check_touch,
     points_under_load,
 )
@@ -42,7 +43,7 @@ class RunSetup:
         The cells.
     open_gap : ndarray, shape (nx, ny)
         The indenter's gap on the grid [m], +inf outside its outline.
-    memory : HereditaryPlan
+    hereditary : HereditaryPlan
         How the hereditary integral is evaluated.
     mesh : Mesh or None
         What is expected of the grid where it was chosen.
@@ -56,7 +57,7 @@ class RunSetup:
     problem: Problem
     grid: Grid
     open_gap: NDArray[np.float64]
-    memory: HereditaryPlan
+    hereditary: HereditaryPlan
     mesh: Mesh | None
     threads: int
     transforms: str
@@ -98,7 +99,7 @@ def prepare_run(problem: Problem, threads: int = 1) -> RunSetup:
     """
     if not (isinstance(threads, Integral) and 1 <= int(threads) <= 1024):
         raise ValueError(f"threads must be a whole number >= 1, and at most 1024, got {threads!r}")
-    _ = problem.field_instants  # a time without a state is refused
+    check_times(problem)
     check_magnitudes(problem)
     check_creep(problem)
     check_jumps(problem)
@@ -112,8 +113,8 @@ def prepare_run(problem: Problem, threads: int = 1) -> RunSetup:
     check_touch(problem, points[0][1], open_gap, grid)
     check_period(problem.indenter, open_gap, grid, problem.load)
     check_balance(points[1:], open_gap, grid)
-    memory = plan_memory(problem, open_gap, grid)
-    return RunSetup(problem, grid, open_gap, memory, mesh, int(threads), fastest_transforms())
+    plan = plan_history(problem, open_gap, grid)
+    return RunSetup(problem, grid, open_gap, plan, mesh, int(threads), fastest_transforms())
 
 
 def _gap_on(problem: Problem, grid: Grid) -> NDArray[np.float64]:
@@ -126,7 +127,7 @@ def _mirrored(problem: Problem, open_gap: NDArray[np.float64], grid: Grid) -> tu
     return mirrored_axes(open_gap, (problem.load.is_even(0), problem.load.is_even(1)))
 
 
-def plan_memory(problem: Problem, open_gap: NDArray[np.float64], grid: Grid) -> HereditaryPlan:
+def plan_history(problem: Problem, open_gap: NDArray[np.float64], grid: Grid) -> HereditaryPlan:
     """Plan the hereditary integral of a problem on a grid, whose open gap is given [m]."""
     if problem.adaptive is None:
         ends = step_ends(problem.planned_steps)

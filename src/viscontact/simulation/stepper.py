@@ -78,11 +78,11 @@ class Stepper:
 
     def __init__(self, run: RunSetup, domain: ContactDomain) -> None:
         self._run, self._domain = run, domain
-        self._shape = domain.reduce_by_symmetry(run.open_gap)
+        self._open_gap = domain.reduce_by_symmetry(run.open_gap)
         # Of pressure [Pa] and unit displacement K p [Pa m], and of the force [N].
-        self._memory = run.memory.memory((2, *domain.shape))
-        self._force_memory = InternalVariables(run.memory.prony_approximation, (1,))
-        self._errors = TimeErrors(run.memory, run.problem.load)
+        self._memory = run.hereditary.integral((2, *domain.shape))
+        self._force_memory = InternalVariables(run.hereditary.prony_approximation, (1,))
+        self._errors = TimeErrors(run.hereditary, run.problem.load)
         self._scale = 1e-12 * max(run.grid.cell_size)
         self._references: list[ElasticReference] = []
         self._motion = np.zeros(3)
@@ -117,11 +117,11 @@ class Stepper:
         self._references = [ElasticReference(**each) for each in restart_data["references"]]
         self._motion = restart_data["motion"]
 
-    def map_fields(self, run: RunSetup, domain: ContactDomain) -> None:
+    def map_fields(self, run: RunSetup, enlargement: GridEnlargement) -> None:
         """Continue the same run on a larger grid."""
-        mapped = GridEnlargement(self._domain, domain).pairs
-        self._run, self._domain = run, domain
-        self._shape = domain.reduce_by_symmetry(run.open_gap)
+        mapped = enlargement.pairs
+        self._run, self._domain = run, enlargement.large
+        self._open_gap = self._domain.reduce_by_symmetry(run.open_gap)
         self._memory.map_fields(mapped)
         self._errors.map_fields(mapped)
         self._references = [
@@ -137,7 +137,7 @@ class Stepper:
         reference_force = float(force_response.of(_force(point))[0])
         drive = reference_force if point.approach is None else point.approach
         problem = ContactProblem(  # step 2: the history widens the gap
-            self._shape + response.history[1],
+            self._open_gap + response.history[1],
             response.compliance,
             self._domain.reduced_constraints(Constraints.of(point)),
             self._scale,

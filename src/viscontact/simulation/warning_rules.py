@@ -24,7 +24,7 @@ from viscontact.time_integration.fixed_steps import KINK_TOLERANCE, Step
 def setup_warnings(run: RunSetup) -> dict[str, str]:
     """Return the warnings, by kind, that hold for a whole run: law, conversion, chosen mesh."""
     problem = run.problem
-    warnings = law_warnings(run.memory.error, problem.compliance.inversion_error)
+    warnings = law_warnings(run.hereditary.error, problem.compliance.inversion_error)
     if run.mesh is not None:
         warnings |= run.mesh.warnings
     for body in problem.bodies:

@@ -44,7 +44,7 @@ class HereditaryPlan:
             return self.compliance.term_count
         return self.steps
 
-    def memory(self, shape: tuple[int, ...]) -> HereditaryIntegral:
+    def integral(self, shape: tuple[int, ...]) -> HereditaryIntegral:
         """Hereditary integral of a field of this shape, without a history."""
         if isinstance(self.compliance, SeriesCompliance):
             return InternalVariables(self.compliance, shape)

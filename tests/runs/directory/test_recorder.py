@@ -20,7 +20,7 @@ import viscontact as vc
 from viscontact import fourier
 from viscontact.contact.equilibrium import ContactSolution
 from viscontact.problem.problem import Problem
-from viscontact.run_files import PROGRESS_NAME, STATE_NAME
+from viscontact.run_files import PROGRESS_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.checkpoint import (
     LAYOUT,
     Checkpoint,
@@ -389,3 +389,16 @@ def test_a_run_whose_transforms_are_gone_is_not_continued(
     monkeypatch.setattr(fourier, "ducc0", None)
     with pytest.raises(ValueError, match=r"used the Fourier transforms of ducc0.*fast"):
         Recorder.resume(recorded)
+
+
+@pytest.mark.parametrize(("force", "kind"), [(0.1, "f4"), (1e-30, "f8")])
+def test_fields_beyond_single_precision_are_stored_in_double(
+    tmp_path: Path, force: float, kind: str
+) -> None:
+    load, grid = vc.step(force), vc.Grid((16, 16), (2e-3, 2e-3))
+    rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    run = prepare_run(Problem(vc.FlatPunch(5e-4), rubber, load, grid, [0.0]))
+    finish(Recorder(RecordedRun(tmp_path, run, "all")))
+    with xr.open_dataset(tmp_path / RESULT_NAME) as ds:
+        assert ds["pressure"].dtype == np.dtype(kind)
+        assert float(ds["pressure"].max()) > 0

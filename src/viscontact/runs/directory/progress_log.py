@@ -61,8 +61,8 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
     def resume(cls, path: Path, lines: int, reached: float | None) -> Self:
         """Continue a log after some of its lines, the last of them of a given instant [s].
 
-        Lines beyond these are cut off by the next `append`, so that the file is unchanged if the
-        run is refused for another reason.
+        Lines beyond these are cut off by the next `append` or `flush_to_disk`, so that the file
+        is unchanged if the run is refused for another reason.
 
         Raises
         ------
@@ -109,6 +109,7 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
         """Wait until all lines are on the disk; a file that has been removed is written again."""
         if not os.path.lexists(self._path):
             self._write_anew()
+        self._file.truncate(self._file.tell())  # lines beyond the state that was resumed
         os.fsync(self._file.fileno())
 
     def _write_anew(self) -> None:

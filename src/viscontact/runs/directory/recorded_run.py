@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from viscontact.fourier import transforms_by
+from viscontact.problem.problem import Problem
 from viscontact.results.descriptions import describe
 from viscontact.run_files import PROGRESS_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.atomic_files import fresh_name
@@ -89,7 +90,7 @@ class RecordedRun:
             self.fields,
             attributes,
             self.errors,
-            problem.tolerance,
+            problem.tolerance if _fits_single_precision(problem) else 0.0,
         )
 
     @property
@@ -174,3 +175,9 @@ def remove_restart_files(directory: Path) -> None:
         state.unlink()
     for file in (fresh_name(state), *working_files(directory / RESULT_NAME)):
         file.unlink(missing_ok=True)
+
+
+def _fits_single_precision(problem: Problem) -> bool:
+    """True if pressures are far from the ends of single precision's range, 1e-38 to 3e38 Pa."""
+    compliance, level = float(problem.compliance(problem.end)), problem.load.largest_level
+    return 1e-20 <= compliance <= 1e10 and 1e-25 <= level <= 1e15
