@@ -102,12 +102,14 @@ class March:
 
     def _advance(self) -> tuple[Step, TrialStep]:
         """Solve the next step; repeat it on a larger grid, or shorter, where necessary."""
+        # Predict, solve, check, and repeat until the grid holds the contact and the step control
+        # accepts the error (Hairer, Norsett & Wanner, Solving ODEs I, II.4).
         while True:
             step = self._steps.next_step()
             assert step is not None  # the caller has seen one, and a refused one is replaced
             trial = self._stepper.trial(step)
             if self._outgrows(step, trial):
-                continue
+                continue  # the same step again, on the larger grid
             failed = trial.outcome is Outcome.NOT_CONVERGED
             if failed or self._steps.accept_step(trial.error.relative):
                 return step, trial

@@ -64,12 +64,16 @@ class Observer:
 
     def evaluate(self, step: Step, point: LoadPoint, solution: StepSolution) -> ContactState:
         """Return the state at the end of a step, still without warnings."""
+        # Cells in contact, and the rim within cells, from the gap beside them.
         contact = solution.pressure > 0
         rim = trace_rim(self._run.grid, contact, solution.gap, self._outline)
+        # Work since the step before, and the loss of a cycle that ends here.
         self._work += self._work_of(point, solution)
         self._cycles.record_work(step, self._work)
         self._collect_warnings(step, solution, rim)
         state = _state(step, solution, rim, self._work, self._cycles.last_loss)
+        # Kept for the end: the mesh is judged at the largest contact, and a peak between
+        # requested times is reported.
         if state.contact_area > self._largest_area:
             self._largest_area, self._cells_at_largest = state.contact_area, state.cells_across
             self._largest = contact

@@ -99,20 +99,24 @@ def prepare_run(problem: Problem, threads: int = 1) -> RunSetup:
     """
     if not (isinstance(threads, Integral) and 1 <= int(threads) <= 1024):
         raise ValueError(f"threads must be a whole number >= 1, and at most 1024, got {threads!r}")
+    # 1. Refuse what can be refused without a grid: times, magnitudes, creep law, jumps.
     check_times(problem)
     check_magnitudes(problem)
     check_creep(problem)
     check_jumps(problem)
     points = points_under_load(problem)
+    # 2. Take the given grid, or choose one by elastic trial contacts.
     if isinstance(problem.grid, Grid):
         mesh, grid = None, problem.grid
     else:
         mesh = choose_mesh(problem, problem.end)
         grid = mesh.grid
+    # 3. Refuse what the body on this grid cannot carry.
     open_gap = _gap_on(problem, grid)
     check_touch(problem, points[0][1], open_gap, grid)
     check_period(problem.indenter, open_gap, grid, problem.load)
     check_balance(points[1:], open_gap, grid)
+    # 4. Plan the hereditary integral: internal variables, or the whole history.
     plan = plan_history(problem, open_gap, grid)
     return RunSetup(problem, grid, open_gap, plan, mesh, int(threads), fastest_transforms())
 
