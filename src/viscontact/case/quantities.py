@@ -74,7 +74,7 @@ class Quantity:
     ) -> JsonSchemaValue:
         """Return the JSON schema: a text that begins with a number, with an example.
 
-        `x-dimension` leads to the units to suggest, `x-sign` says which values make sense even
+        `x-dimension` leads to the units to suggest, `x-sign` names the allowed sign, even
         where a key has a description of its own; editors skip what begins with x-.
         """
         wanted = DIMENSIONS[self.dimension]

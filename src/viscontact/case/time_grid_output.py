@@ -123,12 +123,12 @@ class Cells(Section):
 
     @model_validator(mode="after")
     def _accepted(self) -> Cells:
-        wish = [name for name in ("tolerance", "quantities") if getattr(self, name) is not None]
+        requests = [name for name in ("tolerance", "quantities") if getattr(self, name) is not None]
         cells = [name for name in ("shape", "size") if getattr(self, name) is not None]
-        if wish and cells:
+        if requests and cells:
             raise ValueError(
-                f"{wish[0]} goes with an automatic grid, which has no {cells[0]} of yours; leave "
-                "out the one or the other"
+                f"{requests[0]} goes with an automatic grid, which has no {cells[0]} of yours; "
+                "leave out the one or the other"
             )
         if self.periodic and not cells:
             raise ValueError(

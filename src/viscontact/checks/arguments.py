@@ -15,7 +15,7 @@ from viscontact.problem.problem import Problem
 from viscontact.time_integration.run_times import field_instants
 from viscontact.units.formatting import format_quantity
 
-#: Instants at which a law is looked at before it is used, and a fall that is not rounding or the
+#: Instants at which a law is evaluated before it is used, and a fall that is not rounding or the
 #: error of a conversion.
 CREEP_SAMPLES, NOTABLE_FALL = 200, 0.01
 

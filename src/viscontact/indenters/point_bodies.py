@@ -87,8 +87,8 @@ class Swept(Indenter):
     Raises
     ------
     ValueError
-        If the points are no line, a half does not begin in the middle, or the length makes no
-        sense.
+        If the points are no line, a half does not begin in the middle, or the half length
+        is not a positive finite number.
 
     Examples
     --------

@@ -51,7 +51,7 @@ class Resolution:
     quantities: tuple[str, ...]  # refined for; without the peak pressure where that has no limit
     cells_needed: float  # estimated number of cells that meet the tolerance
     is_enough: bool = True  # the tolerance is met
-    at_finest: bool = False  # no finer mesh makes sense
+    at_finest: bool = False  # no finer mesh is of use
 
 
 def refine_mesh(

@@ -105,7 +105,7 @@ def _means(heights: Floats, counts: list[int]) -> Floats:
 
 
 def _tones(means: Floats) -> NDArray[np.int_]:
-    """Which of the tones each part has: as many of each; -1 where nothing is known."""
+    """Tone of each part, by quantiles of the known heights; -1 where the height is unknown."""
     known = means[np.isfinite(means)]
     limits = np.quantile(known, np.linspace(0, 1, len(_TONES) + 1)[1:-1])
     return np.where(np.isfinite(means), np.searchsorted(limits, means), -1)

@@ -146,7 +146,7 @@ def _rim(snapshot: Snapshot, length: ReadableUnit) -> dict[str, list[float | Non
 
 
 def _outlined(fields: ShownFields) -> list[int]:
-    """Which instants have their outline drawn: some in contact, from the first to the last."""
+    """Instants whose outline is drawn: some in contact, from the first to the last."""
     touching = [index for index, each in enumerate(fields.snapshots) if each.touching]
     chosen = np.linspace(0, len(touching) - 1, min(_OUTLINES, len(touching))).round().astype(int)
     return [touching[index] for index in chosen]

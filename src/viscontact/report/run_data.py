@@ -1,4 +1,4 @@
-"""A run as plain data for figures that change as they are looked at."""
+"""Plain data of a run for interactive figures."""
 
 from __future__ import annotations
 

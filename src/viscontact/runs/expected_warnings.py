@@ -27,7 +27,7 @@ from viscontact.simulation.warning_rules import (
     setup_warnings,
 )
 
-#: Number of first instants of a run at which a load before the first measured time is looked for.
+#: Number of first instants of a run that are searched for a load before the first measured time.
 FIRST_INSTANTS = 200
 
 

@@ -37,8 +37,8 @@ class Surface(Displayable):
     Raises
     ------
     ValueError
-        If the heights are no map of numbers, are all missing or infinite, or a spacing makes
-        no sense.
+        If the heights are no map of numbers, are all missing or infinite, or a spacing is not
+        a positive finite length.
 
     Notes
     -----
