@@ -1,12 +1,15 @@
-"""Paths of files that a case file names."""
+"""Files that a case file names."""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from pathlib import Path, PurePosixPath, PureWindowsPath
 from typing import Annotated
 
 from pydantic import AfterValidator, ValidationInfo
+
+from viscontact.case.quantities import Section
 
 #: Device names of Windows, with any suffix.
 _DEVICE = re.compile(r"(con|prn|aux|nul|com\d|lpt\d) *(\.|$)", re.IGNORECASE)
@@ -41,5 +44,20 @@ def _is_special(name: str) -> bool:
     return name[-1:] in (".", " ") or bool(_DEVICE.match(name))
 
 
+def is_same_file(one: Path, other: Path) -> bool:
+    """True if two paths, links followed, are the same existing file."""
+    return one.exists() and other.exists() and one.samefile(other)
+
+
 #: The path of a file, relative to the folder of the case file unless it is absolute.
 DataFile = Annotated[str, AfterValidator(beside_the_case)]
+
+
+class FileSection(Section):
+    """Section that may name a file under the key `file`."""
+
+    @property
+    def files(self) -> Mapping[tuple[str, ...], Path]:
+        """Files of the section, by the keys that name them."""
+        name = getattr(self, "file", None)
+        return {} if name is None else {("file",): Path(name)}

@@ -121,6 +121,15 @@ def format_quantity(value: float, unit: str, digits: int = 4) -> str:
     return f"{number} {readable.symbol}".rstrip()
 
 
+def quoted(text: str, most: int = 60) -> str:
+    """Return a text in quotation marks, shortened to a number of characters.
+
+    >>> quoted("a long text", most=8)
+    "'a lon...'"
+    """
+    return repr(text if len(text) <= most else f"{text[: most - 3]}...")
+
+
 def format_number(value: float, digits: int = 4) -> str:
     """Format a number with significant digits, without an exponent where possible.
 

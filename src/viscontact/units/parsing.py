@@ -11,6 +11,7 @@ from decimal import Decimal
 from typing import Any
 
 from viscontact.units.dimensions import DIMENSIONS, OTHER_DIMENSIONS, Dimension
+from viscontact.units.formatting import quoted
 from viscontact.units.temperatures import ZERO_CELSIUS
 
 # Degrees have an offset, other units are factors only; C is a degree here, not a coulomb.
@@ -33,8 +34,6 @@ _COMMON_UNITS = (
 
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 _QUANTITY = re.compile(rf"(?P<number>{_NUMBER})\s*(?P<unit>.*)", re.DOTALL)
-#: Longer texts are cut in messages.
-_SHOWN = 60
 # Stricter than pint, which skips unknown characters and would take unlimited time for
 # the powers of "9**9**9": words, each with a small power, joined by products and quotients.
 _UNIT = re.compile(
@@ -86,7 +85,7 @@ def parse_quantity(text: str, dimension: str) -> float:
     number, unit = _split(text, wanted)
     value = _scale(unit, text, dimension).si(number)
     if not math.isfinite(value):
-        raise ValueError(f"{_shown(text)} is not a finite number; write e.g. {wanted.example!r}")
+        raise ValueError(f"{quoted(text)} is not a finite number; write e.g. {wanted.example!r}")
     return value
 
 
@@ -124,22 +123,17 @@ def _scale(unit: str, text: str, dimension: str) -> Scale:
 def _split(text: str, wanted: Dimension) -> tuple[str, str]:
     hint = f"write e.g. {wanted.example!r}"
     if _NOT_FINITE.fullmatch(text):
-        raise ValueError(f"{_shown(text)} is not a finite number; {hint}")
+        raise ValueError(f"{quoted(text)} is not a finite number; {hint}")
     if re.match(r"\s*[+-]?\d+,\d", text):
-        raise ValueError(f"cannot read {_shown(text)}: write a decimal point, not a comma; {hint}")
+        raise ValueError(f"cannot read {quoted(text)}: write a decimal point, not a comma; {hint}")
     # Blanks at the ends are stripped first: a pattern for them would retry every run of blanks.
     match = _QUANTITY.fullmatch(text.strip())
     if match is None:
-        raise ValueError(f"cannot read {_shown(text)} as {wanted.name}: no number in front; {hint}")
+        raise ValueError(f"cannot read {quoted(text)} as {wanted.name}: no number in front; {hint}")
     if not match["unit"]:
-        bare = _shown(text.strip())[1:-1]
+        bare = quoted(text.strip())[1:-1]
         raise ValueError(f"{bare} has no unit, {wanted.name} is wanted; {hint}")
     return match["number"], match["unit"]
-
-
-def _shown(text: str) -> str:
-    """Return a text in quotation marks, shortened if it is long."""
-    return repr(text if len(text) <= _SHOWN else f"{text[: _SHOWN - 3]}...")
 
 
 def _factor(unit: str, text: str, wanted: Dimension) -> float:
@@ -148,7 +142,7 @@ def _factor(unit: str, text: str, wanted: Dimension) -> float:
     wanted_base = _in_base_units(_registry().parse_units(wanted.unit))[1]
     if base != wanted_base:
         raise ValueError(
-            f"cannot read {_shown(text)} as {wanted.name} (got {_dimension_name(base)}); "
+            f"cannot read {quoted(text)} as {wanted.name} (got {_dimension_name(base)}); "
             f"write e.g. {wanted.example!r}"
         )
     return factor
@@ -164,7 +158,7 @@ def _parsed_unit(unit: str, text: str, wanted: Dimension) -> Any:
         return _registry().parse_units(plain)
     except Exception as error:  # pint raises many kinds, of its tokenizer and parser too
         raise ValueError(
-            f"cannot read {_shown(text)} as {wanted.name}: unknown unit {_shown(unit)}"
+            f"cannot read {quoted(text)} as {wanted.name}: unknown unit {quoted(unit)}"
             f"{_nearest_unit(unit)}; write e.g. {wanted.example!r}"
         ) from error
 

@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Mapping
 from functools import cached_property
-from pathlib import Path
 
 from pydantic import Field, model_validator
 
 from viscontact import indenters
-from viscontact.case.quantities import Angle, Offset, Section
+from viscontact.case.data_file import FileSection
+from viscontact.case.quantities import Angle, Offset
 
 #: Remedy in messages of the constructors that does not apply to case files.
 _OF_PYTHON = "; for degrees use math.radians(...)"
 
 
-class Shape(Section):
+class Shape(FileSection):
     """Shape with a rotation and an offset."""
 
     rotation: Angle = Field(
@@ -42,11 +41,6 @@ class Shape(Section):
         if self.offset_x or self.offset_y:
             shape = shape.shifted(self.offset_x, self.offset_y)
         return shape
-
-    @property
-    def files(self) -> Mapping[tuple[str, ...], Path]:
-        """Files of the section, by the keys that name them."""
-        return {}
 
     @property
     def notes(self) -> tuple[str, ...]:

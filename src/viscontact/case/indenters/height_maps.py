@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
 from functools import cached_property
-from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, GetJsonSchemaHandler
@@ -114,11 +112,6 @@ class HeightMap(Shape):
         default=None,
         description="with gaussian: the wavelength of which half the height passes; 4 cells if not",
     )
-
-    @property
-    def files(self) -> Mapping[tuple[str, ...], Path]:
-        """The file, by its key."""
-        return {("file",): Path(self.file)}
 
     @property
     def notes(self) -> tuple[str, ...]:

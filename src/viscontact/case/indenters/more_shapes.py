@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from pathlib import Path
 from typing import Annotated, Literal
 
 from pydantic import Field
@@ -175,11 +173,6 @@ class Revolved(_Drawn):
         examples=["section.csv"],
     )
 
-    @property
-    def files(self) -> Mapping[tuple[str, ...], Path]:
-        """The file, by its key."""
-        return {} if self.file is None else {("file",): Path(self.file)}
-
     def build(self) -> indenters.Revolved:
         """Return the body."""
         return indenters.Revolved(*self._line(self.file, "r"), self.interpolation)
@@ -197,11 +190,6 @@ class Swept(_Drawn):
         description="CSV with a header such as: y [mm], drop [um]; or height in place of the drop",
         examples=["section.csv"],
     )
-
-    @property
-    def files(self) -> Mapping[tuple[str, ...], Path]:
-        """The file, by its key."""
-        return {} if self.file is None else {("file",): Path(self.file)}
 
     def build(self) -> indenters.Swept:
         """Return the body."""

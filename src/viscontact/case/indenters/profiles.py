@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, GetJsonSchemaHandler
@@ -12,14 +11,13 @@ from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema
 
 from viscontact import indenters
-from viscontact.case.data_file import DataFile
+from viscontact.case.data_file import DataFile, FileSection
 from viscontact.case.quantities import (
     Force,
     Length,
     Modulus,
     Offset,
     OpenAngle,
-    Section,
     alternatives,
 )
 from viscontact.tables import read_line
@@ -29,7 +27,7 @@ Factor = Annotated[float, Field(gt=0, le=1e6)]
 Interpolation = Literal["smooth", "linear"]
 
 
-class Line(Section):
+class Line(FileSection):
     """A generating line, by its kind."""
 
     kind: str
@@ -41,11 +39,6 @@ class Line(Section):
         return {
             name: value for name, value in given.items() if name != "kind" and value is not None
         }
-
-    @property
-    def files(self) -> Mapping[tuple[str, ...], Path]:
-        """Files of the section, by the keys that name them."""
-        return {}
 
     def roller(
         self, radius: float, half_length: float, others: Mapping[str, Any]
@@ -175,11 +168,6 @@ class TabulatedLine(Line):
     interpolation: Interpolation = Field(
         default="smooth", description="between the points: cubics without overshoot, or straight"
     )
-
-    @property
-    def files(self) -> Mapping[tuple[str, ...], Path]:
-        """The file, by its key."""
-        return {} if self.file is None else {("file",): Path(self.file)}
 
     @property
     def arguments(self) -> dict[str, Any]:

@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 
 from viscontact.case.loads.levels import Level, read_level
 from viscontact.case.quantities import POSITIVE, Quantity
+from viscontact.units.formatting import quoted
 from viscontact.units.parsing import parse_unit
 
 _ARTICLES = frozenset({"a", "an", "the"})
@@ -23,9 +24,6 @@ _WITHIN = "in|within|over|during"
 _TOKEN = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[^\s,]+")
 _NUMBER = re.compile(r"[+-]?[\d.].*")
 _COUNT_WORDS = {"once": 1, "twice": 2, "thrice": 3}
-
-#: Longest quotation of a sentence in messages.
-_SHOWN = 60
 
 
 class PhraseError(ValueError):
@@ -128,14 +126,10 @@ def _refusal(text: str, tokens: Sequence[Token], readings: Sequence[Reading]) ->
     end = tokens[reached - 1].end
     understood, rest = text[:end].strip(), text[end:].strip(" ,")
     expected = " or ".join(dict.fromkeys(reading.expected for reading in best))
-    got = f"got {_cut(rest)}" if rest else "but nothing follows"
+    got = f"got {quoted(rest)}" if rest else "but nothing follows"
     reasons = [reading.why for reading in best if reading.why]
     why = f" ({reasons[0]})" if reasons else ""
-    return f"understood {_cut(understood)}, then expected {expected}, {got}{why}"
-
-
-def _cut(text: str) -> str:
-    return repr(text if len(text) <= _SHOWN else f"{text[: _SHOWN - 3]}...")
+    return f"understood {quoted(understood)}, then expected {expected}, {got}{why}"
 
 
 def _nearest(tokens: Sequence[Token], readings: Sequence[Reading]) -> str:

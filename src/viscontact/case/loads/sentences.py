@@ -11,12 +11,16 @@ from pydantic import BeforeValidator, PlainValidator, WithJsonSchema
 from pydantic_core import PydanticCustomError
 
 from viscontact.case.loads.grammar import EXAMPLES, FORMS, PhraseError, Reading, read_form
+from viscontact.units.formatting import quoted
 
 #: Ends of sentences; a new one also begins with "then" or "and".
 _ENDS = re.compile(r";|\n|\.(?=\s|$)|,?\s*\b(?:and\s+)?then\b|,?\s+and\s+(?=[a-z])", re.IGNORECASE)
 
 #: Largest number of sentences that an error message explains.
-_MOST_TOLD = 10
+_MOST_EXPLAINED = 10
+
+#: Longest quotation of a sentence in messages.
+_LONGEST = 80
 
 #: Largest number of sentences; more take seconds to parse.
 _MOST_SENTENCES = 10_000
@@ -35,7 +39,7 @@ class Sentence:
     reading: Reading
 
     def __str__(self) -> str:
-        return f"sentence {self.number}, {_shown(self.text)}"
+        return f"sentence {self.number}, {quoted(self.text, _LONGEST)}"
 
 
 def split_sentences(text: str) -> list[str]:
@@ -88,26 +92,23 @@ def _understood(entry: _Entry) -> tuple[Sentence, ...]:
         try:
             read.append(Sentence(number, text, entry.place, read_form(text, FORMS)))
         except PhraseError as error:
-            refused.append(f"sentence {number}, {_shown(text)}: {error}")
+            refused.append(f"sentence {number}, {quoted(text, _LONGEST)}: {error}")
     if not entry.parts:
         refused.append("it is empty")
     if refused:
-        if len(refused) > _MOST_TOLD:
-            refused[_MOST_TOLD:] = [f"and {len(refused) - _MOST_TOLD} more"]
+        if len(refused) > _MOST_EXPLAINED:
+            refused[_MOST_EXPLAINED:] = [f"and {len(refused) - _MOST_EXPLAINED} more"]
         forms = ", ".join(repr(form) for form in EXAMPLES)
         why = f"{'; '.join(refused)}. Possible sentences: {forms}"
         raise PydanticCustomError("quantity", "{why}", {"why": why})
     return tuple(read)
 
 
-def _shown(text: str) -> str:
-    return repr(text if len(text) <= 80 else f"{text[:77]}...")
-
-
 def _as_entries(given: Any) -> list[_Entry]:
     texts = [given] if isinstance(given, str) else given
     if not isinstance(texts, list) or not texts:
-        why = f"must be a text or a list of texts, got {_shown(str(given))}; write e.g. {EXAMPLE}"
+        got = quoted(str(given), _LONGEST)
+        why = f"must be a text or a list of texts, got {got}; write e.g. {EXAMPLE}"
         raise PydanticCustomError("quantity", "{why}", {"why": why})
     entries = _numbered(texts)
     count = sum(len(entry.parts) for entry in entries)

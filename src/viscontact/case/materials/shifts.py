@@ -3,30 +3,23 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Mapping
-from pathlib import Path
 from typing import Annotated, Literal
 
 import numpy as np
 from pydantic import Field
 
 from viscontact import laws
-from viscontact.case.data_file import DataFile
-from viscontact.case.quantities import MolarEnergy, Section, Temperature, TemperatureDifference
+from viscontact.case.data_file import DataFile, FileSection
+from viscontact.case.quantities import MolarEnergy, Temperature, TemperatureDifference
 from viscontact.tables import read_table
 
 
-class Rule(Section):
+class Rule(FileSection):
     """Rule for the shift factor as a function of temperature."""
 
     @abstractmethod
     def build(self) -> laws.Shift:
         """Return the rule."""
-
-    @property
-    def files(self) -> Mapping[tuple[str, ...], Path]:
-        """Files of the section, by the keys that name them."""
-        return {}
 
 
 class Wlf(Rule):
@@ -61,11 +54,6 @@ class Factors(Rule):
     file: DataFile = Field(
         description="CSV with a header such as: T [degC], log_aT", examples=["factors.csv"]
     )
-
-    @property
-    def files(self) -> Mapping[tuple[str, ...], Path]:
-        """The file, by its key."""
-        return {("file",): Path(self.file)}
 
     def build(self) -> laws.Shift:
         """Return the rule, linear in ln a_T between the rows."""

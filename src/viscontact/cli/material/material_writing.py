@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.case.data_file import is_same_file
 from viscontact.cli.material.material_files import MaterialOptions
 from viscontact.cli.material.named_material import MaterialDisplay
 from viscontact.cli.terminal.messages import refuse, say
@@ -30,7 +31,7 @@ def write_material(
     """Write a material to a file, or print it."""
     if output is not None and output.suffix.lower() in _FIGURES:
         refuse(f"{output}: with --to, -o is the file to write; leave --to out for a figure")
-    if output is not None and _is_same(output, Path(named.name)):
+    if output is not None and is_same_file(output, Path(named.name)):
         refuse(f"{output}: is the input file; give another one")
     for note in named.notes:
         say(f"note: {note}")
@@ -44,10 +45,6 @@ def write_material(
     except ValueError as error:
         refuse(f"{named.name}: {_with_remedy(str(error), named.name)}")
     _put(text, output)
-
-
-def _is_same(one: Path, other: Path) -> bool:
-    return one.exists() and other.exists() and one.samefile(other)
 
 
 def _require_units(moduli: str, times: str) -> None:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from viscontact.case import Case, CaseError
+from viscontact.case.data_file import is_same_file
 from viscontact.case.document import read_document
 from viscontact.case.reader import digest
 from viscontact.case.yaml_source import parse
@@ -102,11 +103,6 @@ def reserved(directory: Path) -> Iterator[None]:
             # Removed only if it is empty.
             with suppress(OSError):
                 directory.rmdir()
-
-
-def is_same_file(one: Path, other: Path) -> bool:
-    """True if two paths, links followed, are the same existing file."""
-    return one.exists() and other.exists() and one.samefile(other)
 
 
 def is_of_a_run(directory: Path) -> bool:
