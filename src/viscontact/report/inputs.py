@@ -25,13 +25,7 @@ _PARTS = {
 
 @dataclass(frozen=True)
 class Input:
-    """One input.
-
-    Attributes
-    ----------
-    part, name, value : str
-        The part of the case, the argument, and its value with its unit.
-    """
+    """One argument of a part of the case, with its value in a unit."""
 
     part: str
     name: str

@@ -21,29 +21,13 @@ from viscontact.units.formatting import readable_unit
 
 
 def run_data(ds: xr.Dataset) -> dict[str, Any]:
-    """Return the numbers of a run that figures are drawn from.
+    """Return the numbers of a run that figures are drawn from; ValueError without an instant.
 
-    Parameters
-    ----------
-    ds : xarray.Dataset
-        What ``simulate`` or ``open_results`` returned.
+    Plain data without NaN and inf, which JSON cannot hold: instants and scalars with their errors
+    in SI units, the prescribed and the listed scalars, the fields by `map_data` and `section_data`
+    with the factors of their units to SI, warnings and the account of accuracy. Null where there
+    is no value or an error is unknown; `mesh` marks a scalar that depends on the mesh.
 
-    Returns
-    -------
-    dict
-        Plain data without NaN and inf, which JSON cannot hold: instants and scalars with their
-        errors in SI units, which of them the load prescribes and which tables list; of
-        the fields what `map_data` and `section_data` give, with the factors of their units to
-        SI; warnings and the account of accuracy. Null where there is nothing, or an error is not
-        known; `mesh` says of a scalar that it depends on the mesh.
-
-    Raises
-    ------
-    ValueError
-        If the result holds no instant.
-
-    Examples
-    --------
     >>> import viscontact as vc
     >>> pmma = vc.Material(vc.Elastic(1e9), 0.4)
     >>> ds = vc.simulate(vc.Sphere(0.01), pmma, vc.step(100.0), times=[1.0], errors=False)

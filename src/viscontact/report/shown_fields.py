@@ -18,21 +18,11 @@ MOST_INSTANTS = 24
 
 @dataclass(frozen=True)
 class ShownFields:
-    """Fields on a page.
+    """Fields on a page."""
 
-    Attributes
-    ----------
-    snapshots : tuple of Snapshot
-        Instants, at least one of them in contact.
-    window : Window
-        The part of the surface that holds every contact.
-    stored : int
-        Number of instants with fields in the result.
-    """
-
-    snapshots: tuple[Snapshot, ...]
-    window: Window
-    stored: int
+    snapshots: tuple[Snapshot, ...]  # at least one of them in contact
+    window: Window  # part of the surface that contains every contact
+    stored: int  # number of instants with fields in the result
 
     @property
     def peak(self) -> float:

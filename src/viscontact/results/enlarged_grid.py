@@ -15,15 +15,9 @@ from viscontact.units.formatting import format_quantity
 def on_wider(name: str, field: NDArray[np.float64], grid: Grid, wider: Grid) -> NDArray[np.float64]:
     """A field on the widest grid of a result, from the grid of its instant.
 
-    Beyond that grid pressure is 0, gap and displacement are NaN.
+    The shape of the field is (..., nx, ny). Beyond its grid pressure is 0, gap and displacement
+    are NaN.
 
-    Parameters
-    ----------
-    field : ndarray, shape (..., nx, ny)
-        On the grid of its time.
-
-    Examples
-    --------
     >>> small = Grid((4, 4), (1.0, 1.0))
     >>> on_wider("gap", np.ones((4, 4)), small, small.widened((6, 4)))[:, 0].tolist()
     [nan, 1.0, 1.0, 1.0, 1.0, nan]

@@ -30,13 +30,7 @@ def case_of(ds: xr.Dataset) -> dict[str, Any]:
 
 
 def recorded_poisson_ratio(results: xr.Dataset) -> float:
-    """Poisson's ratio of the half-space that a result belongs to.
-
-    Returns
-    -------
-    float
-        [-].
-    """
+    """Poisson's ratio [-] of the half-space that a result belongs to."""
     material = case_of(results).get("material") or {}
     ratio = material.get("poisson_ratio")
     if ratio is not None:

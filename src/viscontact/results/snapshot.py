@@ -14,31 +14,15 @@ from viscontact.units.formatting import format_quantity
 
 @dataclass(frozen=True)
 class Snapshot:
-    """Pressure and gap at one instant.
+    """Pressure and gap at one instant."""
 
-    Parameters
-    ----------
-    time : float
-        The instant at which the fields were stored [s].
-    x, y : ndarray
-        Cell centres, shapes (nx,) and (ny,) [m].
-    pressure : ndarray
-        Contact pressure, shape (nx, ny), positive in compression [Pa].
-    gap : ndarray
-        Distance between the bodies, shape (nx, ny), positive when open [m].
-    body_end : Outline, optional
-        Where the indenter ends between the cells, if it does and is known.
-    periodic : bool, optional
-        Whether the fields are one period of an endless surface.
-    """
-
-    time: float
-    x: NDArray[np.float64]
-    y: NDArray[np.float64]
-    pressure: NDArray[np.float64]
-    gap: NDArray[np.float64]
-    body_end: Outline | None = None
-    periodic: bool = False
+    time: float  # [s]
+    x: NDArray[np.float64]  # cell centres, shape (nx,) [m]
+    y: NDArray[np.float64]  # cell centres, shape (ny,) [m]
+    pressure: NDArray[np.float64]  # shape (nx, ny), positive in compression [Pa]
+    gap: NDArray[np.float64]  # shape (nx, ny), positive when open [m]
+    body_end: Outline | None = None  # where the indenter ends between the cells, if known
+    periodic: bool = False  # the fields are one period of an endless surface
 
     @property
     def touching(self) -> bool:
@@ -98,21 +82,11 @@ class Snapshot:
     def section(
         self, along: Literal["x", "y"] = "x", at: float = 0.0
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Pressure on a line parallel to an axis.
+        """Cell centres [m] and pressure [Pa] on a line parallel to an axis.
 
-        Parameters
-        ----------
-        at : float, optional
-            Where the line crosses the other axis [m]. Between two rows of cells the
-            pressure is interpolated linearly: on an even grid the line through the origin
-            takes the mean of the two middle rows.
-
-        Returns
-        -------
-        positions : ndarray
-            Cell centres along the line [m].
-        pressure : ndarray
-            Pressure there [Pa].
+        It crosses the other axis at `at` [m]. Between two rows of cells the pressure is
+        interpolated linearly: on an even grid the line through the origin takes the mean of the
+        two middle rows.
         """
         if along not in ("x", "y"):
             raise ValueError(f"along must be 'x' or 'y', got {along!r}")

@@ -16,13 +16,7 @@ from viscontact.units.formatting import format_quantity, time_labels
 
 
 def field_times(results: xr.Dataset, figure: str) -> NDArray[np.float64]:
-    """Instants at which pressure and gap are stored.
-
-    Returns
-    -------
-    ndarray
-        Instants [s], ascending.
-    """
+    """Instants at which pressure and gap are stored [s], ascending."""
     missing = [name for name in ("pressure", "gap") if name not in results]
     if missing:
         raise ValueError(
@@ -39,13 +33,10 @@ def field_times(results: xr.Dataset, figure: str) -> NDArray[np.float64]:
 def take_snapshots(
     results: xr.Dataset, times: ArrayLike | None, figure: str, *, count: int = 5
 ) -> list[Snapshot]:
-    """Fields at the stored instants nearest to those requested.
+    """Fields at the stored instants nearest to those requested [s].
 
-    Parameters
-    ----------
-    times : array_like or None
-        Requested instants [s]. None: the first instant in contact, the last one, and some in
-        between that are spread evenly on a logarithmic scale.
+    By default the first instant in contact, the last one, and some in between that are spread
+    evenly on a logarithmic scale.
     """
     stored = field_times(results, figure)
     if times is None:
@@ -66,13 +57,7 @@ def take_snapshots(
 def snapshots_of_runs(
     runs: Mapping[str, xr.Dataset], times: ArrayLike | None, figure: str
 ) -> tuple[list[Snapshot], list[str]]:
-    """Fields of several runs, and a heading for each.
-
-    Parameters
-    ----------
-    times : array_like or None
-        Requested instants [s]; None for the last of each run.
-    """
+    """Fields of several runs at requested instants [s], by default the last, and their headings."""
     if not runs:
         raise ValueError(f"{figure}: needs at least one run to compare, got none")
     snapshots: list[Snapshot] = []
@@ -104,18 +89,7 @@ def snapshot_reader(results: xr.Dataset) -> Callable[[int], Snapshot]:
 
 
 def field_at(results: xr.Dataset, name: str, time: float, figure: str) -> NDArray[np.float64]:
-    """Return a field at a stored instant.
-
-    Parameters
-    ----------
-    time : float
-        An instant at which fields are stored [s].
-
-    Returns
-    -------
-    ndarray
-        Shape (nx, ny), in SI units.
-    """
+    """Return a field at a stored instant [s]: shape (nx, ny), in SI units."""
     if name not in results:
         raise ValueError(
             f"{figure}: needs the stored field {name}, which this result does not have; run again "

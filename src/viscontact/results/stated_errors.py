@@ -55,25 +55,12 @@ def mesh_dependent(results: xr.Dataset, name: str) -> NDArray[np.bool_]:
 
 @dataclass(frozen=True)
 class LargestError:
-    """The largest error bar of a scalar over a run.
+    """The largest error bar of a scalar over a run."""
 
-    Attributes
-    ----------
-    half_width : float
-        In the unit of the scalar; inf where the value depends on the mesh, NaN where nothing is
-        known.
-    part : float
-        Of the scalar's largest magnitude [-].
-    unknown : int
-        At how many instants there is a value, but its error is not known.
-    time : float
-        When it is first so large [s]; NaN where nothing is known.
-    """
-
-    half_width: float
-    part: float
-    unknown: int
-    time: float
+    half_width: float  # in the unit of the scalar; inf if mesh-dependent, NaN if unknown
+    part: float  # of the scalar's largest magnitude [-]
+    unknown: int  # number of instants with a value of unknown error
+    time: float  # first instant of this error [s]; NaN if unknown
 
 
 def largest_error(ds: xr.Dataset, name: str) -> LargestError | None:

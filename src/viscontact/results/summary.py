@@ -34,36 +34,19 @@ LEGEND = (
 
 @dataclass(frozen=True)
 class SummaryRow:
-    """A scalar of a run in words, no digit more than its error supports.
+    """A scalar of a run in words, no digit more than its error supports."""
 
-    Attributes
-    ----------
-    name : str
-        Its name in the result.
-    unit : str
-        The unit of the numbers.
-    first, last, largest : str
-        At the first and the last instant, and where its magnitude is largest; each with the error
-        that it has then, unless that is negligible.
-    error : str
-        The largest error over the run, in the unit, or the reason why there is none.
-    part : str
-        The same relative to the largest value; empty where there is none.
-    when : str
-        Time of the largest error; empty where it is negligible at all instants.
-    unknown : int
-        Number of instants at which the error is unknown.
-    """
-
-    name: str
-    unit: str
+    name: str  # in the result
+    unit: str  # of the numbers
+    # Values at the first and the last instant, and where the magnitude is largest; each with the
+    # error that it has then, unless that is negligible.
     first: str
     last: str
     largest: str
-    error: str
-    part: str
-    when: str
-    unknown: int
+    error: str  # the largest error over the run, in the unit, or the reason why there is none
+    part: str  # the same relative to the largest value; empty where there is none
+    when: str  # time of the largest error; empty where it is negligible at all instants
+    unknown: int  # number of instants at which the error is unknown
 
     @property
     def title(self) -> str:

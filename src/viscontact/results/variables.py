@@ -39,36 +39,16 @@ class Place(Flag):
 
 @dataclass(frozen=True)
 class Variable:
-    """A variable of the result.
+    """A variable of the result."""
 
-    Attributes
-    ----------
-    units : str
-        Its unit, as CF and UDUNITS write it.
-    long_name : str
-        What it is.
-    kind : str
-        NumPy's name of its type.
-    comment : str
-        Further remarks.
-    label : str
-        Its name on axes and pages.
-    has_error : bool
-        Whether its error is estimated, and stored with it.
-    places : Place
-        Where it is shown.
-    rank : int
-        Its position on pages, cards and figures; tables keep the order of `SCALARS`.
-    """
-
-    units: str
+    units: str  # as CF and UDUNITS write it
     long_name: str
-    kind: str = "f8"
+    kind: str = "f8"  # NumPy's name of its type
     comment: str = ""
-    label: str = ""
-    has_error: bool = False
+    label: str = ""  # on axes and pages
+    has_error: bool = False  # estimated and stored with it
     places: Place = Place.NOWHERE
-    rank: int = 0
+    rank: int = 0  # on pages, cards and figures; tables keep the order of `SCALARS`
 
     @property
     def attributes(self) -> dict[str, Any]:

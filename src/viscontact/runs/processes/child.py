@@ -18,37 +18,18 @@ from viscontact.runs.processes.request import DONE, INTERRUPTED, REFUSED, STOPPE
 
 @dataclass(frozen=True)
 class Ended:
-    """End of one of several runs.
-
-    Attributes
-    ----------
-    job : Job
-        The run.
-    outcome : str
-        One word.
-    code : int
-        0 done, 1 stopped, 130 interrupted, also before it began.
-    said : tuple of str
-        Lines of its error output.
-    """
+    """End of one of several runs."""
 
     job: Job
-    outcome: str
-    code: int
-    said: tuple[str, ...] = ()
+    outcome: str  # one word
+    code: int  # 0 done, 1 stopped, 130 interrupted, also before it began
+    said: tuple[str, ...] = ()  # lines of its error output
 
 
 class Child:
     """Process of a run, which locks its directory, saves and handles signals as a single run does.
 
     Its error output is kept until its end. An OSError means that the system starts no process.
-
-    Attributes
-    ----------
-    job : Job
-        The run.
-    course : Course
-        Progress of the run.
     """
 
     def __init__(self, job: Job) -> None:

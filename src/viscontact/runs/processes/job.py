@@ -19,33 +19,13 @@ class Standing(Enum):
 
 @dataclass(frozen=True)
 class Job:
-    """One of several runs, checked.
-
-    Attributes
-    ----------
-    request : RunRequest
-        Arguments of the run, with its directory.
-    directory : Path
-        That directory.
-    name : str
-        Name among the other runs.
-    standing : Standing
-        Whether the run begins, is resumed, or is finished already.
-    instants : int or None
-        Number of instants; None where the run chooses its steps.
-    end : float
-        Last instant [s].
-    work : float
-        Cells times steps, a relative measure of the computing time.
-    memory : float
-        Memory of the run [bytes].
-    """
+    """One of several runs, checked."""
 
     request: RunRequest
     directory: Path
-    name: str
+    name: str  # among the other runs
     standing: Standing
-    instants: int | None
-    end: float
-    work: float
-    memory: float
+    instants: int | None  # their number; None where the run chooses its steps
+    end: float  # last instant [s]
+    work: float  # cells times steps, a relative measure of the computing time
+    memory: float  # [bytes]

@@ -13,20 +13,11 @@ from viscontact.runs.processes.job import Job, Standing
 
 
 class Course:
-    """Progress of a run, made before its process is started.
-
-    Attributes
-    ----------
-    instants : int
-        Number of finished instants.
-    time : float
-        The last of them [s].
-    first, last : mapping
-        Lines of the progress log of the first and last instant; empty without any.
-    """
+    """Progress of a run, made before its process is started."""
 
     def __init__(self, job: Job) -> None:
-        self.instants, self.time = 0, 0.0
+        self.instants, self.time = 0, 0.0  # number of finished instants, and the last of them [s]
+        # Lines of the progress log of the first and last instant; empty without any.
         self.first: Mapping[str, Any] = {}
         self.last: Mapping[str, Any] = {}
         self._job, self._path = job, job.directory / PROGRESS_NAME

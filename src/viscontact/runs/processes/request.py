@@ -15,33 +15,15 @@ DONE, STOPPED, REFUSED, INTERRUPTED = 0, 1, 2, 130
 
 @dataclass(frozen=True)
 class RunRequest:
-    """Arguments of ``viscontact run``.
-
-    Attributes
-    ----------
-    case : Path
-        The case file.
-    output : Path or None
-        Run directory; next to the file when left out.
-    overwrite : bool
-        Replace the result that the directory holds.
-    resume : bool
-        Continue it.
-    settings : tuple of str
-        The values of ``--set``.
-    threads : int
-        Threads of one Fourier transform.
-    quiet : bool
-        Print errors only.
-    """
+    """Arguments of ``viscontact run``."""
 
     case: Path
-    output: Path | None = None
+    output: Path | None = None  # run directory; next to the case file when left out
     overwrite: bool = False
     resume: bool = False
-    settings: tuple[str, ...] = ()
-    threads: int = 1
-    quiet: bool = False
+    settings: tuple[str, ...] = ()  # values of --set
+    threads: int = 1  # of one Fourier transform
+    quiet: bool = False  # print errors only
 
     @property
     def resuming(self) -> str:
