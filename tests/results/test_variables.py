@@ -12,7 +12,7 @@ import pytest
 import xarray as xr
 
 import viscontact as vc
-from viscontact.accuracy.coarser_runs import SCALARS as ESTIMATED
+from viscontact.accuracy.coarser_runs import HISTORY_NAMES
 from viscontact.accuracy.error_bars import ERROR_MODELS, ZERO_WITHOUT_CONTACT
 from viscontact.cli import main
 from viscontact.notebook.result_card import result_card
@@ -65,7 +65,7 @@ def test_estimated_errors_are_those_of_the_table() -> None:
     promised = [name for name, variable in SCALARS.items() if variable.has_error]
     assert list(ERROR_MODELS) == promised
     assert set(ZERO_WITHOUT_CONTACT) <= set(promised)
-    assert ("time", *promised, "cells_across") == ESTIMATED
+    assert ("time", *promised, "cells_across") == HISTORY_NAMES
 
 
 def test_every_scalar_that_is_shown_has_a_label_and_a_position_of_its_own() -> None:
