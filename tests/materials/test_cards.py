@@ -461,7 +461,7 @@ def test_what_is_no_series_is_refused_with_a_remedy() -> None:
         write_abaqus(fluid, **IN_MPA, moduli="short")
     with pytest.raises(ValueError, match="1 to 80 plain characters"):
         write_abaqus(Card("x\n*STEP", fluid.material), **IN_MPA)
-    with pytest.raises(ValueError, match="whole and positive"):
+    with pytest.raises(ValueError, match="number must be a whole number >= 1"):
         write_ansys(fluid, **IN_MPA, number=0)
 
 

@@ -37,11 +37,11 @@ def write_report(ds: xr.Dataset, path: str | Path, *, label: str = "") -> None:
     Parameters
     ----------
     ds : xarray.Dataset
-        What `viscontact.simulate` or `viscontact.open_results` returned.
+        Result of `viscontact.simulate` or `viscontact.open_results`.
     path : path-like
-        The file, by custom ending in ``.html``; replaced if it is there.
+        The file, by custom ending in ``.html``; an existing one is replaced.
     label : str, optional
-        What the run is called among others whose cases have the same title.
+        Name of the run among others whose cases have the same title.
 
     Raises
     ------
@@ -71,7 +71,7 @@ def report_page(ds: xr.Dataset, *, label: str = "") -> str:
     Parameters
     ----------
     ds : xarray.Dataset
-        What `viscontact.simulate` or `viscontact.open_results` returned.
+        Result of `viscontact.simulate` or `viscontact.open_results`.
     label : str, optional
         Name of the run among others whose cases have the same title; the heading shows it after
         that title, or alone if it begins with it.

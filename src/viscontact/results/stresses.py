@@ -31,12 +31,12 @@ def section_stresses(
     Parameters
     ----------
     results : xarray.Dataset
-        What `simulate` or `open_results` returned, with pressure stored.
+        Result of `simulate` or `open_results`, with stored pressure.
     depths : array_like, shape (nz,), optional
         Depths below the surface, 0 or positive [m]; from 0 to two half widths of the largest
         contact when left out.
     x, y : float, optional
-        Where the plane lies: one of them [m]; y = 0 when both are left out.
+        Position of the plane, one of them [m]; y = 0 when both are left out.
     times : sequence of float, optional
         Instants [s], the nearest stored ones are taken; all when left out.
     poisson_ratio : float, optional

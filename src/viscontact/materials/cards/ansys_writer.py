@@ -7,6 +7,7 @@ from viscontact.laws.time_temperature import GAS_CONSTANT
 from viscontact.materials.cards.card import Card, CardUnits, card_units, in_unit
 from viscontact.materials.cards.numbers import card_digits
 from viscontact.materials.cards.prony_terms import Terms, relative
+from viscontact.units.numbers import whole
 
 # Limits of Ansys: values in one TBDATA, and pairs in one table.
 _IN_A_LINE, _MOST_PAIRS = 6, 100
@@ -56,8 +57,7 @@ def write_ansys(
     TBDATA,1,0.5,10.0
     <BLANKLINE>
     """
-    if isinstance(number, bool) or not isinstance(number, int) or number < 1:
-        raise ValueError(f"number: a material's number is whole and positive, got {number!r}")
+    number = whole("write_ansys: number", number, 1)
     units = card_units(modulus_unit, time_unit, temperature_unit)
     found = relative(card.material, instantaneous=True)
     title = " ".join(card.name.split()).replace("!", "")
