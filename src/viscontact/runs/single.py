@@ -70,7 +70,7 @@ def simulate(
     progress : callable, optional
         Called with (state, done, total) after each instant.
     errors : bool, optional
-        Whether errors of the scalars are estimated, ``peak_pressure_error`` and so on, from two
+        Estimate the errors of the scalars, ``peak_pressure_error`` and so on, from two
         coarser runs, which take about two thirds of the run's own time.
 
     Returns

@@ -68,6 +68,6 @@ def auto_grid(
     >>> vc.auto_grid(vc.Sphere(0.01), rubber, vc.step(1.0)).shape
     (40, 40)
     """
-    wish = AutomaticGrid(tolerance, quantities)
-    problem = Problem(indenter, material, load, wish, indenter_material=indenter_material)
+    request = AutomaticGrid(tolerance, quantities)
+    problem = Problem(indenter, material, load, request, indenter_material=indenter_material)
     return choose_mesh(problem, end).grid
