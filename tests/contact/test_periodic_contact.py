@@ -64,7 +64,7 @@ def _map(points, period):
     return vc.HeightMap(x, x, WAVES.gap(x[:, None], x).max() - WAVES.gap(x[:, None], x))
 
 
-@pytest.mark.filterwarnings("ignore:between neighbouring points:viscontact.AccuracyWarning")  # 32 points a wave
+@pytest.mark.filterwarnings("ignore:between:viscontact.AccuracyWarning")  # 32 points a wave
 def test_map_of_the_waves_is_the_waves():
     """Each point of a map stands for a cell: so many cells as points, and it is the same body."""
     assert run(_map(32, 1e-3)).pressure.values == pytest.approx(run().pressure.values, rel=1e-5)
@@ -137,7 +137,7 @@ def test_contact_may_cross_the_border():
     assert "beyond" not in there.attrs["warnings"]
 
 
-@pytest.mark.filterwarnings("ignore:between neighbouring points:viscontact.AccuracyWarning")
+@pytest.mark.filterwarnings("ignore:between:viscontact.AccuracyWarning")
 def test_step_at_the_border_causes_a_warning():
     """A measured map that does not continue at its border has a step there."""
     x = (np.arange(32) - 15.5) / 32 * 1e-3

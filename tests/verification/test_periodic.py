@@ -143,7 +143,7 @@ def test_creeping_ridges_close_when_their_compliance_says():
     assert states[-1].pressure[:, 0] == pytest.approx(late, rel=1e-5)
 
 
-@pytest.mark.filterwarnings("ignore:between neighbouring points:viscontact.AccuracyWarning")  # waves of 8 cells
+@pytest.mark.filterwarnings("ignore:between:viscontact.AccuracyWarning")  # waves of 8 cells
 @pytest.mark.filterwarnings("ignore:only:viscontact.AccuracyWarning")
 def test_moved_map_moves_its_pressure():
     """A period has no place where it begins."""
