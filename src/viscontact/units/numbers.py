@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import Field
+from dataclasses import Field, fields
 from decimal import Decimal
 from numbers import Real
 from typing import Any
@@ -115,8 +115,7 @@ def unit_of(owner: type, argument: str, control: str = "") -> str | None:
 
 
 def _fields(owner: type) -> dict[str, Field[Any]]:
-    fields: dict[str, Field[Any]] = owner.__dataclass_fields__  # type: ignore[attr-defined]
-    return fields
+    return {field.name: field for field in fields(owner)}
 
 
 def _checked(
