@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LinearSegmentedColormap, Normalize
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
 from viscontact.identification import Fit, MasterCurve, ShiftFit
 from viscontact.plot.layout import style
@@ -82,21 +83,7 @@ def master_curve(
     unit = readable_unit(
         "1/Pa" if "compliance" in curve.measured else "Pa", *curve.measured.values()
     )
-    reduced = curve.reduced_points
-    for i, isotherm in enumerate(curve.isotherms):
-        colour = shades(norm(celsius[i]))
-        for name, values in isotherm.measured.items():
-            look: dict[str, Any] = {
-                "marker": MARKERS[name],
-                "markersize": MARKER_SIZE - 0.6,
-                "color": colour,
-            }
-            if name == "loss":
-                look |= {"markerfacecolor": "none", "markeredgewidth": 0.7}
-            later = isotherm.points > 0  # time 0 is not on a logarithmic axis
-            shown = unit(values[later])
-            panels["sets"].plot(isotherm.points[later], shown, linewidth=0.6, **look)
-            panels["master"].plot(reduced[i][later], shown, linestyle="none", **look)
+    _draw_sets(curve, panels["sets"], panels["master"], unit, shades(norm(celsius)))
     if fit is not None:
         along = geometric(curve.points)
         for values in fit.curve(along).values():
@@ -108,6 +95,31 @@ def master_curve(
     bar.ax.tick_params(labelsize=style.TICK_SIZE, width=style.THIN_LINE, colors=style.INK)
     bar.outline.set_visible(False)
     return figure
+
+
+def _draw_sets(
+    curve: MasterCurve,
+    sets: Axes,
+    master: Axes,
+    unit: ReadableUnit,
+    colours: NDArray[np.float64],
+) -> None:
+    """Draw the points of each set, as measured and reduced, in its colour."""
+    for isotherm, reduced, colour in zip(
+        curve.isotherms, curve.reduced_points, colours, strict=True
+    ):
+        later = isotherm.points > 0  # time 0 is not on a logarithmic axis
+        for name, values in isotherm.measured.items():
+            look: dict[str, Any] = {
+                "marker": MARKERS[name],
+                "markersize": MARKER_SIZE - 0.6,
+                "color": colour,
+            }
+            if name == "loss":
+                look |= {"markerfacecolor": "none", "markeredgewidth": 0.7}
+            shown = unit(values[later])
+            sets.plot(isotherm.points[later], shown, linewidth=0.6, **look)
+            master.plot(reduced[later], shown, linestyle="none", **look)
 
 
 def _dress_sets(
