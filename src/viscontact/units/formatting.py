@@ -173,6 +173,7 @@ def without_trailing_zeros(number: str) -> str:
     return number.rstrip("0").rstrip(".") if "." in number and "e" not in number else number
 
 
+# Unlike `format_number` it keeps no digit beyond those wanted (1234 is 1230) and has no exponent.
 def format_compact(value: float, digits: int = 3) -> str:
     """Format a finite number for a label: rounded, without exponent and trailing zeros.
 
