@@ -17,7 +17,6 @@ from viscontact.plot.layout.error_band import band_key, draw_band, limit_axis_to
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.results.snapshots import Snapshot, field_times, snapshot_reader
 from viscontact.results.stated_errors import stated_error
-from viscontact.results.variables import error_name
 from viscontact.units.formatting import readable_unit
 
 _NAME = "contact-area"
@@ -69,9 +68,7 @@ def contact_area(
     'Contact area [mm²]'
     """
     stored, read = field_times(results, _NAME), snapshot_reader(results)
-    names = ["contact_area", "force", "approach"]
-    names += [error_name("contact_area")] * (error_name("contact_area") in results)
-    run = within_span(results, names, times, _NAME, "")
+    run = within_span(results, ("contact_area", "force", "approach"), times, _NAME, "")
     first, last = run["time"].values[[0, -1]]
     shown = np.flatnonzero((stored >= first) & (stored <= last))
     counted = [_counted(read(int(index))) for index in shown]

@@ -21,7 +21,7 @@ from viscontact.plot.layout.error_band import (
 )
 from viscontact.plot.layout.page import NARROW, Width, page_width
 from viscontact.results.stated_errors import is_centred, stated_error
-from viscontact.results.variables import SCALARS, Place, error_name, shown_in
+from viscontact.results.variables import SCALARS, Place, shown_in
 from viscontact.units.formatting import ReadableUnit, readable_unit
 
 _NAME = "history"
@@ -111,10 +111,8 @@ def compare_histories(
     """
     if not runs:
         raise ValueError(f"{_NAME}: needs at least one run to compare, got none")
-    shown = {
-        name: within_span(run, needed_variables(run), times, _NAME, name)
-        for name, run in runs.items()
-    }
+    needed = needed_variables()
+    shown = {name: within_span(run, needed, times, _NAME, name) for name, run in runs.items()}
     names = drawn_scalars(shown)
     figure, panels = _panels(len(names), page_width(width, style.TWO_COLUMNS))
     _, bands = draw_scalars(panels, names, shown)
@@ -139,11 +137,9 @@ def draw_scalars(
     return time_unit, bands
 
 
-def needed_variables(run: xr.Dataset) -> list[str]:
-    """Names of the variables of a result that its histories need."""
-    names = shown_in(Place.FIGURE)
-    errors = [error_name(name) for name in names if error_name(name) in run]
-    return [*names, *errors, "contact_length"]
+def needed_variables() -> list[str]:
+    """Names of the scalars that histories need; tilts of rounding size are found by the length."""
+    return [*shown_in(Place.FIGURE), "contact_length"]
 
 
 def _worth_a_panel(name: str, runs: Collection[xr.Dataset]) -> bool:

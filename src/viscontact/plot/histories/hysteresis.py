@@ -16,7 +16,6 @@ from viscontact.plot.layout import style
 from viscontact.plot.layout.error_band import Band, draw_band, legend_entries
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.results.stated_errors import stated_error
-from viscontact.results.variables import error_name
 from viscontact.units.formatting import format_quantity, readable_unit
 
 _NAME = "hysteresis"
@@ -109,7 +108,8 @@ def compare_hysteresis(
     """
     if not runs:
         raise ValueError(f"{_NAME}: needs at least one run to compare, got none")
-    shown = {name: within_span(run, _drawn(run), times, _NAME, name) for name, run in runs.items()}
+    drawn = ("approach", "force")
+    shown = {name: within_span(run, drawn, times, _NAME, name) for name, run in runs.items()}
     wide = page_width(width, style.ONE_COLUMN)
     figure = style.new_figure(wide, min(3.3, 0.8 * wide))
     axes = figure.subplots()
@@ -134,11 +134,6 @@ def compare_hysteresis(
         handles, labels = zip(*entries, strict=True)
         style.add_legend(axes, handles, labels, loc="best")
     return figure
-
-
-def _drawn(run: xr.Dataset) -> list[str]:
-    names = ("approach", "force")
-    return [*names, *(error_name(name) for name in names if error_name(name) in run)]
 
 
 def _draw_bands(

@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import NullFormatter
 from numpy.typing import ArrayLike, NDArray
 
+from viscontact.results.variables import error_name
 from viscontact.units.formatting import ReadableUnit, format_quantity
 
 #: Relative change of a constant load, and share of the time from which on it is held: the rest is
@@ -25,7 +26,9 @@ BEFORE_FIRST = 0.2
 def within_span(
     run: xr.Dataset, variables: Iterable[str], times: ArrayLike | None, figure: str, name: str
 ) -> xr.Dataset:
-    """Cut variables over time to a span [s], with two instants or more; None for the whole run.
+    """Cut variables over time and their errors to a span [s]; None for the whole run.
+
+    ValueError for fewer than two instants.
 
     >>> run = xr.Dataset({"force": ("time", [0.0, 1.0, 2.0])}, coords={"time": [0.0, 1.0, 2.0]})
     >>> within_span(run, ["force"], [0.0, 1.5], "history", "").force.values.tolist()
@@ -35,7 +38,9 @@ def within_span(
     if span.size == 0 or not np.all(np.isfinite(span)):
         raise ValueError(f"{figure}: times must be finite numbers of seconds, got {times!r}")
     inside = (run["time"] >= span.min()) & (run["time"] <= span.max())
-    shown = run[list(variables)].isel(time=np.flatnonzero(inside))
+    names = list(variables)
+    names += [error_name(name) for name in names if error_name(name) in run]
+    shown = run[names].isel(time=np.flatnonzero(inside))
     if shown.sizes["time"] < 2:
         raise ValueError(
             f"{figure}: needs at least two steps to draw a line, got {shown.sizes['time']} between "
