@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import xarray as xr
@@ -12,7 +12,7 @@ from viscontact.contact.body_edge import Outline, trace_outline
 from viscontact.grid import Grid
 from viscontact.results.recorded_case import recorded_grid, recorded_object
 from viscontact.results.snapshot import Snapshot as Snapshot
-from viscontact.units.formatting import format_quantity, time_labels
+from viscontact.units.formatting import format_quantity
 
 
 def field_times(results: xr.Dataset, figure: str) -> NDArray[np.float64]:
@@ -52,22 +52,6 @@ def take_snapshots(
             "choose other times"
         )
     return snapshots
-
-
-def snapshots_of_runs(
-    runs: Mapping[str, xr.Dataset], times: ArrayLike | None, figure: str
-) -> tuple[list[Snapshot], list[str]]:
-    """Fields of several runs at requested instants [s], by default the last, and their headings."""
-    if not runs:
-        raise ValueError(f"{figure}: needs at least one run to compare, got none")
-    snapshots: list[Snapshot] = []
-    headings: list[str] = []
-    for name, run in runs.items():
-        wanted = float(run["time"][-1]) if times is None else times
-        taken = take_snapshots(run, wanted, figure)
-        snapshots += taken
-        headings += [f"{name}, t = {label}" for label in time_labels(s.time for s in taken)]
-    return snapshots, headings
 
 
 def snapshot_reader(results: xr.Dataset) -> Callable[[int], Snapshot]:

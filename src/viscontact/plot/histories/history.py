@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from viscontact.plot.histories.time_axis import scale_time, within_span
 from viscontact.plot.layout import style
+from viscontact.plot.layout.compared_runs import require_runs
 from viscontact.plot.layout.error_band import (
     Band,
     draw_band,
@@ -109,8 +110,7 @@ def compare_histories(
     >>> figure.axes[0].get_ylabel()
     'Contact area [mm²]'
     """
-    if not runs:
-        raise ValueError(f"{_NAME}: needs at least one run to compare, got none")
+    require_runs(runs, _NAME)
     needed = needed_variables()
     shown = {name: within_span(run, needed, times, _NAME, name) for name, run in runs.items()}
     names = drawn_scalars(shown)

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.plot.histories.time_axis import within_span
 from viscontact.plot.layout import style
+from viscontact.plot.layout.compared_runs import require_runs
 from viscontact.plot.layout.error_band import Band, draw_band, legend_entries
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.results.stated_errors import stated_error
@@ -106,8 +107,7 @@ def compare_hysteresis(
     >>> axes.get_xlabel(), axes.get_ylabel()
     ('Approach [µm]', 'Force [mN]')
     """
-    if not runs:
-        raise ValueError(f"{_NAME}: needs at least one run to compare, got none")
+    require_runs(runs, _NAME)
     drawn = ("approach", "force")
     shown = {name: within_span(run, drawn, times, _NAME, name) for name, run in runs.items()}
     wide = page_width(width, style.ONE_COLUMN)

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.plot.histories.time_axis import scale_time
 from viscontact.plot.layout import style
+from viscontact.plot.layout.compared_runs import require_runs
 from viscontact.plot.layout.error_band import peak_note
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.plot.pressure.stress_section import stress_sections
@@ -100,8 +101,7 @@ def compare_von_mises(
     >>> [axes.get_ylabel() for axes in compare_von_mises(runs).axes]
     ['Von Mises stress [kPa]', 'Depth [µm]']
     """
-    if not runs:
-        raise ValueError(f"{_NAME}: needs at least one run to compare, got none")
+    require_runs(runs, _NAME)
     stresses = [_curve(run, times) for run in runs.values()]
     figure = style.new_figure(page_width(width, style.ONE_COLUMN), 3.6)
     panels = list(figure.subplots(2, 1, sharex=True))

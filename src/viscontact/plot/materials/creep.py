@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.laws import Law
 from viscontact.plot.layout import style
+from viscontact.plot.layout.compared_runs import require_runs
 from viscontact.plot.layout.page import NARROW, Width, page_width
 from viscontact.results.recorded_case import recorded_object
 from viscontact.units.formatting import readable_unit
@@ -100,8 +101,7 @@ def compare_creep(
     >>> figure.axes[0].get_ylabel()
     'Creep compliance Φ [1/GPa]'
     """
-    if not runs:
-        raise ValueError(f"{_NAME}: needs at least one run to compare, got none")
+    require_runs(runs, _NAME)
     laws = {name: recorded_object(run, "material", _NAME).law for name, run in runs.items()}
     simulated = np.concatenate([run["time"].values for run in runs.values()])
     span = np.atleast_1d(np.asarray(simulated if times is None else times, float))

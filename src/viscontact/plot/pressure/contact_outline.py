@@ -13,10 +13,11 @@ from matplotlib.patches import PathPatch
 from numpy.typing import ArrayLike
 
 from viscontact.plot.layout import style
+from viscontact.plot.layout.compared_runs import headed_snapshots
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.plot.layout.window import Window, window_around
 from viscontact.plot.pressure.rim_polygons import rim_curves, rim_path
-from viscontact.results.snapshots import snapshots_of_runs, take_snapshots
+from viscontact.results.snapshots import take_snapshots
 from viscontact.units.formatting import time_labels
 
 _NAME = "contact-outline"
@@ -128,7 +129,7 @@ def compare_contact_outlines(
     >>> [text.get_text() for text in figure.legends[0].get_texts()]
     ['0.1 N, t = 1 s', '0.2 N, t = 1 s']
     """
-    snapshots, labels = snapshots_of_runs(runs, times, _NAME)
+    snapshots, labels = headed_snapshots(runs, times, _NAME)
     if len(snapshots) > len(runs):
         raise ValueError(f"{_NAME}: runs are compared at one instant, got {times!r} s")
     window = window_around(snapshots)

@@ -15,6 +15,7 @@ from scipy.interpolate import RegularGridInterpolator
 from scipy.ndimage import distance_transform_edt
 
 from viscontact.plot.layout import style
+from viscontact.plot.layout.compared_runs import headed_snapshots
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.plot.layout.solid_axes import (
     add_note,
@@ -26,8 +27,8 @@ from viscontact.plot.layout.solid_axes import (
 from viscontact.plot.layout.window import Window, window_around
 from viscontact.plot.pressure.relief import Relief, draw_relief, relief
 from viscontact.plot.pressure.rim_polygons import rim_curves
-from viscontact.results.snapshots import Snapshot, field_at, take_snapshots
-from viscontact.units.formatting import ReadableUnit, format_compact, readable_unit, time_labels
+from viscontact.results.snapshots import Snapshot, field_at
+from viscontact.units.formatting import ReadableUnit, format_compact, readable_unit
 
 _NAME = "surface-3d"
 Array = NDArray[np.float64]
@@ -93,7 +94,7 @@ def deformed_surface(
     >>> figure.axes[0].get_xlabel(), figure.axes[1].get_ylabel()
     ('x [mm]', 'Displacement [µm]')
     """
-    snapshots = take_snapshots(results, times, _NAME, count=2)
+    snapshots, headings = headed_snapshots({"": results}, times, _NAME, count=2)
     contacts = [
         DeformedContact(each, field_at(results, "displacement", each.time, _NAME))
         for each in snapshots
@@ -108,13 +109,11 @@ def deformed_surface(
         (window.unit.label("x"), window.unit.label("y")),
         page_width(width, style.TWO_COLUMNS if len(contacts) > 1 else style.ONE_COLUMN),
     )
-    for axes, contact, label in zip(
-        panels, contacts, time_labels(s.time for s in snapshots), strict=True
-    ):
+    for axes, contact, heading in zip(panels, contacts, headings, strict=True):
         draw_relief(axes, displacement_relief(contact, window, unit), _COLOURS, norm)
         _draw_rim(axes, contact, window, unit)
         _draw_indenter(axes, contact, window, unit)
-        add_title(axes, f"t = {label}")
+        add_title(axes, heading)
     add_side_bar(figure, _COLOURS, norm, unit.label("Displacement"), downwards=True)
     heights = f"heights {format_compact(stretch_of_heights(panels[0], window, unit), 2)}×"
     stretches = "; ".join(filter(None, (heights, window.note)))

@@ -18,14 +18,15 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.plot.layout import style
+from viscontact.plot.layout.compared_runs import headed_snapshots
 from viscontact.plot.layout.contour_labels import label_contours
 from viscontact.plot.layout.error_band import peak_note
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.plot.layout.window import Window, window_around
 from viscontact.plot.pressure.rim_polygons import beyond_period, rim_curves, rim_path
 from viscontact.plot.pressure.squared_pressure import squared_pressure
-from viscontact.results.snapshots import Snapshot, snapshots_of_runs, take_snapshots
-from viscontact.units.formatting import ReadableUnit, format_compact, readable_unit, time_labels
+from viscontact.results.snapshots import Snapshot
+from viscontact.units.formatting import ReadableUnit, format_compact, readable_unit
 
 _NAME = "pressure-map"
 # Percentiles of pressure over the contact between which contours have room for labels.
@@ -72,10 +73,7 @@ def pressure_map(
     >>> panel.get_xlabel(), scale.get_ylabel()
     ('x [µm]', 'Pressure [kPa]')
     """
-    snapshots = take_snapshots(results, times, _NAME, count=4)
-    labels = time_labels(snapshot.time for snapshot in snapshots)
-    note = peak_note([results], [snapshot.time for snapshot in snapshots])
-    return _draw(snapshots, [f"t = {label}" for label in labels], note, width)
+    return _draw({"": results}, times, width, count=4)
 
 
 def compare_pressure_maps(
@@ -116,12 +114,14 @@ def compare_pressure_maps(
     >>> len(compare_pressure_maps(runs).axes)  # a panel for each, and the scale of both
     3
     """
-    snapshots, headings = snapshots_of_runs(runs, times, _NAME)
+    return _draw(runs, times, width)
+
+
+def _draw(
+    runs: Mapping[str, xr.Dataset], times: ArrayLike | None, width: Width | None, count: int = 1
+) -> Figure:
+    snapshots, headings = headed_snapshots(runs, times, _NAME, count=count)
     note = peak_note(runs.values(), [snapshot.time for snapshot in snapshots])
-    return _draw(snapshots, headings, note, width)
-
-
-def _draw(snapshots: list[Snapshot], headings: list[str], note: str, width: Width | None) -> Figure:
     window = window_around(snapshots)
     pressed = (s.pressure[s.pressure > 0] for s in snapshots if s.touching)
     part = ORDINARY if note else 1.0

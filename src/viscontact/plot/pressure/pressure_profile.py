@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.plot.layout import style
+from viscontact.plot.layout.compared_runs import require_runs
 from viscontact.plot.layout.error_band import peak_note
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.results.snapshots import Snapshot, take_snapshots
@@ -135,8 +136,7 @@ def compare_pressure_profiles(
     >>> axes.get_xlabel(), axes.get_ylabel()
     ('y [µm]', 'Pressure [kPa]')
     """
-    if not runs:
-        raise ValueError(f"{_NAME}: needs at least one run to compare, got none")
+    require_runs(runs, _NAME)
     first = take_snapshots(next(iter(runs.values())), times, _NAME, count=2)
     instants = [snapshot.time for snapshot in first]
     figure = style.new_figure(page_width(width, style.TWO_COLUMNS), 2.2 * len(instants) + 0.4)

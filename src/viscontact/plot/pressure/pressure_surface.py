@@ -13,6 +13,7 @@ from mpl_toolkits.mplot3d.axes3d import Axes3D
 from numpy.typing import ArrayLike
 
 from viscontact.plot.layout import style
+from viscontact.plot.layout.compared_runs import headed_snapshots
 from viscontact.plot.layout.error_band import peak_note
 from viscontact.plot.layout.page import Width, page_width
 from viscontact.plot.layout.solid_axes import add_note, add_side_bar, add_title, solid_panels
@@ -20,8 +21,8 @@ from viscontact.plot.layout.window import Window, window_around
 from viscontact.plot.pressure.pressure_relief import pressure_relief
 from viscontact.plot.pressure.relief import draw_relief
 from viscontact.plot.pressure.rim_polygons import rim_polygons
-from viscontact.results.snapshots import Snapshot, snapshots_of_runs, take_snapshots
-from viscontact.units.formatting import readable_unit, time_labels
+from viscontact.results.snapshots import Snapshot
+from viscontact.units.formatting import readable_unit
 
 _NAME = "pressure-3d"
 #: A contact longer than this against its width is stretched: a blade shows nothing in space.
@@ -67,10 +68,7 @@ def pressure_surface(
     >>> figure.axes[1].get_ylabel()
     'Pressure [kPa]'
     """
-    snapshots = take_snapshots(results, times, _NAME, count=2)
-    labels = [f"t = {label}" for label in time_labels(s.time for s in snapshots)]
-    note = peak_note([results], [snapshot.time for snapshot in snapshots])
-    return _draw(snapshots, labels, note, width)
+    return _draw({"": results}, times, width, count=2)
 
 
 def compare_pressure_surfaces(
@@ -111,12 +109,14 @@ def compare_pressure_surfaces(
     >>> len(compare_pressure_surfaces(runs).axes)  # a panel for each, and the scale of both
     3
     """
-    snapshots, labels = snapshots_of_runs(runs, times, _NAME)
+    return _draw(runs, times, width)
+
+
+def _draw(
+    runs: Mapping[str, xr.Dataset], times: ArrayLike | None, width: Width | None, count: int = 1
+) -> Figure:
+    snapshots, headings = headed_snapshots(runs, times, _NAME, count=count)
     note = peak_note(runs.values(), [snapshot.time for snapshot in snapshots])
-    return _draw(snapshots, labels, note, width)
-
-
-def _draw(snapshots: list[Snapshot], headings: list[str], note: str, width: Width | None) -> Figure:
     window = window_around(snapshots, slender=_SLENDER)
     peak = max(float(snapshot.pressure.max()) for snapshot in snapshots)
     unit = readable_unit("Pa", peak)
