@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.loads import arguments
-from viscontact.loads.history import LoadPoint
 from viscontact.loads.piecewise import PiecewiseHistory
+from viscontact.units.numbers import store
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -71,38 +71,8 @@ class ApproachHistory(PiecewiseHistory):
         # Written out, so that lists are accepted and arrays are stored.
         instants = arguments.instants(times)
         values = arguments.values(ApproachHistory, "approach", approach, instants.size)
-        levels = np.broadcast_to(values, instants.shape)
         tilts = arguments.tail(ApproachHistory, instants.size, tilt_x=tilt_x, tilt_y=tilt_y)
-        for item, value in zip(fields(self), (instants, levels, *tilts), strict=True):
-            object.__setattr__(self, item.name, value)
-
-    def at(self, time: float, *, side: str = "right") -> LoadPoint:
-        """Return the prescribed load at an instant.
-
-        Parameters
-        ----------
-        time : float
-            The instant [s].
-        side : {"right", "left"}
-            Which value to take at a jump: the one just after it or the one just before.
-
-        Returns
-        -------
-        LoadPoint
-            Approach and tilts; the force is None.
-
-        Raises
-        ------
-        ValueError
-            If the time is not a finite number, or the side is neither of the two.
-
-        Examples
-        --------
-        >>> ApproachHistory([0, 2], [0, 1e-5]).at(1.0).approach
-        5e-06
-        """
-        tail = self._tail_at(time, side)
-        return LoadPoint(force=None, approach=self._level_of(time, side), **tail)
+        store(self, times=instants, approach=np.broadcast_to(values, instants.shape), **tilts)
 
     def approach_at(self, times: ArrayLike, *, side: str = "right") -> NDArray[np.float64]:
         """Return the approach at many instants.

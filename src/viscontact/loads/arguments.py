@@ -108,7 +108,7 @@ def numbers(name: str, given: ArrayLike | None, unit: str) -> NDArray[np.float64
 
 def tail(
     owner: type, count: int, **given: ArrayLike | None
-) -> list[float | NDArray[np.float64] | None]:
+) -> dict[str, float | NDArray[np.float64] | None]:
     """Return eccentricities [m] and tilts [rad] of a history, as `values`; a tilt may be None."""
     checked = {
         name: values(owner, name, value, count) if value is not None or name not in TILTS else None
@@ -116,4 +116,4 @@ def tail(
     }
     for axis in "xy":
         refuse_both(axis, checked.get(f"eccentricity_{axis}", 0.0), checked[f"tilt_{axis}"])
-    return list(checked.values())
+    return checked

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.loads import arguments
-from viscontact.loads.history import LoadPoint
 from viscontact.loads.piecewise import PiecewiseHistory
+from viscontact.units.numbers import store
 
 # Forces below this part of the history's largest count as zero: rounding, not a load.
 NEGLIGIBLE = 1e-12
@@ -80,39 +80,8 @@ class ForceHistory(PiecewiseHistory):
             tilt_x=tilt_x,
             tilt_y=tilt_y,
         )
-        read = (instants, arguments.forces(ForceHistory, force, instants.size), *tail)
-        for item, value in zip(fields(self), read, strict=True):
-            object.__setattr__(self, item.name, value)
-
-    def at(self, time: float, *, side: str = "right") -> LoadPoint:
-        """Return the prescribed load at an instant.
-
-        Parameters
-        ----------
-        time : float
-            The instant [s].
-        side : {"right", "left"}
-            Which value to take at a jump: the one just after it or the one just before.
-
-        Returns
-        -------
-        LoadPoint
-            Force, eccentricities and tilts; before the first point the force is 0 and the
-            others have their first values.
-
-        Raises
-        ------
-        ValueError
-            If the time is not a finite number, or the side is neither of the two.
-
-        Examples
-        --------
-        >>> point = ForceHistory([0, 2], [0, 10], eccentricity_x=0.003).at(1.0)
-        >>> point.force, point.eccentricity_x, point.tilt_x
-        (5.0, 0.003, None)
-        """
-        tail = self._tail_at(time, side)
-        return LoadPoint(force=self._level_of(time, side), **tail)
+        forces = arguments.forces(ForceHistory, force, instants.size)
+        store(self, times=instants, force=forces, **tail)
 
     def force_at(self, times: ArrayLike, *, side: str = "right") -> NDArray[np.float64]:
         """Return the force at many instants.

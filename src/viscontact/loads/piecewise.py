@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.loads import arguments
-from viscontact.loads.history import Cycle, LoadHistory, LoadInstant
+from viscontact.loads.history import Cycle, LoadHistory, LoadInstant, LoadPoint
 from viscontact.units.numbers import finite
 
 
@@ -21,17 +21,43 @@ class PiecewiseHistory(LoadHistory):
 
     times: NDArray[np.float64]
 
-    def _tail_at(self, time: float, side: str) -> dict[str, Any]:
-        """Eccentricities and tilts at an instant."""
-        instant = np.asarray(finite("time", time, "s"))
-        tail = {name: getattr(self, name) for name in arguments.TAIL}
-        return {
-            name: None if of is None else float(self._interpolate(of, instant, side))
-            for name, of in tail.items()
-        }
+    def at(self, time: float, *, side: str = "right") -> LoadPoint:
+        """Return the prescribed load at an instant.
 
-    def _level_of(self, time: float, side: str) -> float:
-        return float(self.level_at(finite("time", time, "s"), side=side))
+        Parameters
+        ----------
+        time : float
+            The instant [s].
+        side : {"right", "left"}
+            Which value to take at a jump: the one just after it or the one just before.
+
+        Returns
+        -------
+        LoadPoint
+            Force or approach, eccentricities and tilts; before the first point the force is 0 and
+            eccentricities and tilts have their first values.
+
+        Raises
+        ------
+        ValueError
+            If the time is not a finite number, or the side is neither of the two.
+
+        Examples
+        --------
+        >>> from viscontact.loads import ApproachHistory, ForceHistory
+        >>> point = ForceHistory([0, 2], [0, 10], eccentricity_x=0.003).at(1.0)
+        >>> point.force, point.eccentricity_x, point.tilt_x
+        (5.0, 0.003, None)
+        >>> ApproachHistory([0, 2], [0, 1e-5]).at(1.0).approach
+        5e-06
+        """
+        instant = np.asarray(finite("time", time, "s"))
+        level = float(self.level_at(instant, side=side))
+        values: dict[str, Any] = {"force": None, self.control: level}
+        for name in arguments.TAIL:
+            of = getattr(self, name)
+            values[name] = None if of is None else float(self._interpolate(of, instant, side))
+        return LoadPoint(**values)
 
     @cached_property
     def kinks(self) -> NDArray[np.float64]:
