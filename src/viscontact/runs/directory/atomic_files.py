@@ -43,10 +43,7 @@ def flush_directory(directory: Path) -> None:
 def put_in_place(fresh: Path, path: Path) -> None:
     """Replace a file by a closed one on the same file system, atomically and durably.
 
-    Raises
-    ------
-    PermissionError
-        On Windows, while a program has the old file open.
+    PermissionError on Windows, while a program has the old file open.
     """
     flush_to_disk(fresh)
     fresh.replace(path)
@@ -71,8 +68,6 @@ def replacing(path: Path) -> Iterator[BinaryIO]:
 def fresh_name(path: Path) -> Path:
     """Return the name of a new file until it replaces another one.
 
-    Examples
-    --------
     >>> fresh_name(Path("state.npz")).name
     '.state.npz.new'
     """

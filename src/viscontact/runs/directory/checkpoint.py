@@ -20,36 +20,16 @@ REMEDY = "start the run again with --overwrite"
 
 @dataclass(frozen=True)
 class Checkpoint:
-    """State of a run between two of its steps.
+    """State of a run between two of its steps."""
 
-    Attributes
-    ----------
-    case : dict
-        Description of the run; only a run with an equal one continues from here.
-    lines : int
-        Lines of the progress log.
-    reached : float or None
-        Last recorded instant [s]; None before the first.
-    result : dict
-        Position of the result's writer.
-    march : dict
-        Restart data of the march; empty before the first step.
-    transforms : str
-        Library of the Fourier transforms.
-    version : str
-        Version of the program that saved it.
-    layout : int
-        Layout of the restart data.
-    """
-
-    case: dict[str, Any]
-    lines: int
-    reached: float | None
-    result: RestartData
-    march: RestartData
-    transforms: str
-    version: str = __version__
-    layout: int = LAYOUT
+    case: dict[str, Any]  # description of the run; only a run with an equal one continues from here
+    lines: int  # of the progress log
+    reached: float | None  # last recorded instant [s]; None before the first
+    result: RestartData  # position of the result's writer
+    march: RestartData  # empty before the first step
+    transforms: str  # library of the Fourier transforms
+    version: str = __version__  # of the program that saved it
+    layout: int = LAYOUT  # of the restart data
 
 
 def save_checkpoint(path: Path, checkpoint: Checkpoint) -> None:
@@ -70,12 +50,9 @@ def is_checkpoint(path: Path) -> bool:
 
 
 def load_checkpoint(path: Path) -> Checkpoint:
-    """Load a checkpoint, equal to what was saved to the last bit.
+    """Load a checkpoint, equal to the saved one to the last bit.
 
-    Raises
-    ------
-    ValueError
-        If the file is damaged, of another origin, or of another version.
+    ValueError if the file is damaged, of another origin, or of another version.
     """
     try:
         with path.open("rb") as file:

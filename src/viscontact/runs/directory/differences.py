@@ -20,22 +20,13 @@ NOTHING = _Nothing()
 class Difference(NamedTuple):
     """A place where two descriptions differ.
 
-    Attributes
-    ----------
-    where : str
-        Path of keys.
-    before, now : object
-        The values; `NOTHING` where there is none.
-
-    Examples
-    --------
     >>> str(Difference("load.force", "10 kN", "20 kN"))
     'load.force: was 10 kN, is now 20 kN'
     """
 
-    where: str
-    before: Any
-    now: Any
+    where: str  # path of keys
+    before: Any  # `NOTHING` where there is no value
+    now: Any  # likewise
 
     def __str__(self) -> str:
         return f"{self.where}: was {_shown(self.before)}, is now {_shown(self.now)}"
@@ -44,8 +35,6 @@ class Difference(NamedTuple):
 def differences(before: Any, now: Any, where: str = "") -> tuple[Difference, ...]:
     """Compare dicts, lists, texts and numbers below a path of keys.
 
-    Examples
-    --------
     >>> [found] = differences({"load": {"force": [0.0, 4.0]}}, {"load": {"force": [0.0, 5.0]}})
     >>> str(found)
     'load.force[2]: was 4.0, is now 5.0'

@@ -22,17 +22,9 @@ def locked(directory: str | Path) -> Iterator[None]:
     """Lock an existing directory against other runs during a block, without waiting.
 
     The lock is the operating system's: it ends with its process, however that ends, and a file
-    ``.lock`` that is left over locks nothing.
+    ``.lock`` that is left over locks nothing. DirectoryInUse if another run, of this or another
+    process, has locked it; OSError if it may not be written to, or its file system has no locks.
 
-    Raises
-    ------
-    DirectoryInUse
-        If another run, of this or another process, has locked it.
-    OSError
-        If it cannot be locked: it may not be written to, or its file system has no locks.
-
-    Examples
-    --------
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder, locked(folder):
     ...     try:

@@ -34,40 +34,20 @@ SINGLE_PRECISION = 10 * 2.0**-24
 
 
 class Extent(NamedTuple):
-    """Number of rows along each unlimited dimension of a result.
+    """Number of rows along each unlimited dimension of a result."""
 
-    Attributes
-    ----------
-    rows : int
-        Rows of scalars, along ``time``.
-    field_rows : int
-        Rows of fields, along the axis of the fields.
-    """
-
-    rows: int
-    field_rows: int
+    rows: int  # of scalars, along ``time``
+    field_rows: int  # of fields, along their axis
 
 
 @dataclass(frozen=True, eq=False)
 class Layout:
-    """Dimensions and variables of a result's file.
+    """Dimensions and variables of a result's file."""
 
-    Attributes
-    ----------
-    grid : Grid
-        Grid of the fields.
-    axis : str or None
-        The dimension over which fields are kept, ``time`` or ``field_time``; None without fields.
-    errors : bool
-        Whether there is room for the errors of the scalars, which are NaN until they are known.
-    kind : str
-        NumPy's name of the type of the fields.
-    """
-
-    grid: Grid
-    axis: str | None
-    errors: bool = False
-    kind: str = "f8"
+    grid: Grid  # of the fields
+    axis: str | None  # dimension of the fields, ``time`` or ``field_time``; None without fields
+    errors: bool = False  # True with room for the errors of scalars, NaN until they are known
+    kind: str = "f8"  # NumPy's name of the type of the fields
 
     @property
     def columns(self) -> dict[str, tuple[Variable, tuple[str, ...]]]:
@@ -93,30 +73,14 @@ class Layout:
 
 @dataclass(frozen=True, eq=False)
 class Contents:
-    """Quantities, grid and instants that the result of a run is to hold.
+    """Quantities, grid and instants that the result of a run is to hold."""
 
-    Attributes
-    ----------
-    grid : Grid
-        Grid of the fields when the run begins.
-    times : ndarray
-        Instants of the run [s].
-    fields : "all", "none" or sequence of float
-        Instants [s] whose fields are kept.
-    attributes : mapping
-        Global attributes.
-    errors : bool
-        Whether there will be errors of the scalars.
-    tolerance : float
-        Relative error of the pressure, from which the precision of the fields follows.
-    """
-
-    grid: Grid
-    times: NDArray[np.float64]
-    fields: str | Sequence[float] = "all"
-    attributes: Mapping[str, Any] = field(default_factory=dict)
-    errors: bool = False
-    tolerance: float = 0.0
+    grid: Grid  # of the fields when the run begins
+    times: NDArray[np.float64]  # [s]
+    fields: str | Sequence[float] = "all"  # "all", "none" or the instants of kept fields [s]
+    attributes: Mapping[str, Any] = field(default_factory=dict)  # global ones
+    errors: bool = False  # True if errors of the scalars will be added
+    tolerance: float = 0.0  # relative error of the pressure, for the precision of the fields
 
     @property
     def kept(self) -> frozenset[float]:
@@ -126,8 +90,6 @@ class Contents:
     def layout(self, grid: Grid) -> Layout:
         """Return the layout of the result's file for some grid of the fields.
 
-        Examples
-        --------
         >>> grid = Grid((4, 4), (1.0, 1.0))
         >>> Contents(grid, np.array([0.0, 1.0]), fields=[1.0]).layout(grid).axis
         'field_time'

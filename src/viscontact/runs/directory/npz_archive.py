@@ -27,8 +27,6 @@ _DAMAGE = (
 def write_plain(file: BinaryIO, restart_data: RestartData) -> None:
     """Write arrays, numbers, texts and None, in lists and dicts, as an ``.npz`` archive.
 
-    Examples
-    --------
     >>> import io
     >>> file = io.BytesIO()
     >>> write_plain(file, {"work": 1.5, "past": [None, "left"]})
@@ -57,13 +55,8 @@ def _add(archive: zipfile.ZipFile, name: str, array: NDArray[Any]) -> None:
 def read_plain(file: BinaryIO) -> RestartData:
     """Read the data of `write_plain`, equal to the last bit.
 
-    Raises
-    ------
-    ValueError
-        If the file is incomplete or a checksum is wrong.
+    ValueError if the file is incomplete or a checksum is wrong.
 
-    Examples
-    --------
     >>> import io
     >>> read_plain(io.BytesIO(b"half a file"))
     Traceback (most recent call last):
@@ -88,13 +81,8 @@ def read_plain(file: BinaryIO) -> RestartData:
 def outline_of(file: BinaryIO) -> Any:
     """Read the outline of the data of `write_plain`, without the arrays, which may be damaged.
 
-    Raises
-    ------
-    ValueError
-        If there is none.
+    ValueError if there is none.
 
-    Examples
-    --------
     >>> import io
     >>> file = io.BytesIO()
     >>> write_plain(file, {"work": 1.5})

@@ -24,20 +24,9 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
     A line holds the instant, all scalars of the result in SI units by their names there, the
     outcome by its name, and the warnings that are new at that instant. A value that is not finite,
     such as the eccentricity without contact, is null. Numbers keep all their bits. A line is
-    written at once: when the process is killed, only the last line may be incomplete.
+    written at once: when the process is killed, only the last line may be incomplete. `count` is
+    the number of lines; an existing file is replaced.
 
-    Parameters
-    ----------
-    path : path
-        The file; an existing one is replaced.
-
-    Attributes
-    ----------
-    count : int
-        Number of lines.
-
-    Examples
-    --------
     >>> import tempfile
     >>> import viscontact as vc
     >>> rubber = vc.Material(vc.Elastic(1e7), 0.5)
@@ -62,12 +51,8 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
         """Continue a log after some of its lines, the last of them of a given instant [s].
 
         Lines beyond these are cut off by the next `append` or `flush_to_disk`, so that the file
-        is unchanged if the run is refused for another reason.
-
-        Raises
-        ------
-        ValueError
-            If the lines are not all there, cannot be read, or are not of this run.
+        is unchanged if the run is refused for another reason. ValueError if the lines are not all
+        there, cannot be read, or are not of this run.
         """
         try:
             with path.open("rb") as file:
@@ -88,13 +73,7 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
         return log
 
     def append(self, state: ContactState) -> None:
-        """Write the line of the next state.
-
-        Raises
-        ------
-        OSError
-            If it cannot be written whole; the lines before it stay.
-        """
+        """Write the line of the next state; OSError, and no line, if it cannot be written whole."""
         line = json.dumps(_entries(state), allow_nan=False, ensure_ascii=False) + "\n"
         encoded = line.encode()
         begin = self._file.tell()

@@ -30,13 +30,7 @@ from viscontact.simulation.setup import RunSetup
 
 
 class ChangedCaseError(ValueError):
-    """A run that cannot be resumed, because its case has changed.
-
-    Attributes
-    ----------
-    changes : tuple of Difference
-        The values that differ.
-    """
+    """A run that cannot be resumed, because its case has changed; `changes` are the differences."""
 
     def __init__(self, changes: Sequence[Difference]) -> None:
         super().__init__("; ".join(map(str, changes)))
@@ -45,27 +39,13 @@ class ChangedCaseError(ValueError):
 
 @dataclass(frozen=True)
 class RecordedRun:
-    """A run, its directory, and the choice of what is recorded.
-
-    Attributes
-    ----------
-    directory : Path
-        Run directory.
-    run : RunSetup
-        The run.
-    fields : "all", "none" or sequence of float
-        Instants [s] whose fields are kept.
-    title : str
-        Title of the result.
-    errors : bool
-        Whether the errors of the scalars are estimated after the march.
-    """
+    """A run, its directory, and the choice of the quantities that are recorded."""
 
     directory: Path
     run: RunSetup
-    fields: str | Sequence[float]
-    title: str = ""
-    errors: bool = False
+    fields: str | Sequence[float]  # "all", "none" or the instants of kept fields [s]
+    title: str = ""  # of the result
+    errors: bool = False  # True if errors of the scalars are estimated after the march
 
     @property
     def case(self) -> dict[str, Any]:
@@ -101,14 +81,8 @@ class RecordedRun:
     def load_checkpoint(self) -> Checkpoint:
         """Load the last checkpoint.
 
-        Raises
-        ------
-        FileNotFoundError
-            If there is none.
-        ChangedCaseError
-            If it is of another case.
-        ValueError
-            If it cannot be read.
+        FileNotFoundError if there is none, ChangedCaseError if it is of another case, ValueError if
+        it cannot be read.
         """
         saved = load_checkpoint(self.directory / STATE_NAME)
         if changes := differences(saved.case, self.case):
@@ -116,13 +90,7 @@ class RecordedRun:
         return saved
 
     def with_transforms(self, library: str) -> RecordedRun:
-        """Return the run with the library of Fourier transforms with which it was begun.
-
-        Raises
-        ------
-        ValueError
-            If that is not installed.
-        """
+        """Return the run with its first library of transforms; ValueError if not installed."""
         try:
             transforms_by(library)
         except ValueError as error:
@@ -143,10 +111,7 @@ class RecordedRun:
     def resumed_writer(self, saved: Checkpoint) -> ResultWriter:
         """Return the writer of the result at a checkpoint.
 
-        Raises
-        ------
-        ValueError
-            If the result is of another run, cannot be read, or has fewer rows.
+        ValueError if the result is of another run, cannot be read, or has fewer rows.
         """
         path = self.result_path
         try:

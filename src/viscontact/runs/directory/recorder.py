@@ -37,18 +37,13 @@ class Recorder:
     A checkpoint publishes the result and saves the restart state of the march. It comes after the
     first step, then once a second or less often, so that checkpoints take at most a twentieth of
     the time. A process that is killed loses the steps since the last checkpoint; the march is
-    deterministic, so that a resumed run computes the same bits again.
-
-    Attributes
-    ----------
-    saved : Reached
-        Finished instants at the last checkpoint, from which `resume` continues.
-    shown : Reached
-        Finished instants that the published result holds.
-    resumed : Reached
-        Finished instants when the run was resumed.
+    deterministic, so that a resumed run computes the same bits again. An OSError of any method
+    leaves the previous checkpoint and result, from which the run can be resumed.
     """
 
+    saved: Reached  # at the last checkpoint, from which `resume` continues
+    shown: Reached  # in the published result
+    resumed: Reached  # when the run was resumed
     _writer: ResultWriter
 
     def __init__(
@@ -69,16 +64,8 @@ class Recorder:
     ) -> Self:
         """Continue a run from its last checkpoint.
 
-        Raises
-        ------
-        FileNotFoundError
-            If nothing is saved.
-        ChangedCaseError
-            If the checkpoint is of another case.
-        ValueError
-            If a file of the run is damaged or of another origin; nothing has been changed then.
-        OSError
-            If something cannot be written; the checkpoint is still there.
+        FileNotFoundError if nothing is saved, ChangedCaseError for another case, ValueError if a
+        file of the run is damaged or of another origin; nothing has been changed then.
         """
         saved = recorded.load_checkpoint()
         recorded = recorded.with_transforms(saved.transforms)
@@ -118,24 +105,10 @@ class Recorder:
         return Reached(self._instants, self._time)
 
     def steps(self, progress: Progress | None = None) -> Iterator[ContactState | None]:
-        """March, and record each step before it is yielded.
+        """March, and yield each converged step after it is recorded; None for an inner step.
 
-        Parameters
-        ----------
-        progress : callable, optional
-            Called with (state, done, total) after each instant.
-
-        Yields
-        ------
-        ContactState or None
-            One for each remaining step that has converged; None for an inner step.
-
-        Raises
-        ------
-        ConvergenceError, DomainError
-            As in `march`; what has been recorded stays.
-        OSError
-            If something cannot be written; likewise.
+        `progress` is called with (state, done, total) after each instant. ConvergenceError and
+        DomainError as in `march`; recorded steps remain.
         """
         march = self._march
         for state in march:
@@ -148,13 +121,7 @@ class Recorder:
                 yield state
 
     def checkpoint(self) -> None:
-        """Publish the result and save the restart state; call it between two steps only.
-
-        Raises
-        ------
-        OSError
-            If something cannot be written; the previous checkpoint is still there.
-        """
+        """Publish the result and save the restart state; call it between two steps only."""
         if self._lines is None:
             return
         began = clock.monotonic()
@@ -168,34 +135,15 @@ class Recorder:
         self._due = now + max(PAUSE, SHARE * (now - began))
 
     def publish(self) -> None:
-        """Publish the result, also where the march has been stopped within a step.
-
-        Raises
-        ------
-        OSError
-            If that fails; what was published last is still there.
-        """
+        """Publish the result, also where the march has been stopped within a step."""
         if self._lines is not None:
             with self._undisturbed():
                 self._publish()
 
     def estimate_errors(self, on_step: Callable[[], None] | None = None) -> ErrorBars | None:
-        """Estimate the errors of the scalars after the last step, which is saved before.
+        """Estimate the errors of the scalars after the last step; None where none are requested.
 
-        Parameters
-        ----------
-        on_step : callable, optional
-            Called after each step of a coarser run; an exception from it ends the estimate.
-
-        Returns
-        -------
-        ErrorBars or None
-            None where none are requested.
-
-        Raises
-        ------
-        OSError
-            If something cannot be written; what has been recorded stays.
+        `on_step` is called after each step of a coarser run; its exceptions end the estimate.
         """
         if not self._recorded.errors:
             return None
@@ -205,13 +153,7 @@ class Recorder:
         return error_bars(self._recorded.run.on(self._writer.grid), history, on_step)
 
     def finish(self, bars: ErrorBars | None = None) -> None:
-        """Publish the complete result, with its errors, and remove the restart state.
-
-        Raises
-        ------
-        OSError
-            If that fails; the run can be resumed.
-        """
+        """Publish the complete result, with its errors, and remove the restart state."""
         with self._undisturbed():
             if self._lines is not None:
                 # Without the state a line lost in a power cut could not be written again.

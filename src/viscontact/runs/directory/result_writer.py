@@ -45,8 +45,6 @@ START: Mapping[str, Any] = {**_COUNTS, "warnings": (), "cells": None, "enlarged"
 def working_files(path: Path) -> tuple[Path, Path]:
     """Return the hidden files of a result: the one written to, and the one before an enlargement.
 
-    Examples
-    --------
     >>> [file.name for file in working_files(Path("result.nc"))]
     ['.result.nc.working', '.result.nc.smaller']
     """
@@ -60,22 +58,12 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
     a copy of that becomes the next working file. So the result is a closed and complete netCDF-4
     file at every moment, whatever happens to the process or to the power: HDF5 leaves a file
     incomplete that is open for writing when its process is killed, and locks it against readers.
+    An OSError of any method leaves the result as it was published last, and an existing file
+    remains until the first `publish`. A state on a larger grid gives the file a new layout.
 
-    Parameters
-    ----------
-    path : path
-        The result. An existing file stays until the first `publish`.
-    contents : Contents
-        Contents of the file. A state on a larger grid gives the file a new layout.
+    To the given global attributes are added `warnings` and `grid_enlarged`, a line each;
+    `wall_time` [s], summed over resumptions; `complete`, 1 once the run is finished.
 
-    Notes
-    -----
-    An OSError of any method leaves the result as it was published last. The global attributes
-    are given and `warnings` and `grid_enlarged`, a line each; `wall_time` [s], summed over
-    resumptions; `complete`, 1 once the run is finished.
-
-    Examples
-    --------
     >>> import tempfile
     >>> import viscontact as vc
     >>> grid, times = vc.Grid((32, 32), (3e-3, 3e-3)), [0.0, 1.0]
@@ -103,12 +91,8 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
     def resume(cls, path: str | Path, contents: Contents, position: Mapping[str, Any]) -> Self:
         """Continue a result from the `position` of an earlier process when it published.
 
-        Rows that the result has beyond that are dropped at the next publication.
-
-        Raises
-        ------
-        ValueError
-            If the result cannot be read, is of another run, or has fewer rows than that.
+        Rows that the result has beyond that are dropped at the next publication. ValueError if
+        the result cannot be read, is of another run, or has fewer rows than that.
         """
         writer = cls.__new__(cls)
         writer._set_up(Path(path), contents, position)

@@ -1,4 +1,4 @@
-"""Result of an earlier process: its description, and whether a run can be resumed from it."""
+"""Result of an earlier process: its description, and checks before a run is resumed from it."""
 
 from __future__ import annotations
 
@@ -18,31 +18,15 @@ from viscontact.runs.directory.netcdf_layout import Extent, Layout, opened
 
 @dataclass(frozen=True)
 class StoredRun:
-    """Description of a stored result.
+    """Description of a stored result."""
 
-    Attributes
-    ----------
-    rows : int
-        Number of its instants.
-    complete : bool
-        Whether its run was finished.
-    case : dict or None
-        The run in plain words, as `RecordedRun.case`; None in a file of another origin.
-    """
-
-    rows: int
-    complete: bool
-    case: dict[str, Any] | None
+    rows: int  # number of instants
+    complete: bool  # True if the run was finished
+    case: dict[str, Any] | None  # as `RecordedRun.case`; None in a file of another origin
 
 
 def stored_run(path: Path) -> StoredRun:
-    """Read the description of a stored result.
-
-    Raises
-    ------
-    ValueError
-        If the file cannot be read as a result.
-    """
+    """Read the description of a stored result; ValueError if it cannot be read as one."""
     try:
         with opened(path, "r") as file:
             if "time" not in file.dimensions:
@@ -63,13 +47,7 @@ def _case(file: netCDF4.Dataset) -> dict[str, Any] | None:
 
 
 def check_result(path: Path, layout: Layout, extent: Extent) -> None:
-    """Refuse a result that cannot be resumed: damaged, of another layout, or with fewer rows.
-
-    Raises
-    ------
-    ValueError
-        With the reason and a remedy.
-    """
+    """Raise ValueError for a result that is damaged, of another layout, or has fewer rows."""
     if not path.is_file():
         raise ValueError(f"{path} is missing, so the run cannot be continued; {REMEDY}")
     try:
