@@ -28,7 +28,7 @@ class Case(DisplayableGroup, Problem):
     title : str
         Title of the run.
     errors : bool
-        Whether the errors of the scalars are estimated.
+        True if the errors of the scalars are estimated.
     load_file : Path or None
         The CSV of the load history, if it has one.
     files : mapping of tuple to Path

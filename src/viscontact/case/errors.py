@@ -14,7 +14,7 @@ class CaseError(ValueError):
     Parameters
     ----------
     *problems : str
-        What is wrong, a line each: where, which key, why, and what to do.
+        Problems, a line each: place, key, reason and remedy.
 
     Attributes
     ----------

@@ -55,7 +55,7 @@ def read_case_text(text: str, path: str | PathLike[str], overrides: Iterable[str
     text : str
         The case, in YAML.
     path : path-like
-        What messages call it, a file or not. The files that it names lie in the same folder, and
+        Its name in messages, a file or not. The files that it names lie in the same folder, and
         are named by plain names: paths that lead elsewhere are refused before anything is read.
     overrides : iterable of str
         Values in place of those in the text, such as ``"load.force=20kN"``.

@@ -30,7 +30,7 @@ class Fit(Displayable):
         The same series in the terms of the data: with ``data="uniaxial"`` its numbers are D or
         E, with ``data="shear"`` compliances are 1/G.
     data : str
-        What the values mean: ``"deviatoric"``, ``"shear"`` or ``"uniaxial"``.
+        Meaning of the values: ``"deviatoric"``, ``"shear"`` or ``"uniaxial"``.
     points : ndarray, shape (n,)
         Times [s], or angular frequencies [rad/s] of an oscillation.
     measured : mapping of str to ndarray

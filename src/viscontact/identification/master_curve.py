@@ -114,7 +114,7 @@ def build_master_curve(
     isotherms : sequence of Isotherm
         Sets of one kind of test, in any order; two or more unless `shift` is given.
     reference_temperature : float
-        Where the master curve is to hold [K]; within the temperatures of the sets unless
+        Temperature of the master curve [K]; within the temperatures of the sets unless
         `shift` is given.
     shift : WLF, Arrhenius or TabulatedShift, optional
         The rule for the shift factors; found when left out.

@@ -70,7 +70,7 @@ def fit_creep(
     bulk_modulus : float, optional
         With uniaxial data, elastic bulk modulus [Pa]; exactly one of the two.
     fluid : bool, optional
-        Whether to allow steady flow.
+        True to allow steady flow.
     terms : int, optional
         Largest number of terms, instead of as few as needed.
     excess : float, optional
@@ -147,7 +147,7 @@ def fit_relaxation(
     poisson_ratio, bulk_modulus
         As in `fit_creep`.
     fluid : bool, optional
-        Whether the equilibrium modulus is zero.
+        True for an equilibrium modulus of zero.
     terms, excess, tolerance
         As in `fit_creep`.
 

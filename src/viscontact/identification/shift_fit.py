@@ -52,7 +52,7 @@ def fit_wlf(temperatures: ArrayLike, factors: ArrayLike, reference_temperature: 
     factors : array_like, shape (n,)
         Shift factors a_T > 0 [-].
     reference_temperature : float
-        Where a_T = 1 [K].
+        Temperature at which a_T = 1 [K].
 
     Returns
     -------
@@ -105,7 +105,7 @@ def fit_arrhenius(
     factors : array_like, shape (n,)
         Shift factors a_T > 0 [-].
     reference_temperature : float
-        Where a_T = 1 [K].
+        Temperature at which a_T = 1 [K].
 
     Returns
     -------

@@ -87,7 +87,7 @@ class PartialCrown(Profile):
     crown_radius : float
         Radius of the arcs [m].
     end_length : float, optional
-        Where the roller ends sharply, from its middle [m]; where the arc ends when left out.
+        Distance of the sharp end from the middle [m]; that of the end of the arc when left out.
 
     Raises
     ------
@@ -143,8 +143,8 @@ class TwoRadiiCrown(Profile):
     end_radius : float
         Radius of the second arc, which continues the first [m].
     end_length : float, optional
-        Where the roller ends sharply, from its middle [m]; where the second arc ends when left
-        out.
+        Distance of the sharp end from the middle [m]; that of the end of the second arc when
+        left out.
 
     Raises
     ------

@@ -22,7 +22,7 @@ class Wedge(Indenter):
     half_angle : float
         Angle from the plane of symmetry to a flank, between 0 and π/2, both excluded [rad].
     half_length : float, optional
-        Where the edge ends sharply on either side [m]; it has no end when left out.
+        Distance of the sharp ends from the middle [m]; the edge has no end when left out.
 
     Raises
     ------

@@ -29,7 +29,7 @@ class HeightMap(Indenter):
         Heights as measured with the surface facing the instrument, shape (nx, ny), from any
         reference [m].
     holes : bool, optional
-        Whether points may be missing (NaN): they are holes, which never touch.
+        True if points may be missing (NaN): they are holes, which never touch.
 
     Raises
     ------

@@ -25,7 +25,7 @@ class Revolved(Indenter):
         Distances from the axis, increasing, not negative; a body that begins away from the axis
         is hollow. A point given twice is a kink, on the axis a tip [m].
     drops : array_like
-        How far the surface lies below any level; its highest point becomes zero [m].
+        Depth of the surface below any level; its highest point becomes zero [m].
     interpolation : str, optional
         ``"smooth"`` (cubics without overshoot) or ``"linear"``.
 
@@ -78,9 +78,9 @@ class Swept(Indenter):
         Positions across, increasing; if none is negative they are one half of a symmetric
         section, from the middle on. A point given twice is a kink, in the middle a tip [m].
     drops : array_like
-        How far the surface lies below any level; its highest point becomes zero [m].
+        Depth of the surface below any level; its highest point becomes zero [m].
     half_length : float, optional
-        Where it ends sharply along x on either side [m]; without end when left out.
+        Distance of the sharp ends along x from the middle [m]; without end when left out.
     interpolation : str, optional
         ``"smooth"`` (cubics without overshoot) or ``"linear"``.
 

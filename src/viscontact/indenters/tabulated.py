@@ -25,7 +25,7 @@ class TabulatedProfile(Profile):
         Positions along the roller, from its middle, increasing [m]. If none is negative they are
         one half of a symmetric profile, from the middle on. A point given twice is a kink.
     drops : array_like
-        How far the line lies below any level; the highest point on the roller becomes zero [m].
+        Depth of the line below any level; the highest point on the roller becomes zero [m].
     interpolation : str, optional
         ``"smooth"`` (cubics without overshoot; the slope is continuous but at kinks) or
         ``"linear"``. At every kink the contact's pressure has a peak that depends on the mesh.

@@ -31,7 +31,7 @@ class ForceHistory(PiecewiseHistory):
     force : float or array_like
         Force at the points, positive in compression, zero or more [N].
     eccentricity_x, eccentricity_y : float or array_like
-        Where the force acts, a scalar or one value a point [m].
+        Position of the force, a scalar or one value a point [m].
     tilt_x, tilt_y : float or array_like, optional
         Prescribed slopes along x and y, a scalar or one value a point, positive when they
         press the +x or +y end deeper; the moment equation of that axis is dropped [rad].

@@ -47,7 +47,7 @@ class HarmonicHistory(LoadHistory):
     phase : float
         Phase at time 0 [rad].
     eccentricity_x, eccentricity_y : float
-        Where the force acts [m].
+        Position of the force [m].
     tilt_x, tilt_y : float or None
         Prescribed slopes; None where free [rad].
     """

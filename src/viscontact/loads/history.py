@@ -15,10 +15,10 @@ from viscontact.display import Displayable
 #: An instant [s], and which side of a jump there: "left" before it, "right" after it.
 LoadInstant = tuple[float, str]
 
-#: Where a cycle of the load begins and ends.
+#: Begin and end of a cycle of the load.
 Cycle = tuple[LoadInstant, LoadInstant]
 
-#: What a history prescribes along z.
+#: Quantity that a history prescribes along z.
 Control = Literal["force", "approach"]
 
 
@@ -32,7 +32,7 @@ class LoadPoint:
         Force pressing the bodies together, exactly 0 where it is negligible [N]; None where the
         approach is prescribed instead.
     eccentricity_x, eccentricity_y : float
-        Where the force acts: its moments are force · eccentricity [m].
+        Position of the force: its moments are force · eccentricity [m].
     tilt_x, tilt_y : float or None
         Prescribed slopes along x and y, positive when they press the +x or +y end deeper;
         None where the tilt is free and the moment is balanced instead [rad].
@@ -72,7 +72,7 @@ class LoadHistory(Displayable, ABC):
     ([0.0, 5.0, 10.0], [0.0, 2.0])
     """
 
-    #: What the history prescribes along z.
+    #: Quantity that the history prescribes along z.
     control: Control = "force"
 
     @property

@@ -28,7 +28,7 @@ def step(
     approach : float
         Instead of the force: the approach, positive when the bodies come closer [m].
     eccentricity_x, eccentricity_y : float, optional
-        Where the force acts [m]; not with an approach.
+        Position of the force [m]; not with an approach.
     tilt_x, tilt_y : float, optional
         Prescribed slopes; free of moment where left out [rad].
 
@@ -70,7 +70,7 @@ def ramp(
     force : float
         The force at the end of the ramp, zero or more [N].
     duration : float
-        How long the ramp takes, positive [s].
+        Duration of the ramp, positive [s].
     approach : float
         Instead of the force: the approach at the end of the ramp [m].
     eccentricity_x, eccentricity_y, tilt_x, tilt_y : float, optional
@@ -115,9 +115,9 @@ def triangle(
     force : float
         The force at the peak, zero or more [N].
     rise : float
-        How long loading takes, positive [s].
+        Duration of loading, positive [s].
     fall : float, optional
-        How long unloading takes, positive; as long as `rise` if left out [s].
+        Duration of unloading, positive; equal to `rise` if left out [s].
     approach : float
         Instead of the force: the approach at the peak [m].
     eccentricity_x, eccentricity_y, tilt_x, tilt_y : float, optional

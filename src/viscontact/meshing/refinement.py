@@ -133,7 +133,7 @@ def _factors(trial: MeshTrial, names: Sequence[str], tolerance: float) -> NDArra
 
 
 def _has_no_limit(trials: Sequence[MeshTrial], *, patient: bool) -> bool:
-    """Step 4: whether the peak pressure changes as much on small cells as on larger ones."""
+    """Step 4: test whether the peak pressure changes as much on small cells as on larger ones."""
     resolved = [
         trial for trial in trials if (trial.consecutive_cells >= MIN_CONSECUTIVE_CELLS).all()
     ]

@@ -29,7 +29,7 @@ class AxisymmetricContact:
     creep_compliance : callable
         J(t) [1/Pa].
     controlled : str
-        What was given, "approach" or "force".
+        The given quantity, "approach" or "force".
     elements, substeps : int
         The resolution.
     times : ndarray, shape (n,)

@@ -35,7 +35,7 @@ def auto_grid(
     tolerance : float, optional
         Aimed-at relative error of the named quantities, between 1e-4 and 0.5 [-].
     quantities : sequence of str, optional
-        What has to be that exact, as in `AutomaticGrid`.
+        Quantities to which the tolerance applies, as in `AutomaticGrid`.
     end : float, optional
         Last instant of the run [s]; the load's last point, or the end of all creep, when left
         out.

@@ -31,7 +31,7 @@ class March:
     done : int
         Requested states so far.
     outcome : Outcome
-        How the last step ended.
+        Outcome of the last step.
 
     Examples
     --------

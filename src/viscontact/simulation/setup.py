@@ -44,9 +44,9 @@ class RunSetup:
     open_gap : ndarray, shape (nx, ny)
         The indenter's gap on the grid [m], +inf outside its outline.
     hereditary : HereditaryPlan
-        How the hereditary integral is evaluated.
+        Method of the hereditary integral.
     mesh : Mesh or None
-        What is expected of the grid where it was chosen.
+        Chosen grid with its expected errors; None for a given grid.
     threads : int
         Threads of one Fourier transform.
     transforms : str

@@ -101,7 +101,7 @@ def swept(surface: Surface, width: float) -> Surface:
     surface : Surface
         With a single point along x or along y.
     width : float
-        How wide the ridges are [m].
+        Width of the ridges [m].
 
     Returns
     -------

@@ -15,7 +15,7 @@ def indenter_of(surface: Surface, *, holes: bool = False) -> HeightMap:
     surface : Surface
         The surface, levelled.
     holes : bool, optional
-        Whether missing points are holes, which never touch; without it they are refused.
+        True if missing points are holes, which never touch; otherwise they are refused.
 
     Returns
     -------

@@ -30,9 +30,9 @@ class Surface(Displayable):
     spacing : float or pair of float
         Distance of neighbouring points along x and y [m].
     name : str, optional
-        What it is called in messages.
+        Its name in messages.
     periodic : bool, optional
-        Whether its ends fit together, so that it continues periodically.
+        True if its ends fit together, so that it continues periodically.
 
     Raises
     ------

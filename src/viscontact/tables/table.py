@@ -36,7 +36,7 @@ class Table:
         The kind of test that the headings state: ``"shear"`` (G, J), ``"uniaxial"`` (E, D) or
         ``"deviatoric"`` (Phi); None if they do not.
     headings : mapping of str to str
-        What the columns are called in the file, by quantity.
+        Names of the columns in the file, by quantity.
     lines : ndarray of int, shape (rows,)
         Line of the file of each row, from 1.
     left_out : tuple of str
@@ -163,7 +163,7 @@ class Table:
         Parameters
         ----------
         error : ValueError
-            What a law or a fit refused: "TabulatedCreep.times, row 3: ...".
+            The error of a law or a fit: "TabulatedCreep.times, row 3: ...".
 
         Returns
         -------

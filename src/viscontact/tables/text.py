@@ -72,7 +72,7 @@ def require_file(path: str | PathLike[str]) -> Path:
     Parameters
     ----------
     path : path-like
-        What was given.
+        The given path.
 
     Returns
     -------

@@ -30,7 +30,7 @@ class Quantity:
     fast_bound, bound : float
         Largest relative error allowed on the finest mesh of the fast and of the full form [-].
     has_order : bool
-        Whether the error is a power of the refinement; an instant found between two steps is not.
+        True if the error is a power of the refinement; not for an instant found between two steps.
 
     Examples
     --------

@@ -47,7 +47,7 @@ def read_abaqus(
     path : path-like
         The file; a whole model, or a card alone.
     modulus_unit, time_unit : str
-        What its numbers are in, e.g. ``"MPa"`` and ``"s"``: Abaqus has no units.
+        Units of its numbers, e.g. ``"MPa"`` and ``"s"``: Abaqus has no units.
     temperature_unit : str, optional
         Needed if it has ``*TRS``, e.g. ``"degC"``.
     name : str, optional

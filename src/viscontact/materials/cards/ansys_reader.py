@@ -29,7 +29,7 @@ def read_ansys(
     path : path-like
         The file; a whole input, or a card alone.
     modulus_unit, time_unit : str
-        What its numbers are in, e.g. ``"MPa"`` and ``"s"``.
+        Units of its numbers, e.g. ``"MPa"`` and ``"s"``.
     temperature_unit : str, optional
         Needed if it has ``TB,SHIFT``, e.g. ``"degC"``; ``"K"`` for ``TN``.
     name : str, optional

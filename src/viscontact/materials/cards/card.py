@@ -22,7 +22,7 @@ class Card(Displayable):
     material : Material
         The law in shear, with Poisson's ratio or bulk modulus.
     shift : WLF, Arrhenius or TabulatedShift, optional
-        How its times shift with temperature; the law holds at the reference temperature.
+        Time-temperature shift; the law holds at the reference temperature.
     notes : tuple of str, optional
         Data of the file that are not used.
 

@@ -33,11 +33,11 @@ class Entry:
     measured : tuple of float
         First and last time on which the constants rest [s].
     constants : str
-        Whether they are printed, and where, or identified here, and from what.
+        Origin: printed, and the place, or identified here, and from which data.
     volume : str
-        Where Poisson's ratio or the bulk modulus is from.
+        Source of Poisson's ratio or the bulk modulus.
     checked : str
-        How the constants were checked.
+        Check of the constants.
     licence : str
         Of the source, if it is a repository.
     material : dict

@@ -111,7 +111,7 @@ def animation(
         Show the span between the least and the largest of these instants [s]; by default all of
         the run.
     seconds : float, optional
-        How long the film lasts [s].
+        Duration of the film [s].
     fps : float, optional
         Frames a second [1/s].
     width : {"single", "double"} or float, optional

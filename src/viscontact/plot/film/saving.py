@@ -46,7 +46,7 @@ def save_film(
     Parameters
     ----------
     film : Film
-        What `animation` returned.
+        Result of `animation`.
     path : path-like
         The file, in the format of its suffix: .gif or .mp4.
     progress : callable, optional

@@ -26,7 +26,7 @@ def save_figure(figure: Figure, path: str | PathLike[str]) -> None:
     Parameters
     ----------
     figure : matplotlib.figure.Figure
-        What one of the figures returned.
+        Figure of a run, a material or a shape.
     path : path-like
         The file, in the format of its suffix: .png, .pdf or .svg.
 

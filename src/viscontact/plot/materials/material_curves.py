@@ -44,7 +44,7 @@ def material_curves(
         First and last time on which the law rests [s]: shaded, the curves solid within and
         dashed beyond. The first may be 0. Solid everywhere when left out.
     points : iterable of Points, optional
-        What the law is compared with, drawn as markers.
+        Points for comparison with the law, drawn as markers.
     title : str, optional
         A line above the figure.
     width : {"single", "double"} or float, optional

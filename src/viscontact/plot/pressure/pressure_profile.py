@@ -42,7 +42,7 @@ def pressure_profile(
     along : {"x", "y"}, optional
         Direction of the line: along a roller, or across it.
     at : float, optional
-        Where the line crosses the other axis [m]; between two rows of cells the pressure is
+        Position of the line on the other axis [m]; between two rows of cells the pressure is
         interpolated.
     axes : matplotlib.axes.Axes, optional
         Axes to draw in; by default a new figure.
@@ -107,7 +107,7 @@ def compare_pressure_profiles(
         Instants [s]; of each run the nearest stored ones are drawn. By default the first in
         contact and the last of the first run.
     along, at : optional
-        Where the line runs, as for `pressure_profile`.
+        Direction and position of the line, as for `pressure_profile`.
     width : {"single", "double"} or float, optional
         One or two columns of a journal (89 and 183 mm), or a width [m].
 
