@@ -125,7 +125,7 @@ def test_a_changed_case_gets_a_name_of_its_own_until_one_is_typed(
     seen.type_into(page, "material.poisson_ratio", "0.3")
     seen.run(page, "#coarse")
     assert page.inner_text("#result-title") == f"{named}, poisson ratio 0.3"
-    assert page.inner_text("#reference-told") == f"Dashed: {named}, coarse answer"
+    assert page.inner_text("#reference-text") == f"Dashed: {named}, coarse answer"
     # As text it gets its new name when it is run, after a reload as well.
     page.reload()
     seen.until_ready(page)
@@ -173,7 +173,7 @@ def test_a_newcomer_leaves_with_case_report_and_result(
     # To the letter what the command line and the report say; here, words are kept together.
     cells = [
         [text.replace("\xa0", " ") for text in row.locator("td").all_inner_texts()]
-        for row in page.locator("#told tbody tr").all()
+        for row in page.locator("#numbers tbody tr").all()
     ]
     assert cells == [[row.first, row.last, row.largest, row.largest_error] for row in rows]
     assert float(seen.fact(page, "Approach").split()[0]) == pytest.approx(approach * 1e6, rel=1e-3)
@@ -428,7 +428,7 @@ def test_results_change_units_and_show_a_reference(page: Any, server: seen.Serve
     page.wait_for_selector("#stale", state="visible")
     seen.run(page, "#coarse")
     # Hertz: the peak pressure grows with the cubic root of the force, twice as large.
-    change = page.locator('#told tr:has(th:text("Peak pressure")) td').last.inner_text()
+    change = page.locator('#numbers tr:has(th:text("Peak pressure")) td').last.inner_text()
     assert float(change.strip("+ %")) == pytest.approx(100, abs=3)
     dashed = (
         page.locator("#histories .panel")
@@ -437,7 +437,7 @@ def test_results_change_units_and_show_a_reference(page: Any, server: seen.Serve
     )
     assert dashed == 1
     page.click("#unkeep")
-    assert page.locator("#told th").all_inner_texts()[-1] != "change"
+    assert page.locator("#numbers th").all_inner_texts()[-1] != "change"
 
 
 @pytest.mark.slow

@@ -1,6 +1,6 @@
 // Check after each change: text, problems, estimate and drawings.
 
-import { mended } from "./choosing.js";
+import { correctChoice } from "./choosing.js";
 import { caseText, draft, writeText } from "./draft.js";
 import { definitions, items, place, settled, write } from "./dom.js";
 import { draw } from "./drawings.js";
@@ -24,7 +24,7 @@ export function setUpChecking() {
   }, PAUSE);
   draft.addEventListener("values", () => {
     request?.abort(); // its answer would be about an earlier case
-    tell({ busy: true });
+    update({ busy: true });
     soon();
   });
 }
@@ -32,13 +32,13 @@ export function setUpChecking() {
 export async function look() {
   request?.abort();
   request = new AbortController();
-  tell({ busy: true });
+  update({ busy: true });
   try {
     const full = await post("/api/check", { yaml: caseText() }, request.signal);
     clearProblems(place("form"));
-    tell({ problems: [], full, busy: false });
+    update({ problems: [], full, busy: false });
   } catch (error) {
-    if (!mended(error.problems ?? [])) refuse(error);
+    if (!correctChoice(error.problems ?? [])) refuse(error);
   }
 }
 
@@ -46,11 +46,11 @@ export function refuse(error) {
   if (error.name === "AbortError") return;
   if (!error.problems) throw error;
   showProblems(place("form"), error.problems);
-  tell({ problems: error.problems, full: null, busy: false });
+  update({ problems: error.problems, full: null, busy: false });
 }
 
-function tell(news) {
-  Object.assign(check, news);
+function update(values) {
+  Object.assign(check, values);
   drawCheck();
   checked.dispatchEvent(new Event("change"));
 }
@@ -66,14 +66,13 @@ function drawCheck() {
   if (!full) return;
   const rows = [...(full.needs ?? []), ...(full.expectations ?? [])];
   place("expected-rows").replaceChildren(...definitions(rows));
-  const said = [...(full.warnings ?? []), ...(full.notes ?? [])];
-  place("expected-warnings").replaceChildren(...items(said));
+  place("expected-warnings").replaceChildren(...items([...(full.warnings ?? []), ...(full.notes ?? [])]));
   place("warned").hidden = !full.warnings?.length;
   write(place("warned"), full.warnings?.length === 1 ? "1 warning" : `${full.warnings?.length} warnings`);
 }
 
 function estimate({ cells, steps, memory }) {
-  const said = [`${cells.join(" × ")} cells`, steps ? `${steps} steps` : "steps as needed"];
-  if (memory) said.push(memory < 1e9 ? `${Math.round(memory / 1e6)} MB` : `${(memory / 1e9).toFixed(1)} GB`);
-  return said.join(" · ");
+  const parts = [`${cells.join(" × ")} cells`, steps ? `${steps} steps` : "steps as needed"];
+  if (memory) parts.push(memory < 1e9 ? `${Math.round(memory / 1e6)} MB` : `${(memory / 1e9).toFixed(1)} GB`);
+  return parts.join(" · ");
 }

@@ -24,7 +24,7 @@ export function putBack(path) {
 // Corrects a refused choice where possible, and returns whether it did. Keys that must be left out
 // are set aside; else, where earlier values do not suit the choice (such as a ball's radius with the
 // spacing of dimples), the group starts without them.
-export function mended(problems) {
+export function correctChoice(problems) {
   const { path, anew, text } = last ?? {};
   last = null;
   if (!path || JSON.stringify(valueAt(path)) !== text) return false;

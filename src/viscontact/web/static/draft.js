@@ -5,7 +5,8 @@ import { post } from "./server.js";
 export const draft = new EventTarget();
 let values = {};
 let text = "";
-let asked = 0;
+// Number of the latest request; answers to earlier ones are ignored.
+let latest = 0;
 // Whether the values agree with the text; false while the text is not valid.
 let read = false;
 
@@ -61,13 +62,13 @@ function put(part, [key, ...rest], value) {
 
 // Replaces the whole text, or takes over the `edited` one; the server reads its values.
 export async function replaceText(yaml, { edited = false } = {}) {
-  const turn = ++asked, before = values.title;
+  const request = ++latest, before = values.title;
   text = yaml;
   read = false;
   keep();
   draft.dispatchEvent(new Event("text"));
   const found = await post("/api/case", { yaml });
-  if (turn !== asked) return;
+  if (request !== latest) return;
   values = found.case;
   suggested = found.suggested_title;
   const isKept = edited && naming !== "own" && values.title === before;
@@ -77,12 +78,12 @@ export async function replaceText(yaml, { edited = false } = {}) {
   draft.dispatchEvent(new Event("replaced"));
 }
 
-// The text of the values. An answer to an earlier request is ignored.
+// Writes the text of the values.
 export async function writeText() {
-  const turn = ++asked;
+  const request = ++latest;
   const titled = naming !== "made";
   const written = await post("/api/yaml", { case: values, yaml: text, titled });
-  if (turn !== asked) return false;
+  if (request !== latest) return false;
   text = written.yaml;
   suggested = written.suggested_title;
   if (!titled) {

@@ -29,7 +29,7 @@ export function setUpDrawings() {
   for (const [kind, { about }] of Object.entries(KINDS)) {
     const names = { id: `drawing-${kind}`, role: "tabpanel", "aria-labelledby": `tab-${kind}` };
     boxes[kind] = make("figure", { class: "drawing", ...names },
-      make("div", { class: "scroll" }, make("img", { alt: about, hidden: true })), make("p", { class: "told" }));
+      make("div", { class: "scroll" }, make("img", { alt: about, hidden: true })), make("p", { class: "description" }));
   }
   narrow.addEventListener("change", placeDrawings);
   place("form").addEventListener("focusin", (event) => {
@@ -78,12 +78,12 @@ export async function draw() {
 }
 
 async function drawOne(kind, signal) {
-  const image = boxes[kind].querySelector("img"), note = boxes[kind].querySelector(".told");
+  const image = boxes[kind].querySelector("img"), note = boxes[kind].querySelector(".description");
   boxes[kind].setAttribute("aria-busy", "true");
   outdated.delete(kind);
   try {
-    const wish = { yaml: caseText(), what: kind, dark: isDark(), narrow: phone.matches };
-    const address = await postForImage("/api/drawing", wish, signal);
+    const query = { yaml: caseText(), what: kind, dark: isDark(), narrow: phone.matches };
+    const address = await postForImage("/api/drawing", query, signal);
     const before = image.src;
     image.src = address;
     image.hidden = false;

@@ -12,12 +12,14 @@ export const idOf = (path) => `field-${dotted(path)}`;
 // A field: label, control, description and room for problems.
 export function field(path, node, required) {
   const key = path.at(-1), id = idOf(path);
-  const told = [node.description, hint(node)].filter(Boolean).join(" · ");
+  const description = [node.description, hint(node)].filter(Boolean).join(" · ");
   const control = make("div", { class: "control" }, controlFor(path, node, required));
   const label = make("label", { htmlFor: id, textContent: titleOf(key) });
   return make("div", { class: `field ${node.kind}`, "data-path": dotted(path), "data-key": key },
     label, control,
-    told && make("p", { class: isPlain(node) ? "hidden" : "told", id: `${id}-told`, textContent: told }),
+    description && make("p", {
+      class: isPlain(node) ? "hidden" : "description", id: `${id}-description`, textContent: description,
+    }),
     make("ul", { class: "problems", id: `${id}-problems` }));
 }
 
@@ -26,14 +28,14 @@ const isPlain = (node) => /^an? [a-z ]+ with its unit, (any|zero or more|more th
 
 // Hint about allowed values, where the description does not give them.
 function hint(node) {
-  const said = [];
-  if (node.kind === "number") said.push(range(node));
-  if (node.words?.length) said.push(`or ${node.words.map((word) => `“${word}”`).join(", ")}`);
-  if (node.many) said.push("several with commas between");
+  const hints = [];
+  if (node.kind === "number") hints.push(range(node));
+  if (node.words?.length) hints.push(`or ${node.words.map((word) => `“${word}”`).join(", ")}`);
+  if (node.many) hints.push("several with commas between");
   const usual = node.default;
   if (usual !== null && usual !== undefined && !["", true, false].includes(usual) && typeof usual !== "object")
-    said.push(`${asText(usual)} when left out`);
-  return said.filter(Boolean).join("; ");
+    hints.push(`${asText(usual)} when left out`);
+  return hints.filter(Boolean).join("; ");
 }
 
 function range({ whole, least, most, above, below }) {
@@ -61,7 +63,7 @@ export function entry(path, node, { label = null, required = true, example = nod
   const input = make("input", {
     id, type: "text", autocomplete: "off", spellcheck: false, autocapitalize: "off",
     value: asText(valueAt(path)), placeholder: placeholder(required, asText(example)),
-    "aria-label": label, "aria-describedby": label ? null : `${id}-told ${id}-problems`,
+    "aria-label": label, "aria-describedby": label ? null : `${id}-description ${id}-problems`,
     "data-path": label ? dotted(path) : null, inputMode: node.kind === "number" ? "decimal" : "text",
     oninput: () => setValue(path, asValue(input.value, node)),
   });
@@ -116,7 +118,7 @@ function choice(path, node, required) {
   const none = !required && !node.options.includes(usual) && option("", "—", value === undefined);
   const strange = value !== undefined && !node.options.includes(value) && option(value, String(value), true);
   const select = make("select", {
-    id: idOf(path), "aria-describedby": `${idOf(path)}-told ${idOf(path)}-problems`,
+    id: idOf(path), "aria-describedby": `${idOf(path)}-description ${idOf(path)}-problems`,
     onchange: () => {
       const group = path.slice(0, -1);
       putBack(group);
@@ -131,7 +133,7 @@ function choice(path, node, required) {
 function toggle(path, node) {
   const usual = node.default ?? false;
   const box = make("input", {
-    id: idOf(path), type: "checkbox", checked: valueAt(path) ?? usual, "aria-describedby": `${idOf(path)}-told`,
+    id: idOf(path), type: "checkbox", checked: valueAt(path) ?? usual, "aria-describedby": `${idOf(path)}-description`,
     onchange: () => setValue(path, box.checked === usual ? undefined : box.checked),
   });
   return box;

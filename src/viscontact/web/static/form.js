@@ -40,9 +40,9 @@ function section({ key, node, required }) {
 }
 
 function foldedSection({ key, node, required }) {
-  const told = isSection(node) && make("small", { textContent: node.description });
+  const description = isSection(node) && make("small", { textContent: node.description });
   const inside = isSection(node) ? body([key], node, required) : part([key], { key, node, required });
-  return fold(key, caseValues()[key] !== undefined, "part", [make("h2", {}, titleOf(key), told)], [
+  return fold(key, caseValues()[key] !== undefined, "part", [make("h2", {}, titleOf(key), description)], [
     make("div", { "data-path": isSection(node) ? key : null, "data-section": key },
       inside, make("ul", { class: "problems" })),
   ]);
@@ -71,7 +71,7 @@ function nested(path, node, required) {
   const key = path.at(-1), names = { "aria-label": titleOf(key), "data-path": dotted(path), "data-key": key };
   return make("div", { class: "nested", role: "group", ...names },
     node.kind === "group" && make("span", { class: "label", textContent: titleOf(key) }),
-    node.kind === "group" && node.description && make("p", { class: "told", textContent: node.description }),
+    node.kind === "group" && node.description && make("p", { class: "description", textContent: node.description }),
     body(path, node, required), make("ul", { class: "problems" }));
 }
 
@@ -129,13 +129,14 @@ function variants(path, node, required, which = "") {
   const select = make("select", {
     id: idOf([...path, node.tag]), onchange: () => choose(path, node, select.value),
   }, variantOptions(node, chosen, required));
-  const asked = node.options.get(chosen), told = asked?.description ?? toldOf(chosen) ?? node.description;
+  const option = node.options.get(chosen);
+  const description = option?.description ?? sourceOf(chosen) ?? node.description;
   const label = path.length > 1 && typeof path.at(-1) === "string" ? titleOf(path.at(-1)) : titleOf(node.tag) + which;
   return [
     make("div", { class: "field variant", "data-path": dotted([...path, node.tag]), "data-key": node.tag },
       make("label", { htmlFor: select.id, textContent: label }), make("div", { class: "control" }, select),
-      make("p", { class: "told", textContent: told }), make("ul", { class: "problems" })),
-    asked && group(path, asked),
+      make("p", { class: "description", textContent: description }), make("ul", { class: "problems" })),
+    option && group(path, option),
   ];
 }
 
@@ -153,7 +154,7 @@ function variantOptions(node, chosen, required) {
   ];
 }
 
-function toldOf(name) {
+function sourceOf(name) {
   const known = materials.get(name);
   return known && [known.temperature, known.source].filter(Boolean).join(" · ");
 }

@@ -9,7 +9,7 @@ const WIDTH = 200, HEIGHT = 60, MOST_POINTS = 400;
 // Time between two requests [ms]; a run may complete hundreds of steps a second.
 const PAUSE = 400;
 let curves = null;
-let asked = 0;
+let requested = 0;
 
 const none = (id) => ({ id, after: 0, step: -1, busy: false, time: [], scalars: {}, labels: {} });
 
@@ -18,41 +18,41 @@ export function drawGrowing(status) {
   const box = place("growing");
   box.hidden = status.over || !status.figures.length;
   if (box.hidden) { box.replaceChildren(); curves = null; return; }
-  if (!curves.busy && status.step > curves.step) ask(curves, status);
+  if (!curves.busy && status.step > curves.step) request(curves, status);
 }
 
-async function ask(mine, status) {
-  mine.busy = true;
-  await new Promise((ready) => setTimeout(ready, Math.max(0, asked + PAUSE - Date.now())));
-  asked = Date.now();
+async function request(run, status) {
+  run.busy = true;
+  await new Promise((ready) => setTimeout(ready, Math.max(0, requested + PAUSE - Date.now())));
+  requested = Date.now();
   try {
-    const news = await get(`/api/runs/${mine.id}/grown?after=${mine.after}`);
-    take(mine, news);
-    mine.step = mine.time.length - 1;
-    if (curves === mine) show(mine, status);
+    const added = await get(`/api/runs/${run.id}/grown?after=${run.after}`);
+    append(run, added);
+    run.step = run.time.length - 1;
+    if (curves === run) show(run, status);
   } catch (error) {
     if (!error.problems) throw error; // the next event repeats the request
   } finally {
-    mine.busy = false;
+    run.busy = false;
   }
 }
 
 // A resumed run may have written some lines again.
-function take(mine, news) {
-  if (news.begun === 0) Object.assign(mine, none(mine.id), { busy: true });
-  const kept = news.time.length ? mine.time.filter((time) => time < news.time[0]).length : mine.time.length;
-  mine.time.splice(kept, Infinity, ...news.time);
-  for (const [name, values] of Object.entries(news.scalars)) (mine.scalars[name] ??= []).splice(kept, Infinity, ...values);
-  mine.labels = news.labels;
-  mine.after = news.after;
+function append(run, added) {
+  if (added.begun === 0) Object.assign(run, none(run.id), { busy: true });
+  const kept = added.time.length ? run.time.filter((time) => time < added.time[0]).length : run.time.length;
+  run.time.splice(kept, Infinity, ...added.time);
+  for (const [name, values] of Object.entries(added.scalars)) (run.scalars[name] ??= []).splice(kept, Infinity, ...values);
+  run.labels = added.labels;
+  run.after = added.after;
 }
 
-function show(mine, status) {
-  const end = status.end, at = scale(mine.time, end), isFirst = !place("growing").firstChild;
-  place("growing").replaceChildren(...Object.entries(mine.labels).map(([name, label]) => {
+function show(run, status) {
+  const end = status.end, at = scale(run.time, end), isFirst = !place("growing").firstChild;
+  place("growing").replaceChildren(...Object.entries(run.labels).map(([name, label]) => {
     const text = status.scalars[name]?.text ?? "";
     return make("figure", {},
-      make("figcaption", {}, `${label} `, make("b", { textContent: text })), drawn(mine.time, mine.scalars[name], at, label),
+      make("figcaption", {}, `${label} `, make("b", { textContent: text })), drawn(run.time, run.scalars[name], at, label),
       make("div", { class: "ends", "aria-hidden": "true" },
         make("span", { textContent: "0" }), make("span", { textContent: instant(end, unitFor("s", [end])) })));
   }));

@@ -3,7 +3,7 @@
 import { axis, instant, layout, plotly, quiet, timeScale } from "./charts.js";
 import { make, place } from "./dom.js";
 import { colour, faded } from "./theme.js";
-import { told, unitFor } from "./units.js";
+import { quantityText, unitFor } from "./units.js";
 
 let onLog = null;
 
@@ -48,13 +48,13 @@ const scaled = (values, unit) => values.map((value) => (value === null ? null : 
 
 function line(data, scalar, unit, scale, ink, dash) {
   const y = scaled(scalar.value, unit);
-  const said = (value, index) => {
-    const number = told(value, scalar.error[index], scalar.unit, scalar.mesh);
+  const hoverText = (value, index) => {
+    const number = quantityText(value, scalar.error[index], scalar.unit, scalar.mesh);
     return `t = ${instant(data.time[index], scale.unit)}: ${number}`;
   };
   return {
     x: data.time.map(scale.at), y, mode: y.length < 2 ? "markers" : "lines",
-    line: { color: ink, width: 2, dash }, marker: { color: ink }, text: scalar.value.map(said),
+    line: { color: ink, width: 2, dash }, marker: { color: ink }, text: scalar.value.map(hoverText),
     hovertemplate: "%{text}<extra></extra>",
   };
 }

@@ -194,8 +194,8 @@ function setUpConnection() {
 
 async function open() {
   setUpConnection();
-  const asked = ["schema", "examples", "materials"].map((name) => get(`/api/${name}`));
-  const [schema, shipped, materials] = await Promise.all(asked);
+  const answers = ["schema", "examples", "materials"].map((name) => get(`/api/${name}`));
+  const [schema, shipped, materials] = await Promise.all(answers);
   examples = shipped;
   useSchema(schema);
   useExampleTitles(examples.map(({ title }) => title));

@@ -58,7 +58,7 @@ function showInstant(index) {
   place("instant-slider").setAttribute("aria-valuetext", label);
   const stretch = map.stretch === 1 ? "" : ` y is drawn ${digits(map.stretch, 0)} times as long as x.`;
   const largest = `Largest pressure ${digits(peak / pressure.factor)} ${pressure.symbol}.`;
-  place("map-told").textContent = peak > 0 ? largest + stretch : "No contact.";
+  place("map-text").textContent = peak > 0 ? largest + stretch : "No contact.";
   drawPlane();
   for (const section of map.sections) drawSection(section);
 }

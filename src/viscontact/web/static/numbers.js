@@ -3,7 +3,7 @@
 import { instant } from "./charts.js";
 import { make } from "./dom.js";
 import { titleOf } from "./hints.js";
-import { toldIn, unitFor } from "./units.js";
+import { unitFor, valueText } from "./units.js";
 
 const number = (text, style = "") => make("td", { class: `number ${style}`, textContent: text });
 
@@ -11,11 +11,11 @@ export function numbersTable(data, reference) {
   const stated = data.listed.some((name) => isStated(data.scalars[name]));
   const rows = data.listed.map((name) => row(name, data, reference, stated));
   // The column "largest" is left out where all values are largest at the start or the end.
-  const isTold = data.listed.every((name) => {
+  const isRepeated = data.listed.every((name) => {
     const { value } = data.scalars[name];
     return [0, value.length - 1].includes(largestAt(value));
   });
-  const style = [reference && "compared", isTold && "told-already"].filter(Boolean).join(" ");
+  const style = [reference && "compared", isRepeated && "repeated"].filter(Boolean).join(" ");
   return make("table", { class: style },
     make("thead", {}, head(data, reference, stated)), make("tbody", {}, rows));
 }
@@ -37,13 +37,13 @@ function row(name, data, reference, stated) {
   const unit = unitFor(scalar.unit, scalar.value);
   const at = largestAt(scalar.value), largest = scalar.value[at] ?? null;
   const cell = (value, error, style) =>
-    number(whole(toldIn(unit, value, shownError(value, error, largest), scalar.mesh)), style);
+    number(whole(valueText(unit, value, shownError(value, error, largest), scalar.mesh)), style);
   return make("tr", {},
     make("th", { scope: "row" }, titleOf(name), make("small", { textContent: ` [${unit.symbol}]` })),
     cell(scalar.value[0], scalar.error[0], "first"),
     cell(scalar.value.at(-1), scalar.error.at(-1)),
     cell(largest, scalar.error[at] ?? null, "largest"),
-    stated && number(errorTold(scalar, largest, data.time), "worst"),
+    stated && number(errorText(scalar, largest, data.time), "worst"),
     reference && [cell(before, other?.error.at(-1) ?? null), number(change(scalar.value.at(-1), before))]);
 }
 
@@ -58,7 +58,7 @@ const shownError = (value, error, largest) =>
   (value === 0 && error <= 1e-4 * Math.abs(largest) ? 0 : error);
 
 // The largest error as a part of the largest value, and its time.
-function errorTold(scalar, largest, times) {
+function errorText(scalar, largest, times) {
   if (scalar.mesh) return "depends on the mesh";
   const worst = scalar.error.reduce((best, error, index) =>
     (error !== null && !(error <= (scalar.error[best] ?? -1)) ? index : best), -1);

@@ -21,14 +21,14 @@ export function showProblems(form, problems) {
     const rest = found ? problem.path.slice(found.path.length).replace(/^\./, "") : problem.path;
     const which = rest || (list && !found.box.contains(list) ? problem.path.split(".").pop() : "");
     const line = problem.line ? `line ${problem.line}` : "";
-    (list ?? place("other-problems")).append(said(found ? "" : line, which, problem.message));
-    place("text-problems").append(said(line, problem.path, problem.message));
+    (list ?? place("other-problems")).append(problemItem(found ? "" : line, which, problem.message));
+    place("text-problems").append(problemItem(line, problem.path, problem.message));
     if (found) mark(found, rest);
   }
 }
 
 const roomIn = (box) => box?.querySelector(":scope > .problems");
-const said = (...parts) => make("li", { textContent: parts.filter(Boolean).join(": ") });
+const problemItem = (...parts) => make("li", { textContent: parts.filter(Boolean).join(": ") });
 
 function nearest(form, path) {
   for (let rest = path; rest; rest = rest.replace(/(\.?[^.[\]]+|\[\d+\])$/, "")) {

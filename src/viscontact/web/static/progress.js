@@ -25,7 +25,7 @@ export function drawProgress() {
   if (status.part > 0 || status.over) bar.value = status.over ? 1 : status.part;
   else bar.removeAttribute("value");
   bar.hidden = status.over;
-  write(place("progress-text"), state.lost ? "No connection to the server; trying again." : told(status));
+  write(place("progress-text"), state.lost ? "No connection to the server; trying again." : progressText(status));
   drawGrowing(status);
   place("cancel").hidden = status.over || state.lost;
   place("resume").hidden = !(status.over && status.resumable);
@@ -39,7 +39,7 @@ export function drawProgress() {
 // Before its first step a run is started, not resumed.
 const onward = (status) => (status.figures.length ? "Resume" : "Start");
 
-function told(status) {
+function progressText(status) {
   if (status.over || status.stage === "waiting") return status.message;
   const parts = [stage(status)], left = status.seconds_left;
   if (status.time) parts.push(`t = ${status.time}`);
@@ -61,7 +61,7 @@ function speak(status) {
     spoken = news;
     const over = status.state === "done" ? "The answer is ready." : status.message;
     write(place("spoken"), status.over ? over : "The run has started.");
-  } else if (!status.over && document.hasFocus()) speakSoon(told(status));
+  } else if (!status.over && document.hasFocus()) speakSoon(progressText(status));
 }
 
 const isReference = (run) => state.reference?.id === run.id;

@@ -6,7 +6,7 @@ import { drawHistories, forgetScale } from "./histories.js";
 import { drawMap } from "./map.js";
 import { numbersTable } from "./numbers.js";
 import { state } from "./runs.js";
-import { told, unitFor } from "./units.js";
+import { quantityText, unitFor } from "./units.js";
 
 // Downloads: path, title, and whether the file is saved or opened.
 const DOWNLOADS = [
@@ -32,8 +32,8 @@ export async function drawResults() {
   place("quality").className = `chip ${status.quality}`;
   place("result-notes").replaceChildren(...notes(status, data));
   drawFacts(data);
-  place("told").replaceChildren(numbersTable(data, reference));
-  place("reference-told").replaceChildren(...referenceTold(reference));
+  place("numbers").replaceChildren(numbersTable(data, reference));
+  place("reference-text").replaceChildren(...referenceText(reference));
   place("downloads").replaceChildren(...downloads(shown));
   place("accuracy").replaceChildren(...definitions(data.accuracy));
   await Promise.all([drawMap(shown, reference), drawHistories(shown, reference)]);
@@ -43,10 +43,10 @@ export async function drawResults() {
 function notes(status, data) {
   const note = (text, style = "") => make("p", { class: `note ${style}`, textContent: text });
   // For a run that stopped early, the notes state where it ended.
-  const said = [status.quality === "coarse" && note(COARSE), status.state === "failed" && note(status.message)];
-  said.push(...data.notices.map((text) => note(text, "warm")));
-  if (data.warnings.length) said.push(warned(data.warnings));
-  return said.filter(Boolean);
+  const parts = [status.quality === "coarse" && note(COARSE), status.state === "failed" && note(status.message)];
+  parts.push(...data.notices.map((text) => note(text, "warm")));
+  if (data.warnings.length) parts.push(warned(data.warnings));
+  return parts.filter(Boolean);
 }
 
 // The first few warnings are shown, the others are folded.
@@ -60,25 +60,25 @@ function warned(warnings) {
 }
 
 // The end of the run, or the instant of the largest contact if it is lost at the end.
-function telling(data) {
+function factsIndex(data) {
   const areas = data.scalars.contact_area.value;
   return areas.at(-1) > 0 ? areas.length - 1 : areas.indexOf(Math.max(...areas));
 }
 
 function drawFacts(data) {
-  const index = telling(data), atEnd = index === data.time.length - 1;
+  const index = factsIndex(data), atEnd = index === data.time.length - 1;
   const when = `At t = ${instant(data.time[index], unitFor("s", data.time))}`;
   write(place("facts-when"), atEnd ? when : `${when}, when the contact is largest`);
   place("facts").replaceChildren(...Object.entries(data.facts).map(([name, label]) => {
     const { value, error, unit, mesh } = data.scalars[name];
-    const [number, half] = told(value[index], error[index], unit, mesh).split(" ± ");
+    const [number, half] = quantityText(value[index], error[index], unit, mesh).split(" ± ");
     return make("div", {}, make("dt", { textContent: label }),
       make("dd", {}, half ? `${number} ${half.split(" ").at(-1)}` : number,
         half && make("small", { textContent: `± ${half}` })));
   }));
 }
 
-function referenceTold(reference) {
+function referenceText(reference) {
   if (!reference) return [];
   return [make("span", { class: "key" }), `Dashed: ${reference.status.label}, ${qualityOf(reference)}`];
 }

@@ -9,7 +9,7 @@ import { startOf } from "./schema.js";
 // Related lists: all required lists of single values in a group, row by row.
 export function terms(path, keys) {
   const columns = keys.map(({ key, node }) => (
-    { path: [...path, key], node: node.item, title: titleOf(key), told: node.description }));
+    { path: [...path, key], node: node.item, title: titleOf(key), description: node.description }));
   const count = Math.max(1, ...columns.map((column) => lengthOf(column.path)));
   const cells = (row) => columns.map(({ path: at, node, title }) => (
     { path: [...at, row], node, label: `${title}, term ${row + 1}` }));
@@ -36,7 +36,7 @@ export function list(path, node) {
   });
   return make("div", { class: "field list", "data-path": dotted(path), "data-key": path.at(-1) },
     make("span", { class: "label", textContent: titleOf(path.at(-1)) }), box,
-    node.description && make("p", { class: "told", textContent: node.description }),
+    node.description && make("p", { class: "description", textContent: node.description }),
     make("ul", { class: "problems" }));
 }
 
@@ -48,7 +48,8 @@ const last = (column) => (valueAt(column.path) ?? []).at(-1) ?? startOf(column.n
 function table(path, columns, count, cells, { name, add, drop }) {
   const act = (what) => () => { what(); changed("structure"); };
   const head = make("tr", {}, columns.map((column) =>
-    make("th", { scope: "col" }, column.title, column.told && make("small", { textContent: column.told }))),
+    make("th", { scope: "col" }, column.title,
+      column.description && make("small", { textContent: column.description }))),
     make("th", {}, make("span", { class: "hidden", textContent: "Remove" })));
   const rows = Array.from({ length: count }, (_, row) => {
     const inputs = cells(row).map((cell) => {

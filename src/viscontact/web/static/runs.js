@@ -8,7 +8,7 @@ export const runs = new EventTarget();
 export const state = { active: null, shown: null, reference: null, listed: [], lost: false };
 
 let stop = () => {};
-const tell = (what) => runs.dispatchEvent(new Event(what));
+const notify = (what) => runs.dispatchEvent(new Event(what));
 
 // The address of the page contains its runs, for a reload or another tab.
 function remember() {
@@ -35,25 +35,25 @@ export async function watch(id, known = null) {
   state.lost = false;
   state.active = { id, status: known ?? (await get(`/api/runs/${id}`)) };
   remember();
-  heard(state.active.status);
+  receive(state.active.status);
   if (!state.active?.status.over) connect(id);
   list();
 }
 
 function connect(id) {
   stop();
-  stop = follow(id, heard, () => {
+  stop = follow(id, receive, () => {
     state.lost = true;
-    tell("active");
+    notify("active");
   });
 }
 
-async function heard(status) {
+async function receive(status) {
   if (state.active?.id !== status.id) return;
   const wasOver = state.active.status.over && state.active.status !== status;
   state.active.status = status;
   state.lost = false;
-  tell("active");
+  notify("active");
   if (!status.over || wasOver) return;
   stop();
   if (hasResults(status)) await show(status.id, status).catch(() => {});
@@ -65,13 +65,13 @@ const hasResults = (status) => status.figures.length > 0;
 export async function show(id, known = null) {
   state.shown = await loaded(id, known);
   remember();
-  tell("shown");
+  notify("shown");
 }
 
 export async function refer(id) {
   state.reference = id === null ? null : await loaded(id);
   remember();
-  tell("reference");
+  notify("reference");
 }
 
 async function loaded(id, known = null) {
@@ -81,7 +81,7 @@ async function loaded(id, known = null) {
   return { id, status, data, yaml: given.yaml };
 }
 
-export const cancel = async () => heard(await post(`/api/runs/${state.active.id}/cancel`));
+export const cancel = async () => receive(await post(`/api/runs/${state.active.id}/cancel`));
 
 export async function resume(id) {
   await watch(id, await post(`/api/runs/${id}/resume`));
@@ -93,7 +93,7 @@ export async function forget(id) {
     if (state[role]?.id === id) {
       if (role === "active") stop();
       state[role] = null;
-      tell(role);
+      notify(role);
     }
   remember();
   await list();
@@ -106,7 +106,7 @@ export async function list() {
   } catch (error) {
     if (!error.problems) throw error;
   }
-  tell("listed");
+  notify("listed");
 }
 
 // Called when the server is back: follow the run again, or report that it is gone.
@@ -118,9 +118,9 @@ connection.addEventListener("back", async () => {
     await watch(active.id);
   } catch {
     const message = "The server no longer knows this run; start it again.";
-    const gone = { over: true, state: "failed", message, problems: [], figures: [] };
-    state.active = { ...active, status: { ...active.status, ...gone } };
+    const failure = { over: true, state: "failed", message, problems: [], figures: [] };
+    state.active = { ...active, status: { ...active.status, ...failure } };
     state.lost = false;
-    tell("active");
+    notify("active");
   }
 });

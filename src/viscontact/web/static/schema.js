@@ -125,18 +125,18 @@ export function startOfVariant(node, tag, before) {
 
 function startOfGroup(node, before) {
   const values = {};
-  for (const { key, node: asked, required } of keysOf(node)) {
+  for (const { key, node: child, required } of keysOf(node)) {
     const old = before[key];
     const isApart = !required && (APART[key] ?? []).some((other) => other in values);
-    if (old !== undefined && fits(asked, old) && !isApart) values[key] = old;
-    else if (required) values[key] = startOf(asked);
-    else if (key in FILLED && !stoodFor(key, node, before)) values[key] = FILLED[key] ?? startOf(asked);
+    if (old !== undefined && fits(child, old) && !isApart) values[key] = old;
+    else if (required) values[key] = startOf(child);
+    else if (key in FILLED && !isReplaced(key, node, before)) values[key] = FILLED[key] ?? startOf(child);
   }
   return values;
 }
 
 // No force is added beside an approach.
-const stoodFor = (key, node, before) =>
+const isReplaced = (key, node, before) =>
   (INSTEAD[key] ?? []).some((other) => other in before && other in node.properties);
 
 function fits(node, value) {

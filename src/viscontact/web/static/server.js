@@ -38,7 +38,7 @@ function found() {
   connection.dispatchEvent(new Event("back"));
 }
 
-async function ask(path, options) {
+async function request(path, options) {
   let answer;
   try {
     answer = await fetch(path, options);
@@ -49,13 +49,13 @@ async function ask(path, options) {
   }
   found();
   if (answer.ok) return answer;
-  const told = await answer.json().catch(() => ({}));
+  const body = await answer.json().catch(() => ({}));
   const unknown = [{ path: "", line: null, message: `${answer.status} ${answer.statusText}` }];
-  throw new Refused(answer.status, told.problems ?? unknown);
+  throw new Refused(answer.status, body.problems ?? unknown);
 }
 
 export async function get(path) {
-  return (await ask(path, { cache: "no-store" })).json();
+  return (await request(path, { cache: "no-store" })).json();
 }
 
 const posted = (content, signal) => ({
@@ -63,34 +63,35 @@ const posted = (content, signal) => ({
 });
 
 export async function post(path, content, signal) {
-  return (await ask(path, posted(content, signal))).json();
+  return (await request(path, posted(content, signal))).json();
 }
 
 export async function postForImage(path, content, signal) {
-  return URL.createObjectURL(await (await ask(path, posted(content, signal))).blob());
+  return URL.createObjectURL(await (await request(path, posted(content, signal))).blob());
 }
 
 export async function remove(path) {
-  await ask(path, { method: "DELETE" });
+  await request(path, { method: "DELETE" });
 }
 
 export async function upload(file) {
   const path = `/api/files?name=${encodeURIComponent(file.name)}`;
-  return (await ask(path, { method: "POST", body: file })).json();
+  return (await request(path, { method: "POST", body: file })).json();
 }
 
-// Follows a run: `tell` gets each status until the run is over. Returns a function that stops this.
-export function follow(id, tell, gone) {
+// Follows a run: `onStatus` gets each status until the run is over, `onLost` is called
+// if the connection fails. Returns a function that stops this.
+export function follow(id, onStatus, onLost) {
   const source = new EventSource(`/api/runs/${id}/events`);
   source.onmessage = (event) => {
     const status = JSON.parse(event.data);
     if (status.over) source.close();
-    tell(status);
+    onStatus(status);
   };
   source.onerror = () => {
     source.close();
     look();
-    gone();
+    onLost();
   };
   return () => source.close();
 }

@@ -4,9 +4,9 @@ import { place } from "./dom.js";
 
 const KEY = "viscontact.theme";
 const system = window.matchMedia("(prefers-color-scheme: dark)");
-const told = new EventTarget();
+const changes = new EventTarget();
 
-export const onTheme = (act) => told.addEventListener("change", act);
+export const onTheme = (act) => changes.addEventListener("change", act);
 const chosen = () => document.documentElement.dataset.theme ?? "auto";
 export const isDark = () => (chosen() === "auto" ? system.matches : chosen() === "dark");
 
@@ -17,7 +17,7 @@ export function setUpTheme() {
   } catch { /* storage is disabled */ }
   const apply = () => {
     document.documentElement.dataset.theme = select.value;
-    told.dispatchEvent(new Event("change"));
+    changes.dispatchEvent(new Event("change"));
   };
   select.addEventListener("change", () => {
     try { localStorage.setItem(KEY, select.value); } catch { /* storage is disabled */ }

@@ -59,30 +59,30 @@ function inDigits(value, count) {
 }
 
 const withoutIdleZeros = (text) => (/\.\d*$/.test(text) ? text.replace(/\.?0+$/, "") : text);
-const isTold = (error, value) => error > NEGLIGIBLE * Math.abs(value);
+const isShown = (error, value) => error > NEGLIGIBLE * Math.abs(value);
 
 // Digits down to the second one of the error; no trailing zeros where it is 0.
 export function digits(value, error = null) {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
   if (error === 0) return withoutIdleZeros(inDigits(value, DIGITS + 1));
-  if (!isTold(error, value)) return inDigits(value, DIGITS);
+  if (!isShown(error, value)) return inDigits(value, DIGITS);
   const last = leading(error) - 1, rounded = Math.round(value / 10 ** last) * 10 ** last;
   if (rounded === 0) return "0";
   return inDigits(rounded, Math.min(Math.max(leading(rounded) - last + 1, 1), MOST));
 }
 
 // A value with its error in a unit; without a negligible error.
-export function toldIn(unit, value, error, mesh = false) {
+export function valueText(unit, value, error, mesh = false) {
   if (value === null || value === undefined) return "–";
-  const number = value / unit.factor, half = isTold(error, value) ? error / unit.factor : null;
+  const number = value / unit.factor, half = isShown(error, value) ? error / unit.factor : null;
   const parts = [mesh ? ">" : "", digits(number, half), half === null ? "" : `± ${inDigits(Number(half.toPrecision(2)), 2)}`];
   return parts.filter(Boolean).join(" ");
 }
 
 // A value with its error and unit, for sentences: without trailing zeros.
-export function told(value, error, si, mesh = false) {
+export function quantityText(value, error, si, mesh = false) {
   if (value === null || value === undefined) return "–";
-  const unit = unitFor(si, value), number = toldIn(unit, value, error, mesh);
+  const unit = unitFor(si, value), number = valueText(unit, value, error, mesh);
   return `${number.includes("±") ? number : withoutIdleZeros(number)} ${unit.symbol}`.trim();
 }
 
