@@ -130,7 +130,7 @@ def nothing() -> None:
 
 
 def at_each_line(act: Callable[[int], None]) -> Callable[[], None]:
-    """Let a run do something before each line of the watched code, which is told its number."""
+    """Let a run do something before each line of the watched code, with its number as argument."""
     count = 0
 
     def at_line(frame: FrameType, event: str, argument: Any) -> Any:
@@ -157,15 +157,15 @@ def killing_at(line: int) -> Callable[[], None]:
 
 def counted_lines(directory: str) -> int:
     """How many lines of the watched code a run comes to, to within a few."""
-    told, tell = os.pipe()
+    read_end, write_end = os.pipe()
 
     def note(count: int) -> None:
         if count % 10 == 0:
-            os.write(tell, b".")
+            os.write(write_end, b".")
 
     process(at_each_line(note), "-o", directory)
-    os.close(tell)
-    with os.fdopen(told, "rb") as dots:
+    os.close(write_end)
+    with os.fdopen(read_end, "rb") as dots:
         return 10 * len(dots.read())
 
 

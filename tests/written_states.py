@@ -38,7 +38,7 @@ def state(row: int, grid: Grid = GRID, times: NDArray[np.float64] = TIMES) -> Co
         iterations=int(random.integers(99)),
         cells_across=row,
         outcome=Outcome(row % 2),
-        warnings=(f"doubt {row}: 5 µm", "another") if row % 4 == 1 else (),
+        warnings=(f"warning {row}: 5 µm", "another") if row % 4 == 1 else (),
     )
 
 

@@ -1,4 +1,4 @@
-"""Indenters of case files: each key arrives as the argument it names, each slip is told."""
+"""Indenters of case files: each key arrives as the argument it names, each mistake is reported."""
 
 from __future__ import annotations
 
@@ -220,7 +220,7 @@ SHAPES = {
 
 @pytest.mark.parametrize("words", SHAPES)
 def test_shape_arrives_as_it_is_written(case: Path, words: str) -> None:
-    """Read into the same noun: its arguments agree to the rounding of a unit's factor."""
+    """Read into the same object: its arguments agree to the rounding of a unit's factor."""
     found, wanted = read_case(case, [f"indenter={words}"]).indenter, SHAPES[words]
     assert type(found) is type(wanted)
     x, y = [0.0, 0.31e-3, -0.7e-3, 1.9e-3, 1.4e-3], [0.0, 0.2e-3, 0.9e-3, -1e-3, 0.01e-3]

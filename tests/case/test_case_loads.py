@@ -45,7 +45,7 @@ IN_AND_OUT = vc.ApproachHistory([0, 1, 3], [0, 2e-6, -1e-6])
 
 
 @pytest.mark.parametrize(
-    ("load", "noun"),
+    ("load", "history"),
     [
         ({"kind": "step", "approach": "2 um"}, vc.step(approach=2e-6)),
         (
@@ -107,13 +107,13 @@ IN_AND_OUT = vc.ApproachHistory([0, 1, 3], [0, 2e-6, -1e-6])
         ),
     ],
 )
-def test_load_is_the_load_made_by_hand(load: Any, noun: vc.LoadHistory, tmp_path: Path) -> None:
-    assert type(noun) is type(read(tmp_path, load=load).load)
-    assert read(tmp_path, load=load).load == noun
+def test_load_is_the_load_made_by_hand(load: Any, history: vc.LoadHistory, tmp_path: Path) -> None:
+    assert type(history) is type(read(tmp_path, load=load).load)
+    assert read(tmp_path, load=load).load == history
 
 
 @pytest.mark.parametrize(
-    ("table", "noun"),
+    ("table", "history"),
     [
         ("time [s],force [N]\n0,0\n1,10\n3,10\n3,0\n", UP_AND_OFF),
         ("time [s]; force [N]\n0; 0\n1,0; 10\n3; 1e1\n3; 0,0\n", UP_AND_OFF),
@@ -128,11 +128,11 @@ def test_load_is_the_load_made_by_hand(load: Any, noun: vc.LoadHistory, tmp_path
         ),
     ],
 )
-def test_load_from_a_table(table: str, noun: vc.LoadHistory, tmp_path: Path) -> None:
+def test_load_from_a_table(table: str, history: vc.LoadHistory, tmp_path: Path) -> None:
     (tmp_path / "load.csv").write_text(table, encoding="utf-8")
     found = read(tmp_path, load={"kind": "history", "file": "load.csv"})
-    assert type(found.load) is type(noun)
-    for name, value in vars(noun).items():
+    assert type(found.load) is type(history)
+    for name, value in vars(history).items():
         theirs = getattr(found.load, name)
         assert (theirs is None) == (value is None)
         if value is not None:

@@ -29,10 +29,10 @@ def points(*texts: str) -> list[tuple[float, float]]:
 
 
 def test_the_promised_sentences_are_the_history_by_hand() -> None:
-    told = course("ramp to 10 kN in 1 s; hold for 240 s; unload in 0.1 s")
+    history = course("ramp to 10 kN in 1 s; hold for 240 s; unload in 0.1 s")
     by_hand = vc.ForceHistory([0, 1, 241, 241.1], [0, 10e3, 10e3, 0])
-    assert vc.ForceHistory(told.times, told.levels) == by_hand
-    assert told.control == "force"
+    assert vc.ForceHistory(history.times, history.levels) == by_hand
+    assert history.control == "force"
 
 
 @pytest.mark.parametrize(
@@ -100,9 +100,9 @@ def test_swing_is_a_sine_of_128_lines_a_cycle_about_where_it_was() -> None:
     assert (levels[1 + 32], levels[1 + 96], levels[1 + 128], levels[-1]) == (5.0, 1.0, 3.0, 3.0)
     assert times[-1] == 9.0
     # which is the harmonic load, to what a line misses of a sine: A (pi/128)^2/2 = 3e-4 A
-    told, swing = vc.ForceHistory(times, levels), vc.harmonic(3.0, 2.0, 4.0, 2)
+    history, swing = vc.ForceHistory(times, levels), vc.harmonic(3.0, 2.0, 4.0, 2)
     fine = np.linspace(0, 8, 5000)
-    missed = np.abs(told.level_at(fine + 1) - swing.level_at(fine)).max()
+    missed = np.abs(history.level_at(fine + 1) - swing.level_at(fine)).max()
     assert 0.9 * math.pi**2 / 128**2 < missed < math.pi**2 / 128**2
 
 
@@ -132,8 +132,8 @@ def test_all_that_can_be_said_is_understood() -> None:
     said = [form.split(" (")[0] for form in EXAMPLES]
     assert len(read_sentences(said)) == len(EXAMPLES)
     # all but the repetitions are one history, too: 300 s, an unloading, ten cycles of 2 s
-    told = course("ramp to 3 kN in 1 s", *said[2:5], "step to 2 kN", said[5])
-    assert told.times[-1] == pytest.approx(300 + 0.1 + 20)
+    history = course("ramp to 3 kN in 1 s", *said[2:5], "step to 2 kN", said[5])
+    assert history.times[-1] == pytest.approx(300 + 0.1 + 20)
 
 
 # --- what cannot ------------------------------------------------------------------------------

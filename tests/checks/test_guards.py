@@ -518,7 +518,7 @@ OFF, OFF_AT_ONCE = (
     f"load={{kind: history, points: [[0 s, 4 N], [3 s, 4 N], [{end} s, 0 N]]}}" for end in (4, 3)
 )
 # Contact radius after 5 s, with J = (1 - nu)/G: a = (3 * 4 N * 10 mm/(40 MPa))^(1/3) = 1.14 mm.
-FORETOLD = {
+EXPECTED = {
     "rim": (
         ["grid.size=[2.1 mm, 2.1 mm]"],
         "will probably overrun the grid",
@@ -601,12 +601,12 @@ def warned(capsys: pytest.CaptureFixture[str], settings: list[str]) -> str:
     return capsys.readouterr().err if code else vc.open_results("out").attrs["warnings"]
 
 
-@pytest.mark.parametrize("told", FORETOLD.values(), ids=FORETOLD)
+@pytest.mark.parametrize("expected", EXPECTED.values(), ids=EXPECTED)
 @pytest.mark.usefixtures("case")
 def test_check_predicts_the_warnings_of_the_run(
-    told: tuple[Any, ...], capsys: pytest.CaptureFixture[str]
+    expected: tuple[Any, ...], capsys: pytest.CaptureFixture[str]
 ) -> None:
-    settings, words, *others = told
+    settings, words, *others = expected
     printed = checked(capsys, *settings)
     assert "can be read, but:" in printed
     assert words in printed

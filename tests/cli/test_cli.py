@@ -101,7 +101,7 @@ def test_run_writes_a_result_that_is_the_simulation(
     expected = vc.simulate(vc.Sphere(0.01), material, vc.step(4.0), grid, times)
     with vc.open_results("case") as ds:
         np.testing.assert_array_equal(ds.time, times)
-        # the same numbers: both march the same nouns on one thread
+        # the same numbers: both march the same problem on one thread
         np.testing.assert_array_equal(ds.approach, expected.approach)
         np.testing.assert_array_equal(ds.pressure[-1], expected.pressure[-1].astype("f4"))
         assert ds.attrs["title"] == "Zener sphere"
@@ -310,7 +310,7 @@ def test_adaptive_run_keeps_every_step_and_goes_to_the_end(
     assert main(["run", "case.yaml", *ADAPTIVE, *kept]) == 0
     printed = capsys.readouterr()
     lines = printed.err.splitlines()
-    # totals are guesses until the end, which is told as it is
+    # totals are estimates until the end
     assert lines[0].startswith("step 1 of about ")
     with vc.open_results("case") as ds:
         count = ds.sizes["time"]
@@ -321,11 +321,11 @@ def test_adaptive_run_keeps_every_step_and_goes_to_the_end(
         assert 5 < count < 60
         largest = float(ds.time_error.max())
     assert 0 < largest <= 0.01
-    told = f"error due to the time steps: at most {format_percent(largest)} of the pressure"
-    assert told in printed.out
+    sentence = f"error due to the time steps: at most {format_percent(largest)} of the pressure"
+    assert sentence in printed.out
     assert main(["show", "case"]) == 0
     shown = capsys.readouterr().out
-    assert told in shown
+    assert sentence in shown
     assert "stopped" not in shown
     assert (
         main(["run", "case.yaml", "-q", "-o", "all", *ADAPTIVE, "--set", "output.fields=all"]) == 0
@@ -582,9 +582,9 @@ def test_show_prints_the_loss_per_cycle_and_an_inexact_memory(
     assert f"loss per cycle: {first} in the first cycle, {last} in the last" in printed
     assert "memory" not in printed
     with vc.open_results("case") as ds:
-        told = ds.load().assign_attrs(memory="sum over all earlier steps", inversion_error=1e-7)
-    told.to_netcdf("told.nc")
-    assert main(["show", "told.nc"]) == 0
+        altered = ds.load().assign_attrs(memory="sum over all earlier steps", inversion_error=1e-7)
+    altered.to_netcdf("altered.nc")
+    assert main(["show", "altered.nc"]) == 0
     printed = capsys.readouterr().out
     assert "memory: sum over all earlier steps" in printed
     assert "the law was converted numerically; error: below 0.01 % (estimated)" in printed
@@ -710,7 +710,7 @@ def test_example_is_copied_with_the_schema_that_editors_need(
 
 
 def test_demo_runs_the_shipped_case_to_pictures(folder: Path) -> None:
-    # as a process of its own, where NumPy is told to leave short inner products to one thread
+    # as a process of its own, where NumPy is set to leave short inner products to one thread
     demo = [sys.executable, "-m", "viscontact", "demo", "-q"]
     done = subprocess.run(demo, capture_output=True, text=True)
     assert (done.returncode, done.stderr) == (0, "")
@@ -889,7 +889,7 @@ def test_full_output_is_said_in_one_line(words: str, folder: Path, finished: Pat
         assert done.stderr == (
             "viscontact: the output cannot be written: No space left on device\n"
         )
-    # messages nobody can read do not change how a run ends
+    # messages that cannot be written do not change how a run ends
     assert _shell(f"$V {words} 2>/dev/full").returncode == 0
 
 

@@ -144,7 +144,7 @@ def test_quota_stops_the_run_which_continues_without_it(
     assert same_bits("case", whole)
 
 
-# --- files that are damaged, or somebody else's -------------------------------------------------
+# --- files that are damaged, or of other programs -----------------------------------------------
 
 
 def _cut(path: Path) -> None:
@@ -272,7 +272,7 @@ def test_result_that_is_a_link_continues_as_a_file(
     assert same_bits("case", whole)
 
 
-# --- what is somebody else's ------------------------------------------------------------------
+# --- files of other programs ------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("words", [[], ["--overwrite"], ["--resume"]])

@@ -166,10 +166,10 @@ def test_refusals_name_the_option_on_one_line_with_exit_code_2(
 ) -> None:
     before = sorted(path.name for path in folder.iterdir())
     assert main(["material", *arguments]) == 2
-    told = capsys.readouterr()
-    assert message in told.err
-    assert len(told.err.splitlines()) == 1
-    assert told.out == ""
+    printed = capsys.readouterr()
+    assert message in printed.err
+    assert len(printed.err.splitlines()) == 1
+    assert printed.out == ""
     assert sorted(path.name for path in folder.iterdir()) == before
 
 

@@ -241,9 +241,9 @@ def test_printed_command_continues_the_run(
     undo = at_instant(3, lambda: signal.raise_signal(signal.SIGTERM))
     assert main(["run", "case.yaml", *given]) == 130
     undo()
-    *_, kept, told = capsys.readouterr().err.splitlines()
+    *_, kept, advice = capsys.readouterr().err.splitlines()
     assert kept == "a b keeps 3 of 11 instants"
-    words = shlex.split(told.removeprefix("continue with: "))
+    words = shlex.split(advice.removeprefix("continue with: "))
     assert words == ["viscontact", "run", "case.yaml", *given, "--resume"]
     assert main(words[1:]) == 0
     assert "continuing after 3 of 11 instants" in capsys.readouterr().err
@@ -383,7 +383,7 @@ def test_fault_that_comes_while_a_request_waits_is_reported(
 def test_step_that_fails_is_not_gone_on_from_though_a_stop_is_asked_for_in_it(
     time: str, folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    # A kink of the load at 1.2 s makes a step that nobody asked for.
+    # A kink of the load at 1.2 s makes a step that was not requested.
     load = "load={kind: history, points: [[0 s, 0 N], [1.2 s, 4 N], [5 s, 4 N]]}"
     command = ["run", "case.yaml", "-q", "--set", load]
     solve, solved = stepper.solve_contact, []
@@ -426,7 +426,7 @@ def test_real_process_is_stopped_and_resumed(folder: Path) -> None:
     while not (progress.exists() and progress.read_text(encoding="utf-8").count("\n") > 3):
         assert run.poll() is None
         clock.sleep(0.01)
-    # meanwhile nobody else may write there
+    # meanwhile no other process may write there
     other = subprocess.run([*command, "--resume"], capture_output=True, text=True)
     assert other.returncode == 2
     assert "in use by another run" in other.stderr
@@ -487,15 +487,15 @@ def test_show_and_plot_report_a_run_that_can_be_continued(
     command = shlex.split(line.removeprefix(said))
     with locked(Path("a b")):
         assert main(["show", "a b"]) == 0
-        told = capsys.readouterr().out
-        assert "the run is still active, at 4 of 11 instants" in told
-        assert "errors: not known yet; they are estimated once the run is over" in told
-        assert "largest error" not in told
+        summary = capsys.readouterr().out
+        assert "the run is still active, at 4 of 11 instants" in summary
+        assert "errors: not known yet; they are estimated once the run is over" in summary
+        assert "largest error" not in summary
     assert main(command[1:]) == 0
     assert main(["show", "a b"]) == 0
-    told = capsys.readouterr().out
-    assert "the run stopped" not in told
-    assert "the run is still" not in told
+    summary = capsys.readouterr().out
+    assert "the run stopped" not in summary
+    assert "the run is still" not in summary
 
 
 #: A process in which signals come while something is imported, or at its very end.

@@ -47,7 +47,7 @@ def test_no_tilt_may_be_said_aloud():
     ],
 )
 def test_waves_that_do_not_fit_are_refused(shape, size):
-    """At the border they would have a kink, or a step, that nobody meant."""
+    """At the border they would have a kink, or a step, that is not intended."""
     with pytest.raises(ValueError, match=r"grid\.size: the body does not repeat itself over"):
         run(shape, grid=vc.Grid((32, 32), size, periodic=True))
 

@@ -95,10 +95,10 @@ def test_roller_that_is_held_approaches_as_an_elastic_one_of_its_compliance(
     lags = np.linspace(30.0, 32.0, 2001)
     phi = 7e-10 - 6.17e-11 * np.exp(-0.1 * lags) - 8.38e-11 * np.exp(-7.47e-3 * lags)
     elastic = vc.Material(vc.Elastic(1 / (2 * np.trapezoid(phi, lags) / 2)), 0.38)
-    twin = vc.simulate(case.indenter, elastic, vc.step(10e3), case.grid, [0.0], fields="none")
+    relaxed = vc.simulate(case.indenter, elastic, vc.step(10e3), case.grid, [0.0], fields="none")
     # Approach and area come from increments, which the steps do not change: rounding and the
     # solver's 1e-6, and the printed digits of the law.
-    assert float(ds.approach.sel(time=32.0)) == pytest.approx(float(twin.approach[0]), rel=1e-5)
+    assert float(ds.approach.sel(time=32.0)) == pytest.approx(float(relaxed.approach[0]), rel=1e-5)
     assert float(ds.approach[-1]) < 0.01 * float(ds.approach.max())
 
 

@@ -55,10 +55,10 @@ def test_rough_ball_spreads_as_an_elastic_one_of_its_compliance(
     mean_J = np.trapezoid(case.material.contact_compliance()(lags), lags)
     elastic = vc.Material(vc.Elastic(0.5 * (1 - 0.3) / mean_J), 0.3)
     grid = case.grid
-    twin = vc.simulate(case.indenter, elastic, vc.step(60e-3), grid, [0.0], fields="none")
+    relaxed = vc.simulate(case.indenter, elastic, vc.step(60e-3), grid, [0.0], fields="none")
     # Approach and area are sums over increments, exact in the steps: the solver's 1e-6 is left.
-    assert float(ds.approach[-1]) == pytest.approx(float(twin.approach[0]), rel=1e-5)
-    assert float(ds.contact_area[-1]) == pytest.approx(float(twin.contact_area[0]), rel=1e-4)
+    assert float(ds.approach[-1]) == pytest.approx(float(relaxed.approach[0]), rel=1e-5)
+    assert float(ds.contact_area[-1]) == pytest.approx(float(relaxed.contact_area[0]), rel=1e-4)
     # Less than a smooth ball's, Hertz: a^3 = (3/4) R W J.
     smooth = math.pi * (0.75 * 2e-3 * 60e-3 * mean_J) ** (2 / 3)
     assert 0.5 * smooth < float(ds.contact_area[-1]) < smooth

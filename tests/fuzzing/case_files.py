@@ -110,7 +110,7 @@ _KEYS = (
         "name",
         "__class__",
         "model_config",
-        "noun",
+        "subject",
         "0",
         "",
     ),

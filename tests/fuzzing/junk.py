@@ -1,4 +1,4 @@
-"""Values that nobody expects: numbers, units, texts, names of files."""
+"""Unexpected values: numbers, units, texts, names of files."""
 
 from __future__ import annotations
 

@@ -22,7 +22,7 @@ from hypothesis.errors import HypothesisWarning
 
 from fuzzing.families import FAMILIES, Family
 from fuzzing.places import furnish
-from fuzzing.watch import Tally, told_room
+from fuzzing.watch import Tally, set_free_memory
 
 SEED = int(os.environ.get("VISCONTACT_FUZZ_SEED", "6"))
 
@@ -39,7 +39,7 @@ def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(furnish(tmp_path))
     monkeypatch.setenv("COLUMNS", "100")
     monkeypatch.delenv("VISCONTACT_TRACEBACK", raising=False)
-    told_room(monkeypatch)
+    set_free_memory(monkeypatch)
     return tmp_path
 
 

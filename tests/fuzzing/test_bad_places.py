@@ -140,7 +140,7 @@ def test_run_takes_no_more_memory_than_check_announces(law: str, cells: int, pla
     assert 1024 * int(peak.stdout.split()[-2]) <= 1.05 * announced
 
 
-# What a process has taken at most is told by itself: its parent would count what it began as.
+# A process reports its own peak memory: its parent would count what it began as.
 _WITH_PEAK = """
 import sys
 from pathlib import Path

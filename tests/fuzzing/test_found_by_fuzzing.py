@@ -1,4 +1,4 @@
-"""Faults that generated input has found, each mended: crashes, hangs, and memory not announced."""
+"""Faults found by generated input, each corrected: crashes, hangs, and memory not announced."""
 
 from __future__ import annotations
 

@@ -22,8 +22,8 @@ from viscontact.cli import main
 #: No input may keep a command computing longer than this [s]; most take a fiftieth of a second.
 LONGEST = 10.0
 
-#: What an in-process input may take besides what the process has [bytes]: `ROOM` is told to the
-#: command as free memory, and the rest is for buffers of a file that is read.
+#: What an in-process input may take besides what the process has [bytes]: `ROOM` is the
+#: free memory given to the command, and the rest is for buffers of a file that is read.
 ROOM, SPARE = 4e8, 1.2e9
 
 _FAULT = "This is a fault of viscontact"
@@ -173,7 +173,7 @@ def refuses(call: Callable[[], Any]) -> str:
     return "refused"
 
 
-def told_room(monkeypatch: pytest.MonkeyPatch, room: float = ROOM) -> None:
+def set_free_memory(monkeypatch: pytest.MonkeyPatch, room: float = ROOM) -> None:
     """Let commands believe that so much memory is free, on every machine the same."""
     import viscontact.runs.preparation
 

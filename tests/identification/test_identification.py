@@ -116,13 +116,13 @@ def test_spring_and_dashpot_alone_need_no_exponential():
 def test_each_convention_of_a_test_gives_the_one_law():
     """Phi of shear 1/G is half of it; of tensile D it is (1 + nu) D, or 3/2 (D - 1/(9K))."""
     phi, nu, K = creeping(T, 0.5, 0.0), 0.3, 4.0
-    as_told = [
+    fits = [
         fit_creep(T, phi, data="deviatoric"),
         fit_creep(T, 2 * phi, data="shear"),
         fit_creep(T, phi / (1 + nu), data="uniaxial", poisson_ratio=nu),
         fit_creep(T, 2 / 3 * phi + 1 / (9 * K), data="uniaxial", bulk_modulus=K),
     ]
-    for fit in as_told:
+    for fit in fits:
         np.testing.assert_allclose(fit.law(T), phi, rtol=2e-3)
     G = relaxing(T, 1.0)
     tensile = fit_relaxation(T, 2 * (1 + nu) * G, data="uniaxial", poisson_ratio=nu)

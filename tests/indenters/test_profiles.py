@@ -73,7 +73,7 @@ def test_profile_comes_back_from_its_description(name: str) -> None:
     assert rebuild(describe(ROLLERS[name])) == ROLLERS[name]
 
 
-@pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")  # told apart below
+@pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")  # distinguished below
 @EVERY
 def test_contact_that_reaches_the_end_of_a_profile_is_warned_of(name: str) -> None:
     """Pressed in by 0.3 mm all do; by 0.2 um only those that are straight to the last cell."""

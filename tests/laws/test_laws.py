@@ -118,7 +118,7 @@ def test_times_before_the_step_are_refused(law, t):
 def test_laws_are_frozen_hashable_and_rebuilt_from_their_fields(law):
     assert isinstance(law, Law)
     fields = {field.name: getattr(law, field.name) for field in dataclasses.fields(law)}
-    law(1.0), law.relaxation(1.0)  # what is kept for speed is no part of the noun
+    law(1.0), law.relaxation(1.0)  # cached values are no part of the object
     again = type(law)(**fields)
     assert again == law
     assert hash(again) == hash(law)
@@ -203,11 +203,11 @@ BAD = [0.0, -1.0, float("nan"), float("inf"), "x"]
 
 
 @pytest.mark.parametrize("bad", BAD)
-@pytest.mark.parametrize("noun", LAWS[:4], ids=lambda law: type(law).__name__)
-def test_moduli_and_viscosities_that_are_not_positive_are_refused_by_name(noun, bad):
-    for field in dataclasses.fields(noun):
-        with pytest.raises(ValueError, match=rf"{type(noun).__name__}: {field.name} must be"):
-            dataclasses.replace(noun, **{field.name: bad})
+@pytest.mark.parametrize("law", LAWS[:4], ids=lambda law: type(law).__name__)
+def test_moduli_and_viscosities_that_are_not_positive_are_refused_by_name(law, bad):
+    for field in dataclasses.fields(law):
+        with pytest.raises(ValueError, match=rf"{type(law).__name__}: {field.name} must be"):
+            dataclasses.replace(law, **{field.name: bad})
 
 
 @pytest.mark.parametrize(

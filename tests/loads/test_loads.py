@@ -171,7 +171,7 @@ def test_usual_histories_pass_on_eccentricity_and_tilt(make):
     assert make(eccentricity_y=1e-3, tilt_x=2e-3).at(1.0) == LoadPoint(6.0, 0.0, 1e-3, 2e-3, None)
 
 
-# -- as a noun -------------------------------------------------------------------------------
+# -- as an object ---------------------------------------------------------------------------
 
 
 def test_history_is_frozen_copied_and_read_only():

@@ -1,4 +1,4 @@
-"""What notebooks and terminals show of nouns and results."""
+"""Display of objects and results in notebooks and terminals."""
 
 from __future__ import annotations
 
@@ -145,31 +145,31 @@ def _line(drawing: ElementTree.Element, kind: str) -> tuple[NDArray[Any], NDArra
     return np.array(pairs, dtype=float).T[0], np.array(pairs, dtype=float).T[1]
 
 
-@pytest.mark.parametrize("noun", STORED_CLASSES, ids=lambda noun: type(noun).__name__)
-def test_what_is_shown_is_small_whole_and_asks_for_nothing(noun: Any) -> None:
-    page = noun._repr_html_()
+@pytest.mark.parametrize("item", STORED_CLASSES, ids=lambda item: type(item).__name__)
+def test_what_is_shown_is_small_whole_and_asks_for_nothing(item: Any) -> None:
+    page = item._repr_html_()
     assert len(page) < 30_000
-    root = _parsed(noun)
+    root = _parsed(item)
     assert not re.search(r"https?:|url\(|@import|src=|href=|<script|<style", page)
     assert not re.search(r"\b(nan|inf|None|SI)\b", _text(root), re.IGNORECASE)
     drawn = len(list(root.iter("svg")))
     bare = vc.Elastic | vc.Grid | vc.AutomaticGrid | vc.LogarithmicProfile
-    assert (drawn == 0) == isinstance(noun, bare | vc.WLF | vc.Arrhenius | vc.TabulatedShift)
+    assert (drawn == 0) == isinstance(item, bare | vc.WLF | vc.Arrhenius | vc.TabulatedShift)
     paths = " ".join(path.get("d", "") for path in root.iter("path"))
     numbers = [float(number) for number in re.findall(r"-?[\d.]+|nan|inf", paths)]
     assert all(-10 < number < 230 for number in numbers)
 
 
-@pytest.mark.parametrize("noun", [*INDENTERS[:16], *LAWS], ids=lambda noun: type(noun).__name__)
-def test_repr_can_still_be_typed_in(noun: Any) -> None:
+@pytest.mark.parametrize("item", [*INDENTERS[:16], *LAWS], ids=lambda item: type(item).__name__)
+def test_repr_can_still_be_typed_in(item: Any) -> None:
     names = {name: getattr(vc, name) for name in vc.__all__ if name[0].isupper()}
-    names |= {type(noun).__name__: type(noun), "Roller": vc.Roller}
-    assert repr(noun).startswith(f"{type(noun).__name__}(")
-    assert eval(repr(noun), names) == noun
+    names |= {type(item).__name__: type(item), "Roller": vc.Roller}
+    assert repr(item).startswith(f"{type(item).__name__}(")
+    assert eval(repr(item), names) == item
 
 
 @pytest.mark.parametrize(
-    ("noun", "told"),
+    ("item", "expected"),
     [
         (INDENTERS[9], ["radius 5 mm", "half length 9.565 mm", "crown radius 75 mm"]),
         (INDENTERS[10], ["profile amplitude 1 µm"]),
@@ -195,9 +195,9 @@ def test_repr_can_still_be_typed_in(noun: Any) -> None:
     ],
     ids=lambda value: type(value).__name__,
 )
-def test_tables_have_readable_units(noun: Any, told: list[str]) -> None:
-    shown, printed = _text(_parsed(noun)), " ".join(str(noun).split())
-    for words in told:
+def test_tables_have_readable_units(item: Any, expected: list[str]) -> None:
+    shown, printed = _text(_parsed(item)), " ".join(str(item).split())
+    for words in expected:
         assert words in shown
         assert words in printed
 

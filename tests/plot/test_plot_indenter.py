@@ -34,7 +34,7 @@ SHAPES: dict[str, tuple[vc.Indenter, tuple[float, float]]] = {
 }
 
 
-def told(figure: Figure) -> str:
+def facts_of(figure: Figure) -> str:
     """The facts beside a drawing, each in a line of its own."""
     return texts(figure).replace("\n   ", " ")
 
@@ -81,7 +81,7 @@ def test_ends_of_the_profile_are_marked_and_noted() -> None:
     figure = draw_indenter(ROLLER, SIZE)
     dashed = [line[0, 0] for line in drawn_lines(figure, 0)[2:]]
     assert dashed == pytest.approx([-6.0, 6.0], rel=1e-12)
-    said = told(figure)
+    said = facts_of(figure)
     assert said.startswith("Roller, logarithmic profile, radius 5 mm, half length 6 mm, amplitude")
     assert "dashed: ends at x = ±6 mm\n" in said
     assert "continues beyond the drawing along y" in said
@@ -91,10 +91,10 @@ def test_ends_of_the_profile_are_marked_and_noted() -> None:
 def test_drop_is_noted_at_the_ends_of_the_drawing_or_before_it_is_unbounded() -> None:
     crowned = vc.Roller(5e-3, 9.565e-3, crown_radius=75e-3)
     drop = 75e-3 - math.sqrt(75e-3**2 - (20e-3 - 9.565e-3) ** 2)
-    said = told(draw_indenter(crowned, (40e-3, 3e-3)))
+    said = facts_of(draw_indenter(crowned, (40e-3, 3e-3)))
     assert f"profile drop at x = ±20 mm: {1e6 * drop:.0f} µm" in said
     endless = vc.Roller(5e-3, 6e-3, profile="logarithmic", amplitude=2e-6)
-    said = told(draw_indenter(endless, SIZE))
+    said = facts_of(draw_indenter(endless, SIZE))
     # 2 µm times the logarithm of 1/(1 - 0.9²)
     assert f"profile drop at x = ±5.4 mm: {-2 * math.log(1 - 0.81):.2f} µm" in said
 
@@ -151,7 +151,7 @@ def test_plan_that_is_not_slender_is_drawn_in_its_true_shape() -> None:
 def test_parts_of_a_sum_are_named_and_a_contact_is_shaded() -> None:
     body = vc.Sphere(5e-3) + vc.Waviness(1e-6, wavelength_x=1e-4).shifted(x=2e-5)
     figure = draw_indenter(body, (1e-3, 1e-3), contact=(0.0, 0.0, 4e-4, 3e-4), title="Ball")
-    said = told(figure)
+    said = facts_of(figure)
     assert said.startswith(
         "Ball\nSphere, radius 5 mm\n+ Waviness, amplitude 1 µm, wavelength x 100 µm\n"
         "moved by 20 µm along x"

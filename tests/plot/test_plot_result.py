@@ -147,8 +147,8 @@ def test_counted_area_is_that_of_the_cells_in_contact(sphere: xr.Dataset) -> Non
 def test_the_indenter_is_drawn_with_the_contact_found() -> None:
     results = roller(shape=(48, 16))
     sections = FIGURES["indenter"](results, times=[1000.0]).axes
-    told = sections[3].texts[0].get_text().replace("\n   ", " ")
-    assert "contact at 1000 s" in told
+    labels = sections[3].texts[0].get_text().replace("\n   ", " ")
+    assert "contact at 1000 s" in labels
     body = vc.Roller(radius=5e-3, half_length=9.565e-3, crown_radius=7.5)
     expected = draw_indenter(body, (0.15, 1.5e-3)).axes[0].get_lines()[0]
     drawn = sections[0].get_lines()[0]

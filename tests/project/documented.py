@@ -147,7 +147,7 @@ def words(command: str) -> list[str]:
 
 
 class Reader:
-    """Somebody who does what a page says, in the current directory, from top to bottom."""
+    """A reader who follows a page in the current directory, from top to bottom."""
 
     def __init__(self) -> None:
         self._names: dict[str, Any] = {}

@@ -174,9 +174,9 @@ def test_map_shows_its_peaks_first_and_sums_are_not_zeroed_again() -> None:
 
 
 def test_objects_are_frozen() -> None:
-    for noun in (BALL, vc.Elastic(1.0), RUBBER, GRID, LOAD):
+    for given in (BALL, vc.Elastic(1.0), RUBBER, GRID, LOAD):
         with pytest.raises(AttributeError):
-            noun.radius = 1.0
+            given.radius = 1.0
 
 
 # --- laws and materials -------------------------------------------------------------------------
@@ -716,7 +716,7 @@ def _read(changes: dict[str, Any]) -> Any:
 
 
 @pytest.mark.parametrize(
-    ("section", "noun"),
+    ("section", "given"),
     [
         ({"shape": "sphere", "radius": "10 mm"}, BALL),
         (
@@ -740,8 +740,8 @@ def _read(changes: dict[str, Any]) -> Any:
         ),
     ],
 )
-def test_case_files_indenter(section: Any, noun: Any) -> None:
-    assert _read({"indenter": section}).indenter == noun
+def test_case_files_indenter(section: Any, given: Any) -> None:
+    assert _read({"indenter": section}).indenter == given
 
 
 MODULI = {"shear_modulus": "1 MPa"}

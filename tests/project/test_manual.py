@@ -64,8 +64,8 @@ def listed() -> set[str]:
 def test_the_python_reference_lists_every_public_name(module: ModuleType) -> None:
     public = {name for name in module.__all__ if not isinstance(getattr(module, name), ModuleType)}
     # Some are listed where they are most used: at the top.
-    told = {name.rpartition(".")[2] for name in listed()}
-    assert public - {"__version__"} - told == set()
+    documented = {name.rpartition(".")[2] for name in listed()}
+    assert public - {"__version__"} - documented == set()
 
 
 def test_the_python_reference_lists_nothing_that_is_not_there() -> None:

@@ -31,6 +31,6 @@ SLOW_PARTS = ("scipy.interpolate", "scipy.optimize", "scipy.special", "scipy.ndi
     ],
 )
 def test_start_imports_nothing_it_does_not_need(code: str, unwanted: tuple[str, ...]) -> None:
-    told = f"{code}\nimport sys\nsys.stderr.write(' '.join(set({unwanted}) & set(sys.modules)))"
-    done = subprocess.run([sys.executable, "-c", told], capture_output=True, text=True, check=True)
+    run = f"{code}\nimport sys\nsys.stderr.write(' '.join(set({unwanted}) & set(sys.modules)))"
+    done = subprocess.run([sys.executable, "-c", run], capture_output=True, text=True, check=True)
     assert done.stderr == ""

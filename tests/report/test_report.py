@@ -1,4 +1,4 @@
-"""The page of a run: what it says is what the result holds, and nobody's text becomes markup."""
+"""The page of a run: it shows the numbers of the result, and no text becomes markup."""
 
 from __future__ import annotations
 
@@ -40,10 +40,10 @@ _MARKUP = "</title></script><script>alert(1)</script><img src=x onerror=alert(2)
 
 def _run(times: tuple[float, ...] = TIMES, **options: Any) -> xr.Dataset:
     """A sphere on a Maxwell half-space in closed form, with all that a result states."""
-    return _told(maxwell_sphere(times, **options))
+    return _described(maxwell_sphere(times, **options))
 
 
-def _told(ds: xr.Dataset) -> xr.Dataset:
+def _described(ds: xr.Dataset) -> xr.Dataset:
     """A result written down, with what a run says of itself."""
     count = ds.sizes["time"]
     plain = {"residual": 1e-7, "time_error": 1e-4, "work": 1e-3, "loss_per_cycle": np.nan}
@@ -144,12 +144,12 @@ def test_outlines_are_the_smooth_rims_of_the_figures(page: _Page) -> None:
     (curve,) = rim_curves(last)
     drawn = page.data["map"]["rims"][-1]
     assert (drawn["x"][-1], drawn["y"][-1]) == (None, None)
-    told = np.array([drawn["x"][:-1], drawn["y"][:-1]]).T * 1e-6
-    np.testing.assert_allclose(told, curve, atol=1e-4 * np.abs(curve).max())
+    outline = np.array([drawn["x"][:-1], drawn["y"][:-1]]).T * 1e-6
+    np.testing.assert_allclose(outline, curve, atol=1e-4 * np.abs(curve).max())
 
 
 def test_a_fine_map_shows_means_that_keep_the_force() -> None:
-    ds = _told(roller(times=(1000.0,), shape=(900, 32)))
+    ds = _described(roller(times=(1000.0,), shape=(900, 32)))
     fields = shown_fields(ds)
     drawn = map_data(fields)
     assert (len(drawn["x"]) <= 256, strides_of(fields)) == (True, (4, 1))
@@ -225,8 +225,8 @@ def test_sections_run_through_the_resultant_or_else_the_largest_pressure() -> No
 
 
 def test_inputs_have_units(page: _Page) -> None:
-    for told in ("radius 10 mm", "shear modulus 1 GPa", "force 50 N", "Poisson's ratio 0.5"):
-        assert told in page.text
+    for words in ("radius 10 mm", "shear modulus 1 GPa", "force 50 N", "Poisson's ratio 0.5"):
+        assert words in page.text
 
 
 def test_what_is_prescribed_is_the_load_and_the_rest_is_the_answer() -> None:
@@ -258,13 +258,13 @@ def test_a_measured_surface_is_drawn_from_the_fields() -> None:
     page = _Page(report_page(ds))
     assert "Not drawn" not in page.text
     assert "as the grid of this run resolves it" in page.text
-    told = _Page(report_page(ds.drop_vars(["gap", "displacement"]))).text
-    assert "Not drawn: the surface is measured" in told
+    text = _Page(report_page(ds.drop_vars(["gap", "displacement"]))).text
+    assert "Not drawn: the surface is measured" in text
 
 
 def test_a_long_run_stays_below_15_megabytes(page: _Page) -> None:
     times = np.linspace(0.0, 300.0, 60)
-    ds = _told(roller(times=(0.0, 300.0), shape=(512, 256)))
+    ds = _described(roller(times=(0.0, 300.0), shape=(512, 256)))
     fields = shown_fields(ds.isel(time=np.arange(60) % 2).assign_coords(time=times))
     assert (len(fields.snapshots), fields.stored) == (24, 60)
     rest = sum(map(len, page.scripts[1:])) + sum(len(value) for *_, value in page.attributes)
@@ -277,8 +277,8 @@ def test_the_citation_is_that_of_the_file(page: _Page) -> None:
     cited = YAML(typ="safe").load(file)
     [paper] = cited["references"]
     assert cited["title"] in page.text
-    for told in (paper["title"], str(paper["year"]), paper["authors"][0]["family-names"]):
-        assert told in page.text
+    for words in (paper["title"], str(paper["year"]), paper["authors"][0]["family-names"]):
+        assert words in page.text
 
 
 # --- the command

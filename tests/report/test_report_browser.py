@@ -15,7 +15,7 @@ from typing import Any
 
 import pytest
 
-from report.test_report import _run, _told
+from report.test_report import _described, _run
 from synthetic_results import roller
 from viscontact.report import report_page
 
@@ -122,7 +122,7 @@ def test_a_page_is_drawn_within_three_seconds_of_the_processor(tmp_path: Path) -
     playwright = pytest.importorskip("playwright.sync_api")
     # As large as the demo's: fields of five instants on a long grid.
     file = tmp_path / "page.html"
-    file.write_text(report_page(_told(roller(shape=(512, 128)))), encoding="utf-8")
+    file.write_text(report_page(_described(roller(shape=(512, 128)))), encoding="utf-8")
     with playwright.sync_playwright() as started:
         browser = started.chromium.launch(executable_path=_BROWSER, args=["--no-sandbox"])
         page = browser.new_page()

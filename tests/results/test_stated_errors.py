@@ -180,13 +180,13 @@ def test_each_number_has_its_error_below_it(ds: xr.Dataset, shown: Callable[...,
     lines = shown(ds, "--errors", "--all").splitlines()
     [row] = [n for n, line in enumerate(lines) if re.match(r" +2 +1\.000 ", line)]
     at = ds.sel(time=2.0)
-    told = [float(each) for each in re.findall(r"±([\d.]+)", lines[row + 1])]
+    half_widths = [float(each) for each in re.findall(r"±([\d.]+)", lines[row + 1])]
     expected = [
         at.approach_error * 1e6, at.contact_area_error * 1e6, at.contact_length_error * 1e3,
         at.contact_width_error * 1e3, at.peak_pressure_error * 1e-3,
     ]  # fmt: skip
     # Two digits of each; the force's is an exact zero.
-    assert told == pytest.approx([0.0, *map(float, expected)], rel=0.05)
+    assert half_widths == pytest.approx([0.0, *map(float, expected)], rel=0.05)
 
 
 def test_error_of_the_loss_stands_behind_it(ds: xr.Dataset, shown: Callable[..., str]) -> None:
@@ -211,8 +211,8 @@ def test_instants_of_unknown_error_are_counted(bare: xr.Dataset, shown: Callable
     count = bare.sizes["time"]
     area = np.full(count, np.nan)
     printed = shown(with_errors(bare, peak_pressure=error, contact_area=area), "--errors", "--all")
-    told = f"error not known: contact area at {count} of {count}, peak pressure at 3 of {count}"
-    assert told in " ".join(printed.split())
+    sentence = f"error not known: contact area at {count} of {count}, peak pressure at 3 of {count}"
+    assert sentence in " ".join(printed.split())
     assert "±?" in printed
 
 
@@ -234,9 +234,9 @@ def test_summary_of_a_run_has_an_accuracy_column(
     # The error is a part of each value; it is largest where the approach is, at 2 s.
     at = singular.sel(time=2.0)
     value, half_width = float(at.approach) * 1e6, float(at.approach_error) * 1e6
-    told = f"{value:.1f} ±{half_width:.1f} 1.2 % at 2 s"
-    assert " ".join(rows["approach"].split()).endswith(told)
-    assert rows["peak pressure"].count(">") == 1  # no contact, and no doubt, at first and last
+    text = f"{value:.1f} ±{half_width:.1f} 1.2 % at 2 s"
+    assert " ".join(rows["approach"].split()).endswith(text)
+    assert rows["peak pressure"].count(">") == 1  # none without contact, at first and last
     assert "depends on the mesh" in rows["peak pressure"]
     assert "±: the error of each value at that instant" in printed
 
@@ -257,13 +257,13 @@ def test_each_value_is_followed_by_the_error_of_its_instant(bare: xr.Dataset) ->
 
 def test_table_notebook_report_and_headline_say_the_same(ds: xr.Dataset) -> None:
     area = next(row for row in summary_rows(ds) if row.name == "contact_area")
-    told = f"{area.largest} {area.unit}"
-    assert " ± " in told
-    assert told in str(ds.viscontact)
-    assert told in headline(ds)
+    text = f"{area.largest} {area.unit}"
+    assert " ± " in text
+    assert text in str(ds.viscontact)
+    assert text in headline(ds)
     [of_report] = [row for row in error_rows(ds) if row[0].startswith("contact area")]
     assert of_report[3] == area.largest
-    assert told in report_page(ds)
+    assert text in report_page(ds)
 
 
 def test_table_on_a_narrow_terminal_has_errors_below_their_values(
@@ -433,7 +433,7 @@ def test_legend_names_the_band_once_where_there_is_one(
 
 
 @pytest.mark.parametrize(
-    ("part", "area_part", "told"),
+    ("part", "area_part", "label"),
     [
         (1e-6, 1e-6, "error estimate within the line's width"),
         (1e-6, 0.1, "band: error estimate, where wider than the line"),
@@ -441,12 +441,12 @@ def test_legend_names_the_band_once_where_there_is_one(
     ],
 )
 def test_legend_names_bands_only_where_they_can_be_seen(
-    part: float, area_part: float, told: str, bare: xr.Dataset
+    part: float, area_part: float, label: str, bare: xr.Dataset
 ) -> None:
     parts = dict.fromkeys(PARTS, part) | {"force": 0.0, "contact_area": area_part}
     errors = {name: each * np.abs(bare[name].values) for name, each in parts.items()}
     [legend] = FIGURES["history"](with_errors(bare, **errors)).legends
-    assert [text.get_text() for text in legend.get_texts()] == [told]
+    assert [text.get_text() for text in legend.get_texts()] == [label]
 
 
 def test_figures_of_older_results_have_no_bands(bare: xr.Dataset) -> None:

@@ -78,8 +78,8 @@ def test_runs_at_once_end_in_the_bits_of_runs_alone(
         assert contents("alone") == contents(name)
         with vc.open_results(name) as ds:  # the table shows what the result holds
             assert f"{float(ds.peak_pressure.max()) / 1e6:.3f}" in printed.out
-            told = ("force", "approach", "contact_area", "peak_pressure")
-            parts = [found.part for each in told if (found := largest_error(ds, each))]
+            scalars = ("force", "approach", "contact_area", "peak_pressure")
+            parts = [found.part for each in scalars if (found := largest_error(ds, each))]
             assert format_percent(max(parts)) in printed.out
     # what is finished is not run again
     assert command("## Errors and interruptions") == [
@@ -153,7 +153,7 @@ def test_names_of_variations_may_stand_in_any_path() -> None:
     texts = [*(f"a.b={value}" for value in values), "a[2].b=../.."]
     names = [each.name for text in texts for each in variations([text])]
     assert names == ["b=1e-3-MPa", "b=x-y", "b=-5µm", "b=5%", "b=C-x", "b="]
-    # two keys that end in the same are told apart by all of their names
+    # two keys that end in the same are distinguished by all of their names
     both = variations(["load.force=1 N", "other.force=2 N"])[0].name
     assert both == "load.force=1N_other.force=2N"
 

@@ -47,7 +47,7 @@ def test_a_run_of_many_cells_and_steps_takes_300_mb_beyond_its_output(tmp_path: 
     bare = peak_of(tmp_path, "[128, 32]", 2)
     taken = peak_of(tmp_path, "[512, 512]", 150) - bare
     output = sum(file.stat().st_size for file in (tmp_path / "150").rglob("*") if file.is_file())
-    assert output > 300e6, "the output would have to be held to be told from what is not"
+    assert output > 300e6, "the output must be large enough to be seen in the peak"
     assert taken < 300e6
 
 
@@ -59,6 +59,6 @@ def test_a_run_without_mirror_images_takes_no_more_than_predicted(
     # The most arrays of the grid's size: nothing is halved, and all fields are written.
     sizes = "[1280, 1280]", 3, "load.eccentricity_y=0.01 mm"
     assert main(["check", str(CASE), *settings_of(*sizes)]) == 0
-    foretold = re.search(r"([\d.]+) GB", capsys.readouterr().out)
-    assert foretold is not None
-    assert 0.7e9 * float(foretold[1]) < peak_of(tmp_path, *sizes) < 1.01e9 * float(foretold[1])
+    forecast = re.search(r"([\d.]+) GB", capsys.readouterr().out)
+    assert forecast is not None
+    assert 0.7e9 * float(forecast[1]) < peak_of(tmp_path, *sizes) < 1.01e9 * float(forecast[1])

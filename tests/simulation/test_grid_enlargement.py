@@ -131,8 +131,8 @@ def test_grid_grows_no_further_than_an_automatic_one_may_be(
     prepare, small = RUNS["sphere"]
     # 30 x 30, but not 48 x 48
     monkeypatch.setattr("viscontact.simulation.grid_enlargement.MAX_CELLS", 1000)
-    told = r"outgrows 1\.2 mm x 1\.2 mm at t = .*give a grid of your own"
-    with pytest.raises(vc.DomainError, match=told):
+    message = r"outgrows 1\.2 mm x 1\.2 mm at t = .*give a grid of your own"
+    with pytest.raises(vc.DomainError, match=message):
         states_of(growing(prepare(small)))
 
 
@@ -170,9 +170,9 @@ def test_result_is_on_the_last_grid_and_records_when_it_grew() -> None:
     assert np.isnan(early.gap.values[outside]).all()
     assert np.isfinite(early.gap.values[~outside][:, ~outside]).all()
     assert (ds.pressure.sum(["x", "y"]) * large.cell_area).values == pytest.approx(ds.force.values)
-    told = ds.attrs["grid_enlarged"].splitlines()
-    assert told[0].startswith("t = 250 ms: from 20 x 20 cells on 800 µm x 800 µm to 30 x 30")
-    assert len(told) == len({state.grid.shape for state in states}) - 1
+    lines = ds.attrs["grid_enlarged"].splitlines()
+    assert lines[0].startswith("t = 250 ms: from 20 x 20 cells on 800 µm x 800 µm to 30 x 30")
+    assert len(lines) == len({state.grid.shape for state in states}) - 1
 
 
 def test_contact_beyond_the_automatic_extent_is_followed(tmp_path: Path) -> None:

@@ -21,7 +21,7 @@ class Body:
 
 
 def hard_body(rng, length):
-    """One of all kinds, about as long as told."""
+    """One of all kinds, about as long as requested."""
     depth = 10.0 ** rng.uniform(-4, -1.5)
     press = depth * length**2
     kind = str(rng.choice(list(_BODIES)))

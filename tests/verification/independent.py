@@ -111,14 +111,14 @@ def rise(compliance, duration, after_jump):
 
     limit = compliance.instant * (2 / 3 if after_jump else 1)
 
-    def owed(part):
+    def debt(part):
         held = duration * (1 - part)
         new = mean_creep(compliance, held, duration * part)
         return compliance(duration) - new - (limit or new / 2)
 
-    if owed(1.0) <= 0:
+    if debt(1.0) <= 0:
         return duration
-    return duration * brentq(owed, 0.0, 1.0, xtol=1e-15)
+    return duration * brentq(debt, 0.0, 1.0, xtol=1e-15)
 
 
 def superposed(compliance, times, fields):

@@ -4,7 +4,7 @@ from dataclasses import dataclass, fields, is_dataclass, replace
 
 import numpy as np
 
-#: Exponents of length, modulus and time in what the nouns are made of. A force is a modulus times
+#: Exponents of length, modulus and time of the arguments' fields. A force is a modulus times
 #: an area, a viscosity a modulus times a time.
 DIMENSIONS = {
     **dict.fromkeys(("radius", "radius_x", "radius_y", "half_length", "half_width"), (1, 0, 0)),
@@ -42,19 +42,19 @@ class Units:
         return float(np.prod([base**power for base, power in zip(bases, dimension, strict=True)]))
 
 
-def rescaled(noun, units):
-    """The noun with every number times its unit; nouns within it likewise."""
-    if is_dataclass(noun):
-        return type(noun)(**{f.name: _part(noun, f.name, units) for f in fields(noun) if f.init})
-    if isinstance(noun, tuple):
-        return tuple(rescaled(part, units) for part in noun)
-    return noun
+def rescaled(given, units):
+    """An argument with every number times its unit, the objects within it likewise."""
+    if is_dataclass(given):
+        return type(given)(**{f.name: _part(given, f.name, units) for f in fields(given) if f.init})
+    if isinstance(given, tuple):
+        return tuple(rescaled(part, units) for part in given)
+    return given
 
 
-def _part(noun, name, units):
-    value = getattr(noun, name)
+def _part(given, name, units):
+    value = getattr(given, name)
     if name in ("mean", "amplitude"):  # of what swings
-        return value * units.of(DIMENSIONS[noun.control])
+        return value * units.of(DIMENSIONS[given.control])
     if value is None or isinstance(value, str) or name not in DIMENSIONS:
         return rescaled(value, units)
     unit = units.of(DIMENSIONS[name])
@@ -64,8 +64,8 @@ def _part(noun, name, units):
 
 
 def rescaled_problem(problem, units):
-    nouns = ("indenter", "material", "load", "grid", "indenter_material")
-    parts = {name: rescaled(getattr(problem, name), units) for name in nouns}
+    names = ("indenter", "material", "load", "grid", "indenter_material")
+    parts = {name: rescaled(getattr(problem, name), units) for name in names}
     return replace(problem, times=problem.times * units.of(DIMENSIONS["times"]), **parts)
 
 

@@ -25,7 +25,7 @@ QUANTITIES = ("peak_pressure", "contact_area", "approach")
 pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
 
 
-def told(indenter, load, grid, material=STIFF, times=(0.0,)):
+def histories(indenter, load, grid, material=STIFF, times=(0.0,)):
     """The three quantities over time, shape (3, times)."""
     result = vc.simulate(indenter, material, load, grid, list(times), fields="none")
     return np.array([result[name].values for name in QUANTITIES])
@@ -61,7 +61,7 @@ def test_elliptical_contacts_are_hertzs_within_what_is_asked_and_what_is_expecte
     for seed in seeds:
         indenter, load, truth = random_ellipse(seed)
         run = prepare_run(Problem(indenter, STIFF, load, vc.AutomaticGrid(tolerance), [0.0]))
-        (values,) = told(indenter, load, run.grid).T
+        (values,) = histories(indenter, load, run.grid).T
         errors = np.abs(values / truth - 1)
         assert errors.max() <= tolerance, f"case {seed}: {errors}"
         # The estimate is no less than the error, and no more than what was asked for. It is known
@@ -93,7 +93,7 @@ def test_every_instant_of_a_creeping_run_is_within_the_tolerance(tolerance):
     # pressure is so at t = 0 and after all creep. Here the contact grows from 1 to 10^(1/3).
     load, times = vc.step(10.0), np.append(0.0, np.geomspace(0.05, 1e4, 12))
     grid = vc.AutomaticGrid(tolerance)
-    values = told(vc.Paraboloid(0.01, 0.01), load, grid, CREEPING, times)
+    values = histories(vc.Paraboloid(0.01, 0.01), load, grid, CREEPING, times)
     compliance = CREEPING.contact_compliance()
     assert compliance(1e4) / compliance(0.0) == pytest.approx(10)
     exact = [reference.hertz_sphere(10.0, 0.01, 1 / compliance(t)) for t in times]
@@ -144,7 +144,7 @@ def test_a_much_finer_grid_agrees_within_the_tolerance(name):
     # Not whole multiples: their errors would be alike.
     shape = tuple(2 * round(1.08 * finer * count / 2) for count in run.grid.shape)
     grids = run.grid, vc.Grid(shape, run.grid.size)
-    (coarse, fine) = (told(indenter, load, grid, times=times).ravel() for grid in grids)
+    (coarse, fine) = (histories(indenter, load, grid, times=times).ravel() for grid in grids)
     np.testing.assert_allclose(coarse, fine, rtol=0.01)
 
 

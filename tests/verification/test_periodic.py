@@ -1,6 +1,6 @@
 """Periodic surfaces: waves against Westergaard (1939) and Johnson et al. (1985), and free balls.
 
-All pressures are told by that of full contact, p*; contact moduli by E* of ELASTIC.
+Pressures are relative to that of full contact, p*; contact moduli are E* of ELASTIC.
 """
 
 import math

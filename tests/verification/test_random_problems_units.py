@@ -1,7 +1,7 @@
 """The same contact in nanometres and kilometres, pascals and terapascals: one dimensionless answer.
 
-Units are nobody's physics. Factors that are powers of two change no digit of any number, so that
-every number that comes out has to be the same to the last bit; others round.
+Results do not depend on units. Factors that are powers of two change no digit of any number, so
+that every number that comes out has to be the same to the last bit; others round.
 """
 
 import re
@@ -89,7 +89,7 @@ def test_magnitudes_near_the_end_of_numbers_are_right_or_refused(seed, which, de
     units = Units(**{which: 2.0 ** round(np.log2(10.0**decade / now))})
     try:
         found = audit(rescaled_problem(problem, units))
-    except ValueError as refusal:  # of a noun, before there is a run
+    except ValueError as refusal:  # of an argument, before there is a run
         found = Findings(stopped=str(refusal))
     assert (found.instants == 0) == bool(found.stopped)
     assert max(found.gap, found.balance, found.fields) <= 1.01e-6

@@ -43,13 +43,13 @@ class Server:
             env={**os.environ, "PYTHONUNBUFFERED": "1"},
         )
         assert self.process.stdout
-        told = self.process.stdout.readline()
-        found = re.search(r"http://127\.0\.0\.1:(\d+)", told)
-        assert found, told + self.process.stdout.read()
+        line = self.process.stdout.readline()
+        found = re.search(r"http://127\.0\.0\.1:(\d+)", line)
+        assert found, line + self.process.stdout.read()
         self.port = int(found[1])
 
     def kill(self) -> None:
-        """End it as a crash or a power cut does: nobody is told."""
+        """End it as a crash or a power cut does: without notice."""
         assert self.process
         self.process.kill()
         self.process.wait()

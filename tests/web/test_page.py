@@ -202,9 +202,9 @@ def test_bad_input_is_reported_at_its_field_in_the_words_of_the_command_line(
     bad = BALL.replace("100 N", "10 MPa").replace("0.5\n", "0.7\n")
     (tmp_path / "bad.yaml").write_text(bad, encoding="utf-8")
     assert main(["check", str(tmp_path / "bad.yaml")]) == 2
-    told = dict(re.findall(r"bad\.yaml:\d+: ([\w.]+): (.*)", capsys.readouterr().err))
-    assert set(told) == {"load.force", "material.poisson_ratio"}
-    for path, message in told.items():
+    messages = dict(re.findall(r"bad\.yaml:\d+: ([\w.]+): (.*)", capsys.readouterr().err))
+    assert set(messages) == {"load.force", "material.poisson_ratio"}
+    for path, message in messages.items():
         assert page.inner_text(f'[data-path="{path}"] .problems') == message
         assert page.get_attribute(f'[id="field-{path}"]', "aria-invalid") == "true"
     # Nothing is run; the first problem gets the focus.
@@ -221,8 +221,8 @@ def test_bad_input_is_reported_at_its_field_in_the_words_of_the_command_line(
     page.click("#as-form")
     (tmp_path / "bad.yaml").write_text("title: [", encoding="utf-8")
     assert main(["check", str(tmp_path / "bad.yaml")]) == 2
-    told_line = capsys.readouterr().err.strip().split("bad.yaml:")[1]
-    assert page.inner_text("#text-problems") == f"line {told_line}"
+    message = capsys.readouterr().err.strip().split("bad.yaml:")[1]
+    assert page.inner_text("#text-problems") == f"line {message}"
     assert page.is_hidden("#form")
     page.reload()
     seen.until_ready(page)

@@ -71,11 +71,11 @@ def test_a_bad_case_is_refused_in_the_words_of_the_command_line(
         answer = client.post(path, json={"yaml": BAD[name], "quality": "full"})
         assert answer.status_code == 422
         # How much memory is free differs from one moment to the next.
-        told = [
+        printed = [
             [line.split(" GB")[0] for line in lines]
             for lines in (as_printed(answer), said.splitlines())
         ]
-        assert told[0] == told[1]
+        assert printed[0] == printed[1]
     assert client.get("/api/runs").json() == []
 
 
@@ -96,40 +96,40 @@ def test_values_nested_without_end_are_refused(client: TestClient) -> None:
 
 def test_a_problem_names_its_key_and_its_line(client: TestClient) -> None:
     text = CASE.replace("4 N", "10 MPa").replace("viscosity: 10 MPa s", "viscosity: 10")
-    told = client.post("/api/check", json={"yaml": text}).json()["problems"]
-    assert [(each["path"], each["line"]) for each in told] == [
+    problems = client.post("/api/check", json={"yaml": text}).json()["problems"]
+    assert [(each["path"], each["line"]) for each in problems] == [
         ("material.viscosity", 7),
         ("load.force", 11),
     ]
-    assert told[1]["message"].startswith("cannot read '10 MPa' as a force")
+    assert problems[1]["message"].startswith("cannot read '10 MPa' as a force")
 
 
 def test_a_check_reports_the_same_as_the_command_line(client: TestClient, typed: Typed) -> None:
     text = CASE.replace("steps: 4", "steps: 4, spacing: log")
     _, printed, _ = typed(text)
-    told = client.post("/api/check", json={"yaml": text}).json()
+    found = client.post("/api/check", json={"yaml": text}).json()
     words = [line.split() for line in printed.splitlines()]
     ours = [
         line.replace(": ", " ", 1).split() if n else line.split()
-        for n, line in enumerate(told["lines"])
+        for n, line in enumerate(found["lines"])
     ]
     free = [n for n, line in enumerate(words) if line[0] in ("memory", "time")]
     assert [line for n, line in enumerate(words) if n not in free] == [
         line for n, line in enumerate(ours) if n not in free
     ]
-    assert told["cells"] == [24, 24]
-    assert told["steps"] == 4
-    assert told["warnings"] == []
-    assert told["memory"] > 1e8
+    assert found["cells"] == [24, 24]
+    assert found["steps"] == 4
+    assert found["warnings"] == []
+    assert found["memory"] > 1e8
 
 
 def test_a_check_warns_as_the_command_line_does(client: TestClient, typed: Typed) -> None:
     text = CASE.replace("[24, 24]", "[8, 8]")
     _, printed, _ = typed(text)
-    told = client.post("/api/check", json={"yaml": text}).json()
+    found = client.post("/api/check", json={"yaml": text}).json()
     warned = [line.removeprefix("warning: ") for line in printed.splitlines() if "warning" in line]
-    assert told["warnings"] == warned != []
-    printed_so = [line for line in told["lines"] if line.startswith("warning: ")]
+    assert found["warnings"] == warned != []
+    printed_so = [line for line in found["lines"] if line.startswith("warning: ")]
     assert printed_so == [f"warning: {line}" for line in warned]
 
 
@@ -147,7 +147,7 @@ def test_a_coarse_case_has_fewer_cells_and_steps_and_the_same_size(client: TestC
         assert coarse["cells"] <= full["cells"]
         if full["steps"] is not None:
             assert coarse["steps"] <= full["steps"]
-        sizes = [told["needs"][0][1].partition(" on ")[2] for told in (full, coarse)]
+        sizes = [each["needs"][0][1].partition(" on ")[2] for each in (full, coarse)]
         assert sizes[0] == sizes[1]
         assert coarse["warnings"] == full["warnings"]
         if name == "roller-dogbone-e05":  # of 512 x 128 cells, 120 steps, and four fields' instants
@@ -172,8 +172,8 @@ def test_a_case_reads_no_file_that_was_not_given_to_the_page(
     for text in (table, load, surface, profile):
         for name in (str(secret), f"../{secret.name}", "/dev/zero", '"a\\\\b.csv"', ".netrc"):
             answer = client.post("/api/check", json={"yaml": text.replace("NAME", name)})
-            told = answer.json()["problems"]
-            (about_file,) = [each for each in told if each["path"].endswith("file")]
+            problems = answer.json()["problems"]
+            (about_file,) = [each for each in problems if each["path"].endswith("file")]
             assert "is not the plain name of a file" in about_file["message"]
             assert about_file["line"] == text.split("NAME")[0].count("\n") + 1
 
@@ -302,8 +302,8 @@ def test_an_automatic_grid_is_found_once_for_a_check_and_a_drawing(
     for force in (4, 5):
         content = f"time [s], force [N]\n0, 0\n1, {force}\n"
         client.post("/api/files?name=load.csv", content=content.encode())
-        told = client.post("/api/check", json={"yaml": text}).json()
-        assert told["cells"] == [24, 24]
+        checked = client.post("/api/check", json={"yaml": text}).json()
+        assert checked["cells"] == [24, 24]
     assert len(found) == 5
     client.delete("/api/files/load.csv")
 

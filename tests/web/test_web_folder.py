@@ -1,4 +1,4 @@
-"""What becomes of the page's runs when somebody meddles with their folder, or with the clock."""
+"""What becomes of the page's runs when their folder or the clock is changed from outside."""
 
 from __future__ import annotations
 
@@ -50,10 +50,10 @@ def test_a_truncated_result_is_reported_and_not_shown(folder: Path) -> None:
     result = folder / "runs" / RUN / "run" / "result.nc"
     os.truncate(result, result.stat().st_size // 2)
     with asking(folder) as client:
-        told = status(client, RUN)
-        assert (told["state"], told["figures"], told["resumable"]) == ("done", [], False)
-        assert messages(client, *DRAWN) == {told["message"]}
-        assert told["message"].startswith("the result of this run is damaged; delete the run")
+        reply = status(client, RUN)
+        assert (reply["state"], reply["figures"], reply["resumable"]) == ("done", [], False)
+        assert messages(client, *DRAWN) == {reply["message"]}
+        assert reply["message"].startswith("the result of this run is damaged; delete the run")
 
 
 def test_a_run_whose_directory_is_deleted_is_reported_and_can_be_removed(folder: Path) -> None:
@@ -111,15 +111,15 @@ def test_a_report_is_made_anew_although_the_clock_was_set_back(
     monkeypatch.setattr(run_routes, "write_report", counted)
     result = folder / "runs" / RUN / "run" / "result.nc"
     with asking(folder) as client:
-        told = [client.get(f"/api/runs/{RUN}/report.html").text for _ in range(2)]
+        pages = [client.get(f"/api/runs/{RUN}/report.html").text for _ in range(2)]
         hour_ago = result.stat().st_mtime_ns - 3_600 * 10**9
         os.utime(result, ns=(hour_ago, hour_ago))  # it went on after the clock was set back
-        told.append(client.get(f"/api/runs/{RUN}/report.html").text)
+        pages.append(client.get(f"/api/runs/{RUN}/report.html").text)
         # Where none can be kept, it is handed out nevertheless.
         os.utime(result, ns=(hour_ago - 1, hour_ago - 1))
         monkeypatch.setattr(Folder, "keep_report", _disk_is_full)
-        told.append(client.get(f"/api/runs/{RUN}/report.html").text)
-    assert told == ["report 1", "report 1", "report 2", "report 3"]
+        pages.append(client.get(f"/api/runs/{RUN}/report.html").text)
+    assert pages == ["report 1", "report 1", "report 2", "report 3"]
 
 
 def _disk_is_full(self: Folder, name: str, page: bytes, made_from: int) -> None:

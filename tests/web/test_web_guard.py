@@ -1,4 +1,4 @@
-"""Who may ask the calculator page: nobody but pages of its own, from this machine."""
+"""Requests to the calculator page are answered for its own pages on this machine only."""
 
 from __future__ import annotations
 

@@ -103,8 +103,8 @@ def test_a_run_ends_in_the_numbers_of_the_command_line(client: TestClient, tmp_p
     case = client.get(f"/api/runs/{run}/case.yaml").text
     assert case == CASE
     assert client.get(f"/api/runs/{run}/given").json() == {"yaml": CASE, "quality": "full"}
-    told = strict(client.get(f"/api/runs/{run}/data").text)
-    assert told["scalars"]["peak_pressure"]["value"] == pytest.approx(pressures, rel=1e-8)
+    data = strict(client.get(f"/api/runs/{run}/data").text)
+    assert data["scalars"]["peak_pressure"]["value"] == pytest.approx(pressures, rel=1e-8)
     strict(client.get(f"/api/runs/{run}").text)
 
     assert client.delete(f"/api/runs/{run}").status_code == 204
@@ -122,14 +122,14 @@ def test_a_run_is_cancelled_and_continues_to_the_same_numbers(
     until(lambda: status(client, run)["step"] > 3)
     assert client.get(f"/api/runs/{run}/result.nc").status_code == 409  # it is being written
     client.post(f"/api/runs/{run}/cancel")
-    told = followed(client, run)[-1]
-    assert told["state"] == "cancelled"
-    assert told["resumable"]
-    assert 3 < told["step"] < 400
-    assert told["message"].startswith(f"cancelled after step {told['step']} of 400, at t = ")
-    assert told["message"].endswith("; its results are kept")
+    reply = followed(client, run)[-1]
+    assert reply["state"] == "cancelled"
+    assert reply["resumable"]
+    assert 3 < reply["step"] < 400
+    assert reply["message"].startswith(f"cancelled after step {reply['step']} of 400, at t = ")
+    assert reply["message"].endswith("; its results are kept")
     kept = client.get(f"/api/runs/{run}/history.csv").text
-    assert len(kept.splitlines()) == told["step"] + 2
+    assert len(kept.splitlines()) == reply["step"] + 2
 
     assert client.post(f"/api/runs/{run}/resume").json()["state"] in ("waiting", "running")
     assert client.post(f"/api/runs/{run}/resume").status_code == 409  # once is enough
@@ -155,9 +155,9 @@ def test_no_more_runs_than_allowed_are_at_work_and_coarse_ones_come_first(tmp_pa
         until(lambda: status(client, first)["over"])
         until(lambda: status(client, coarse)["state"] == "running")
         assert status(client, full)["state"] == "waiting"
-        told = client.post(f"/api/runs/{full}/cancel").json()  # one that has computed nothing
-        assert told["message"] == "cancelled before its first step; there is nothing to show yet"
-        assert told["resumable"]
+        reply = client.post(f"/api/runs/{full}/cancel").json()  # one that has computed nothing
+        assert reply["message"] == "cancelled before its first step; there is nothing to show yet"
+        assert reply["resumable"]
         client.post(f"/api/runs/{full}/resume")
         client.delete(f"/api/runs/{full}")  # one that waits is forgotten at once
         assert client.get(f"/api/runs/{full}").status_code == 404
@@ -174,8 +174,8 @@ def test_runs_whose_cases_have_one_title_are_distinguished(tmp_path: Path) -> No
         finer = LONG_CASE.replace("shape: [24, 24]", "shape: [32, 24]")
         asked += [(other, "coarse"), (finer, "full"), (nameless, "full")]
         runs = [begun(client, *each) for each in asked]
-        told = [status(client, run)["label"] for run in runs]
-        assert told == [
+        labels = [status(client, run)["label"] for run in runs]
+        assert labels == [
             "Zener sphere",
             "Zener sphere, steps 4, without errors",
             "Zener sphere, force 8.5 N, steps 4 and 1 more",
@@ -202,25 +202,25 @@ def test_a_run_that_stops_says_why_in_the_words_of_the_command_line(
     client: TestClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     text = CASE.replace("[4 mm, 4 mm]", "[1 mm, 1 mm]")  # the contact overruns the grid
-    told = followed(client, begun(client, text))[-1]
-    assert told["state"] == "failed"
-    assert not told["resumable"]
+    reply = followed(client, begun(client, text))[-1]
+    assert reply["state"] == "failed"
+    assert not reply["resumable"]
     case = tmp_path / "typed.yaml"
     case.write_text(text, encoding="utf-8")
     assert main(["run", str(case), "-q"]) == 1
     first = capsys.readouterr().err.splitlines()[0]
-    (problem, *_) = told["problems"]
+    (problem, *_) = reply["problems"]
     assert first == f"{case}:{problem['line']}: {problem['path']}: {problem['message']}"
-    assert told["message"].endswith(problem["message"])
+    assert reply["message"].endswith(problem["message"])
     # Where the page has buttons, nothing is said of what to type.
-    assert not any("run it again" in each["message"] for each in told["problems"])
+    assert not any("run it again" in each["message"] for each in reply["problems"])
 
 
 def test_nothing_is_shown_of_a_run_before_its_first_step(tmp_path: Path) -> None:
     with asking(tmp_path / "page", at_once=1) as client:
         first, waiting = begun(client, LONG_CASE), begun(client)
-        told = status(client, waiting)
-        assert (told["state"], told["table"], told["figures"]) == ("waiting", [], [])
+        reply = status(client, waiting)
+        assert (reply["state"], reply["table"], reply["figures"]) == ("waiting", [], [])
         for name in ("figure/history.svg", "report.html", "history.csv", "data", "result.nc"):
             answer = client.get(f"/api/runs/{waiting}/{name}")
             assert answer.status_code == 409, name
@@ -236,10 +236,10 @@ def test_a_coarse_run_hands_out_the_case_that_gives_its_numbers(
     run = begun(
         client, CASE.replace("[24, 24]", "[96, 96]").replace("steps: 4", "steps: 90"), "coarse"
     )
-    told = followed(client, run)[-1]
-    assert told["state"] == "done"
-    assert told["steps"] == 24
-    assert all(row["error"] == "" for row in told["table"])
+    reply = followed(client, run)[-1]
+    assert reply["state"] == "done"
+    assert reply["steps"] == 24
+    assert all(row["error"] == "" for row in reply["table"])
     text = client.get(f"/api/runs/{run}/case.yaml").text
     assert "errors: false" in text
     (tmp_path / "ours.nc").write_bytes(client.get(f"/api/runs/{run}/result.nc").content)
@@ -311,8 +311,8 @@ def test_a_damaged_run_hides_no_other_one(tmp_path: Path) -> None:
     damages = ({}, {"title": 5}, {"instants": "x"}, {"settings": 1}, {"end": None})
     for number, damage in enumerate(damages):
         (tmp_path / "runs" / str(number) / "run").mkdir(parents=True)
-        told = json.dumps({**asked, **damage})
-        (tmp_path / "runs" / str(number) / "asked.json").write_text(told, encoding="utf-8")
+        text = json.dumps({**asked, **damage})
+        (tmp_path / "runs" / str(number) / "asked.json").write_text(text, encoding="utf-8")
     (tmp_path / "runs" / "0" / "run" / "progress.jsonl").write_bytes(b"5\n[]\n")
     with asking(tmp_path) as client:
         answer = client.get("/api/runs")
@@ -379,10 +379,10 @@ def test_a_server_stopped_in_mid_run_shows_the_run_again_and_continues_it(
     second = serving()
     # One whose server was killed finishes its step by itself.
     until(lambda: all(each["over"] for each in second.client.get("/api/runs").json()))
-    told = status(second.client, run)
-    assert told["state"] == "interrupted"
-    assert told["resumable"]
-    assert 3 < told["step"] < 600
+    reply = status(second.client, run)
+    assert reply["state"] == "interrupted"
+    assert reply["resumable"]
+    assert 3 < reply["step"] < 600
     assert status(second.client, waiting)["state"] == "interrupted"
     for each in (run, waiting):
         second.client.post(f"/api/runs/{each}/resume")

@@ -90,9 +90,9 @@ class RandomKills:
         directory = self.folder / name
         progress = directory / "progress.jsonl"
         before = len(lines_of(directory))
-        told = progress.stat().st_size if before else 0
+        length = progress.stat().st_size if before else 0
         # By what it has done, not by time: that depends on what else the machine does.
-        wanted = told + self.chance.random() * part * (self.size - told)
+        wanted = length + self.chance.random() * part * (self.size - length)
         run = self.started(name)
         while run.poll() is None and not (progress.exists() and progress.stat().st_size > wanted):
             clock.sleep(0.001)

@@ -40,7 +40,7 @@ with locked(sys.argv[1]):
 
 @contextmanager
 def holder(directory: Path, program: str = HOLDER) -> Iterator[subprocess.Popen[str]]:
-    """Another process that has locked a directory, and gives it up when told to."""
+    """Another process that has locked a directory, and releases it on request."""
     with subprocess.Popen(
         [sys.executable, "-c", program, str(directory)],
         stdin=subprocess.PIPE,
@@ -63,7 +63,7 @@ def test_other_process_is_kept_out_and_named_until_the_end(tmp_path: Path) -> No
         said = str(refusal.value)
         assert str(tmp_path) in said
         assert len(said.splitlines()) == 1
-        if os.name != "nt":  # which lets nobody read what is locked
+        if os.name != "nt":  # which lets no process read a locked file
             assert f"(process {process.pid} on " in said
         process.communicate("go on\n", timeout=30)
     with locked(tmp_path):

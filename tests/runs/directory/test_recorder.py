@@ -267,9 +267,9 @@ def test_state_of_an_older_kind_is_refused_in_one_line(recorded: RecordedRun) ->
     with path.open("wb") as file:
         write_plain(file, {**saved, "token": "0123", "steps": 2})
     (recorded.directory / "steps.log").write_bytes(b"viscontact steps 1\n")
-    with pytest.raises(ValueError, match=r"another version of viscontact; .* --overwrite$") as told:
+    with pytest.raises(ValueError, match=r"another version of viscontact; .* --overwrite$") as info:
         Recorder.resume(recorded)
-    assert "\n" not in str(told.value)
+    assert "\n" not in str(info.value)
 
 
 def test_first_step_that_fails_changes_nothing(

@@ -43,7 +43,7 @@ def hurried(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 class Killed(BaseException):
-    """The process is gone: nobody in it catches this, and nothing more is done."""
+    """The process has ended: nothing in it catches this, and nothing more is done."""
 
 
 class Calls:
