@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from saturating_force import SaturatingForce
 from viscontact.loads import (
     ApproachHistory,
     ForceHistory,
@@ -17,6 +18,7 @@ from viscontact.loads import (
     step,
     triangle,
 )
+from viscontact.loads.largest_load import largest_load
 
 EPS = np.finfo(float).eps
 
@@ -408,6 +410,30 @@ def test_bad_harmonic_loads_are_refused(arguments, message):
     good = {"mean": 10.0, "amplitude": 5.0, "period": 2.0, "cycles": 3}
     with pytest.raises(ValueError, match=message):
         harmonic(**{**good, **arguments})
+
+
+# -- classes of the user's own ---------------------------------------------------------------
+
+
+def test_a_load_without_eccentricity_and_tilt_is_central_and_free_to_tilt():
+    load = SaturatingForce(10.0, 2.0)
+    level = 10 * (1 - math.exp(-1.5))
+    assert load.at(3.0) == LoadPoint(pytest.approx(level, rel=4 * EPS), 0.0, 0.0, None, None)
+    assert load.is_even(0)
+    assert load.is_even(1)
+
+
+def test_a_curved_load_is_largest_at_its_crest():
+    class Bump(SaturatingForce):
+        """W_inf sin²(pi t/(12 T)): its crest is between the kinks, after more than 128 steps."""
+
+        def level_at(self, times, *, side="right"):
+            reached = np.clip(times, 0.0, self.kinks[-1])
+            return self.largest_level * np.sin(np.pi * reached / self.kinks[-1]) ** 2
+
+    time, point = largest_load(Bump(10.0, 2.0), end=24.0)
+    assert time == pytest.approx(12.0)
+    assert point.force == pytest.approx(10.0)
 
 
 # -- cycles ----------------------------------------------------------------------------------

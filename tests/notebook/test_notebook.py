@@ -19,6 +19,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 import viscontact as vc
+from saturating_force import SaturatingForce
 from synthetic_results import maxwell_sphere
 from viscontact.case import read_case
 from viscontact.units.parsing import parse_quantity
@@ -295,6 +296,19 @@ def test_a_jump_of_a_load_is_drawn_upright() -> None:
     jump = np.flatnonzero(np.diff(px) == 0)
     assert force[jump].round(1).tolist()[-1] == 10
     assert force[jump + 1].round(1).tolist()[-1] == 4
+
+
+def test_a_curved_load_is_drawn_as_a_curve() -> None:
+    load = SaturatingForce(10.0, 2.0)
+    [drawing] = _parsed(load).iter("svg")
+    px, py = _line(drawing, "curve")
+    (at_x, x_text), (at_y, y_text) = _ticks(drawing, "x"), _ticks(drawing, "y")
+    times = np.polyval(np.polyfit(at_x, np.array(x_text, dtype=float), 1), px)
+    force = np.polyval(np.polyfit(at_y, np.array(y_text, dtype=float), 1), py)
+    held = np.clip(times, 0.0, 24.0)
+    # 0.05 px of 98 px up, and the steepest slope, 5 N/s, over 0.05 px of 164 px.
+    np.testing.assert_allclose(force, 10 * (1 - np.exp(-held / 2)), atol=0.1)
+    assert "kind" not in _text(_parsed(load))
 
 
 def test_titles_are_text_and_never_markup(tmp_path: Path) -> None:

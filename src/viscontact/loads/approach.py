@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -53,8 +52,6 @@ class ApproachHistory(PiecewiseHistory):
     """
 
     control = "approach"
-    eccentricity_x: ClassVar[float] = 0.0  # no force is prescribed that could act off centre
-    eccentricity_y: ClassVar[float] = 0.0
 
     times: NDArray[np.float64] = field(metadata={"unit": "s", "name": "at times"})
     approach: NDArray[np.float64] = field(metadata={"unit": "m"})

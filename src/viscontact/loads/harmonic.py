@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.loads import arguments
 from viscontact.loads.force import NEGLIGIBLE
-from viscontact.loads.history import Control, Cycle, LoadHistory, LoadPoint
+from viscontact.loads.history import Control, Cycle, LoadHistory
 from viscontact.loads.level import positive_duration, prescribed_level, refuse_eccentric_approach
 from viscontact.units.formatting import format_quantity
 from viscontact.units.numbers import finite, unit_of, whole
@@ -68,18 +68,6 @@ class HarmonicHistory(LoadHistory):
         """Instant at which the last cycle ends [s]."""
         return self.cycles * self.period
 
-    def at(self, time: float, *, side: str = "right") -> LoadPoint:
-        """Return the prescribed load at an instant [s], after a jump or before it ("left")."""
-        level = float(self.level_at(finite("time", time, "s"), side=side))
-        return LoadPoint(
-            force=level if self.control == "force" else None,
-            eccentricity_x=self.eccentricity_x,
-            eccentricity_y=self.eccentricity_y,
-            tilt_x=self.tilt_x,
-            tilt_y=self.tilt_y,
-            approach=level if self.control == "approach" else None,
-        )
-
     def level_at(self, times: ArrayLike, *, side: str = "right") -> NDArray[np.float64]:
         """Return the force [N] or the approach [m] at many instants [s], any shape."""
         instants = arguments.numbers("times", times, "s")
@@ -122,12 +110,6 @@ class HarmonicHistory(LoadHistory):
         """Whole periods; the first begins after the jump to the first level."""
         ends = [(k * self.period, "right") for k in range(self.cycles + 1)]
         return tuple(itertools.pairwise(ends))
-
-    def is_even(self, axis: int) -> bool:
-        """True if the load is even along an axis; see `LoadHistory.is_even`."""
-        if axis == 0:
-            return not (self.eccentricity_x or self.tilt_x)
-        return not (self.eccentricity_y or self.tilt_y)
 
 
 def harmonic(

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscontact.display import Displayable
+from viscontact.units.numbers import finite
 
 #: An instant [s], and which side of a jump there: "left" before it, "right" after it.
 LoadInstant = tuple[float, str]
@@ -64,6 +65,9 @@ class LoadPoint:
 class LoadHistory(Displayable, ABC):
     """A force or an approach over time, with where the force acts and prescribed tilts.
 
+    A derived class defines `level_at`, `largest_level`, `kinks` and `jumps`, and `longest_step` if
+    it is curved between its kinks.
+
     Examples
     --------
     >>> from viscontact.loads import ramp
@@ -74,15 +78,29 @@ class LoadHistory(Displayable, ABC):
 
     #: Quantity that the history prescribes along z.
     control: Control = "force"
+    #: Position of the force, constant or at each point of the history [m].
+    eccentricity_x: float | NDArray[np.float64] = 0.0
+    eccentricity_y: float | NDArray[np.float64] = 0.0
+    #: Prescribed slopes, constant or at each point; None where the tilt is free [rad].
+    tilt_x: float | NDArray[np.float64] | None = None
+    tilt_y: float | NDArray[np.float64] | None = None
 
     @property
     def unit(self) -> str:
         """Unit of the level: N of a force, m of an approach."""
         return "N" if self.control == "force" else "m"
 
-    @abstractmethod
     def at(self, time: float, *, side: str = "right") -> LoadPoint:
         """Return the prescribed load at an instant [s], after a jump or before it ("left")."""
+        level = float(self.level_at(finite("time", time, "s"), side=side))
+        return LoadPoint(
+            force=level if self.control == "force" else None,
+            eccentricity_x=float(self.eccentricity_x),
+            eccentricity_y=float(self.eccentricity_y),
+            tilt_x=None if self.tilt_x is None else float(self.tilt_x),
+            tilt_y=None if self.tilt_y is None else float(self.tilt_y),
+            approach=level if self.control == "approach" else None,
+        )
 
     @abstractmethod
     def level_at(self, times: ArrayLike, *, side: str = "right") -> NDArray[np.float64]:
@@ -105,7 +123,10 @@ class LoadHistory(Displayable, ABC):
 
     @property
     def longest_step(self) -> float:
-        """Longest step up to the last kink on which the history is nearly linear [s]."""
+        """Longest step up to the last kink on which the history is nearly linear [s].
+
+        Infinite if the history is linear between its kinks.
+        """
         return math.inf
 
     @property
@@ -119,6 +140,7 @@ class LoadHistory(Displayable, ABC):
         ends = [time for cycle in self.load_cycles for time, _ in cycle]
         return np.unique(np.concatenate([self.kinks, ends]))
 
-    @abstractmethod
     def is_even(self, axis: int) -> bool:
         """True if the load is even along an axis, 0 for across x = 0, 1 for across y = 0."""
+        along = "xy"[axis]
+        return not any(np.any(getattr(self, name + along)) for name in ("eccentricity_", "tilt_"))

@@ -8,15 +8,15 @@ import numpy as np
 
 from viscontact.loads.history import LoadHistory, LoadPoint
 
-#: A harmonic load reaches its maximum within this many of its longest steps.
-CYCLE_SAMPLES = 128
+#: Upper limit on the samples of a curved load.
+MOST_SAMPLES = 10_000
 
 
 def largest_load(load: LoadHistory, end: float) -> tuple[float, LoadPoint]:
     """Return the time [s] of the largest load up to the time `end` [s], and the load there.
 
-    The time is a kink, the end, or a step within the first oscillations; at a jump it is the side
-    with the larger load.
+    The time is a kink, the end, or a multiple of the longest step of a curved load, in the first
+    cycle of a cyclic one; at a jump it is the side with the larger load.
 
     >>> from viscontact.loads import harmonic
     >>> largest_load(harmonic(mean=2.0, amplitude=1.0, period=4.0, cycles=4), end=16.0)[0]
@@ -24,8 +24,11 @@ def largest_load(load: LoadHistory, end: float) -> tuple[float, LoadPoint]:
     """
     instants: list[float] = [*load.kinks[load.kinks <= end].tolist(), end]
     if math.isfinite(load.longest_step):
-        steps = np.arange(1, CYCLE_SAMPLES + 1) * load.longest_step
-        instants += steps[steps < end].tolist()
+        cycles = load.load_cycles
+        curved_until = cycles[0][1][0] if cycles else float(load.kinks[-1])
+        pieces = min(math.ceil(curved_until / load.longest_step), MOST_SAMPLES)
+        samples = np.linspace(0.0, curved_until, pieces + 1)
+        instants += samples[samples < end].tolist()
     levels = np.stack([load.level_at(instants, side=side) for side in ("left", "right")], axis=1)
     first, side = divmod(int(levels.argmax()), 2)
     return instants[first], load.at(instants[first], side=("left", "right")[side])

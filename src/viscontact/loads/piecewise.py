@@ -130,11 +130,6 @@ class PiecewiseHistory(LoadHistory):
                     plateaus.append((level, moment, moment))
         return plateaus
 
-    def is_even(self, axis: int) -> bool:
-        """True if the load is even along an axis; see `LoadHistory.is_even`."""
-        along = "xy"[axis]
-        return not any(np.any(getattr(self, name + along)) for name in ("eccentricity_", "tilt_"))
-
     def _interpolate(
         self, values: float | NDArray[np.float64], times: NDArray[np.float64], side: str
     ) -> NDArray[np.float64]:

@@ -133,7 +133,7 @@ def _rows(obj: Displayable) -> list[tuple[str, ...]]:
     arguments = list(argument_rows(describe(obj)))
     own = _name_of(obj)
     rows: list[tuple[str, ...]] = [
-        row for row in arguments if row not in (("shape", own), ("law", own))
+        row for row in arguments if row not in (("shape", own), ("law", own), ("kind", own))
     ]
     known = {value for _, value in arguments}
     return [*rows, *(row for row in _following(obj) if row[1] not in known)]

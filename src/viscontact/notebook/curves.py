@@ -19,8 +19,8 @@ from viscontact.results.descriptions import describe
 _POINTS = 121
 #: A formula is drawn over its own times, and times shorter and longer by this factor.
 _AROUND = 100.0
-#: Number of cycles of a harmonic load that are drawn, and points of each.
-_MOST_CYCLES, _POINTS_OF_CYCLE = 5, 48
+#: Number of cycles of a harmonic load that are drawn, and of straight pieces of a curved load.
+_MOST_CYCLES, _MOST_PIECES = 5, 240
 #: The level after the last point of a history is drawn over this fraction of its time.
 _HELD = 0.25
 #: The drawing begins earlier by this fraction of its length.
@@ -90,15 +90,14 @@ def _aside(load: LoadHistory) -> str:
 
 def _course(load: LoadHistory) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
     """Points of a history, both of a jump, and where the drawing ends [s]."""
-    if isinstance(load, HarmonicHistory):
-        cycles = min(load.cycles, _MOST_CYCLES)
-        end = cycles * load.period
-        instants = np.linspace(0.0, end, cycles * _POINTS_OF_CYCLE + 1)
-        levels = [*2 * [float(load.level_at(0.0, side="left"))], *load.level_at(instants)]
-        return np.array([-_BEFORE * end, 0.0, *instants]), np.array(levels), end
     kinks = load.kinks
-    end = float(kinks[-1]) * (1 + _HELD) or 1.0
-    instants = np.unique(np.concatenate([[-_BEFORE * end, 0.0], kinks, [end]]))
+    curved_until = float(kinks[-1])
+    end = curved_until * (1 + _HELD) or 1.0
+    if isinstance(load, HarmonicHistory):
+        curved_until = end = min(load.cycles, _MOST_CYCLES) * load.period
+    pieces = min(math.ceil(curved_until / load.longest_step), _MOST_PIECES)
+    curve = np.linspace(0.0, curved_until, pieces + 1)
+    instants = np.unique(np.concatenate([[-_BEFORE * end, end], kinks[kinks <= end], curve]))
     both = [load.level_at(instants, side=side) for side in ("left", "right")]
     return np.repeat(instants, 2), np.stack(both, axis=1).ravel(), end
 

@@ -14,14 +14,14 @@ from typing import Any
 import numpy as np
 
 from viscontact.laws import Law
+from viscontact.loads import LoadHistory
 from viscontact.results.descriptions import STORED_CLASSES
 from viscontact.units.formatting import format_quantity
 
 _LAWS = {name for name, each in STORED_CLASSES.items() if issubclass(each, Law)}
 #: Classes whose part of the table says what they are.
-_PLAIN = {"Material", "Grid", "AutomaticGrid"}
-_PLAIN |= {"ForceHistory", "ApproachHistory", "HarmonicHistory"}
-_PLAIN |= {"CombinedIndenter", "PlacedIndenter"}
+_PLAIN = {"Material", "Grid", "AutomaticGrid", "CombinedIndenter", "PlacedIndenter"}
+_PLAIN |= {name for name, each in STORED_CLASSES.items() if issubclass(each, LoadHistory)}
 #: Arguments that are left out if this is their value.
 _DEFAULTS: dict[str, tuple[object, ...]] = {
     **dict.fromkeys(["eccentricity_x", "eccentricity_y", "fluidity", "phase"], (0,)),
@@ -47,7 +47,9 @@ def argument_rows(description: Mapping[str, Any], owner: str = "") -> Iterator[t
     """
     kind = str(description.get("type", ""))
     if kind and kind not in _PLAIN:
-        yield owner or ("law" if kind in _LAWS else "shape"), in_plain_words(kind)
+        # A class of the user's own may be a shape, a law or a load.
+        known = "law" if kind in _LAWS else "shape"
+        yield owner or (known if kind in STORED_CLASSES else "kind"), in_plain_words(kind)
     for key, value in description.items():
         name = f"{owner} {_words(kind, key)}".strip()
         if isinstance(value, Mapping) and "sha256" in value:

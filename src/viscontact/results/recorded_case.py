@@ -9,7 +9,7 @@ from typing import Any
 import xarray as xr
 
 from viscontact.grid import Grid
-from viscontact.results.descriptions import rebuild
+from viscontact.results.descriptions import STORED_CLASSES, rebuild
 
 
 @functools.lru_cache(maxsize=8)
@@ -55,7 +55,8 @@ def recorded_grid(results: xr.Dataset) -> Grid:
 def prescribes_approach(ds: xr.Dataset) -> bool:
     """True if the load of a run prescribes the approach, so that the force is computed."""
     load = case_of(ds).get("load") or {}
-    return load.get("control") == "approach" or load.get("type") == "ApproachHistory"
+    kind = STORED_CLASSES.get(load.get("type", ""))
+    return bool(load.get("control", getattr(kind, "control", "force")) == "approach")
 
 
 def recorded_object(results: xr.Dataset, part: str, figure: str) -> Any:
