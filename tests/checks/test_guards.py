@@ -7,6 +7,7 @@ eqs. 4.22-4.24), half width b of a cylinder, b^2 = 4 (F/length) R J/pi (eq. 4.43
 
 from __future__ import annotations
 
+import math
 import warnings
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -37,6 +38,11 @@ def hertz_force(radius: float) -> float:
 
 
 PRESSED, FINE = vc.step(hertz_force(0.1)), vc.Grid((60, 60), (0.28, 0.28))
+
+
+#: Waves of one direction, pressed flat on a period of 64 x 4 cells.
+WAVES = vc.Waviness(1e-6, wavelength_x=0.1)
+LINE_OF_CELLS, MEAN_PRESSED = vc.Grid((64, 4), (0.1, 0.1), periodic=True), vc.step(10.0)
 
 
 @dataclass(frozen=True)
@@ -203,6 +209,12 @@ GUARDS = {
         "which are 9.8 of the grid's cells; 10 or more are wanted",
         met=Job(BALL + vc.Waviness(1e-6, wavelength_x=9.8 * 0.28 / 60)),
         missed=Job(BALL + vc.Waviness(1e-6, wavelength_x=10.2 * 0.28 / 60)),
+    ),
+    "waves that vary along one axis, on few cells along it or along the other": Guard(
+        vc.AccuracyWarning,
+        "over 100 mm along y, which are 4 of the grid's cells",
+        met=Job(WAVES.rotated(math.pi / 2), MEAN_PRESSED, LINE_OF_CELLS),
+        missed=Job(WAVES, MEAN_PRESSED, LINE_OF_CELLS),
     ),
     "dimples finer than the grid": Guard(
         vc.AccuracyWarning,

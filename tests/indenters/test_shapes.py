@@ -210,6 +210,24 @@ def test_crest_of_a_wave_is_no_measure_of_a_contact_that_spans_many() -> None:
     assert vc.Sphere(1.0).period == math.inf
 
 
+def test_waves_repeat_along_the_axes_that_they_cross() -> None:
+    waves = vc.Sphere(1.0) + vc.Waviness(0.1, wavelength_x=1e-3)
+    assert waves.periods == (1e-3, math.inf)
+    assert waves.rotated(math.pi / 2).shifted(x=0.1).periods == (math.inf, 1e-3)
+    # Crests at 60 degrees to y: 1/cos and 1/sin of the angle apart along the axes.
+    turned = waves.rotated(math.pi / 3)
+    assert turned.periods == pytest.approx((2e-3, 2e-3 / math.sqrt(3)), rel=1e-12)
+    x, y = np.random.default_rng(1).uniform(-0.1, 0.1, (2, 9))
+    texture = vc.Waviness(0.1, wavelength_x=1e-3).rotated(math.pi / 3)
+    for shift in ((turned.periods[0], 0.0), (0.0, turned.periods[1])):
+        there = texture.gap(x + shift[0], y + shift[1])
+        assert there == pytest.approx(texture.gap(x, y), abs=1e-11)
+    crossed = vc.Waviness(0.1, wavelength_x=1e-3, wavelength_y=2e-3)
+    assert (crossed + waves).periods == (1e-3, 2e-3)
+    assert vc.Dimples(1.0, 2.0, 5.0).rotated(0.4).periods == pytest.approx((4.0, 4.0), rel=1e-12)
+    assert vc.Sphere(1.0).rotated(0.3).periods == (math.inf, math.inf)
+
+
 def test_wave_adds_to_a_sphere_without_a_shift() -> None:
     rough = vc.Sphere(1.0) + vc.Waviness(0.01, wavelength_x=0.2)
     assert rough.gap([0.0, 0.1, 0.6], 0.0) == pytest.approx(

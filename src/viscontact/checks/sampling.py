@@ -147,7 +147,9 @@ def sampling_warnings(
     extent = min(rim.length, rim.width)
     strain = 2 * float(motion[0]) / extent if extent > 0 else math.inf
     cell = max(sampling.grid.cell_size)
-    warnings = map_warnings(missed, cell, strain) | texture_warnings(sampling.indenter.period, cell)
+    warnings = map_warnings(missed, cell, strain) | texture_warnings(
+        sampling.indenter, sampling.grid
+    )
     if sampling.grid.periodic:
         return warnings  # the neighbour is the next period, not the body
     # All pressure lies within the grid, so the displacement falls outwards from the grid's rim.
@@ -160,22 +162,28 @@ def sampling_warnings(
     return warnings
 
 
-def texture_warnings(period: float, cell: float) -> dict[str, str]:
-    """Warn of waves or dimples of a period [m] of too few cells [m].
+def texture_warnings(indenter: Indenter, grid: Grid) -> dict[str, str]:
+    """Warn of waves or dimples with too few cells in a period, along an axis where they vary.
 
     Examples
     --------
-    >>> list(texture_warnings(1e-3, 2e-4)), list(texture_warnings(1e-3, 1e-4))
-    (['texture'], [])
+    >>> from viscontact.indenters import Waviness
+    >>> waves, period = Waviness(1e-6, wavelength_x=1e-3), (1e-3, 1e-3)
+    >>> [list(texture_warnings(waves, Grid(shape, period))) for shape in ((4, 64), (64, 4))]
+    [['texture'], []]
     """
+    cells, period, axis = min(
+        (period / cell, period, axis)
+        for period, cell, axis in zip(indenter.periods, grid.cell_size, "xy", strict=True)
+    )
     # Exactly ten cells are enough in spite of rounding.
-    if period > (CELLS_OF_A_WAVE - 1e-6) * cell:
+    if cells > CELLS_OF_A_WAVE - 1e-6:
         return {}
     return {
         "texture": (
-            f"the body repeats itself over {format_quantity(period, 'm', 3)}, which are "
-            f"{period / cell:.2g} of the grid's cells; {CELLS_OF_A_WAVE} or more are wanted, or "
-            "what lies between its points is missed: use smaller cells"
+            f"the body repeats itself over {format_quantity(period, 'm', 3)} along {axis}, which "
+            f"are {cells:.2g} of the grid's cells; {CELLS_OF_A_WAVE} or more are wanted, or what "
+            "lies between its points is missed: use smaller cells"
         )
     }
 

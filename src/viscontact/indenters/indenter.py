@@ -61,6 +61,18 @@ class Indenter(Displayable, ABC):
         return math.inf
 
     @property
+    def periods(self) -> tuple[float, float]:
+        """Lengths along x and y over which it repeats, inf along an axis where it does not [m].
+
+        Examples
+        --------
+        >>> from viscontact.indenters import Waviness
+        >>> Waviness(amplitude=1e-6, wavelength_x=2e-3).periods
+        (0.002, inf)
+        """
+        return self.period, self.period
+
+    @property
     def sample_spacing(self) -> tuple[float, float]:
         """Smallest steps along x and y between given points of the surface, 0 without any [m].
 
@@ -143,6 +155,12 @@ class CombinedIndenter(Indenter):
         return min(part.period for part in self.parts)
 
     @property
+    def periods(self) -> tuple[float, float]:
+        """The shortest of the parts' along each axis [m]."""
+        along_x, along_y = zip(*(part.periods for part in self.parts), strict=True)
+        return min(along_x), min(along_y)
+
+    @property
     def sample_spacing(self) -> tuple[float, float]:
         """The smallest steps of the parts [m]."""
         found = [part.sample_spacing for part in self.parts if min(part.sample_spacing) > 0]
@@ -221,6 +239,15 @@ class PlacedIndenter(Indenter):
     def period(self) -> float:
         """That of the body [m]."""
         return self.body.period
+
+    @property
+    def periods(self) -> tuple[float, float]:
+        """Lengths along x and y over which the body repeats as it is turned [m]."""
+        x, y = (1 / each for each in self.body.periods)
+        cosine, sine = self._turn
+        waves = math.hypot(cosine * x, sine * y), math.hypot(sine * x, cosine * y)
+        along_x, along_y = (1 / each if each > 0 else math.inf for each in waves)
+        return along_x, along_y
 
     @property
     def sample_spacing(self) -> tuple[float, float]:

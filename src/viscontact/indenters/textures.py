@@ -83,7 +83,12 @@ class Waviness(Indenter):
     @property
     def period(self) -> float:
         """The shorter wavelength [m]."""
-        return min(each for each in (self.wavelength_x, self.wavelength_y) if each is not None)
+        return min(self.periods)
+
+    @property
+    def periods(self) -> tuple[float, float]:
+        """The wavelengths, inf along an axis without waves [m]."""
+        return self.wavelength_x or math.inf, self.wavelength_y or math.inf
 
 
 @dataclass(frozen=True)

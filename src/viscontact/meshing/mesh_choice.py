@@ -147,7 +147,7 @@ def _first_cells(
     steps = np.array(indenter.sample_spacing)
     points = np.divide(size, steps, out=np.full(2, math.inf), where=steps > 0)
     cells = np.minimum(_first_across(request) * across, np.maximum(MIN_ACROSS * across, points))
-    return np.asarray(np.maximum(cells, CELLS_OF_A_WAVE * size / indenter.period))
+    return np.asarray(np.maximum(cells, CELLS_OF_A_WAVE * size / indenter.periods))
 
 
 def _first_across(request: AutomaticGrid) -> float:

@@ -55,7 +55,7 @@ def _contact_warnings(run: RunSetup, found: ContactEstimate, compliance: float) 
         | body_warnings(geometry, found.rim)
         | _corner_warnings(run, geometry, found, compliance)
         | map_warnings(missed, max(run.grid.cell_size), strain)
-        | texture_warnings(geometry.indenter.period, max(run.grid.cell_size))
+        | texture_warnings(geometry.indenter, run.grid)
     )
 
 
