@@ -23,6 +23,9 @@ MAX_ITERATIONS = 400
 #: Tolerance of a solve on a coarser grid, whose result is only a first guess.
 NESTED_TOLERANCE = 1e-3
 
+#: Rounding of a gap, relative to the height of a prescribed motion.
+GAP_ROUNDING = 1e-14
+
 #: Rounds of search and check. A second one is needed where a contact outgrows its patch, or where
 #: single precision does not meet the tolerance at once.
 MAX_ROUNDS = 20
@@ -63,6 +66,7 @@ def solve_contact(
     the relative residual and the relative imbalance. ``converged`` is False if the iteration
     stagnates or uses up `max_iterations`.
     """
+    problem = _above_rounding(problem, domain, tolerance)
     # Start from the guess.
     found = None
     if guess is not None:
@@ -80,6 +84,16 @@ def solve_contact(
         iterations=found.iterations + cold.iterations,
         convolutions=found.convolutions + cold.convolutions,
     )
+
+
+def _above_rounding(
+    problem: ContactProblem, domain: ContactDomain, tolerance: float
+) -> ContactProblem:
+    """Same problem, with errors relative to no less than what rounding of the gap allows."""
+    # Just after first touch, displacements are far smaller than the approach.
+    height = domain.whole.plane.height(np.array(problem.constraints.motions))
+    least = GAP_ROUNDING * height / tolerance
+    return replace(problem, displacement_scale=max(problem.displacement_scale, least))
 
 
 def _solve_from(

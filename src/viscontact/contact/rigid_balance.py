@@ -101,6 +101,19 @@ class RigidPlane:
         self._column, self._row = x * unit[1], y * unit[2]
         self._units = np.outer(unit, unit)
 
+    @property
+    def extents(self) -> NDArray[np.float64]:
+        """Largest values of 1, x and y over the cells [-, m, m]."""
+        return np.array([1.0, np.abs(self._x).max(), np.abs(self._y).max()])
+
+    def height(self, coefficients: NDArray[np.float64]) -> float:
+        """Upper limit of the plane's absolute values."""
+        return float(np.abs(coefficients) @ self.extents)
+
+    def column(self, row: int, column: int) -> NDArray[np.float64]:
+        """Values of 1, x and y of one cell [-, m, m]."""
+        return np.array([1.0, self._x[row], self._y[column]])
+
     def field(self, coefficients: NDArray[np.float64]) -> NDArray[np.float64]:
         """The plane on the cells: one column for all of them if it is level along y."""
         along_x = coefficients[0] + coefficients[1] * self._x

@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.contact.clearance import ROUNDING, just_clear, touching_motion
 from viscontact.contact.rigid_balance import Constraints, RigidPlane
 
 #: Factor from one stiffness of the continuation to the next.
@@ -17,9 +18,6 @@ STIFFENING_FACTOR = 4.0
 
 #: Stiffness that cells of the last foundation add to the Hessian, as a part of their own.
 REGULARISATION = 0.01
-
-#: Smaller overlaps, relative to the deepest before the tilts are found, count as no contact.
-SEPARATION_TOLERANCE = 1e-12
 
 #: Newton steps on one foundation.
 MAX_NEWTON = 40
@@ -42,12 +40,7 @@ def winkler_contact(
     gap = open_gap - plane.field(given)
     if not constraints.free[0]:
         # The approach is prescribed: only the tilts are unknown, whatever the stiffness.
-        bearing = (gap < 0).astype(float)
-        motion, overlap = _newton_solve(
-            gap, np.zeros(3), np.zeros(3), plane, constraints.free, bearing
-        )
-        # A body that tilts until it is clear of the surface leaves overlaps of rounding.
-        overlap[overlap <= SEPARATION_TOLERANCE * -float(gap.min())] = 0.0
+        motion, overlap = _tilted(gap, given, plane, constraints.free)
         cells = max(int((overlap > 0).sum()), 1)
         return overlap / (compliance * np.sqrt(cell_area * cells)), given + motion
     # Stiffness from a guessed number of cells in contact, then from the number found.
@@ -58,6 +51,24 @@ def winkler_contact(
         motion, overlap = _balanced(gap, target, plane, constraints.free)
         cells = max(int((overlap > 0).sum()), 1)
     return stiffness * overlap, given + motion
+
+
+def _tilted(
+    gap: NDArray[np.float64],
+    given: NDArray[np.float64],
+    plane: RigidPlane,
+    free: NDArray[np.bool_],
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Tilts and overlap [m] under a prescribed motion; the body tilts no more than necessary."""
+    touching = touching_motion(gap, plane, free)
+    turned = touching * np.array([0.0, 1.0, 1.0])
+    rounding = ROUNDING * plane.height(given + turned)
+    if touching[0] >= -rounding:
+        return just_clear(gap, plane, np.zeros(3), turned), np.zeros(gap.shape)
+    level = np.array([touching[0] - rounding, 0.0, 0.0])
+    turned = just_clear(gap, plane, level, level + turned) - level
+    bearing = (plane.field(turned) > gap).astype(float)
+    return _newton_solve(gap, turned, np.zeros(3), plane, free, bearing)
 
 
 def project_onto_balance(

@@ -19,6 +19,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.contact.clearance import just_clear
 from viscontact.contact.domain import ContactDomain
 from viscontact.contact.equilibrium import ContactSolution, solve_contact
 from viscontact.contact.problem import ContactProblem, Guess
@@ -178,8 +179,12 @@ class Stepper:
         solution = solve_contact(problem, self._domain, guess, tolerance=tolerance)
         if not solution.converged:
             return solution, Outcome.NOT_CONVERGED
-        touches = bool(solution.values[0].any())
-        return solution, Outcome.CONVERGED if touches else Outcome.NO_CONTACT
+        if solution.values[0].any():
+            return solution, Outcome.CONVERGED
+        # A body that can tilt has turned away: from its last tilts no farther than it must.
+        plane = self._domain.whole.plane
+        motion = just_clear(problem.open_gap, plane, given, solution.motion)
+        return _without_pressure(problem, self._domain, motion), Outcome.NO_CONTACT
 
     def _is_separated(self, problem: ContactProblem, motion: NDArray[np.float64]) -> bool:
         plane = self._domain.whole.plane.field(motion)

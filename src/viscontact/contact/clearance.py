@@ -1,0 +1,102 @@
+"""Clearance of a body under a prescribed approach: tilts at which it does not touch the surface.
+
+A body that is free to tilt turns away from the surface without any force, until its pivot, the
+origin, is too deep. The largest approach without contact is the convex envelope of the gap at the
+pivot, and its tilts are those of the plane that supports the envelope there: the solution of a
+linear program with one to three unknowns.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.contact.rigid_balance import RigidPlane
+
+#: Exchanges of one cell for another; a few tens are needed.
+MAX_EXCHANGES = 1000
+
+#: Rounding of a gap, relative to the height of the plane of the rigid motion.
+ROUNDING = 2e-15
+
+#: Shift of the pivot, relative to the grid: a pivot on the line between two cells could make the
+#: exchanges go in circles.
+SHIFT = np.array([0.0, 1.0e-11, 1.7e-11])
+
+#: Distance and height of the first corners, relative to the grid and to the range of the gap: they
+#: lie around every body, and above every plane between cells on both sides of the pivot.
+FIRST_DISTANCE, FIRST_HEIGHT = 3.0, 1e6
+
+
+def touching_motion(
+    gap: NDArray[np.float64], plane: RigidPlane, free: NDArray[np.bool_]
+) -> NDArray[np.float64]:
+    """Largest approach [m] without contact, and free tilts [rad] at which the body then touches.
+
+    `gap` [m] is +inf where there is no body. A body that lies on one side of the pivot can be clear
+    at any approach; the one returned is then far larger than its gap.
+
+    By the simplex method on the dual program (Dantzig 1963, Linear Programming and Extensions,
+    chapter 5): a plane through corners around the pivot is exchanged for a lower one, through the
+    cell farthest below it.
+
+    Examples
+    --------
+    A ball with the gap (x - 1)²/2 turns until it touches on both sides of the pivot:
+
+    >>> x = np.linspace(-2.5, 2.5, 6)
+    >>> row = RigidPlane(x, np.zeros(1), (1.0, 1.0))
+    >>> touching_motion((x[:, None] - 1) ** 2 / 2, row, np.array([False, True, False])).round(6)
+    array([ 0.625, -1.   ,  0.   ])
+    """
+    sought = np.append(0, 1 + np.flatnonzero(free[1:]))
+    solid = gap[np.isfinite(gap)]
+    scale = plane.extents[sought]
+    pivot = np.array([1.0, 0.0, 0.0])[sought] + SHIFT[sought]
+    corners = _first_corners(sought.size)
+    heights = np.full(sought.size, solid.max() + FIRST_HEIGHT * (np.ptp(solid) or 1.0))
+    motion = np.zeros(3)
+    for _ in range(MAX_EXCHANGES):
+        coefficients = np.linalg.solve(corners.T, heights)
+        motion[sought] = coefficients / scale
+        above = gap - plane.field(motion)
+        row, column = divmod(int(above.argmin()), above.shape[1])
+        if above[row, column] >= -ROUNDING * plane.height(motion):
+            break
+        entering = plane.column(row, column)[sought] / scale
+        weights, change = np.linalg.solve(corners, np.stack([pivot, entering], axis=1)).T
+        # The corner whose weight vanishes first as the cell takes over.
+        steps = np.divide(weights, change, out=np.full(sought.size, np.inf), where=change > 0)
+        leaving = int(steps.argmin())
+        corners[:, leaving], heights[leaving] = entering, gap[row, column]
+    return motion
+
+
+def _first_corners(count: int) -> NDArray[np.float64]:
+    """Corners of a simplex around the pivot, as columns (1, x, y)."""
+    corners = np.ones((count, count))
+    corners[1:] = FIRST_DISTANCE * np.eye(count)[1:]
+    corners[1:, 0] = -FIRST_DISTANCE
+    return corners
+
+
+def just_clear(
+    gap: NDArray[np.float64],
+    plane: RigidPlane,
+    begin: NDArray[np.float64],
+    clear: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """First motion on the way from one to another at which no cell overlaps the surface.
+
+    Examples
+    --------
+    >>> row = RigidPlane(np.array([-1.0, 1.0]), np.zeros(1), (1.0, 1.0))
+    >>> gap, level = np.array([[9.0], [0.5]]), np.array([1.0, 0.0, 0.0])
+    >>> just_clear(gap, row, level, np.array([1.0, -2.0, 0.0])).tolist()
+    [1.0, -0.5, 0.0]
+    """
+    overlap = np.maximum(plane.field(begin) - gap, 0.0)
+    # At most all the way, in spite of rounding.
+    opening = np.maximum(np.broadcast_to(plane.field(begin - clear), gap.shape), overlap)
+    way = np.divide(overlap, opening, out=np.zeros(gap.shape), where=overlap > 0)
+    return begin + float(way.max()) * (clear - begin)
