@@ -16,7 +16,8 @@ import pytest
 import viscontact as vc
 from verification.exact_contacts import ExactRun, drawn
 from viscontact.accuracy.coarser_runs import history_of, march_coarser_run, plan_coarser_runs
-from viscontact.accuracy.error_bars import SINGULAR, error_bars, error_bars_from
+from viscontact.accuracy.error_bars import error_bars, error_bars_from
+from viscontact.accuracy.singular_peaks import SINGULAR
 from viscontact.problem.problem import Problem
 from viscontact.simulation.setup import prepare_run
 from viscontact.simulation.state_generator import march_run

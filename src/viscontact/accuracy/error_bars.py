@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.accuracy.coarser_runs import (
-    MIN_ACROSS,
     CoarserResult,
     History,
     march_coarser_run,
@@ -25,11 +24,10 @@ from viscontact.accuracy.levels import (
     RefinementLevels,
     end_flags,
     moving_maximum,
-    moving_mean,
     moving_minimum,
     spots_across,
 )
-from viscontact.accuracy.richardson import richardson
+from viscontact.accuracy.singular_peaks import SINGULAR, unbounded_peak
 from viscontact.simulation.setup import RunSetup
 
 Array = NDArray[np.float64]
@@ -102,17 +100,6 @@ ZERO_WITHOUT_CONTACT = (
     *("peak_pressure", "mean_pressure"),
 )
 
-#: Least growth of a peak without a limit as cells shrink by a factor e, over the mean pressure:
-#: under a wedge it is 0.64, under a cone 1.
-UNBOUNDED_GROWTH = 0.3
-
-#: Warning of a peak without a limit.
-SINGULAR = (
-    "the peak pressure has no limit as cells become smaller: it depends on the mesh, at a sharp "
-    "edge, a point or a ridge of the body or at roughness that the grid does not resolve, and its "
-    "error is given as infinite; resultants converge"
-)
-
 
 @dataclass(frozen=True, eq=False)
 class ErrorBars:
@@ -172,7 +159,7 @@ def error_bars_from(run: RunSetup, history: History, results: Iterable[CoarserRe
     apart = _certainly_separated(run, history)
     for name in ZERO_WITHOUT_CONTACT:
         values[name][apart] = 0.0
-    unbounded = _unbounded_peak(history, found, at_end)
+    unbounded = unbounded_peak(history, found, at_end)
     values["peak_pressure"][unbounded] = np.inf
     # Ends and corners cause a warning in the run itself.
     is_known = at_end.any() or any(each.is_sharp for each in found)
@@ -242,30 +229,6 @@ def _least_bar(
         tolerance = SOLVER_ERROR_FACTOR * run.problem.tolerance
         return np.asarray(np.where(extent > 0, tolerance * lever, 0.0))
     return 0.0
-
-
-def _unbounded_peak(
-    history: History, results: list[CoarserResult], at_end: NDArray[np.bool_]
-) -> NDArray[np.bool_]:
-    """Times at which the peak pressure has no limit, by the body's shape or by the grids."""
-    contact = np.asarray(history["peak_pressure"] > 0)
-    if any(each.is_sharp for each in results):
-        return contact
-    levels = RefinementLevels.of("peak_pressure", history, results)
-    order = np.argsort(levels.spacings)
-    if len(order) < 3:
-        return np.asarray(contact & at_end)
-    three = order[[0, 1, -1]]
-    peaks = levels.values[three]
-    spacings = np.array(levels.spacings)[three]
-    known = np.isfinite(peaks).all(axis=0)
-    verdict = richardson(np.where(known, peaks, 1.0), spacings)
-    growth = (peaks[0] - peaks[-1]) / np.log(spacings[-1])
-    grows = growth > UNBOUNDED_GROWTH * history["mean_pressure"]
-    # A contact of few cells does not exist on the coarsest grid.
-    fine = history["cells_across"] >= MIN_ACROSS * spacings[-1]
-    unbounded = np.where(known, ~verdict.converges & grows & fine, np.nan)
-    return np.asarray(contact & (at_end | (moving_mean(unbounded) > 0.5)))
 
 
 def _certainly_separated(run: RunSetup, history: History) -> NDArray[np.bool_]:
