@@ -673,6 +673,8 @@ def test_compare_overlays_runs_and_refuses_a_single_one(
     assert main(["compare", "heavier"]) == 2
     assert main(["compare", "heavier", str(finished), "--figure", "histroy"]) == 2
     assert "did you mean history?" in capsys.readouterr().err
+    assert main(["compare", "heavier", "heavier"]) == 2
+    assert "got one of them twice" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("words", [["show"], ["export"], ["plot", "history"]])

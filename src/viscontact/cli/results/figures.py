@@ -71,6 +71,8 @@ def draw_comparison(
     with ExitStack() as stack:
         runs = [stack.enter_context(opened(directory)) for directory in directories]
         labelled = dict(zip(_labels(directories), runs, strict=True))
+        if len(labelled) < len(runs):
+            refuse("compare needs different runs, got one of them twice")
         for directory, (label, ds) in zip(directories, labelled.items(), strict=True):
             if figure != "creep":  # the law is known beyond the run
                 _refuse_outside(instants, ds, directory)
