@@ -10,6 +10,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from viscontact.results.variables import SCALARS
+
 FloatArray = NDArray[np.float64]
 
 RADIUS = 0.01
@@ -146,22 +148,19 @@ def _results(
     force = np.full_like(time, case["load"]["force"][0])
     zeros = np.zeros_like(time)
     scalars = {
-        "force": (force, "N", "force"),
-        "eccentricity_x": (zeros, "m", "eccentricity along x"),
-        "eccentricity_y": (zeros, "m", "eccentricity along y"),
-        "approach": (approach, "m", "approach"),
-        "tilt_x": (zeros.copy(), "rad", "slope of the rigid body along x"),
-        "tilt_y": (zeros.copy(), "rad", "slope of the rigid body along y"),
-        "contact_area": (area, "m2", "contact area"),
-        "contact_length": (2 * half_length, "m", "extent of the contact along x"),
-        "contact_width": (area / (2 * half_length), "m", "extent of the contact along y"),
-        "peak_pressure": (pressure.max((1, 2)), "Pa", "largest pressure"),
-        "mean_pressure": (force / area, "Pa", "mean pressure"),
+        "force": force,
+        "eccentricity_x": zeros,
+        "eccentricity_y": zeros,
+        "approach": approach,
+        "tilt_x": zeros.copy(),
+        "tilt_y": zeros.copy(),
+        "contact_area": area,
+        "contact_length": 2 * half_length,
+        "contact_width": area / (2 * half_length),
+        "peak_pressure": pressure.max((1, 2)),
+        "mean_pressure": force / area,
     }
-    data = {
-        name: ("time", value, {"units": unit, "long_name": text})
-        for name, (value, unit, text) in scalars.items()
-    }
+    data = {name: ("time", value, SCALARS[name].attributes) for name, value in scalars.items()}
     results = xr.Dataset(
         data,
         coords={"time": ("time", time, {"units": "s"}), "x": x, "y": y},

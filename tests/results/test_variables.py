@@ -15,6 +15,7 @@ import viscontact as vc
 from viscontact.accuracy.coarser_runs import HISTORY_NAMES
 from viscontact.accuracy.error_bars import ERROR_MODELS, ZERO_WITHOUT_CONTACT
 from viscontact.cli import main
+from viscontact.cli.many.table import print_table
 from viscontact.notebook.result_card import result_card
 from viscontact.plot import history
 from viscontact.report.histories import load_panels, response_panels
@@ -24,7 +25,17 @@ from viscontact.results import variables
 from viscontact.results.dataset import to_dataset
 from viscontact.results.history_csv import write_history
 from viscontact.results.summary import summary_rows
-from viscontact.results.variables import SCALARS, Place, Variable, error_name, shown_in
+from viscontact.results.variables import (
+    REQUIRED,
+    SCALARS,
+    Place,
+    Variable,
+    error_name,
+    shown_in,
+)
+from viscontact.runs.processes.child import Ended
+from viscontact.runs.processes.job import Job, Standing
+from viscontact.runs.processes.request import RunRequest
 from viscontact.state import ContactState
 from viscontact.web.runs.live_scalars import grown
 
@@ -104,6 +115,59 @@ def test_new_entry_is_in_figures_and_report(extended: xr.Dataset) -> None:
     panels = [*load_panels(extended), *response_panels(extended)]
     assert LABEL in [panel["label"] for panel in panels]
     assert re.search(rf"<dt>{LABEL}</dt><dd>300 ± 10", report_page(extended).replace("\xa0", " "))
+
+
+@pytest.fixture(params=[NEW, *(name for name in SCALARS if name not in REQUIRED)])
+def older(
+    request: pytest.FixtureRequest, extended: xr.Dataset, monkeypatch: pytest.MonkeyPatch
+) -> xr.Dataset:
+    """A result that was written before a scalar existed."""
+    name = request.param
+    monkeypatch.setitem(
+        variables.SCALARS, name, dataclasses.replace(SCALARS[name], places=EVERYWHERE, label="New")
+    )
+    return extended.drop_vars([each for each in (name, error_name(name)) if each in extended])
+
+
+def test_older_result_is_shown_without_the_new_scalar(
+    older: xr.Dataset, extended: xr.Dataset, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    files = [str(tmp_path / name) for name in ("result.nc", "newer.nc")]
+    for run, file in zip((older, extended), files, strict=True):
+        vc.save(run, file)
+    for command in (["show"], ["export"], ["plot", "history"], ["report"]):
+        assert main([command[0], files[0], *command[1:]]) == 0, command
+    assert "force" in capsys.readouterr().out
+    assert main(["compare", *files, "-o", str(tmp_path / "compare.png")]) == 0
+    assert not [row for row in result_card(older).rows if row[0] == "new"]
+    assert "New" not in run_data(older)["facts"].values()
+    assert vc.plot.animation(older, seconds=1.0, fps=2.0).instants.size == 2
+
+
+@pytest.mark.parametrize("name", ["time", *REQUIRED])
+def test_file_without_a_required_scalar_is_no_result(
+    name: str, ds: xr.Dataset, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    vc.save(ds.drop_vars(name), tmp_path / "result.nc")
+    assert main(["show", str(tmp_path / "result.nc")]) == 2
+    assert f"not a result of viscontact: it has no {name}" in capsys.readouterr().err
+
+
+def test_table_of_runs_leaves_the_cell_of_an_older_run_empty(
+    extended: xr.Dataset, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    ended = []
+    for name, run in (("older", extended.drop_vars(NEW)), ("newer", extended)):
+        (tmp_path / name).mkdir()
+        vc.save(run.assign_attrs(wall_time=1.0), tmp_path / name / "result.nc")
+        request = RunRequest(tmp_path / f"{name}.yaml")
+        job = Job(request, tmp_path / name, name, Standing.FINISHED, 3, 2.0, 1.0, 1.0)
+        ended.append(Ended(job, "done", 0))
+    print_table(ended)
+    lines = {line.split()[0]: line for line in capsys.readouterr().out.splitlines() if line}
+    assert "300.0" in lines["newer"]
+    assert "300.0" not in lines["older"]
+    assert "50.00" in lines["older"]
 
 
 def test_dimensionless_scalar_has_no_brackets(

@@ -14,7 +14,7 @@ from viscontact.notebook.svg_panel import ORANGE, Mark, panel
 from viscontact.results.formatting import format_scalar
 from viscontact.results.stated_errors import errors_of, is_centred
 from viscontact.results.summary import headline
-from viscontact.results.variables import Place, labels_in
+from viscontact.results.variables import REQUIRED, Place, labels_in
 from viscontact.units.formatting import format_quantity
 
 Floats = NDArray[np.float64]
@@ -25,8 +25,9 @@ ROUND = 1.05
 
 def result_card(ds: xr.Dataset) -> Card:
     """Make the card of a result."""
-    labels = labels_in(Place.CARD)
-    missing = [name for name in ("time", *labels) if name not in ds.variables]
+    labels = labels_in(Place.CARD, ds)
+    needed = ["time", *(name for name in labels_in(Place.CARD) if name in REQUIRED)]
+    missing = [name for name in needed if name not in ds.variables]
     if missing:
         lead = f"It has no {missing[0]}; simulate and open_results make results."
         return Card("No result of viscontact", [], lead=lead)

@@ -72,12 +72,12 @@ def panel_labels(ds: xr.Dataset) -> tuple[dict[str, str], dict[str, str]]:
 def _prescribed(ds: xr.Dataset) -> list[str]:
     if prescribes_approach(ds):
         return ["approach"]
-    return [name for name in shown_in(Place.LOAD) if name == "force" or _varies(ds, name)]
+    return [name for name in shown_in(Place.LOAD, ds) if name == "force" or _varies(ds, name)]
 
 
 def _response(ds: xr.Dataset) -> list[str]:
     answer = {"approach": "force"} if prescribes_approach(ds) else {}
-    shown = shown_in(Place.RESPONSE)
+    shown = shown_in(Place.RESPONSE, ds)
     return [answer.get(name, name) for name in shown if not is_centred(ds, name)]
 
 

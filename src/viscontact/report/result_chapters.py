@@ -115,7 +115,7 @@ def _facts(ds: xr.Dataset) -> Element:
                 element("dt", _unbroken(name + when)),
                 element("dd", _unbroken(format_scalar(ds, scalar, last))),
             )
-            for scalar, name in labels_in(Place.FACTS).items()
+            for scalar, name in labels_in(Place.FACTS, ds).items()
         ),
         class_="facts",
     )

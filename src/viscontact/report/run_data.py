@@ -44,7 +44,7 @@ def run_data(ds: xr.Dataset) -> dict[str, Any]:
         "scalars": {name: _scalar(ds, name) for name in SCALARS if name in ds},
         "given": given,
         "answers": answers,
-        "facts": labels_in(Place.FACTS),
+        "facts": labels_in(Place.FACTS, ds),
         "listed": summary_scalars(ds),
         "map": _map(ds),
         "notices": notices(ds),

@@ -21,10 +21,15 @@ def write_history(ds: xr.Dataset, file: IO[str]) -> None:
 
 def _header(ds: xr.Dataset) -> Iterator[str]:
     yield "time [s]"
-    for name in (*SCALARS, *_errors(ds)):
+    for name in (*_scalars(ds), *_errors(ds)):
         units = SCALARS[name].units if name in SCALARS else str(ds[name].attrs["units"])
         unit = {"m2": "m^2"}.get(units, units)
         yield name if unit == "1" else f"{name} [{unit}]"
+
+
+def _scalars(ds: xr.Dataset) -> list[str]:
+    """The scalars of a result; older ones lack the latest."""
+    return [name for name in SCALARS if name in ds]
 
 
 def _errors(ds: xr.Dataset) -> list[str]:
@@ -33,8 +38,9 @@ def _errors(ds: xr.Dataset) -> list[str]:
 
 
 def _rows(ds: xr.Dataset) -> Iterator[list[object]]:
-    numbers = [ds["time"].values, *(ds[name].values for name in (*SCALARS, *_errors(ds)))]
-    place = 1 + list(SCALARS).index("outcome")  # the one column of words
+    scalars = _scalars(ds)
+    numbers = [ds["time"].values, *(ds[name].values for name in (*scalars, *_errors(ds)))]
+    place = 1 + scalars.index("outcome")  # the one column of words
     for row in zip(*numbers, strict=True):
         # repr: every digit, so that the numbers are those of the result
         cells: list[object] = [number.item() for number in row]

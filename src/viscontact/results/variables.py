@@ -7,6 +7,7 @@ the netCDF and CSV files, the tables, cards, pages and figures read the table.
 
 from __future__ import annotations
 
+from collections.abc import Container, Hashable
 from dataclasses import dataclass
 from enum import Flag, auto
 from typing import Any
@@ -127,22 +128,32 @@ SCALARS = {
 }
 
 
-def shown_in(place: Place) -> list[str]:
-    """Names of the scalars that are shown in a place, in its order.
+#: Scalars that tables, figures and warnings read by name. A result without one of the others was
+#: written before that scalar existed, and is shown without it.
+REQUIRED = (
+    *("force", "eccentricity_x", "eccentricity_y", "approach", "tilt_x", "tilt_y"),
+    *("contact_area", "contact_length", "contact_width", "peak_pressure", "mean_pressure"),
+    *("loss_per_cycle", "time_error", "iterations", "residual", "cells_across", "outcome"),
+)
+
+
+def shown_in(place: Place, stored: Container[Hashable] | None = None) -> list[str]:
+    """Names of the scalars that are shown in a place, in its order; of those of a result, if given.
 
     Examples
     --------
-    >>> shown_in(Place.LIVE)
-    ['contact_area', 'approach', 'peak_pressure']
+    >>> shown_in(Place.LIVE), shown_in(Place.LIVE, {"approach"})
+    (['contact_area', 'approach', 'peak_pressure'], ['approach'])
     """
     names = [name for name, variable in SCALARS.items() if place & variable.places]
     in_table = place in Place.TABLE | Place.KEY
-    return names if in_table else sorted(names, key=lambda name: SCALARS[name].rank)
+    names = names if in_table else sorted(names, key=lambda name: SCALARS[name].rank)
+    return [name for name in names if stored is None or name in stored]
 
 
-def labels_in(place: Place) -> dict[str, str]:
-    """Labels of the scalars that are shown in a place, by their names and in its order."""
-    return {name: SCALARS[name].label for name in shown_in(place)}
+def labels_in(place: Place, stored: Container[Hashable] | None = None) -> dict[str, str]:
+    """Labels of the scalars that `shown_in` names, in its order."""
+    return {name: SCALARS[name].label for name in shown_in(place, stored)}
 
 
 def scalars_with_error() -> list[str]:

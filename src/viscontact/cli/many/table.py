@@ -59,7 +59,7 @@ def _found(ended: Ended) -> _Found | None:
 
 
 def _of(ds: xr.Dataset) -> _Found:
-    names = shown_in(Place.KEY)
+    names = shown_in(Place.KEY, ds)
     largest = {name: float(np.nanmax(np.abs(ds[name].values), initial=0.0)) for name in names}
     warnings = tuple(str(ds.attrs.get("warnings", "")).splitlines())
     known = [found.part for name in names if (found := largest_error(ds, name)) is not None]
@@ -81,7 +81,7 @@ def _table(runs: Sequence[Ended], found: Sequence[_Found | None]) -> Table:
     table.add_column("took", justify="right", no_wrap=True)
     names, units = shown_in(Place.KEY), {}
     for name in names:
-        largest = max((each.largest[name] for each in found if each), default=0.0)
+        largest = max((each.largest.get(name, 0.0) for each in found if each), default=0.0)
         units[name] = readable_unit(SCALARS[name].units, largest)
         heading = f"{name.replace('_', ' ')} [{units[name].symbol}]"
         table.add_column(heading.replace("[", r"\["), justify="right", vertical="bottom")
@@ -91,7 +91,12 @@ def _table(runs: Sequence[Ended], found: Sequence[_Found | None]) -> Table:
     for ended, each in zip(runs, found, strict=True):
         cells = ["", *("" for _ in names)]
         if each is not None:
-            values = (format_number(each.largest[name] / units[name].factor) for name in names)
+            values = (
+                format_number(each.largest[name] / units[name].factor)
+                if name in each.largest
+                else ""
+                for name in names
+            )
             cells = [format_quantity(each.seconds, "s", 2), *values]
             if has_errors:
                 cells.append("" if math.isnan(each.error) else format_percent(each.error))

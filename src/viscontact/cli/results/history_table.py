@@ -49,7 +49,7 @@ def print_history(ds: xr.Dataset, *, everything: bool = False, errors: bool = Fa
     console = Console()
     count = ds.sizes["time"]
     rows = np.arange(count) if everything else _spread(count)
-    shown = [name for name in shown_in(Place.TABLE) if not is_rounding(ds, name)]
+    shown = [name for name in shown_in(Place.TABLE, ds) if not is_rounding(ds, name)]
     columns = _columns(ds, ["time", *shown], rows, errors=errors)
     least = sum(column.width + _GAP for column in columns)
     table = _table(ds, columns, narrow=least + _TO_SPARE > console.width)

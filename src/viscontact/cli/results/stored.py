@@ -12,7 +12,7 @@ import xarray as xr
 from viscontact.cli.terminal.messages import refuse
 from viscontact.results.netcdf import open_results
 from viscontact.results.recorded_case import case_of
-from viscontact.results.variables import SCALARS
+from viscontact.results.variables import REQUIRED, SCALARS
 from viscontact.run_files import CASE_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.lock import is_locked
 from viscontact.runs.processes.request import RunRequest
@@ -30,10 +30,11 @@ def opened(path: Path) -> Iterator[xr.Dataset]:
     except (OSError, ValueError) as error:
         refuse(_unreadable(path, error))
     with ds:
-        missing = [name for name in ("time", *SCALARS) if name not in ds]
+        missing = [name for name in ("time", *REQUIRED) if name not in ds]
         if missing:
             refuse(f"{path}: not a result of viscontact: it has no {missing[0]}")
-        strange = [name for name in ("time", *SCALARS) if ds[name].dims != ("time",)]
+        stored = [name for name in ("time", *SCALARS) if name in ds]
+        strange = [name for name in stored if ds[name].dims != ("time",)]
         if strange:
             refuse(f"{path}: not a result of viscontact: its {strange[0]} is not over time")
         if not ds.sizes["time"]:

@@ -142,7 +142,7 @@ def animation(
     [0.0, 1.0]
     """
     count = _frames(seconds, fps)
-    run = within_span(results, needed_variables(), times, _NAME, "")
+    run = within_span(results, needed_variables(results), times, _NAME, "")
     first, last = run["time"].values[[0, -1]]
     stored = field_times(results, _NAME)
     shown = stored[(stored >= first) & (stored <= last)]

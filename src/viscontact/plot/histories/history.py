@@ -111,8 +111,10 @@ def compare_histories(
     'Contact area [mm²]'
     """
     require_runs(runs, _NAME)
-    needed = needed_variables()
-    shown = {name: within_span(run, needed, times, _NAME, name) for name, run in runs.items()}
+    shown = {
+        name: within_span(run, needed_variables(run), times, _NAME, name)
+        for name, run in runs.items()
+    }
     names = drawn_scalars(shown)
     figure, panels = _panels(len(names), page_width(width, style.TWO_COLUMNS))
     _, bands = draw_scalars(panels, names, shown)
@@ -121,8 +123,9 @@ def compare_histories(
 
 
 def drawn_scalars(runs: Mapping[str, xr.Dataset]) -> list[str]:
-    """Names of the scalars to draw: without a constant force or tilt."""
-    return [name for name in shown_in(Place.FIGURE) if _worth_a_panel(name, runs.values())]
+    """Names of the scalars to draw, which all runs have: without a constant force or tilt."""
+    common = [name for name in shown_in(Place.FIGURE) if all(name in run for run in runs.values())]
+    return [name for name in common if _worth_a_panel(name, runs.values())]
 
 
 def draw_scalars(
@@ -137,9 +140,9 @@ def draw_scalars(
     return time_unit, bands
 
 
-def needed_variables() -> list[str]:
+def needed_variables(run: xr.Dataset) -> list[str]:
     """Names of the scalars that histories need; tilts of rounding size are found by the length."""
-    return [*shown_in(Place.FIGURE), "contact_length"]
+    return [*shown_in(Place.FIGURE, run), "contact_length"]
 
 
 def _worth_a_panel(name: str, runs: Collection[xr.Dataset]) -> bool:

@@ -28,10 +28,9 @@ def grown(directory: Path, after: int) -> dict[str, Any]:
     for line in lines.splitlines():
         with suppress(ValueError, LookupError, TypeError):
             found = json.loads(line)
-            time, *values = (_finite(found[name]) for name in ("time", *scalars))
-            times.append(time)
-            for name, value in zip(scalars, values, strict=True):
-                scalars[name].append(value)
+            times.append(_finite(found["time"]))
+            for name, values in scalars.items():
+                values.append(_finite(found.get(name)))
     return {
         **{"begun": begun, "after": begun + len(lines), "labels": labels},
         **{"time": times, "scalars": scalars},
