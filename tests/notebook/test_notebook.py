@@ -8,7 +8,7 @@ import re
 import subprocess
 import sys
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -22,6 +22,7 @@ import viscontact as vc
 from saturating_force import SaturatingForce
 from synthetic_results import maxwell_sphere
 from viscontact.case import read_case
+from viscontact.notebook.curves import law_span
 from viscontact.units.parsing import parse_quantity
 
 _EXAMPLES = Path(vc.__file__).parent / "examples"
@@ -260,6 +261,15 @@ def test_curves_of_a_law_are_the_law() -> None:
         values = np.polyval(y_of, py)
         # 0.1 px of 160 px over six decades, and of 98 px up.
         np.testing.assert_allclose(values, exact(times), rtol=0.004)
+
+
+def test_law_is_drawn_over_the_times_among_its_arguments() -> None:
+    @dataclass(frozen=True)
+    class Ageing(vc.PowerLaw):
+        onset: float = field(default=1e5, metadata={"unit": "s"})
+
+    # 100 times shorter than 1 s, and 100 times longer than 1e5 s
+    assert law_span(Ageing(1e-9, 0.3, 1.0, 1e-9)) == (1e-2, 1e7)
 
 
 def test_map_of_a_surface_has_its_strongest_tone_on_its_peak_and_holes_where_it_has() -> None:

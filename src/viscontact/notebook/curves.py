@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Callable, Sequence
-from typing import Any
 from xml.etree.ElementTree import Element
 
 import numpy as np
@@ -14,7 +14,6 @@ from viscontact.laws import Elastic, Law, SeriesLaw, TabulatedCreep, TabulatedRe
 from viscontact.loads import HarmonicHistory, LoadHistory
 from viscontact.notebook.svg_axes import Scale, linear, logarithmic
 from viscontact.notebook.svg_panel import ORANGE, Mark, panel
-from viscontact.results.descriptions import describe
 
 _POINTS = 121
 #: A formula is drawn over its own times, and times shorter and longer by this factor.
@@ -29,8 +28,6 @@ _BEFORE = 0.05
 _DECADES = 20.0
 #: Number of rows of a long table that are drawn as points.
 _MOST_DOTS = 40
-#: Names of arguments that are times.
-_TIMES = ("times", "time", "reference_time")
 _PHI, _G = ("creep compliance Φ", "1/Pa"), ("relaxation modulus G", "Pa")
 
 
@@ -61,7 +58,7 @@ def law_span(law: Law) -> tuple[float, float]:
     if isinstance(law, TabulatedCreep | TabulatedRelaxation):
         times = [time for time in law.times if time > 0]
         return min(times), max(times) if len(times) > 1 else 10 * min(times)
-    own = _own_times(describe(law))
+    own = _own_times(law)
     if isinstance(law, SeriesLaw):
         own = (*own, *law.creep_series().times)
         own = (*own, *law.relaxation_series().times) if law(0.0) > 0 else own
@@ -130,13 +127,13 @@ def _upward(symbol: str, unit: str, values: NDArray[np.float64]) -> Scale:
     return linear(symbol, unit, low - 0.15 * (top - low) if low > 0.5 * top else 0.0, top, 3)
 
 
-def _own_times(described: Any) -> tuple[float, ...]:
+def _own_times(law: Law) -> tuple[float, ...]:
     """All arguments above 0 that are times, those of laws within laws as well [s]."""
-    if not isinstance(described, dict):
-        return ()
     found: list[float] = []
-    for key, value in described.items():
-        if key in _TIMES:
+    for item in dataclasses.fields(law):
+        value = getattr(law, item.name)
+        if isinstance(value, Law):
+            found += _own_times(value)
+        elif item.metadata.get("unit") == "s":
             found += np.atleast_1d(np.asarray(value, dtype=np.float64)).tolist()
-        found += _own_times(value)
     return tuple(time for time in found if 0 < time < math.inf)

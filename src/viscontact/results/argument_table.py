@@ -28,8 +28,8 @@ _DEFAULTS: dict[str, tuple[object, ...]] = {
     **dict.fromkeys(["phase_x", "phase_y", "angle", "second_exponent"], (0,)),
     "cross_section": ("circle",),
 }
-#: Types that are named after people, with a capital.
-_NAMED = {"Maxwell", "Zener", "Burgers", "Arrhenius"}
+#: People after whom laws and shifts are named, with a capital in running text.
+PEOPLE = ("Maxwell", "Zener", "Burgers", "Arrhenius")
 #: Significant digits: enough to recognise what was typed.
 _DIGITS = 6
 #: Longer lists are shown by their ends.
@@ -149,5 +149,5 @@ def in_plain_words(kind: str) -> str:
     ('creep series', 'fractional Maxwell')
     """
     parts = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", kind).split()
-    kept = (part.isupper() or part in _NAMED for part in parts)
+    kept = (part.isupper() or part in PEOPLE for part in parts)
     return " ".join(p if keep else p.lower() for p, keep in zip(parts, kept, strict=True))

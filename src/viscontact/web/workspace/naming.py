@@ -7,6 +7,7 @@ from collections.abc import Collection, Iterator, Mapping
 from itertools import count
 from typing import Any
 
+from viscontact.results.argument_table import PEOPLE
 from viscontact.runs.directory.differences import differences
 
 #: Keys that identify a shape and a law; the first one present is used.
@@ -14,7 +15,6 @@ _SIZES = ("radius", "radius_x", "half_angle", "semi_axis_x", "ring_radius", "amp
 _MODULI = ("shear_modulus", "youngs_modulus", "file")
 #: Keys of the load's level.
 _LEVELS = ("force", "approach", "mean_pressure", "mean")
-_PROPER = ("zener", "maxwell", "burgers")
 _SECTIONS = ("indenter", "indenter_material", "material", "load", "time")
 #: Words for keys that are ambiguous without their section.
 _KEYS = {"grid.shape": "cells", "grid.size": "extents", "time.end": "until"}
@@ -93,8 +93,8 @@ def _material(given: Any) -> str:
     if not isinstance(given, Mapping):
         return _text(given)  # a name of the library
     law = _words(given.get("law"))
-    for name in _PROPER:
-        law = re.sub(rf"\b{name}\b", name.capitalize(), law)
+    for name in PEOPLE:
+        law = re.sub(rf"\b{name}\b", name, law, flags=re.IGNORECASE)
     modulus = next((value for _, value in _sizes(given, _MODULI)), "")
     return f"{law} {modulus}".strip()
 
