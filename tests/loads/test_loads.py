@@ -330,6 +330,31 @@ def test_before_its_first_point_a_stage_does_not_press():
     assert ApproachHistory([1.0], [-2e-6]).jumps.tolist() == []
 
 
+@given(
+    st.lists(st.floats(0.1, 7.3), max_size=6),
+    st.lists(st.floats(-1e-5, 1e-5), min_size=7, max_size=7),
+)
+def test_bodies_touch_where_the_approach_rises_through_zero(spans, levels):
+    times = np.cumsum([0.0, *spans])
+    stage = ApproachHistory(times, levels[: times.size])
+    for touch in stage.touches:
+        assert stage.approach_at(touch) <= 0
+        assert stage.approach_at(touch * (1 + 1e-9)) > 0
+    signs = np.sign(stage.approach)
+    near_kink = np.abs(stage.approach).min(initial=1.0) < 1e-13
+    assert near_kink or stage.touches.size == np.count_nonzero(np.diff(signs) == 2)
+
+
+def test_bodies_touch_at_a_kink_or_jump_or_not_at_all():
+    for approach in ([0, 1, 0, 2], [-1, 0, 1, 2], [-1, -1, -1, 1], [1, -1, -1, 0], [-1, -2, 0, 0]):
+        assert ApproachHistory([0, 1, 2, 2], approach).touches.size == 0
+    assert ramp(1.0, 2.0).touches.size == harmonic(1.0, 1.0, 2.0, 1).touches.size == 0
+    assert ApproachHistory([0, 1], [-1, 1], tilt_y=[1e-3, 0]).touches.size == 0
+    assert ApproachHistory([0, 1], [-1, 1], tilt_y=None).touches.size == 1
+    # From 1e-12 of a step before a kink on.
+    assert ApproachHistory([0, 1], [-1.0, 1e-12]).touches.size == 0
+
+
 def test_usual_histories_prescribe_an_approach_as_well():
     assert step(approach=1e-6) == ApproachHistory([0.0], [1e-6], None, None)
     assert ramp(duration=2.0, approach=1e-6, tilt_x=1e-3).at(1.0) == LoadPoint(

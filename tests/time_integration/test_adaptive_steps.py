@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from viscontact.loads import ForceHistory, harmonic, ramp, step
+from viscontact.loads import ApproachHistory, ForceHistory, harmonic, ramp, step
 from viscontact.materials.compliance import SeriesCompliance
 from viscontact.time_integration.adaptive_steps import AdaptiveSteps
 from viscontact.time_integration.fixed_steps import FixedSteps, plan_steps
@@ -100,6 +100,14 @@ def test_a_first_step_creeps_little():
         assert steps.accept_step(0.0)
         duration = steps.next_step().duration
         assert compliance(duration) < 1.1 * compliance(0.0)
+
+
+def test_steps_begin_small_where_bodies_come_to_touch():
+    load = ApproachHistory([0.0, 10.0], [-1e-6, 1.5e-6])
+    taken, _ = walk(AdaptiveSteps(adaptive_times(10.0, 1e-3), np.zeros(0), load, KELVIN))
+    touch = next(k for k, each in enumerate(taken) if each.time == pytest.approx(4.0, rel=1e-14))
+    assert KELVIN(taken[touch + 1].duration) < 1.1 * KELVIN(0.0)
+    assert taken[touch].duration > 10 * taken[touch + 1].duration
 
 
 def test_a_swinging_load_is_never_stepped_over():

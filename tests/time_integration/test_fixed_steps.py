@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from viscontact.loads import ForceHistory, harmonic, ramp, step
+from viscontact.loads import ApproachHistory, ForceHistory, harmonic, ramp, step
 from viscontact.time_integration.fixed_steps import plan_steps
 
 moments = st.lists(st.integers(0, 40), min_size=1, max_size=8, unique=True).map(
@@ -86,6 +86,23 @@ def test_a_swinging_load_is_stepped_as_finely_as_it_needs_until_it_rests():
         12.8,
         20.0,
     ]
+
+
+def test_bodies_come_to_touch_at_the_end_of_a_step():
+    times = np.arange(5.0)
+    taken = plan_steps(times, ApproachHistory([0, 4], [-1e-6, 1.5e-6]))
+    assert [each.time for each in taken] == pytest.approx([0, 1, 1.6, 2, 3, 4], rel=1e-14)
+    assert [each.requested for each in taken] == [0, 1, None, 2, 3, 4]
+    # As after a kink, nothing is extrapolated from before.
+    assert [each.smooth for each in taken] == [False, False, True, False, True, True]
+    # A requested time that differs by rounding is the touch.
+    at_touch = plan_steps(times, ApproachHistory([0, 4], [-1e-6, 1e-6]))
+    assert [each.requested for each in at_touch] == times.tolist()
+    # Without a rise through 0 within the run the steps are the requested ones.
+    for approach in ([0, 1e-6], [-1e-6, 0], [1e-6, -1e-6], [-1e-9, 10]):
+        assert len(plan_steps(times[:1], ApproachHistory([0, 4], approach))) == 1
+    for approach in ([0, 1e-6], [-1e-6, 0], [1e-6, -1e-6]):
+        assert len(plan_steps(times, ApproachHistory([0, 4], approach))) == 5
 
 
 def test_the_ends_of_cycles_are_met_without_a_request():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -10,6 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact.loads import arguments
 from viscontact.loads.piecewise import PiecewiseHistory
 from viscontact.units.numbers import store
+
+#: Relative rounding of an instant, and the distance from a kink below which it is the kink.
+ROUNDING, NEAR_KINK = 2e-15, 1e-9
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -104,6 +108,25 @@ class ApproachHistory(PiecewiseHistory):
     def level_at(self, times: ArrayLike, *, side: str = "right") -> NDArray[np.float64]:
         """Return the approach at many instants [m]; as `approach_at`."""
         return self.approach_at(times, side=side)
+
+    @cached_property
+    def touches(self) -> NDArray[np.float64]:
+        """Instants between kinks at which the approach rises through 0, without given tilts [s].
+
+        Examples
+        --------
+        >>> ApproachHistory([0.0, 4.0, 5.0], [-1e-6, 3e-6, 0.0]).touches.round(12).tolist()
+        [1.0]
+        """
+        if np.any(self.tilt_x) or np.any(self.tilt_y):
+            return np.zeros(0)  # a tilted body touches earlier
+        rises = (self.approach[:-1] < 0) & (self.approach[1:] > 0)
+        begin, end = self.times[:-1][rises], self.times[1:][rises]
+        below, above = self.approach[:-1][rises], self.approach[1:][rises]
+        # Earlier by rounding, so that the bodies are still apart at the end of a step there.
+        instants = (begin + (end - begin) * (below / (below - above))) * (1 - ROUNDING)
+        apart = np.minimum(instants - begin, end - instants) > NEAR_KINK * instants
+        return np.asarray(instants[apart])
 
     @property
     def largest_level(self) -> float:

@@ -135,10 +135,15 @@ class LoadHistory(Displayable, ABC):
         return ()
 
     @property
+    def touches(self) -> NDArray[np.float64]:
+        """Instants between kinks at which undeformed bodies come to touch, increasing [s]."""
+        return np.zeros(0)
+
+    @property
     def stops(self) -> NDArray[np.float64]:
-        """Instants at which every run has a step: kinks and ends of cycles, increasing [s]."""
+        """Instants at which every run has a step: kinks, touches and ends of cycles [s]."""
         ends = [time for cycle in self.load_cycles for time, _ in cycle]
-        return np.unique(np.concatenate([self.kinks, ends]))
+        return np.unique(np.concatenate([self.kinks, self.touches, ends]))
 
     def is_even(self, axis: int) -> bool:
         """True if the load is even along an axis, 0 for across x = 0, 1 for across y = 0."""

@@ -83,7 +83,8 @@ class AdaptiveSteps:
     ) -> None:
         self._end, self._allowed = request.end, STEP_TOLERANCE_SHARE * request.tolerance
         self._load, self._compliance = load, compliance
-        self._kinks = set(load.kinks.tolist())
+        self._touches = set(load.touches.tolist())
+        self._kinks = {*load.kinks.tolist(), *self._touches}
         self._jumps = set(load.jumps.tolist())
         requested = {snap_to_kink(stop, load.stops) for stop in [*stops.tolist(), request.end]}
         inner = {stop for stop in load.stops.tolist() if stop < self._end}
@@ -158,7 +159,8 @@ class AdaptiveSteps:
             after_kink = self._time == 0 or self._time in self._kinks
             if after_kink:
                 # After a kink that changes little the steps keep their duration.
-                before = 0.0 if step.is_jump else step.duration
+                starts = step.is_jump or self._time in self._touches
+                before = 0.0 if starts else step.duration
                 self._duration = max(self._first_duration(), before)
             self._step = self._next(smooth=not after_kink)
 

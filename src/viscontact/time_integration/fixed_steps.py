@@ -31,7 +31,7 @@ class Step:
     time: float  # end of the step [s]
     duration: float  # 0 for a jump [s]
     requested: float | None  # requested time that it ends at [s], None for an inner step
-    smooth: bool  # False for the first step after a kink or jump of the load
+    smooth: bool  # False for the first step after a kink, jump or touch of the load
     before_jump: bool = False  # the load jumps right after the step
 
     @property
@@ -48,7 +48,7 @@ class Step:
 def plan_steps(
     times: NDArray[np.float64], load: LoadHistory, step_ratio: float = 1.0
 ) -> tuple[Step, ...]:
-    """Plan steps to requested times [s], and to the load's kinks and jumps up to the last one.
+    """Plan steps to requested times [s] and, before the last, to kinks, jumps and touches.
 
     A time that differs from a kink by rounding is taken as the kink. Steps longer than `step_ratio`
     times what the load allows are divided.
@@ -152,7 +152,8 @@ def _divisions(instants: list[float], load: LoadHistory, longest_step: float) ->
 
 def _steps(wanted: dict[float, float | None], load: LoadHistory) -> Iterator[Step]:
     """Steps to these times, the first a jump at time 0, of size zero under a gradual start."""
-    kinks, jumps = set(load.kinks.tolist()), set(load.jumps.tolist())
+    # Where bodies come to touch, the pressure has a kink.
+    kinks, jumps = {*load.kinks.tolist(), *load.touches.tolist()}, set(load.jumps.tolist())
     begin = 0.0
     yield Step(0.0, 0.0, wanted.get(0.0), smooth=False)
     for instant, requested in wanted.items():
