@@ -1,0 +1,104 @@
+"""A drawn run, solved with its coarser runs and error bars, beside its exact values."""
+
+import time
+import warnings
+import zlib
+from typing import Any
+
+import numpy as np
+
+import viscontact as vc
+from verification.families.exact_run import ExactRun
+from viscontact.accuracy.coarser_runs import history_of, march_coarser_run, plan_coarser_runs
+from viscontact.accuracy.error_bars import error_bars_from
+from viscontact.errors import ConvergenceError, DomainError
+from viscontact.problem.problem import Problem
+from viscontact.simulation.setup import prepare_run
+from viscontact.simulation.state_generator import march_run
+
+#: Values below this part of the largest count as zero: the work after an elastic cycle, say.
+ZERO = 2e-3
+
+
+def solve(family: str, drawn: ExactRun, *, sampled: int | None = None) -> dict[str, Any]:
+    """Solve a drawn run; exact values at all instants, or at `sampled` ones of them.
+
+    Keys of the result: ``family``, ``name``; ``setup`` (the run as it was set up, on its last
+    grid) and its essentials ``shape``, ``size``, ``tolerance``, ``hereditary_error``,
+    ``inversion_error``, ``control``; ``history`` (scalars of the run), ``results`` (of the
+    coarser runs), ``bars``, ``exact`` (inf: no limit, NaN: unknown) and its ``uncertainty`` (where
+    it counts), all over the run's instants; ``warnings`` (texts); ``seconds`` of the run,
+    ``seconds_coarser`` of the coarser runs, ``seconds_exact``. A run that is refused or stops has
+    ``refused`` instead.
+    """
+    record: dict[str, Any] = {"family": family, "name": drawn.name}
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", vc.AccuracyWarning)
+        try:
+            record |= _solved(drawn)
+        except (ValueError, ConvergenceError, DomainError) as error:
+            return record | {"refused": f"{type(error).__name__}: {error}"}
+    texts = [str(each.message) for each in caught if issubclass(each.category, vc.AccuracyWarning)]
+    record["warnings"] = [*texts, *record.pop("bar_warnings")]
+    begin = time.process_time()
+    times = record["history"]["time"]
+    places = np.arange(len(times)) if sampled is None else _sample(record, sampled)
+    for name, values_at in (("exact", drawn.exact), ("uncertainty", drawn.uncertainty)):
+        record[name] = {}
+        for quantity, values in values_at(times[places]).items():
+            record[name][quantity] = np.full(len(times), np.nan)
+            record[name][quantity][places] = values
+    record["seconds_exact"] = time.process_time() - begin
+    return record
+
+
+def _solved(drawn: ExactRun) -> dict[str, Any]:
+    """Run, coarser runs and bars."""
+    begin = time.process_time()
+    run = prepare_run(Problem(**drawn.arguments))
+    states = list(march_run(run))
+    own = time.process_time() - begin
+    setup = run.on(states[-1].grid)
+    history = history_of([state.without_fields() for state in states])
+    begin = time.process_time()
+    planned = list(plan_coarser_runs(setup, history))
+    results = [result for each in planned if (result := march_coarser_run(each))]
+    coarser = time.process_time() - begin
+    bars = error_bars_from(setup, history, results)
+    return {
+        "setup": setup,
+        "shape": setup.grid.shape,
+        "size": setup.grid.size,
+        "tolerance": setup.problem.tolerance,
+        "hereditary_error": setup.hereditary.error,
+        "inversion_error": setup.problem.compliance.inversion_error,
+        "control": setup.problem.load.control,
+        "history": history,
+        "results": results,
+        "bars": bars.values,
+        "bar_warnings": bars.warnings,
+        "seconds": own,
+        "seconds_coarser": coarser,
+    }
+
+
+def counted(name: str, history: Any, exact: dict[str, np.ndarray]) -> np.ndarray:
+    """Instants at which a scalar is compared: what is prescribed, zero or unknown is not."""
+    values, found = exact[name], history[name]
+    with np.errstate(invalid="ignore"):
+        known = np.isfinite(values) & np.isfinite(found)
+        largest = np.abs(values[known]).max(initial=0.0)
+        known &= np.abs(values) > ZERO * largest
+        error = np.abs(found - values)
+        # Prescribed, or known from the outline of the body: nothing is estimated.
+        if not known.any() or (error[known] <= 1e-9 * np.abs(values[known])).all():
+            return np.zeros(len(values), dtype=bool)
+    return np.asarray(known)
+
+
+def _sample(record: dict[str, Any], count: int) -> np.ndarray:
+    """A few of the instants at which there is contact, or has been; neighbours err alike."""
+    begun = np.flatnonzero(np.maximum.accumulate(record["history"]["peak_pressure"]) > 0)
+    places = begun if len(begun) else np.arange(1)
+    rng = np.random.default_rng(zlib.crc32(record["name"].encode()))
+    return np.sort(rng.choice(places, min(count, len(places)), replace=False))

@@ -1,0 +1,153 @@
+"""Figures of error bars beside true errors, by quantity and by family."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from verification.families.solved import counted
+
+Array = np.ndarray
+
+#: Largest uncertainty of an exact value over the larger one of error and bar.
+CERTAIN = 0.2
+
+#: Parts of the warnings that name a reason why a value may be worse than its bar: steps, cells,
+#: singular pressure. Warnings about the bodies (steep flanks, thickness, data) name none.
+REASONS = ("time step", "a single step", "requested times", "cells", "mesh", "singular", "errors")
+
+
+@dataclass(frozen=True)
+class Value:
+    """One compared value."""
+
+    family: str
+    quantity: str
+    run: str
+    time: float
+    ratio: float  # bar over true error
+    error: float  # relative to the exact value
+    warned: bool  # a warning of the run names a reason
+
+
+def values_of(records: Iterable[dict[str, Any]]) -> list[Value]:
+    """Compared values of solved runs."""
+    found = []
+    for record in records:
+        if "refused" in record:
+            continue
+        history, exact, bars = record["history"], record["exact"], record["bars"]
+        for name in exact:
+            here = counted(name, history, exact)
+            here &= np.isfinite(bars[name]) & _is_known(record, name)
+            for k in np.flatnonzero(here):
+                error = abs(history[name][k] - exact[name][k])
+                found.append(
+                    Value(
+                        record["family"],
+                        name,
+                        record["name"],
+                        float(history["time"][k]),
+                        float(bars[name][k] / max(error, 1e-300)),
+                        float(error / abs(exact[name][k])),
+                        any(part in text for text in record["warnings"] for part in REASONS),
+                    )
+                )
+    return found
+
+
+def _is_known(record: dict[str, Any], name: str) -> Array:
+    """Instants at which an exact value is certain enough to judge error and bar by it."""
+    error = np.abs(record["history"][name] - record["exact"][name])
+    uncertainty = record.get("uncertainty", {}).get(name, np.zeros(len(error)))
+    return np.asarray(uncertainty <= CERTAIN * np.fmax(error, record["bars"][name]))
+
+
+def line(title: str, values: Sequence[Value]) -> str:
+    """Numbers of values, parts within and beyond bars, median of bar over error."""
+    ratios = np.array([value.ratio for value in values])
+    beyond = ratios < 1 / 3
+    silent = sum(not value.warned for value, is_out in zip(values, beyond, strict=True) if is_out)
+    return (
+        f"{title:24s} {len(ratios):5d} values, {np.mean(ratios >= 1):6.1%} within, "
+        f"{int(beyond.sum()):3d} beyond three bars ({silent} without a warning), "
+        f"median bar/error {np.median(ratios):5.1f}"
+    )
+
+
+@dataclass(frozen=True)
+class Unjudged:
+    """Counts of values whose bar says nothing that could be compared."""
+
+    unknown: int  # bars that are NaN beside a value that is known
+    singular: int  # peaks without a limit, by theory
+    missed: int  # of these, stated with a finite bar
+    false: int  # finite peaks stated as without a limit
+    finite: int  # finite peaks
+
+
+def unjudged(records: Iterable[dict[str, Any]]) -> Unjudged:
+    """Unknown bars, and peaks without a limit as far as they were recognised."""
+    counts = np.zeros(5, dtype=int)
+    for record in records:
+        if "refused" in record:
+            continue
+        history, bars = record["history"], record["bars"]
+        for name, exact in record["exact"].items():
+            here = counted(name, history, record["exact"])
+            counts[0] += int(np.isnan(bars[name][here]).sum())
+            if name == "peak_pressure":
+                endless = np.isinf(exact) & (history[name] > 0)
+                stated = np.isinf(bars[name])
+                counts[1:] += [
+                    int(part.sum()) for part in (endless, endless & ~stated, here & stated, here)
+                ]
+    return Unjudged(*counts.tolist())
+
+
+def report(records: Sequence[dict[str, Any]]) -> list[str]:
+    """Lines of all values, by quantity and by family."""
+    values, rest = values_of(records), unjudged(records)
+    refused = sum("refused" in record for record in records)
+    lines = [
+        line(f"{len(records)} runs, {refused} refused", values),
+        f"{rest.unknown} bars unknown; {rest.missed} of {rest.singular} singular peaks missed, "
+        f"{rest.false} of {rest.finite} finite peaks taken for singular",
+    ]
+    for attribute in ("quantity", "family"):
+        for name in dict.fromkeys(getattr(value, attribute) for value in values):
+            part = [value for value in values if getattr(value, attribute) == name]
+            lines.append("  " + line(name, part))
+    return lines
+
+
+#: Promise of the bars: part within, overall and in every family and quantity; part beyond three
+#: bars; median of bar over error.
+WITHIN, WITHIN_EACH, BEYOND_THREE, MEDIAN = 0.95, 0.93, 0.005, 5.0
+
+#: Least number of values of which a part within is judged.
+FEWEST = 60
+
+
+def shortfalls(values: Sequence[Value]) -> list[str]:
+    """Lines about what falls short of the promise; none if it is kept."""
+    ratios = np.array([value.ratio for value in values])
+    beyond = [value for value in values if value.ratio < 1 / 3]
+    found = []
+    if np.mean(ratios >= 1) < WITHIN:
+        found.append(line("all", values))
+    if len(beyond) > BEYOND_THREE * len(values) or np.median(ratios) > MEDIAN:
+        found.append(line("all", values))
+    for attribute in ("quantity", "family"):
+        for name in dict.fromkeys(getattr(value, attribute) for value in values):
+            part = [value for value in values if getattr(value, attribute) == name]
+            within = np.mean([value.ratio >= 1 for value in part])
+            if len(part) >= FEWEST and within < WITHIN_EACH:
+                found.append(line(name, part))
+    return found + [
+        f"{value.quantity} at {value.time:.4g} s, {1 / value.ratio:.1f} bars without a warning: "
+        f"{value.family}, {value.run}"
+        for value in beyond
+        if not value.warned
+    ]
