@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+import sys
 from importlib.machinery import SourceFileLoader
 from importlib.util import module_from_spec, spec_from_loader
 from pathlib import Path
@@ -112,7 +113,8 @@ def test_commands_options_and_names_of_a_page_exist(page: Path) -> None:
         assert picture.exists(), picture
 
 
-def test_tasks_that_pages_name_exist() -> None:
+def test_tasks_that_pages_name_exist(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "dont_write_bytecode", True)
     loader = SourceFileLoader("go", str(ROOT / "go"))
     spec = spec_from_loader("go", loader)
     assert spec is not None
