@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.checks.mesh import cells_across_spots
-from viscontact.checks.singularities import is_sharp, strain_of, touches_end
+from viscontact.checks.singularities import bend_at, end_pressures, is_sharp, strain_of
 from viscontact.errors import ConvergenceError, DomainError
 from viscontact.grid import Grid
 from viscontact.materials.compliance import ContactCompliance
@@ -52,9 +52,17 @@ class CoarserResult:
     spacing: float  # as in CoarserRun
     step_ratio: float  # as in CoarserRun
     scalars: History
-    at_end: NDArray[np.bool_]  # instants at which the contact reaches the end of the body
+    end_pressures: NDArray[np.float64]  # over the instants, see `singularities.end_pressures` [Pa]
+    #: Growth of the largest pressure with the logarithm of the cells that the body's bend there can
+    #: cause, over the mean pressure [-].
+    bend_growth: NDArray[np.float64]
     spots: NDArray[np.float64]  # mean width of the contact spots, in cells of the original run
     is_sharp: bool  # the largest pressure lies on a point or a ridge of the body
+
+    @property
+    def at_end(self) -> NDArray[np.bool_]:
+        """Instants at which the contact reaches the end of the body."""
+        return np.asarray(self.end_pressures[:, 0] > 0)
 
 
 def plan_coarser_runs(run: RunSetup, history: History) -> Iterator[CoarserRun]:
@@ -126,7 +134,7 @@ def march_coarser_run(
 
     `on_step` is called after each step, and may stop the run by an exception.
     """
-    run, states, ends, spots = coarser_run.run, [], [], []
+    run, states, ends, bends, spots = coarser_run.run, [], [], [], []
     peak = 0.0
     sharp = False
     try:
@@ -136,9 +144,9 @@ def march_coarser_run(
             if state is None:
                 continue
             states.append(state.without_fields())
-            contact = state.pressure > 0
-            ends.append(touches_end(run.open_gap, contact))
-            spots.append(cells_across_spots(contact, periodic=run.grid.periodic))
+            ends.append(end_pressures(run.open_gap, state.pressure))
+            bends.append(_bend_growth(run, state))
+            spots.append(cells_across_spots(state.pressure > 0, periodic=run.grid.periodic))
             if state.peak_pressure > 1.1 * peak:
                 peak = state.peak_pressure
                 sharp = sharp or _peaks_at_point(coarser_run, state)
@@ -148,7 +156,8 @@ def march_coarser_run(
         coarser_run.spacing,
         coarser_run.step_ratio,
         history_of(states),
-        np.array(ends, dtype=bool),
+        np.array(ends, dtype=float).reshape(-1, 2),
+        np.array(bends, dtype=float),
         coarser_run.spacing * np.array(spots, dtype=float),
         sharp,
     )
@@ -196,3 +205,11 @@ def _peaks_at_point(coarser_run: CoarserRun, state: ContactState) -> bool:
     cell = (dx / coarser_run.spacing, dy / coarser_run.spacing)
     strain = strain_of(state.peak_pressure, float(run.problem.compliance(state.time)))
     return is_sharp(run.problem.indenter, place, (1.5 * dx, 1.5 * dy), cell, strain)
+
+
+def _bend_growth(run: RunSetup, state: ContactState) -> float:
+    """Growth of the largest pressure that the body's bend can cause, over the mean pressure [-]."""
+    peak = np.unravel_index(int(state.pressure.argmax()), state.pressure.shape)
+    bend = bend_at(run.open_gap, run.grid, (int(peak[0]), int(peak[1])))
+    strain = 2 * np.pi * float(run.problem.compliance(state.time)) * state.mean_pressure
+    return bend / strain if strain > 0 else 0.0

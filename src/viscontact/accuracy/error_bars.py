@@ -8,7 +8,7 @@ the grids. The largest relative difference within a window of times counts for a
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,7 +27,7 @@ from viscontact.accuracy.levels import (
     moving_minimum,
     spots_across,
 )
-from viscontact.accuracy.singular_peaks import SINGULAR, unbounded_peak
+from viscontact.accuracy.singular_peaks import peak_bars, singular_warnings
 from viscontact.simulation.setup import RunSetup
 
 Array = NDArray[np.float64]
@@ -57,7 +57,7 @@ _BULK = ErrorModel(2.0, 1.5, at_end=ErrorModel(0.7, 1.2))
 #: them exist on one grid only. Calibrated on self-affine surfaces, 2 to 9 cells across.
 COARSE_SPOT_CELLS = 8.0
 _AREA = ErrorModel(2.0, 2.0, of_spots=ErrorModel(1.0, 1.5))
-_PEAK = ErrorModel(2.0, 2.0, of_spots=ErrorModel(2.0, 4.0))
+_PEAK = ErrorModel(2.0, 2.0, at_end=ErrorModel(1.0, 1.5), of_spots=ErrorModel(2.0, 4.0))
 
 _EXTENT = ErrorModel(1.0, 0.75)
 
@@ -112,12 +112,16 @@ class ErrorBars:
 
 
 def error_bars(
-    run: RunSetup, history: History, on_step: Callable[[], None] | None = None
+    run: RunSetup,
+    history: History,
+    on_step: Callable[[], None] | None = None,
+    *,
+    issued: Sequence[str] = (),
 ) -> ErrorBars:
     """Estimate the errors of a finished run's scalars from coarser runs, which are marched.
 
     95 of 100 true errors are smaller. `on_step` is called after each step of a coarser run; an
-    exception from it ends the estimate.
+    exception from it ends the estimate. `issued` are the warnings of the run so far.
 
     Examples
     --------
@@ -141,10 +145,16 @@ def error_bars(
         for each in plan_coarser_runs(run, history)
         if (result := march_coarser_run(each, on_step))
     ]
-    return error_bars_from(run, history, results)
+    return error_bars_from(run, history, results, issued=issued)
 
 
-def error_bars_from(run: RunSetup, history: History, results: Iterable[CoarserResult]) -> ErrorBars:
+def error_bars_from(
+    run: RunSetup,
+    history: History,
+    results: Iterable[CoarserResult],
+    *,
+    issued: Sequence[str] = (),
+) -> ErrorBars:
     """Estimate errors from coarser runs that have been marched; NaN if there are none."""
     found = list(results)
     if not found:
@@ -159,11 +169,10 @@ def error_bars_from(run: RunSetup, history: History, results: Iterable[CoarserRe
     apart = _certainly_separated(run, history)
     for name in ZERO_WITHOUT_CONTACT:
         values[name][apart] = 0.0
-    unbounded = unbounded_peak(history, found, at_end)
-    values["peak_pressure"][unbounded] = np.inf
-    # Ends and corners cause a warning in the run itself.
-    is_known = at_end.any() or any(each.is_sharp for each in found)
-    return ErrorBars(values, (SINGULAR,) if unbounded.any() and not is_known else ())
+    left_out = run.mesh is not None and "peak" in run.mesh.warnings
+    values["peak_pressure"] = peak_bars(values["peak_pressure"], history, found, left_out=left_out)
+    warnings = singular_warnings(values["peak_pressure"], run.problem.indenter, issued)
+    return ErrorBars(values, warnings)
 
 
 def unknown_bars(count: int) -> ErrorBars:

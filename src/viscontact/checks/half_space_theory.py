@@ -10,10 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.checks.sampling import Sampling, sampling_warnings
-from viscontact.checks.singularities import is_sharp, touches_end
+from viscontact.checks.singularities import DEPENDS_ON_MESH, end_pressures, is_sharp
 from viscontact.contact.rim import Rim
 from viscontact.grid import Grid
 from viscontact.indenters import Indenter
+from viscontact.indenters.rounding import rounding_remedy
 from viscontact.units.formatting import format_quantity
 
 #: Limits of small-strain theory: slope, contact half width / R, approach / R, and for a body
@@ -31,7 +32,7 @@ FEW_CELLS = 4
 SEAM = 2.0
 
 #: Kinds of warnings under which the peak pressure does not converge with the mesh.
-SINGULAR_KINDS = frozenset({"end", "seam", "corner"})
+SINGULAR_KINDS = frozenset({"sharp_end", "seam", "corner"})
 
 #: Largest contact half width over thickness of a body that counts as a half-space. At that limit an
 #: incompressible layer bonded to a rigid base carries 28 % more under a sphere at the same approach
@@ -90,14 +91,16 @@ def geometry_warnings(
     rim: Rim,
     motion: NDArray[np.float64],
     displacement: NDArray[np.float64],
+    pressure: NDArray[np.float64],
 ) -> dict[str, str]:
     """Warn of large strains, ends of the bodies, and parts that the grid misses.
 
-    The motion holds approach [m] and tilts [rad], the displacement that of the surface [m].
+    The motion holds approach [m] and tilts [rad], the displacement that of the surface [m]; the
+    pressure is that of all cells [Pa].
     """
     return (
         strain_warnings(geometry, rim, motion)
-        | body_warnings(geometry, rim)
+        | body_warnings(geometry, rim, pressure)
         | sampling_warnings(geometry._sampling, rim, motion, displacement)
     )
 
@@ -135,22 +138,23 @@ def strain_warnings(geometry: Geometry, rim: Rim, motion: NDArray[np.float64]) -
     return warnings
 
 
-def body_warnings(geometry: Geometry, rim: Rim) -> dict[str, str]:
-    """Warn of bodies that end where a half-space continues: profile, end face, thickness."""
+def body_warnings(
+    geometry: Geometry, rim: Rim, pressure: NDArray[np.float64], *, has_limit: bool = False
+) -> dict[str, str]:
+    """Warn of bodies that end where a half-space continues: profile, end face, thickness.
+
+    The pressure is that of all cells [Pa]; `has_limit` if its peak is known to have one.
+    """
     warnings: dict[str, str] = {}
     half_width, (be, reach) = _half_width(rim), geometry._verbs
     if geometry.grid.periodic and _touches_seam(geometry, rim):
         warnings["seam"] = (
             f"the contact {reach} the border of the period, where the body does not continue: "
-            "at the border it has a step, at which the peak pressure depends on the mesh; use a "
-            "body that continues there, or a grid that is not periodic"
+            f"at the border it has a step, at which {DEPENDS_ON_MESH}; use a body that continues "
+            "there, or a grid that is not periodic"
         )
-    if geometry.ends and touches_end(rim.cut(geometry.open_gap), rim.contact):
-        warnings["end"] = (
-            f"the contact {reach} the end of the indenter's profile: pressure is singular there "
-            "and the peak pressure depends on the mesh. The half-space continues beyond it; a "
-            "body that ends there too is more compliant"
-        )
+    if geometry.ends:
+        warnings |= _end_warnings(geometry, rim, pressure, has_limit=has_limit)
     if geometry.indenter_gives and _ends_within(geometry, rim, half_width):
         warnings["end_face"] = (
             "the indenter ends within a half width of the contact, but its material is modelled as "
@@ -186,8 +190,33 @@ def corner_warnings(
         "corner": (
             f"the largest pressure {be} at a tip, an edge or a corner of the indenter, sharp or "
             "rounded within a quarter of a cell (between two facets of a height map, say): "
-            "pressure is singular there and the peak pressure depends on the mesh. A rounding over "
-            "several cells would bound it"
+            f"pressure is singular there and {DEPENDS_ON_MESH}. A rounding over several cells "
+            f"would bound it; {rounding_remedy(geometry.indenter)}"
+        )
+    }
+
+
+def _end_warnings(
+    geometry: Geometry, rim: Rim, pressure: NDArray[np.float64], *, has_limit: bool
+) -> dict[str, str]:
+    """Warn of a contact that reaches the end of the profile: singular pressure, missing support."""
+    at_end, _ = end_pressures(rim.cut(geometry.open_gap), rim.cut(pressure))
+    if not at_end:
+        return {}
+    _, reach = geometry._verbs
+    what = f"the contact {reach} the end of the indenter's profile"
+    support = "The half-space continues beyond it; a body that ends there too is more compliant"
+    if has_limit or at_end < pressure.max():
+        return {
+            "end": (
+                f"{what}, and its largest pressure lies elsewhere: the rise of pressure at a sharp "
+                f"end, over less than a cell, is not in the peak pressure. {support}"
+            )
+        }
+    return {
+        "sharp_end": (
+            f"{what}, where its largest pressure lies: pressure is singular there and "
+            f"{DEPENDS_ON_MESH}; {rounding_remedy(geometry.indenter)}. {support}"
         )
     }
 

@@ -5,7 +5,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.contact.body_edge import END_DEPTH, end_cells
+from viscontact.grid import Grid
 from viscontact.indenters import Indenter
+
+#: Words by which the warning of a singular peak is recognised.
+DEPENDS_ON_MESH = "the peak pressure depends on the mesh"
 
 #: Samples in one cell, in a quarter of one and in three. A change of slope counts as a corner if
 #: this part of the change within three cells lies within a quarter of one; under even curvature a
@@ -18,23 +23,46 @@ CORNER_SHARE = 0.5
 MIN_ANGLE = 0.06
 
 
-def touches_end(open_gap: NDArray[np.float64], contact: NDArray[np.bool_]) -> bool:
-    """True if a contact reaches a cell next to which the indenter ends (open gap +inf).
+def end_pressures(
+    open_gap: NDArray[np.float64], pressure: NDArray[np.float64]
+) -> tuple[float, float]:
+    """Largest pressures next to the indenter's end, and farther than END_DEPTH cells from it [Pa].
+
+    The open gap is +inf outside the indenter [m].
 
     Examples
     --------
-    >>> touches_end(np.array([[np.inf, 0.0, 0.0]]), np.array([[False, False, True]]))
-    False
+    >>> end_pressures(np.array([[0.0, 0.0, 0.0, np.inf]]), np.array([[1.0, 2.0, 3.0, 0.0]]))
+    (3.0, 1.0)
     """
-    outside = np.isinf(open_gap)
-    if not outside.any():
-        return False
-    return bool(
-        (contact[1:] & outside[:-1]).any()
-        or (contact[:-1] & outside[1:]).any()
-        or (contact[:, 1:] & outside[:, :-1]).any()
-        or (contact[:, :-1] & outside[:, 1:]).any()
-    )
+    if not np.isinf(open_gap).any():
+        return 0.0, float(pressure.max())
+    beside, near = (end_cells(open_gap, depth).any(axis=0) for depth in (1, END_DEPTH))
+    return float(pressure[beside].max(initial=0.0)), float(pressure[~near].max(initial=0.0))
+
+
+def bend_at(open_gap: NDArray[np.float64], grid: Grid, place: tuple[int, int]) -> float:
+    """Largest change of the gap's slope from cell to cell, around a cell [rad].
+
+    Notes
+    -----
+    A corner of the angle alpha raises the pressure by E* alpha/(2 pi) whenever the cells shrink by
+    a factor e, whatever its shape within a cell is (Johnson 1985, Contact Mechanics, section 5.2).
+
+    Examples
+    --------
+    >>> grid = Grid((5, 5), (5.0, 5.0))
+    >>> bend_at(np.abs(grid.x)[:, None] + 0 * grid.y, grid, (2, 2))
+    2.0
+    """
+    lines = [np.arange(middle - 2, middle + 3) for middle in place]
+    lines = [
+        line % count if grid.periodic else line[(line >= 0) & (line < count)]
+        for line, count in zip(lines, grid.shape, strict=True)
+    ]
+    around = np.where(np.isinf(open_gap[np.ix_(*lines)]), np.nan, open_gap[np.ix_(*lines)])
+    bends = [np.abs(np.diff(around, 2, axis=axis)) / grid.cell_size[axis] for axis in (0, 1)]
+    return max(float(np.nanmax(bend, initial=0.0)) for bend in bends)
 
 
 def is_sharp(

@@ -1,4 +1,4 @@
-"""Outline of a body between the cell centres of a grid."""
+"""Outline of a body between the cell centres of a grid, and cells near it."""
 
 from __future__ import annotations
 
@@ -9,6 +9,10 @@ from numpy.typing import NDArray
 
 from viscontact.grid import Grid
 from viscontact.indenters import Indenter
+
+#: Cells from the end of a body in which a pressure peak is not resolved: pressure rises towards a
+#: sharp end, and falls to zero before a logarithmic one.
+END_DEPTH = 2
 
 #: Halvings of a cell, enough to locate the outline to rounding.
 BISECTIONS = 45
@@ -42,6 +46,27 @@ def trace_outline(indenter: Indenter, grid: Grid) -> Outline:
         _outline_crossings(indenter, inside, x, y),
         _outline_crossings(indenter, inside.T, x.T, y.T).T,
     )
+
+
+def end_cells(open_gap: NDArray[np.float64], depth: int) -> NDArray[np.bool_]:
+    """Cells of a body within a number of cells of its end along x, and along y.
+
+    The open gap is +inf outside the body [m]. The result has shape (2, nx, ny).
+
+    Examples
+    --------
+    >>> open_gap = np.array([[0.0, 0.0, 0.0, 0.0, np.inf]])
+    >>> end_cells(open_gap, depth=2)[1].tolist()
+    [[False, False, True, True, False]]
+    """
+    outside = np.isinf(open_gap)
+    near = np.zeros((2, *outside.shape), dtype=bool)
+    for axis in (0, 1):
+        beyond, close = np.moveaxis(outside, axis, 0), np.moveaxis(near[axis], axis, 0)
+        for steps in range(1, depth + 1):
+            close[steps:] |= beyond[:-steps]
+            close[:-steps] |= beyond[steps:]
+    return near & ~outside
 
 
 def _outline_crossings(

@@ -50,9 +50,11 @@ def _contact_warnings(run: RunSetup, found: ContactEstimate, compliance: float) 
     within_y = np.abs(run.grid.y - found.centre_y) <= found.width / 2
     missed = float(on_grid.missed[np.ix_(within_x, within_y)].max(initial=0.0))
     strain = 2 * found.approach / min(found.length, found.width)
+    # An automatic grid that was refined for the peak pressure shows that this has a limit.
+    has_limit = run.mesh is not None and "peak_pressure" in run.mesh.errors
     return (
         strain_warnings(geometry, found.rim, found.motion)
-        | body_warnings(geometry, found.rim)
+        | body_warnings(geometry, found.rim, found.pressure, has_limit=has_limit)
         | _corner_warnings(run, geometry, found, compliance)
         | map_warnings(missed, max(run.grid.cell_size), strain)
         | texture_warnings(geometry.indenter, run.grid)

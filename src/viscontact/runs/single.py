@@ -133,7 +133,8 @@ def simulate(
 
 
 def _bars(run: RunSetup, states: Sequence[ContactState]) -> ErrorBars:
-    bars = error_bars(run.on(states[-1].grid), history_of(states))
+    issued = [text for state in states for text in state.warnings]
+    bars = error_bars(run.on(states[-1].grid), history_of(states), issued=issued)
     for text in bars.warnings:
         warnings.warn(text, AccuracyWarning, stacklevel=3)
     return bars

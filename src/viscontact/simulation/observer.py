@@ -154,7 +154,10 @@ class Observer:
         if solution.outcome is not Outcome.NO_CONTACT:
             motion, displacement = solution.motion, solution.displacement
             found = self._corner_warnings(step.time, solution) | found
-            found = geometry_warnings(self._geometry, rim, motion, displacement) | found
+            found = (
+                geometry_warnings(self._geometry, rim, motion, displacement, solution.pressure)
+                | found
+            )
             early = early_warnings(problem.measured_from, problem.load, step.time, step.side)
             found = early | found
         found = loading_warnings(self._run, step, self._before, solution) | found

@@ -150,7 +150,8 @@ class Recorder:
         self.checkpoint()
         with self._undisturbed():
             history = self._writer.history()
-        return error_bars(self._recorded.run.on(self._writer.grid), history, on_step)
+        run, issued = self._recorded.run.on(self._writer.grid), self._writer.warnings
+        return error_bars(run, history, on_step, issued=issued)
 
     def finish(self, bars: ErrorBars | None = None) -> None:
         """Publish the complete result, with its errors, and remove the restart state."""

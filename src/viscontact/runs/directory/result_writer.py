@@ -120,6 +120,11 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
         self._kept = contents.kept
 
     @property
+    def warnings(self) -> tuple[str, ...]:
+        """Accuracy warnings of the states so far."""
+        return tuple(self._warnings)
+
+    @property
     def position(self) -> dict[str, Any]:
         """Plain data from which `resume` continues, once `publish` has returned True."""
         return {
