@@ -19,7 +19,9 @@ from numpy.typing import NDArray
 
 from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
+from viscontact.indenters.rounding import rounding_remedy
 from viscontact.indenters.textures import CELLS_OF_A_WAVE
+from viscontact.meshing.body_fit import straight_ends
 from viscontact.meshing.contact_extent import (
     MAX_CELLS,
     PointContact,
@@ -47,12 +49,10 @@ SMALLER = 0.95
 
 #: Warnings of a pressure that grows as cells become smaller, and of a contact that is too small for
 #: the grid at the beginning.
-PEAK_WARNING = {
-    "peak": (
-        "the peak pressure depends on the mesh here: at a sharp edge or tip it grows on as cells "
-        "get smaller, and the grid was not chosen for it"
-    )
-}
+PEAK_WARNING = (
+    "the peak pressure depends on the mesh here: at a sharp edge or tip it grows on as cells get "
+    "smaller, and the grid was not chosen for it; "
+)
 EARLY_WARNING = {
     "early": (
         "the contact is much smaller when the load is first largest than it becomes: the grid does "
@@ -102,6 +102,7 @@ class _MeshChoice:
     quantities: tuple[str, ...]
     errors: dict[str, float]
     warnings: dict[str, str]
+    remedy: str  # for a singular peak pressure
 
     def after(self, found: Resolution, cells: NDArray[np.float64]) -> _MeshChoice:
         """The choice after a contact has been resolved by some cells on the whole grid."""
@@ -110,8 +111,12 @@ class _MeshChoice:
             for name in found.quantities
         }
         left_out = set(self.quantities) - set(found.quantities)
-        warnings = self.warnings | PEAK_WARNING if left_out else self.warnings
-        return _MeshChoice(cells, found.quantities, errors, warnings)
+        warnings = self.warnings
+        if left_out:
+            warnings = warnings | {"peak": PEAK_WARNING + self.remedy}
+        return replace(
+            self, cells=cells, quantities=found.quantities, errors=errors, warnings=warnings
+        )
 
 
 def _first_choice(
@@ -136,7 +141,7 @@ def _first_choice(
             f"{format_quantity(size[1], 'm', 3)} needs {float(np.prod(cells)):.2g} cells for a "
             f"relative error of {request.tolerance:.2g}, more than an automatic grid has; {remedy}"
         )
-    return _MeshChoice(cells, tuple(request.quantities), {}, {})
+    return _MeshChoice(cells, tuple(request.quantities), {}, {}, rounding_remedy(indenter))
 
 
 def _first_cells(
@@ -204,8 +209,7 @@ def _refined_for_largest(
         chosen = replace(
             chosen, warnings=chosen.warnings | _spacing_warning(worst, chosen.errors[worst])
         )
-    grid = Grid(found.trial.shape, (float(size[0]), float(size[1])))
-    return Mesh(grid, chosen.errors, chosen.warnings)
+    return Mesh(found.trial.grid, chosen.errors, chosen.warnings)
 
 
 def _limited_by_map(indenter: Indenter, largest: PointContact, mesh: Mesh) -> Mesh:
@@ -228,7 +232,8 @@ def _resolved(
 ) -> Resolution:
     """Refine for one contact on a grid of this size, not beyond the spacing of a height map."""
     extents = (float(size[0]), float(size[1]))
-    pressing = ElasticContact(indenter, contact.compliance, contact.point, extents)
+    ends = straight_ends(indenter, extents, contact.estimate.reach)
+    pressing = ElasticContact(indenter, contact.compliance, contact.point, extents, ends)
     steps = np.array(indenter.sample_spacing)
     finest = np.divide(size, steps, out=np.full(2, math.inf), where=steps > 0)
     return refine_mesh(

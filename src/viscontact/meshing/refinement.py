@@ -3,10 +3,13 @@
 1. Solve the contact on a mesh and on cells twice as long along x, and along y (`trial_mesh`). The
    changes estimate the errors of both directions.
 2. Stop at the first mesh whose estimated errors meet the tolerance, and which agrees with the last
-   one, so that the estimate is not small by chance.
+   one, so that the estimate is not small by chance. Where the contact reaches the body's end, that
+   is a finer one.
 3. Else multiply the cells along each axis by (2 change/tolerance)^(1/USUAL_ORDER), between
    MIN_AT_ONCE and MAX_AT_ONCE, and repeat.
-4. Leave out the peak pressure if its changes do not fall with the cells: it is singular.
+4. Leave out the peak pressure if it grows, and its changes do not fall with the cells: it is
+   singular. Rounded edges and logarithmic ends seem so on large cells, so that the refinement
+   continues for a while, unless the peak grows like the inverse square root at a sharp end.
 """
 
 from __future__ import annotations
@@ -14,6 +17,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -35,9 +39,17 @@ USUAL_ORDER, LOWEST_ORDER = 1.7, 0.5
 #: Smallest and largest factor of the cells along an axis from one trial to the next.
 MIN_AT_ONCE, MAX_AT_ONCE = 1.1, 2.0
 
-#: Cells, over those of the first trial, up to which a peak without a limit is refined further, as a
+#: Cells, over those of the first trial, up to which a peak without a limit is refined further: a
 #: rounded edge seems sharp until it is resolved.
 MAX_CELL_RATIO_WITHOUT_LIMIT = 16
+
+#: Cells up to which such a peak is refined further in any case at the body's end: a logarithmic one
+#: seems sharp until the contact ends some cells before it.
+CELLS_AT_END = 100_000
+
+#: Exponent of the growth with the cells, twice in succession, that makes a peak at an end singular:
+#: it is 1/2 at a sharp end (Johnson 1985, Contact Mechanics, eq. 2.64), approached from below.
+SINGULAR_EXPONENT = 1 / 3
 
 #: The quantity that may be singular.
 PEAK = "peak_pressure"
@@ -83,24 +95,26 @@ def refine_mesh(
         # Step 1: errors on this mesh.
         trial = try_mesh(pressing, shape, exact)
         trials.append(trial)
-        following = _refined(trial, names, tolerance, finest)
-        is_last = following == shape or math.prod(following) > most_cells
+        is_last = _is_last(trial, _refined(trial, names, tolerance, finest), most_cells)
         is_exact = PEAK not in names or (_factors(trial, (PEAK,), tolerance) == 1).all()
         # Step 4: a singular peak is not refined for.
         if not is_exact and _has_no_limit(trials, patient=not is_last):
             names = tuple(name for name in names if name != PEAK)
         # Step 2: the first mesh that is fine enough for the remaining quantities, not by chance.
+        following = _refined(trial, names, tolerance, finest)
+        is_last = _is_last(trial, following, most_cells)
         enough = [
             each
             for each in trials
             if (_factors(each, names, tolerance) == 1).all()
             and _agree(each, trial, names, tolerance)
         ]
+        if _needs_confirmation(trial, names) and not is_last:
+            enough = enough[:-1] if enough and enough[-1] is trial else []
         if enough:
             return Resolution(enough[0], names, enough[0].cells)
         # Step 3: the next mesh, or the end of what is allowed.
-        following = _refined(trial, names, tolerance, finest)
-        if following == shape or math.prod(following) > most_cells:
+        if is_last:
             needed = trial.cells * float(_factors(trial, names, tolerance).prod())
             return Resolution(trial, names, needed, is_enough=False, at_finest=following == shape)
         shape = following
@@ -112,11 +126,23 @@ def _agree(trial: MeshTrial, finer: MeshTrial, names: Sequence[str], tolerance: 
     return np.allclose(trial.values[which], finer.values[which], rtol=tolerance, atol=0.0)
 
 
+def _needs_confirmation(trial: MeshTrial, names: Sequence[str]) -> bool:
+    """True if the peak pressure may change on cells that resolve the body's end."""
+    return PEAK in names and bool(trial.at_end.any())
+
+
+def _is_last(trial: MeshTrial, following: tuple[int, int], most_cells: float) -> bool:
+    """True if the mesh after this one would not be finer, or have too many cells."""
+    return following == trial.shape or math.prod(following) > most_cells
+
+
 def _refined(
     trial: MeshTrial, names: Sequence[str], tolerance: float, finest: ArrayLike
 ) -> tuple[int, int]:
     """Step 3: cells along x and y of the next mesh."""
     factors = _factors(trial, names, tolerance)
+    if (factors == 1).all() and _needs_confirmation(trial, names):
+        factors = np.where(trial.at_end, MAX_AT_ONCE, 1.0)
     step = np.where(factors > 1, np.clip(factors, MIN_AT_ONCE, MAX_AT_ONCE), 1.0)
     return _good_shape(trial.shape * step, finest)
 
@@ -133,7 +159,7 @@ def _factors(trial: MeshTrial, names: Sequence[str], tolerance: float) -> NDArra
 
 
 def _has_no_limit(trials: Sequence[MeshTrial], *, patient: bool) -> bool:
-    """Step 4: test whether the peak pressure changes as much on small cells as on larger ones."""
+    """Step 4: test whether the peak pressure grows as much on small cells as on larger ones."""
     resolved = [
         trial for trial in trials if (trial.consecutive_cells >= MIN_CONSECUTIVE_CELLS).all()
     ]
@@ -144,10 +170,21 @@ def _has_no_limit(trials: Sequence[MeshTrial], *, patient: bool) -> bool:
     along = int(now.changes[:, peak].argmax())
     fall = before.changes[along, peak] / now.changes[along, peak]
     refined = now.shape[along] / before.shape[along]
-    is_endless = refined > 1 and fall < refined**LOWEST_ORDER
-    return is_endless and not (
-        patient and now.cells < MAX_CELL_RATIO_WITHOUT_LIMIT * resolved[0].cells
-    )
+    grows = now.values[peak] > before.values[peak]
+    if not (refined > 1 and grows and fall < refined**LOWEST_ORDER):
+        return False
+    at_end = bool((now.end_excess > 0).any())
+    if at_end and all(_growth(*pair) > SINGULAR_EXPONENT for pair in pairwise(resolved[-3:])):
+        return len(resolved) > 2
+    most = MAX_CELL_RATIO_WITHOUT_LIMIT * resolved[0].cells
+    return not (patient and now.cells < max(most, CELLS_AT_END if at_end else 0))
+
+
+def _growth(before: MeshTrial, now: MeshTrial) -> float:
+    """Exponent with which the peak pressure grows with the cells along the axis refined more."""
+    peak = GRID_QUANTITIES.index(PEAK)
+    refined = max(fine / coarse for fine, coarse in zip(now.shape, before.shape, strict=True))
+    return math.log(now.values[peak] / before.values[peak]) / math.log(refined)
 
 
 def _good_shape(fewest: ArrayLike, finest: ArrayLike) -> tuple[int, int]:

@@ -2,24 +2,30 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.contact.body_edge import trace_outline
+from viscontact.contact.body_edge import END_DEPTH, end_cells, trace_outline
 from viscontact.contact.domain import mirrored_axes
 from viscontact.contact.rim import mean_chords, trace_rim
 from viscontact.grid import GRID_QUANTITIES, Grid
 from viscontact.indenters import Indenter
 from viscontact.loads import LoadPoint
+from viscontact.meshing.body_fit import fitted_extents
 from viscontact.meshing.elastic_estimate import elastic_contact
 
 #: Error of the rim's position on a row of cells, in cells. The error of the area changes sign with
 #: the position of the rim among the cells, so that two meshes may agree by chance; measured on
 #: Hertz's ellipses.
 RIM_SCATTER = 0.07
+
+#: Least relative error of a peak pressure within END_DEPTH cells of the body's end: on four times
+#: as many cells it was up to 20 % larger or smaller (Lundberg's and Johns and Gohar's profiles).
+UNRESOLVED_END = 0.1
 
 TINY = float(np.finfo(np.float64).tiny)
 
@@ -31,19 +37,34 @@ class ElasticContact:
     indenter: Indenter
     compliance: float  # contact compliance [1/Pa]
     point: LoadPoint
-    size: tuple[float, float]  # extents of the grid [m]
+    size: tuple[float, float]  # extents of the grid, to be fitted to the body's ends [m]
+    ends: tuple[float, float] = (math.inf, math.inf)  # of the body, from `straight_ends` [m]
+
+    def grid(self, shape: tuple[int, int]) -> Grid:
+        """Grid with these numbers of cells, which end where the body ends."""
+        return Grid(shape, fitted_extents(self.size, shape, self.ends))
 
 
 @dataclass(frozen=True, eq=False)
 class MeshTrial:
     """Values on a mesh, and their changes when cells are twice as long."""
 
-    shape: tuple[int, int]  # cells along x and y
+    grid: Grid
     values: NDArray[np.float64]  # `GRID_QUANTITIES` [Pa, m², m]
-    #: Relative changes for cells twice as long along x, and along y [-]; shape (2, 3).
+    #: Relative changes for cells twice as long along x, and along y [-]; shape (2, 3). That of a
+    #: peak pressure at the body's end is no smaller than `end_excess` and UNRESOLVED_END.
     changes: NDArray[np.float64]
+    #: Relative excess of the peak over the largest pressure farther from the body's ends along x,
+    #: and along y, than END_DEPTH cells [-].
+    end_excess: NDArray[np.float64]
+    at_end: NDArray[np.bool_]  # the contact reaches the body's end along x, and along y
     #: Mean chords of the contact along x and along y, in cells.
     consecutive_cells: NDArray[np.float64]
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Numbers of cells along x and y."""
+        return self.grid.shape
 
     @property
     def cells(self) -> int:
@@ -69,35 +90,56 @@ def try_mesh(pressing: ElasticContact, shape: tuple[int, int], tolerance: float)
     >>> try_mesh(ball, (24, 24), 1e-4).errors["approach"] < 0.01
     True
     """
-    nx, ny = shape
-    coarser = [_found(pressing, coarse, tolerance) for coarse in ((nx // 2, ny), (nx, ny // 2))]
+    (nx, ny), grid = shape, pressing.grid(shape)
+    coarser = [
+        _found(pressing, replace(grid, shape=coarse), tolerance)
+        for coarse in ((nx // 2, ny), (nx, ny // 2))
+    ]
     # Start from the mean of both coarse pressures, each spread to two cells.
     spread = [np.repeat(coarser[axis].pressure, 2, axis=axis) for axis in (0, 1)]
-    fine = _found(pressing, shape, tolerance, (spread[0] + spread[1]) / 2)
+    fine = _found(pressing, grid, tolerance, (spread[0] + spread[1]) / 2)
     changes = np.stack([np.abs(other.values - fine.values) / fine.scales for other in coarser])
     area = GRID_QUANTITIES.index("contact_area")
     changes[:, area] = np.maximum(changes[:, area], RIM_SCATTER / fine.consecutive_cells)
-    return MeshTrial(shape, fine.values, changes, fine.consecutive_cells)
+    peak = GRID_QUANTITIES.index("peak_pressure")
+    excess = _end_excess(fine)
+    unresolved = np.where(excess > 0, np.maximum(excess, UNRESOLVED_END), 0.0)
+    changes[:, peak] = np.maximum(changes[:, peak], unresolved)
+    at_end: NDArray[np.bool_] = np.any(
+        end_cells(fine.open_gap, 1) & (fine.pressure > 0), axis=(1, 2)
+    )
+    return MeshTrial(grid, fine.values, changes, excess, at_end, fine.consecutive_cells)
 
 
 @dataclass(frozen=True, eq=False)
 class _Found:
     """Solution on one mesh: values of `GRID_QUANTITIES`, and the scales of their errors."""
 
+    open_gap: NDArray[np.float64]
     pressure: NDArray[np.float64]
     values: NDArray[np.float64]
     scales: NDArray[np.float64]
     consecutive_cells: NDArray[np.float64]
 
 
+def _end_excess(found: _Found) -> NDArray[np.float64]:
+    """Relative excess of the peak near the body's ends along x and along y [-]."""
+    peak = max(float(found.pressure.max()), TINY)
+    farther = [
+        float(np.where(near, 0.0, found.pressure).max())
+        for near in end_cells(found.open_gap, END_DEPTH)
+    ]
+    return 1 - np.array(farther) / peak
+
+
 def _found(
     pressing: ElasticContact,
-    shape: tuple[int, int],
+    grid: Grid,
     tolerance: float,
     start: NDArray[np.float64] | None = None,
 ) -> _Found:
     """Solve a contact on one mesh, starting from a pressure [Pa] if one is given."""
-    grid, indenter, point = Grid(shape, pressing.size), pressing.indenter, pressing.point
+    indenter, point = pressing.indenter, pressing.point
     open_gap = indenter.gap(grid.x[:, None], grid.y[None, :])
     even = (
         not (point.eccentricity_x or point.tilt_x),
@@ -117,4 +159,4 @@ def _found(
     values = np.array([found.peak_pressure, area, found.approach])
     # A body that mostly tilts has a small approach: its error is relative to the displacement.
     scales = np.maximum(values, [TINY, TINY, found.largest_displacement])
-    return _Found(found.pressure, values, scales, mean_chords(contact))
+    return _Found(open_gap, found.pressure, values, scales, mean_chords(contact))
