@@ -16,7 +16,7 @@ from viscontact.problem.problem import Problem
 from viscontact.simulation.setup import prepare_run
 from viscontact.simulation.state_generator import march_run
 
-#: Values below this part of the largest count as zero: the work after an elastic cycle, say.
+#: Values below this part of the run's largest count as zero: the work after an elastic cycle, say.
 ZERO = 2e-3
 
 
@@ -87,7 +87,7 @@ def counted(name: str, history: Any, exact: dict[str, np.ndarray]) -> np.ndarray
     values, found = exact[name], history[name]
     with np.errstate(invalid="ignore"):
         known = np.isfinite(values) & np.isfinite(found)
-        largest = np.abs(values[known]).max(initial=0.0)
+        largest = np.nanmax(np.abs(found), initial=0.0)
         known &= np.abs(values) > ZERO * largest
         error = np.abs(found - values)
         # Prescribed, or known from the outline of the body: nothing is estimated.

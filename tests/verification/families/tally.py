@@ -127,7 +127,7 @@ def report(records: Sequence[dict[str, Any]]) -> list[str]:
 WITHIN, WITHIN_EACH, BEYOND_THREE, MEDIAN = 0.95, 0.93, 0.005, 5.0
 
 #: Least number of values of which a part within is judged.
-FEWEST = 60
+FEWEST = 40
 
 
 def shortfalls(values: Sequence[Value]) -> list[str]:
