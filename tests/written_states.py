@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact import Grid
-from viscontact.results.variables import FIELDS, SCALARS
+from viscontact.results.variables import FIELDS, LINES, SCALARS
 from viscontact.runs.directory.netcdf_layout import Contents
 from viscontact.runs.directory.result_writer import ResultWriter
 from viscontact.state import ContactState, Outcome
@@ -27,6 +27,7 @@ def state(row: int, grid: Grid = GRID, times: NDArray[np.float64] = TIMES) -> Co
     random = np.random.default_rng(row)
     fields = {name: random.standard_normal(grid.shape) for name in FIELDS}
     fields["gap"][0, 0] = np.inf
+    fields |= {name: random.standard_normal(grid.shape[0]) for name in LINES}
     scalars = {name: float(value) for name, value in zip(NUMBERS, random.random(99), strict=False)}
     if row % 3 == 0:
         scalars |= {"eccentricity_x": np.nan, "loss_per_cycle": np.nan}
@@ -56,7 +57,7 @@ def faults_of(
         kept = [each for each in states if some is None or each.time in some]
         truth = {name: [getattr(each, name) for each in states] for name in ("time", *SCALARS)}
         if some != []:
-            truth |= {name: [getattr(each, name) for each in kept] for name in FIELDS}
+            truth |= {name: [getattr(each, name) for each in kept] for name in (*FIELDS, *LINES)}
         if some:
             truth["field_time"] = [each.time for each in kept]
         faults = [f"{rows} rows"] if rows < at_least else []

@@ -41,6 +41,8 @@ class ContactState:
         Gap, positive when open, +inf outside the indenter's outline [m].
     displacement : ndarray, shape (nx, ny)
         Surface displacement, positive into the half-space [m].
+    line_load : ndarray, shape (nx,)
+        Pressure integrated over y, along x [N/m].
     grid : Grid
         The cells of these fields. A run with an automatic grid may have enlarged it since the
         previous state.
@@ -60,6 +62,9 @@ class ContactState:
         Extents of the contact along x and y, on a periodic grid at most a period [m].
     peak_pressure, mean_pressure : float
         Largest cell pressure, and force over area [Pa].
+    peak_line_load : float
+        Largest mean of the line load over a twentieth of the contact's length along x [N/m]. At a
+        sharp end of the body the line load itself has no limit as cells become smaller.
     work : float
         Work of the load on the contact since the start [J]; exact for an elastic body, across
         jumps and at the first instant, otherwise second-order accurate in the step.
@@ -93,6 +98,7 @@ class ContactState:
     pressure: NDArray[np.float64]
     gap: NDArray[np.float64]
     displacement: NDArray[np.float64]
+    line_load: NDArray[np.float64]
     grid: Grid
     force: float
     eccentricity_x: float
@@ -105,6 +111,7 @@ class ContactState:
     contact_width: float
     peak_pressure: float
     mean_pressure: float
+    peak_line_load: float
     work: float
     loss_per_cycle: float
     time_error: float
@@ -116,5 +123,5 @@ class ContactState:
 
     def without_fields(self) -> ContactState:
         """Return the same state with empty fields, to save memory in long runs."""
-        nothing = np.empty((0, 0))
-        return replace(self, pressure=nothing, gap=nothing, displacement=nothing)
+        nothing, no_line = np.empty((0, 0)), np.empty(0)
+        return replace(self, pressure=nothing, gap=nothing, displacement=nothing, line_load=no_line)

@@ -191,6 +191,38 @@ def test_dimensionless_scalar_has_no_brackets(
     assert "[]" not in re.sub(r"<script.*?</script>", "", page, flags=re.DOTALL)
 
 
+@pytest.fixture(scope="module")
+def roller() -> xr.Dataset:
+    """A crowned roller off the centre, whose contact is five widths long."""
+    rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    grid = vc.Grid((40, 24), (24e-3, 4e-3))
+    load = vc.step(4.0, eccentricity_x=4e-4)
+    body = vc.Paraboloid(radius_x=0.2, radius_y=0.01)
+    return vc.simulate(body, rubber, load, grid, [0.0, 1.0], errors=False)
+
+
+def test_line_load_is_shown_of_long_contacts_only(ds: xr.Dataset, roller: xr.Dataset) -> None:
+    length, width = float(roller.contact_length[0]), float(roller.contact_width[0])
+    assert 3 * width < length < 12 * width
+    label, peak = "Peak line load", float(roller.peak_line_load[0])
+    for run, expected in ((roller, True), (ds, False)):
+        assert float(run.peak_line_load[0]) > 0  # in the file of any run
+        assert ("peak_line_load" in [row.name for row in summary_rows(run)]) == expected
+        assert (label.lower() in [row[0] for row in result_card(run).rows]) == expected
+        assert (label in run_data(run)["facts"].values()) == expected
+        assert (label in [panel["label"] for panel in response_panels(run)]) == expected
+        assert (label in report_page(run)) == expected
+        drawn = [axes.get_ylabel() for axes in history(run).axes]
+        assert (f"{label} [N/m]" in drawn) == expected
+    [row] = [row for row in summary_rows(roller) if row.name == "peak_line_load"]
+    assert (row.title, row.unit, float(row.last)) == (
+        *("peak line load", "N/m"),
+        pytest.approx(peak, rel=1e-3),
+    )
+    rotated = roller.rename(contact_length="contact_width", contact_width="contact_length")
+    assert "peak_line_load" not in [row.name for row in summary_rows(rotated)]
+
+
 def test_page_receives_the_list_of_scalars(extended: xr.Dataset, tmp_path: Path) -> None:
     data = run_data(extended)
     assert data["facts"][NEW] == LABEL

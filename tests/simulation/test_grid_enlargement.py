@@ -170,6 +170,8 @@ def test_result_is_on_the_last_grid_and_records_when_it_grew() -> None:
     assert np.isnan(early.gap.values[outside]).all()
     assert np.isfinite(early.gap.values[~outside][:, ~outside]).all()
     assert (ds.pressure.sum(["x", "y"]) * large.cell_area).values == pytest.approx(ds.force.values)
+    dy = large.cell_size[1]
+    np.testing.assert_allclose(ds.line_load, ds.pressure.sum("y") * dy, rtol=1e-12)
     lines = ds.attrs["grid_enlarged"].splitlines()
     assert lines[0].startswith("t = 250 ms: from 20 x 20 cells on 800 µm x 800 µm to 30 x 30")
     assert len(lines) == len({state.grid.shape for state in states}) - 1

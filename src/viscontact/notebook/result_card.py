@@ -12,9 +12,10 @@ from viscontact.notebook.card import Card
 from viscontact.notebook.svg_axes import Scale, linear, logarithmic
 from viscontact.notebook.svg_panel import ORANGE, Mark, panel
 from viscontact.results.formatting import format_scalar
+from viscontact.results.shown_scalars import shown_labels
 from viscontact.results.stated_errors import errors_of, is_centred
 from viscontact.results.summary import headline
-from viscontact.results.variables import REQUIRED, Place, labels_in
+from viscontact.results.variables import REQUIRED, Place, shown_in
 from viscontact.units.formatting import format_quantity
 
 Floats = NDArray[np.float64]
@@ -25,8 +26,7 @@ ROUND = 1.05
 
 def result_card(ds: xr.Dataset) -> Card:
     """Make the card of a result."""
-    labels = labels_in(Place.CARD, ds)
-    needed = ["time", *(name for name in labels_in(Place.CARD) if name in REQUIRED)]
+    needed = ["time", *(name for name in shown_in(Place.CARD) if name in REQUIRED)]
     missing = [name for name in needed if name not in ds.variables]
     if missing:
         lead = f"It has no {missing[0]}; simulate and open_results make results."
@@ -39,7 +39,7 @@ def result_card(ds: xr.Dataset) -> Card:
     heads = tuple(f"t = {format_quantity(float(ds['time'][k]), 's')}" for k in shown)
     rows = [
         (label.lower(), *(format_scalar(ds, name, k) for k in shown))
-        for name, label in labels.items()
+        for name, label in shown_labels(ds, Place.CARD).items()
         if not is_centred(ds, name)
     ]
     return Card(_title(ds), [*rows, *_warnings(ds)], _drawings(ds), heads, headline(ds))

@@ -13,6 +13,7 @@ from viscontact.plot.histories.time_axis import suits_log_time
 from viscontact.report.map_data import finite_or_none, rounded
 from viscontact.results.formatting import format_with_error
 from viscontact.results.recorded_case import prescribes_approach
+from viscontact.results.shown_scalars import shown_scalars
 from viscontact.results.stated_errors import MESH_DEPENDENT, errors_of, is_centred
 from viscontact.results.variables import SCALARS, Place, shown_in
 from viscontact.units.formatting import format_compact, format_quantity, readable_unit
@@ -77,7 +78,7 @@ def _prescribed(ds: xr.Dataset) -> list[str]:
 
 def _response(ds: xr.Dataset) -> list[str]:
     answer = {"approach": "force"} if prescribes_approach(ds) else {}
-    shown = shown_in(Place.RESPONSE, ds)
+    shown = shown_scalars(ds, Place.RESPONSE)
     return [answer.get(name, name) for name in shown if not is_centred(ds, name)]
 
 

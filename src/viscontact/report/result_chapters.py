@@ -17,9 +17,10 @@ from viscontact.report.map_data import MOST_CELLS, section_csv, section_place, s
 from viscontact.report.shown_fields import ShownFields
 from viscontact.results.formatting import format_scalar
 from viscontact.results.history_csv import write_history
+from viscontact.results.shown_scalars import shown_labels
 from viscontact.results.stated_errors import MESH_DEPENDENT
 from viscontact.results.summary import headline
-from viscontact.results.variables import Place, labels_in
+from viscontact.results.variables import Place
 from viscontact.units.formatting import format_quantity
 
 _WAYS: tuple[tuple[Literal["x", "y"], str], ...] = (("x", "Along x"), ("y", "Across, along y"))
@@ -115,7 +116,7 @@ def _facts(ds: xr.Dataset) -> Element:
                 element("dt", _unbroken(name + when)),
                 element("dd", _unbroken(format_scalar(ds, scalar, last))),
             )
-            for scalar, name in labels_in(Place.FACTS, ds).items()
+            for scalar, name in shown_labels(ds, Place.FACTS).items()
         ),
         class_="facts",
     )

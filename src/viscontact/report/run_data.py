@@ -14,9 +14,10 @@ from viscontact.report.limits import notices, warnings_of
 from viscontact.report.map_data import finite_or_none, map_data, rounded, section_data
 from viscontact.report.result_chapters import title_of
 from viscontact.report.shown_fields import shown_fields
+from viscontact.results.shown_scalars import shown_labels
 from viscontact.results.stated_errors import errors_of
 from viscontact.results.summary import summary_scalars
-from viscontact.results.variables import SCALARS, Place, labels_in
+from viscontact.results.variables import SCALARS, Place
 from viscontact.units.formatting import readable_unit
 
 
@@ -44,7 +45,7 @@ def run_data(ds: xr.Dataset) -> dict[str, Any]:
         "scalars": {name: _scalar(ds, name) for name in SCALARS if name in ds},
         "given": given,
         "answers": answers,
-        "facts": labels_in(Place.FACTS, ds),
+        "facts": shown_labels(ds, Place.FACTS),
         "listed": summary_scalars(ds),
         "map": _map(ds),
         "notices": notices(ds),

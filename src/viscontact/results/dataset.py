@@ -11,11 +11,12 @@ from numpy.typing import NDArray
 
 from viscontact.grid import Grid
 from viscontact.results.accessor import ResultAccessor as ResultAccessor
-from viscontact.results.enlarged_grid import on_wider
+from viscontact.results.enlarged_grid import line_on_wider, on_wider
 from viscontact.results.variables import (
     COORDINATES,
     ERRORS,
     FIELDS,
+    LINES,
     OUTCOME_FLAGS,
     SCALARS,
     error_name,
@@ -80,6 +81,14 @@ def _field_arrays(states: Sequence[ContactState], grid: Grid, axis: str) -> dict
             variable.attributes,
         )
         for name, variable in FIELDS.items()
+    }
+    arrays |= {
+        name: (
+            (axis, "x"),
+            np.stack([line_on_wider(getattr(s, name), s.grid, grid) for s in states]),
+            variable.attributes,
+        )
+        for name, variable in LINES.items()
     }
     if axis != "time":
         instants = np.array([state.time for state in states])

@@ -27,6 +27,17 @@ def on_wider(name: str, field: NDArray[np.float64], grid: Grid, wider: Grid) -> 
     return grid.embed(field, wider, beyond=0.0 if name == "pressure" else np.nan)
 
 
+def line_on_wider(line: NDArray[np.float64], grid: Grid, wider: Grid) -> NDArray[np.float64]:
+    """A field along x, shape (..., nx), on the widest grid of a result; 0 beyond its own.
+
+    >>> small = Grid((4, 4), (1.0, 1.0))
+    >>> line_on_wider(np.ones(4), small, small.widened((6, 4))).tolist()
+    [0.0, 1.0, 1.0, 1.0, 1.0, 0.0]
+    """
+    more = (wider.shape[0] - grid.shape[0]) // 2
+    return np.pad(line, [(0, 0)] * (line.ndim - 1) + [(more, more)])
+
+
 def enlargement(time: float, before: Grid, after: Grid) -> str:
     """One line of the log of enlargements; the time is the first on the larger grid [s].
 

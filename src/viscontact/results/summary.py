@@ -15,6 +15,7 @@ from viscontact.results.formatting import (
     format_scalar,
     format_with_error_in,
 )
+from viscontact.results.shown_scalars import is_shown
 from viscontact.results.stated_errors import (
     MESH_DEPENDENT,
     LargestError,
@@ -82,8 +83,9 @@ def summary_rows(ds: xr.Dataset) -> list[SummaryRow]:
 
 
 def summary_scalars(ds: xr.Dataset) -> list[str]:
-    """Scalars of a result that have errors and are more than rounding."""
-    return [name for name in scalars_with_error() if name in ds and not is_rounding(ds, name)]
+    """Scalars of a result that have errors, are of use, and are more than rounding."""
+    names = [name for name in scalars_with_error() if name in ds and is_shown(ds, name)]
+    return [name for name in names if not is_rounding(ds, name)]
 
 
 def _row(ds: xr.Dataset, name: str) -> SummaryRow:

@@ -75,6 +75,9 @@ FIELDS = {
     ),
 }
 
+#: Fields along x, integrated over y.
+LINES = {"line_load": Variable("N/m", "line load along x: pressure integrated over y")}
+
 
 def _scalar(
     units: str, long_name: str, label: str, rank: int, places: Place = Place.NOWHERE
@@ -86,6 +89,7 @@ def _scalar(
 _EXTENT = Place.TABLE | Place.CARD | Place.RESPONSE
 _MOTION = _EXTENT | Place.FIGURE
 _RESULT = _MOTION | Place.KEY | Place.FACTS | Place.LIVE
+_LINE_LOAD = Place.KEY | Place.CARD | Place.FACTS | Place.RESPONSE | Place.FIGURE
 _FORCE = Place.TABLE | Place.KEY | Place.CARD | Place.LOAD | Place.FIGURE
 
 SCALARS = {
@@ -107,18 +111,25 @@ SCALARS = {
     ),
     "contact_area": _scalar("m2", "contact area", "Contact area", 4, _RESULT),
     "contact_length": _scalar(
-        "m", "extent of the contact along x", "Contact length, along x", 10, _EXTENT
+        "m", "extent of the contact along x", "Contact length, along x", 11, _EXTENT
     ),
     "contact_width": _scalar(
-        "m", "extent of the contact along y", "Contact width, along y", 11, _EXTENT
+        "m", "extent of the contact along y", "Contact width, along y", 12, _EXTENT
     ),
     "peak_pressure": _scalar("Pa", "largest pressure", "Peak pressure", 8, _RESULT),
     "mean_pressure": _scalar(
         "Pa", "force over contact area", "Mean pressure", 9, Place.CARD | Place.FACTS
     ),
-    "work": _scalar("J", "work of the load on the contact since the start", "Work", 12),
+    "peak_line_load": _scalar(
+        "N/m",
+        "largest mean line load over a twentieth of the contact's length along x",
+        "Peak line load",
+        10,
+        _LINE_LOAD,
+    ),
+    "work": _scalar("J", "work of the load on the contact since the start", "Work", 13),
     "loss_per_cycle": _scalar(
-        "J", "work lost in the last complete cycle of the load", "Loss per cycle", 13
+        "J", "work lost in the last complete cycle of the load", "Loss per cycle", 14
     ),
     "time_error": Variable("1", "estimated relative error of pressure due to the time steps"),
     "iterations": Variable("1", "iterations of the contact solver", "i4"),

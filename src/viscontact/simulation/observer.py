@@ -18,6 +18,7 @@ from viscontact.checks.mesh import MIN_CELLS_ACROSS, cells_across_spots, mesh_wa
 from viscontact.checks.singularities import strain_of
 from viscontact.checks.steps import unreported_peak_warnings
 from viscontact.contact.body_edge import trace_outline
+from viscontact.contact.line_load import line_load, peak_line_load
 from viscontact.contact.rim import Rim, trace_rim
 from viscontact.errors import DomainError
 from viscontact.loads.history import LoadPoint
@@ -208,11 +209,13 @@ def _state(
     peak = float(solution.pressure.max())
     # A few cells enclose next to nothing; but no mean pressure exceeds the peak.
     area = max(rim.area, force / peak) if touching else 0.0
+    load = line_load(solution.pressure, rim.grid)
     return ContactState(
         time=step.time if step.requested is None else step.requested,
         pressure=solution.pressure,
         gap=solution.gap,
         displacement=solution.displacement,
+        line_load=load,
         grid=rim.grid,
         force=force,
         eccentricity_x=moment_x / force if centred else math.nan,
@@ -225,6 +228,7 @@ def _state(
         contact_width=rim.width,
         peak_pressure=peak,
         mean_pressure=force / area if touching else 0.0,
+        peak_line_load=peak_line_load(load, rim.grid, rim.length),
         work=work,
         loss_per_cycle=loss,
         time_error=solution.time_error,

@@ -47,8 +47,8 @@ def readable_unit(unit: str, *values: ArrayLike) -> ReadableUnit:
     Parameters
     ----------
     unit : str
-        The SI unit of the values: ``"m"``, ``"m2"``, ``"s"``, ``"N"``, ``"Pa"``, ``"1/Pa"``,
-        ``"Pa s"``, ``"rad"``, ``"J"``, ``"J/mol"`` or ``"1"``.
+        The SI unit of the values: ``"m"``, ``"m2"``, ``"s"``, ``"N"``, ``"N/m"``, ``"Pa"``,
+        ``"1/Pa"``, ``"Pa s"``, ``"rad"``, ``"J"``, ``"J/mol"`` or ``"1"``.
     *values : array_like
         All values that share the unit [SI]; values that are not finite are ignored.
 

@@ -14,7 +14,7 @@ import pytest
 import xarray as xr
 
 import viscontact as vc
-from viscontact.results.variables import FIELDS, SCALARS
+from viscontact.results.variables import FIELDS, LINES, SCALARS
 from viscontact.runs.directory import result_writer
 from viscontact.runs.directory.netcdf_layout import Contents
 from viscontact.runs.directory.result_writer import ResultWriter
@@ -80,7 +80,7 @@ def test_fields_are_stored_in_the_precision_that_the_tolerance_needs(
         writer.append(state(0))
         writer.finish()
     with netCDF4.Dataset(str(path)) as file:
-        for name in FIELDS:
+        for name in (*FIELDS, *LINES):
             assert file.variables[name].dtype == kind
             found = file.variables[name][0].filled()
             np.testing.assert_array_equal(found, getattr(state(0), name).astype(kind))
@@ -99,7 +99,7 @@ def test_result_describes_itself(path: Path) -> None:
     with vc.open_results(path) as ds:
         assert dict(ds.sizes) == {"time": ROWS, "x": 6, "y": 5, "field_time": len(SOME)}
         assert ds.encoding["unlimited_dims"] == {"time", "field_time"}
-        for name in (*SCALARS, *FIELDS, "time", "x", "y", "field_time"):
+        for name in (*SCALARS, *FIELDS, *LINES, "time", "x", "y", "field_time"):
             assert ds[name].attrs["units"]
             assert ds[name].attrs["long_name"]
         assert ds["outcome"].attrs["flag_meanings"] == "converged no_contact not_converged"

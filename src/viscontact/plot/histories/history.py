@@ -21,6 +21,7 @@ from viscontact.plot.layout.error_band import (
     peak_note,
 )
 from viscontact.plot.layout.page import NARROW, Width, page_width
+from viscontact.results.shown_scalars import shown_scalars
 from viscontact.results.stated_errors import is_centred, stated_error
 from viscontact.results.variables import SCALARS, Place, shown_in
 from viscontact.units.formatting import ReadableUnit, readable_unit
@@ -142,7 +143,7 @@ def draw_scalars(
 
 def needed_variables(run: xr.Dataset) -> list[str]:
     """Names of the scalars that histories need; tilts of rounding size are found by the length."""
-    return [*shown_in(Place.FIGURE, run), "contact_length"]
+    return [*shown_scalars(run, Place.FIGURE), "contact_length"]
 
 
 def _worth_a_panel(name: str, runs: Collection[xr.Dataset]) -> bool:

@@ -13,11 +13,12 @@ from numpy.typing import NDArray
 
 from viscontact.grid import Grid
 from viscontact.results.dataset import field_axis
-from viscontact.results.enlarged_grid import on_wider
+from viscontact.results.enlarged_grid import line_on_wider, on_wider
 from viscontact.results.variables import (
     COORDINATES,
     ERRORS,
     FIELDS,
+    LINES,
     OUTCOME_FLAGS,
     SCALARS,
     Variable,
@@ -60,9 +61,10 @@ class Layout:
             return found
         if self.axis != "time":
             found[self.axis] = (Variable("s", "time of the stored fields"), (self.axis,))
-        axes = (self.axis, "x", "y")
+        axes = dict.fromkeys(FIELDS, ("x", "y")) | dict.fromkeys(LINES, ("x",))
         return found | {
-            name: (replace(variable, kind=self.kind), axes) for name, variable in FIELDS.items()
+            name: (replace(variable, kind=self.kind), (self.axis, *axes[name]))
+            for name, variable in (FIELDS | LINES).items()
         }
 
     def extent_of(self, file: netCDF4.Dataset) -> Extent:
@@ -123,7 +125,7 @@ def _create(
     file: netCDF4.Dataset, name: str, variable: Variable, dimensions: tuple[str, ...]
 ) -> None:
     options: dict[str, Any] = {"fill_value": np.nan} if variable.kind in ("f4", "f8") else {}
-    if name in FIELDS:
+    if name in FIELDS | LINES:
         options["chunksizes"] = (1, *(len(file.dimensions[axis]) for axis in dimensions[1:]))
     if name == "pressure":
         # Most of it is 0. Gap and displacement hardly shrink, at many times the cost of writing.
@@ -173,6 +175,8 @@ def write_fields(file: netCDF4.Dataset, layout: Layout, row: int, state: Contact
     for name in FIELDS:
         values = on_wider(name, getattr(state, name), state.grid, layout.grid)
         file.variables[name][row] = values
+    for name in LINES:
+        file.variables[name][row] = line_on_wider(getattr(state, name), state.grid, layout.grid)
     if layout.axis not in (None, "time"):
         file.variables[layout.axis][row] = state.time
 
@@ -184,12 +188,13 @@ def copy_rows(
     for name, (_, dimensions) in layout.columns.items():
         if dimensions[0] in ("x", "y"):
             continue
-        is_field = name in FIELDS
-        last = extent.field_rows if is_field or name == layout.axis != "time" else extent.rows
-        for rows in _blocks(last, grid.shape if is_field else ()):
+        last = extent.field_rows if dimensions[0] == layout.axis else extent.rows
+        for rows in _blocks(last, grid.shape[: len(dimensions) - 1]):
             values = source.variables[name][rows]
-            if is_field:
+            if name in FIELDS:
                 values = on_wider(name, values, layout.grid, grid)
+            elif name in LINES:
+                values = line_on_wider(values, layout.grid, grid)
             target.variables[name][rows] = values
 
 

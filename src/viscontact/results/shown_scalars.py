@@ -1,0 +1,44 @@
+"""Scalars that are shown of a result: the line load only of a contact that is long along x."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from viscontact.results.variables import SCALARS, Place, shown_in
+
+#: Length of the contact over its width from which the line load is of use, as for rollers.
+LONG = 3.0
+
+#: Scalars that are shown of such contacts only.
+_OF_LONG_CONTACTS = ("peak_line_load",)
+
+
+def is_long(ds: xr.Dataset) -> bool:
+    """Test for a contact that is at least three widths long along x when it is largest.
+
+    Examples
+    --------
+    >>> sizes = {"contact_area": [0.0, 5.0], "contact_length": [0.0, 6.0]}
+    >>> run = xr.Dataset({name: ("time", each) for name, each in sizes.items()})
+    >>> [is_long(run.assign(contact_width=("time", [0.0, width]))) for width in (1.0, 3.0)]
+    [True, False]
+    """
+    largest = int(np.nan_to_num(ds["contact_area"].values).argmax())
+    length, width = (float(ds[f"contact_{name}"][largest]) for name in ("length", "width"))
+    return length >= LONG * width > 0
+
+
+def is_shown(ds: xr.Dataset, name: str) -> bool:
+    """Test for a scalar that a result has and that is of use for it."""
+    return name in ds and (name not in _OF_LONG_CONTACTS or is_long(ds))
+
+
+def shown_scalars(ds: xr.Dataset, place: Place) -> list[str]:
+    """Names of the scalars of a result that are shown in a place, in its order."""
+    return [name for name in shown_in(place, ds) if is_shown(ds, name)]
+
+
+def shown_labels(ds: xr.Dataset, place: Place) -> dict[str, str]:
+    """Labels of the scalars of a result that are shown in a place, by their names."""
+    return {name: SCALARS[name].label for name in shown_scalars(ds, place)}
