@@ -7,6 +7,7 @@ import pytest
 
 import viscontact as vc
 from viscontact.contact.body_edge import end_cells
+from viscontact.meshing import refinement
 from viscontact.meshing.body_fit import fitted_extents, straight_ends
 
 rubber = vc.Material(vc.Elastic(1e6), 0.5)
@@ -69,3 +70,12 @@ def test_approach_of_a_block_converges_regularly_on_automatic_grids():
     exact = 20.0 / (math.pi * modulus * 0.36679 * side)
     assert float(ds.approach[0]) == pytest.approx(exact, rel=0.01)
     assert math.prod(vc.auto_grid(block, rubber, vc.step(20.0)).shape) <= 10_000
+
+
+def test_sharp_end_is_left_out_of_an_automatic_grid_after_three_meshes(monkeypatch):
+    tried, try_mesh = [], refinement.try_mesh
+    monkeypatch.setattr(
+        refinement, "try_mesh", lambda *given: tried.append(given) or try_mesh(*given)
+    )
+    vc.auto_grid(vc.Roller(5e-3, 5e-3), rubber, vc.step(0.25))
+    assert len(tried) == 3
