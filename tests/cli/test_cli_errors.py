@@ -6,6 +6,7 @@ import os
 import signal
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -24,11 +25,11 @@ def within_the_stage(act: Callable[[], None]) -> Callable[[], None]:
     patched, begun = pytest.MonkeyPatch(), []
     original = coarser_runs.March
 
-    def march(*arguments: object) -> object:
+    def march(*arguments: Any, **options: Any) -> object:
         begun.append(1)
         if len(begun) == 2:
             act()
-        return original(*arguments)
+        return original(*arguments, **options)
 
     patched.setattr(coarser_runs, "March", march)
     return patched.undo

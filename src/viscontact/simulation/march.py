@@ -49,14 +49,16 @@ class March:
     True
     """
 
-    def __init__(self, run: RunSetup, restart_data: RestartData | None = None) -> None:
+    def __init__(
+        self, run: RunSetup, restart_data: RestartData | None = None, *, warns: bool = True
+    ) -> None:
         if restart_data is not None:
             run = run.on(run.grid.widened(tuple(restart_data["cells"])))
         self._run = run
         self._domain = _domain_of(run)
         self._stepper = Stepper(run, self._domain)
         self._steps = run.problem.steps()
-        self._observer = Observer(run)
+        self._observer = Observer(run, warns=warns)
         self.done, self.outcome = 0, Outcome.CONVERGED
         if restart_data is not None:
             self._restore(restart_data)

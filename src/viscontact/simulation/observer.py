@@ -38,10 +38,11 @@ PEAK_CHECK_RATIO = 1.1
 class Observer:
     """Turns solutions into states; keeps what needs the steps before: work and warnings."""
 
-    def __init__(self, run: RunSetup) -> None:
+    def __init__(self, run: RunSetup, *, warns: bool = True) -> None:
+        self._warns = warns
         self._set_geometry(run)
         self._warnings = WarningCollector()
-        self._open = setup_warnings(run)
+        self._open = setup_warnings(run) if warns else {}
         self._work = 0.0
         self._before: StepSolution | None = None
         self._point: LoadPoint | None = None
@@ -71,7 +72,8 @@ class Observer:
         # Work since the step before, and the loss of a cycle that ends here.
         self._work += self._work_of(point, solution)
         self._cycles.record_work(step, self._work)
-        self._collect_warnings(step, solution, rim)
+        if self._warns:
+            self._collect_warnings(step, solution, rim)
         state = _state(step, solution, rim, self._work, self._cycles.last_loss)
         # Kept for the end: the mesh is judged at the largest contact, and a peak between
         # requested times is reported.
