@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.accuracy.coarser_grids import aligned_spacing, coarser_grid
+from viscontact.accuracy.coarser_steps import fewer_times, parts_of_shared_steps
 from viscontact.checks.mesh import cells_across_spots
 from viscontact.checks.singularities import bend_at, end_pressures, is_sharp, strain_of
 from viscontact.errors import ConvergenceError, DomainError
-from viscontact.grid import Grid
 from viscontact.materials.compliance import ContactCompliance
 from viscontact.results.variables import scalars_with_error
 from viscontact.simulation.march import March
 from viscontact.simulation.setup import RunSetup, plan_history
 from viscontact.state import ContactState
-from viscontact.time_integration.fixed_steps import plan_steps
+from viscontact.time_integration.fixed_steps import plan_steps, step_ends
 
 #: Cell sizes of the coarser runs, in cells of the run, and whether their numbers of cells keep the
 #: parity of the run's: otherwise an edge may lie where a cell's centre was.
@@ -26,11 +28,18 @@ CELL_RATIOS = ((1.5, False), (2.4, True))
 #: Least number of steps of the run, and step sizes of its coarser runs, in steps of the run.
 STEP_RATIOS = ((16, (2, 4)), (7, (2, 2)), (0, (1, 1)))
 
+#: Estimated time error of the pressure up to which both coarser runs together show what the steps
+#: add. Errors of cells and of steps of opposite sign may cancel in their differences, so above it
+#: both have the same steps.
+SMALL_TIME_ERROR = 3e-3
+
 #: Least number of cells across the largest contact on the coarsest grid.
 MIN_ACROSS = 4.5
 
 #: Least ratio of the coarsest grid's cells to the run's.
 MIN_COARSENING = 1.6
+
+FloatArray = NDArray[np.float64]
 
 #: Scalars over the instants of a run by name, including ``time``.
 History = Mapping[str, NDArray[np.float64]]
@@ -41,7 +50,7 @@ class CoarserRun:
     """Setup of a coarser run."""
 
     spacing: float  # cell size, in cells of the original run
-    step_ratio: float  # steps, in steps of the original run: 2 for every second, 0.5 for halves
+    divides_steps: bool  # divides steps that the coarsest run takes as the original run does
     run: RunSetup
 
 
@@ -50,13 +59,14 @@ class CoarserResult:
     """Result of a coarser run."""
 
     spacing: float  # as in CoarserRun
-    step_ratio: float  # as in CoarserRun
+    divides_steps: bool  # as in CoarserRun
     scalars: History
     end_pressures: NDArray[np.float64]  # over the instants, see `singularities.end_pressures` [Pa]
     #: Growth of the largest pressure with the logarithm of the cells that the body's bend there can
     #: cause, over the mean pressure [-].
     bend_growth: NDArray[np.float64]
     spots: NDArray[np.float64]  # mean width of the contact spots, in cells of the original run
+    peak_drops: FloatArray  # relative drop of pressure from the largest one to the cells next to it
     is_sharp: bool  # the largest pressure lies on a point or a ridge of the body
 
     @property
@@ -68,21 +78,25 @@ class CoarserResult:
 def plan_coarser_runs(run: RunSetup, history: History) -> Iterator[CoarserRun]:
     """Yield the coarser runs of a completed run, the cheapest first.
 
-    Two are coarser in cells and in steps. If the run has too few steps to leave any out, and the
-    bodies creep, a third one has halved steps on the coarsest grid.
+    Two are coarser in cells and in steps. Where the estimated time error is not small, a third one
+    divides the steps that these two take like the run: the first ones behind kinks and jumps of the
+    load, and all of a run of few steps.
     """
-    times = history["time"]
-    step_ratios = _step_ratios(len(plan_steps(times, run.problem.load)))
+    times, load = history["time"], run.problem.load
+    own = step_ends(plan_steps(times, load))
+    creeping = creeps(run.problem.compliance, times)
+    divides = creeping and float(np.nanmax(history["time_error"])) > SMALL_TIME_ERROR
+    step_ratios = _step_ratios(len(own), divides=divides)
     spacings = _spacings(float(history["cells_across"].max(initial=0.0)))
-    for (spacing, parity), step_ratio in zip(
-        reversed(spacings), reversed(step_ratios), strict=True
-    ):
-        kept = times[::-1][::step_ratio][::-1]
-        yield _coarser_run(run, spacing, parity, float(step_ratio), kept)
-    if step_ratios[-1] == 1 and _creeps(run.problem.compliance, times):
-        instants = np.unique([0.0, *(step.time for step in plan_steps(times, run.problem.load))])
-        middles = (instants[1:] + instants[:-1]) / 2
-        yield _coarser_run(run, *spacings[-1], 0.5, np.union1d(times, middles))
+    levels = list(zip(spacings, step_ratios, strict=True))
+    for spacing, step_ratio in reversed(levels):
+        yield _coarser_run(run, *spacing, step_ratio, fewer_times(times, load.stops, step_ratio))
+    if divides:
+        spacing, step_ratio = levels[-1]
+        kept = fewer_times(times, load.stops, step_ratio)
+        parts = parts_of_shared_steps(own, step_ends(plan_steps(kept, load, step_ratio)))
+        divided = _coarser_run(run, *spacing, step_ratio, np.union1d(kept, parts))
+        yield replace(divided, divides_steps=True)
 
 
 def usual_coarsening(steps: int) -> tuple[tuple[float, int], ...]:
@@ -93,38 +107,16 @@ def usual_coarsening(steps: int) -> tuple[tuple[float, int], ...]:
     >>> usual_coarsening(60)
     ((1.5, 2), (2.4, 4))
     """
-    step_ratios = _step_ratios(steps)
+    step_ratios = _step_ratios(steps, divides=False)
     return tuple(
         (spacing, step_ratio)
         for (spacing, _), step_ratio in zip(CELL_RATIOS, step_ratios, strict=True)
     )
 
 
-def _step_ratios(steps: int) -> tuple[int, int]:
-    return next(step_ratios for least, step_ratios in STEP_RATIOS if steps >= least)
-
-
-def coarser_grid(grid: Grid, spacing: float, parity: bool) -> Grid:
-    """Grid of cells larger by a factor over the same region; `parity`: even numbers stay even.
-
-    It extends at least one cell further, so that the contact does not touch its rim; a period keeps
-    its size.
-
-    Examples
-    --------
-    >>> coarser_grid(Grid((30, 31), (30.0, 31.0)), 2.0, parity=True)
-    Grid(shape=(16, 17), size=(32.0, 34.0), periodic=False)
-    """
-    if grid.periodic:
-        counts = [max(4, round(count / spacing)) for count in grid.shape]
-        return replace(grid, shape=(counts[0], counts[1]))
-    shape = []
-    for count in grid.shape:
-        coarse = max(4, int(np.ceil(count / spacing - 1e-9)) + 1)
-        shape.append(coarse + ((coarse - count) % 2 == parity))
-    cells = [spacing * cell for cell in grid.cell_size]
-    size = (shape[0] * cells[0], shape[1] * cells[1])
-    return replace(grid, shape=(shape[0], shape[1]), size=size)
+def _step_ratios(steps: int, *, divides: bool) -> tuple[int, int]:
+    first, second = next(step_ratios for least, step_ratios in STEP_RATIOS if steps >= least)
+    return (first, first) if divides else (first, second)
 
 
 def march_coarser_run(
@@ -134,11 +126,11 @@ def march_coarser_run(
 
     `on_step` is called after each step, and may stop the run by an exception.
     """
-    run, states, ends, bends, spots = coarser_run.run, [], [], [], []
+    run, states, ends, bends, spots, drops = coarser_run.run, [], [], [], [], []
     peak = 0.0
     sharp = False
     try:
-        for state in March(run):
+        for state in March(run, warns=False):
             if on_step is not None:
                 on_step()
             if state is None:
@@ -147,6 +139,7 @@ def march_coarser_run(
             ends.append(end_pressures(run.open_gap, state.pressure))
             bends.append(_bend_growth(run, state))
             spots.append(cells_across_spots(state.pressure > 0, periodic=run.grid.periodic))
+            drops.append(_drop_beside_peak(state.pressure))
             if state.peak_pressure > 1.1 * peak:
                 peak = state.peak_pressure
                 sharp = sharp or _peaks_at_point(coarser_run, state)
@@ -154,17 +147,18 @@ def march_coarser_run(
         return None
     return CoarserResult(
         coarser_run.spacing,
-        coarser_run.step_ratio,
+        coarser_run.divides_steps,
         history_of(states),
         np.array(ends, dtype=float).reshape(-1, 2),
         np.array(bends, dtype=float),
         coarser_run.spacing * np.array(spots, dtype=float),
+        np.array(drops, dtype=float),
         sharp,
     )
 
 
 #: Scalars of a state that are used to estimate its errors.
-HISTORY_NAMES = ("time", *scalars_with_error(), "cells_across")
+HISTORY_NAMES = ("time", *scalars_with_error(), "cells_across", "time_error")
 
 
 def history_of(states: Sequence[ContactState]) -> History:
@@ -182,19 +176,30 @@ def _spacings(across: float) -> tuple[tuple[float, bool], ...]:
     return tuple((1 + (spacing - 1) * closer, parity) for spacing, parity in CELL_RATIOS)
 
 
-def _creeps(compliance: ContactCompliance, times: NDArray[np.float64]) -> bool:
+def creeps(compliance: ContactCompliance, times: FloatArray) -> bool:
+    """Test whether the bodies creep within the times of a run."""
     return bool(compliance(float(times[-1])) != compliance.instant)
 
 
 def _coarser_run(
-    run: RunSetup, spacing: float, parity: bool, step_ratio: float, times: NDArray[np.float64]
+    run: RunSetup, spacing: float, parity: bool, step_ratio: int, times: FloatArray
 ) -> CoarserRun:
-    coarse = run.on(coarser_grid(run.grid, spacing, parity))
+    ratios = aligned_spacing(run, spacing, parity)
+    coarse = run.on(coarser_grid(run.grid, ratios, parity))
     problem = replace(
-        run.problem, grid=coarse.grid, times=times, fields="none", step_ratio=max(1.0, step_ratio)
+        run.problem, grid=coarse.grid, times=times, fields="none", step_ratio=float(step_ratio)
     )
     plan = plan_history(problem, coarse.open_gap, coarse.grid)
-    return CoarserRun(spacing, step_ratio, replace(coarse, problem=problem, hereditary=plan))
+    setup = replace(coarse, problem=problem, hereditary=plan)
+    return CoarserRun(math.sqrt(ratios[0] * ratios[1]), divides_steps=False, run=setup)
+
+
+def _drop_beside_peak(pressure: FloatArray) -> float:
+    """Largest relative drop from the largest pressure to the neighbouring cells in contact."""
+    i, j = np.unravel_index(int(pressure.argmax()), pressure.shape)
+    around = pressure[max(i - 1, 0) : i + 2, max(j - 1, 0) : j + 2]
+    peak = float(pressure[i, j])
+    return float(1 - around.min(where=around > 0, initial=peak) / peak) if peak > 0 else 0.0
 
 
 def _peaks_at_point(coarser_run: CoarserRun, state: ContactState) -> bool:

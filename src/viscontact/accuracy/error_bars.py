@@ -9,7 +9,7 @@ the grids. The largest relative difference within a window of times counts for a
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,87 +17,41 @@ from numpy.typing import NDArray
 from viscontact.accuracy.coarser_runs import (
     CoarserResult,
     History,
+    creeps,
     march_coarser_run,
     plan_coarser_runs,
 )
+from viscontact.accuracy.error_models import COARSE_SPOT_CELLS, ERROR_MODELS
+from viscontact.accuracy.least_bars import (
+    EXTENTS,
+    SOLVER_ERROR_FACTOR,
+    ContactKinds,
+    least_bar,
+    least_peak_bar,
+)
 from viscontact.accuracy.levels import (
     RefinementLevels,
+    aligned,
     end_flags,
     moving_maximum,
     moving_minimum,
     spots_across,
 )
 from viscontact.accuracy.singular_peaks import peak_bars, singular_warnings
+from viscontact.results.variables import scalars_with_error
 from viscontact.simulation.setup import RunSetup
 
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
-class ErrorModel:
-    """Conversion of differences between grids to errors."""
-
-    order: float  # power of the cell size with which the error falls [-]
-    #: Safety factor, calibrated on exact solutions (tests/verification/test_error_bars.py) so that
-    #: 95 of 100 errors are smaller [-].
-    factor: float
-    at_end: ErrorModel | None = None  # where contact reaches the body's end
-    of_spots: ErrorModel | None = None  # where contact consists of spots of few cells
-
-    def of(self, levels: RefinementLevels) -> Array:
-        """Error from the cells."""
-        return self.factor * levels.by_cells(self.order)
-
-
-#: Approach, force and work, also where a contact reaches the end of a body: pressure is singular
-#: there, and the cells approximate the end by a staircase.
-_BULK = ErrorModel(2.0, 1.5, at_end=ErrorModel(0.7, 1.2))
-
-#: Area and peak, also where contact consists of spots of fewer cells across, in the mean: some of
-#: them exist on one grid only. Calibrated on self-affine surfaces, 2 to 9 cells across.
-COARSE_SPOT_CELLS = 8.0
-_AREA = ErrorModel(2.0, 2.0, of_spots=ErrorModel(1.0, 1.5))
-_PEAK = ErrorModel(2.0, 2.0, at_end=ErrorModel(1.0, 1.5), of_spots=ErrorModel(2.0, 4.0))
-
-#: Peak of the line load, a mean over a twentieth of the contact. Calibrated on ellipses, crowned
-#: rollers, and rollers and punches with sharp ends, 15 to 80 cells long.
-_LINE_LOAD = ErrorModel(2.0, 2.0, at_end=ErrorModel(0.7, 1.1), of_spots=ErrorModel(2.0, 4.0))
-
-_EXTENT = ErrorModel(1.0, 0.75)
-
-#: Error models of the scalars. Pressure is smooth except at the rim, which lies between cells.
-ERROR_MODELS = {
-    "force": _BULK,
-    "eccentricity_x": _BULK,
-    "eccentricity_y": _BULK,
-    "approach": _BULK,
-    "tilt_x": _BULK,
-    "tilt_y": _BULK,
-    "contact_area": _AREA,
-    "contact_length": _EXTENT,
-    "contact_width": _EXTENT,
-    "peak_pressure": _PEAK,
-    "mean_pressure": _AREA,
-    "peak_line_load": _LINE_LOAD,
-    "work": _BULK,
-    "loss_per_cycle": _BULK,
-}
-
-#: Smallest error of extents in cells, however well two grids agree; with spots of few cells, or
-#: singular pressure at the rim.
-RIM_CELLS, UNSMOOTH_RIM_CELLS = 0.25, 1.5
-
 #: Relative difference below which all grids agree on an extent: it is that of the body.
 AGREEMENT_TOLERANCE = 1e-6
 
-#: Errors of the scalars, in tolerances of the solver, which bounds the gap.
-SOLVER_ERROR_FACTOR = 3.0
-
-#: Extents of the contact along x and y, and scalars that follow from the moments.
-EXTENTS = ("contact_length", "contact_width")
-MOMENTS = ("eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y")
-
-TINY = float(np.finfo(np.float64).tiny)
+#: Scalars whose errors a creeping body keeps after the contact has left the end.
+ERRORS_KEPT = (
+    *("force", "eccentricity_x", "eccentricity_y"),
+    *("approach", "tilt_x", "tilt_y", "work", "loss_per_cycle"),
+)
 
 #: Scalars that are exactly zero without contact.
 ZERO_WITHOUT_CONTACT = (
@@ -165,19 +119,27 @@ def error_bars_from(
     if not found:
         return unknown_bars(len(history["time"]))
     at_end = moving_maximum(end_flags(history["time"], found)) > 0
-    of_spots = moving_minimum(spots_across(history["time"], found)) < COARSE_SPOT_CELLS
-    places = _ContactKinds(at_end, of_spots)
+    spots = spots_across(history["time"], found)
+    of_spots = np.where(np.isnan(spots), moving_minimum(spots), spots) < COARSE_SPOT_CELLS
+    # A creeping body keeps the error of a contact that has reached the end.
+    creeping = creeps(run.problem.compliance, history["time"])
+    ended = np.logical_or.accumulate(at_end) if creeping else at_end
+    places = ContactKinds(at_end, ended, of_spots)
     values = {
         name: _bar(run, name, RefinementLevels.of(name, history, found), places, history)
         for name in ERROR_MODELS
     }
+    values["peak_pressure"] = np.fmax(values["peak_pressure"], least_peak_bar(history, found))
+    values["mean_pressure"] = _mean_pressure_bar(history, values)
     left_out = run.mesh is not None and "peak" in run.mesh.warnings
     values["peak_pressure"] = peak_bars(values["peak_pressure"], history, found, left_out=left_out)
     # A sharp corner of the body has the same effect on the line load as its end.
-    sharp = _ContactKinds(at_end | np.isinf(values["peak_pressure"]), of_spots)
+    sharp = replace(places, at_end=at_end | np.isinf(values["peak_pressure"]))
     line_load = RefinementLevels.of("peak_line_load", history, found)
     values["peak_line_load"] = _bar(run, "peak_line_load", line_load, sharp, history)
-    apart = _certainly_separated(run, history)
+    touching = _touching(history, found)
+    _bound_by_first_contact(values, history, touching)
+    apart = _certainly_separated(run, history, touching)
     for name in ZERO_WITHOUT_CONTACT:
         values[name][apart] = 0.0
     warnings = singular_warnings(values["peak_pressure"], run.problem.indenter, issued)
@@ -192,19 +154,11 @@ def unknown_bars(count: int) -> ErrorBars:
     >>> unknown_bars(2).values["force"]
     array([nan, nan])
     """
-    return ErrorBars({name: np.full(count, np.nan) for name in ERROR_MODELS}, ())
-
-
-@dataclass(frozen=True, eq=False)
-class _ContactKinds:
-    """Times at which a contact reaches the body's end, and consists of spots of few cells."""
-
-    at_end: NDArray[np.bool_]
-    of_spots: NDArray[np.bool_]
+    return ErrorBars({name: np.full(count, np.nan) for name in scalars_with_error()}, ())
 
 
 def _bar(
-    run: RunSetup, name: str, levels: RefinementLevels, places: _ContactKinds, history: History
+    run: RunSetup, name: str, levels: RefinementLevels, places: ContactKinds, history: History
 ) -> Array:
     """Half width of the bars of one scalar over the run's times."""
     own = np.abs(levels.values[0])
@@ -212,7 +166,8 @@ def _bar(
     model = ERROR_MODELS[name]
     by_cells = model.of(levels)
     if model.at_end is not None:
-        by_cells = np.where(places.at_end, model.at_end.of(levels), by_cells)
+        ended = places.ended if name in ERRORS_KEPT else places.at_end
+        by_cells = np.where(ended, model.at_end.of(levels), by_cells)
     if model.of_spots is not None:
         by_cells = np.where(places.of_spots, model.of_spots.of(levels), by_cells)
     nothing = np.where(np.isnan(by_cells), np.nan, 0.0)
@@ -223,35 +178,54 @@ def _bar(
     solver = SOLVER_ERROR_FACTOR * run.problem.tolerance + run.hereditary.error
     solver += run.problem.compliance.inversion_error
     bar = (parts[0] + np.nan_to_num(parts[1]) + solver) * scale
-    bar = np.maximum(
-        bar, _least_bar(run, name, by_cells > AGREEMENT_TOLERANCE * own, places, history)
-    )
+    # An extent on which the grids agree at all times is that of the body.
+    differs = np.any(by_cells > AGREEMENT_TOLERANCE * own) or not np.isfinite(by_cells).any()
+    if differs or name not in EXTENTS:
+        bar = np.maximum(bar, least_bar(run, name, places, history))
     return np.where(np.isnan(own), np.nan, bar)
 
 
-def _least_bar(
-    run: RunSetup, name: str, differs: NDArray[np.bool_], places: _ContactKinds, history: History
-) -> Array | float:
-    """Lower limit of the bars: parts of a cell for extents, the balance of moments for tilts."""
-    if name in EXTENTS:
-        cell = run.grid.cell_size[EXTENTS.index(name)]
-        ragged = places.of_spots | places.at_end
-        parts = np.where(ragged, UNSMOOTH_RIM_CELLS, RIM_CELLS)
-        return np.asarray(np.where(differs, parts * cell, 0.0))
-    if name in MOMENTS:
-        # The solver's tolerance of the moments, force times extent, may tilt a symmetric body.
-        axis = "contact_length" if name.endswith("x") else "contact_width"
-        extent = np.nan_to_num(history[axis])
-        slope = np.abs(history["approach"]) / np.maximum(extent, TINY)
-        lever = extent if name.startswith("eccentricity") else slope
-        tolerance = SOLVER_ERROR_FACTOR * run.problem.tolerance
-        return np.asarray(np.where(extent > 0, tolerance * lever, 0.0))
-    return 0.0
+def _mean_pressure_bar(history: History, values: dict[str, Array]) -> Array:
+    """Bar of force over area, from the relative bars of both; without contact that of the peak."""
+    force, area = history["force"], history["contact_area"]
+    touching = area > 0
+    relative = np.zeros_like(area)
+    for name, own in (("force", force), ("contact_area", area)):
+        relative += np.divide(values[name], own, out=np.zeros_like(own), where=touching)
+    return np.where(touching, relative * history["mean_pressure"], values["peak_pressure"])
 
 
-def _certainly_separated(run: RunSetup, history: History) -> NDArray[np.bool_]:
-    """Times without contact, and without one that is lost or made next to them."""
+def _touching(history: History, results: list[CoarserResult]) -> NDArray[np.bool_]:
+    """Times of contact in the run or in a coarser one."""
+    touching = np.asarray(history["peak_pressure"] > 0)
+    for result in results:
+        touching |= np.nan_to_num(aligned("peak_pressure", history["time"], result)) > 0
+    return touching
+
+
+def _before_first_cell(history: History, touching: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Times after the first touch at which the contact is still smaller than a cell."""
+    return np.asarray(~np.logical_or.accumulate(touching) & (history["approach"] > 0))
+
+
+def _bound_by_first_contact(
+    values: dict[str, Array], history: History, touching: NDArray[np.bool_]
+) -> None:
+    """Where the contact is smaller than a cell, take the scalars of the first cells as errors."""
+    early = _before_first_cell(history, touching)
+    if not early.any() or not (history["peak_pressure"] > 0).any():
+        return
+    first = int((history["peak_pressure"] > 0).argmax())
+    for name in ZERO_WITHOUT_CONTACT:
+        values[name][early] = np.fmax(values[name][early], np.abs(history[name][first]))
+
+
+def _certainly_separated(
+    run: RunSetup, history: History, touching: NDArray[np.bool_]
+) -> NDArray[np.bool_]:
+    """Times without contact in the run, and under a given approach without any next to them."""
     apart = np.asarray(history["peak_pressure"] == 0)
     if run.problem.load.control == "force":
         return apart
-    return np.asarray(apart & ~(moving_maximum(~apart, 1) > 0))
+    near = moving_maximum(touching, 1) > 0
+    return np.asarray(apart & ~near & ~_before_first_cell(history, touching))

@@ -13,8 +13,9 @@ from viscontact.accuracy.coarser_runs import CoarserResult, History
 
 Array = NDArray[np.float64]
 
-#: Error over the difference between steps and halved steps: 4/3 at second order, 2 at first.
-HALVED_STEP_FACTOR = 1.5
+#: Error over the difference from quarters of the steps: 16/15 at second order, 4/3 at first, more
+#: where a law creeps within the first quarter.
+DIVIDED_STEP_FACTOR = 1.25
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,14 +30,14 @@ class RefinementLevels:
     def of(cls, name: str, history: History, results: list[CoarserResult]) -> RefinementLevels:
         """Collect a scalar of a run and of its coarser runs."""
         times, own = history["time"], history[name]
-        grids = [each for each in results if each.step_ratio >= 1]
+        grids = [each for each in results if not each.divides_steps]
         rows = np.stack([own, *(aligned(name, times, each) for each in grids)])
         by_steps = np.zeros(len(times))
-        for halved in (each for each in results if each.step_ratio < 1):
+        for divided in (each for each in results if each.divides_steps):
             for grid, row in zip(grids, rows[1:], strict=True):
-                if grid.spacing == halved.spacing:
-                    difference = np.abs(row - aligned(name, times, halved))
-                    by_steps = HALVED_STEP_FACTOR * difference
+                if grid.spacing == divided.spacing:
+                    difference = np.abs(row - aligned(name, times, divided))
+                    by_steps = DIVIDED_STEP_FACTOR * difference
         return cls((1.0, *(each.spacing for each in grids)), rows, by_steps)
 
     def by_cells(self, order: float) -> Array:
@@ -65,6 +66,17 @@ def spots_across(times: Array, results: list[CoarserResult]) -> Array:
         found = result.spots[known]
         spots[shared] = np.fmin(spots[shared], np.where(found > 0, found, np.nan))
     return spots
+
+
+def peak_drops(times: Array, results: list[CoarserResult]) -> Array:
+    """Largest relative drop beside the peak on the finest coarser grid; NaN where unknown."""
+    drops = np.full(len(times), np.nan)
+    grids = [each for each in results if not each.divides_steps]
+    if grids:
+        finest = min(grids, key=lambda each: each.spacing)
+        theirs = finest.scalars["time"]
+        drops[np.isin(times, theirs)] = finest.peak_drops[np.isin(theirs, times)]
+    return drops
 
 
 def aligned(name: str, times: Array, result: CoarserResult) -> Array:

@@ -1,7 +1,7 @@
 """The table of a result's variables: units, names, labels, errors, and where each is shown.
 
 A new scalar is one entry of `SCALARS`, with an attribute of the same name in `ContactState` and,
-if it has an error bar, its model in `viscontact.accuracy.error_bars.ERROR_MODELS`. The dataset,
+if it has an error bar, its model in `viscontact.accuracy.error_models.ERROR_MODELS`. The dataset,
 the netCDF and CSV files, the tables, cards, pages and figures read the table.
 """
 

@@ -1,0 +1,80 @@
+"""Grids of the coarser runs."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.contact.body_edge import trace_outline
+from viscontact.grid import Grid
+from viscontact.simulation.setup import RunSetup
+
+#: Largest relative change of a coarser grid's cells that lets the body end alike within a cell.
+ALIGNMENT_REACH = 0.15
+
+#: Largest difference along a straight end of a body, in cells.
+STRAIGHT_WITHIN = 1e-6
+
+
+def coarser_grid(grid: Grid, spacing: tuple[float, float], parity: bool) -> Grid:
+    """Grid of cells larger by factors along x and y over the same region; a period keeps its size.
+
+    With `parity` even numbers of cells stay even; otherwise they become odd. It extends at least
+    one cell further, so that the contact does not touch its rim.
+
+    Examples
+    --------
+    >>> coarser_grid(Grid((30, 31), (30.0, 31.0)), (2.0, 2.0), parity=True)
+    Grid(shape=(16, 17), size=(32.0, 34.0), periodic=False)
+    """
+    if grid.periodic:
+        counts = [max(4, round(n / by)) for n, by in zip(grid.shape, spacing, strict=True)]
+        return replace(grid, shape=(counts[0], counts[1]))
+    shape = []
+    for count, by in zip(grid.shape, spacing, strict=True):
+        coarse = max(4, int(np.ceil(count / by - 1e-9)) + 1)
+        shape.append(coarse + ((coarse - count) % 2 == parity))
+    size = [n * by * cell for n, by, cell in zip(shape, spacing, grid.cell_size, strict=True)]
+    return replace(grid, shape=(shape[0], shape[1]), size=(size[0], size[1]))
+
+
+def aligned_spacing(run: RunSetup, spacing: float, parity: bool) -> tuple[float, float]:
+    """Ratios of cells along x and y near a given one at which the body ends alike within a cell.
+
+    Cells approximate an end by whole cells: the error is of first order in their size, with a
+    factor that depends on where within a cell the body ends.
+    """
+    # Where numbers of cells change their parity, edges change places with centres.
+    shift = 0.0 if parity else 0.5
+    ratios = []
+    for end in straight_ends(run):
+        nearest = round(end / spacing - end - shift) + end + shift if end < np.inf else np.inf
+        ratio = end / nearest if 0 < nearest < np.inf else spacing
+        near = abs(ratio / spacing - 1) < ALIGNMENT_REACH
+        ratios.append(ratio if near else spacing)
+    return ratios[0], ratios[1]
+
+
+def straight_ends(run: RunSetup) -> tuple[float, float]:
+    """Distances from the grid's centre to the body's straight ends on +x and +y, in cells.
+
+    They are inf where there is none; the end of a round body has no single place in a cell.
+    """
+    inside = np.isfinite(run.open_gap)
+    if run.grid.periodic or inside.all():
+        return np.inf, np.inf
+    outline = trace_outline(run.problem.indenter, run.grid)
+    return _straight_end(inside, outline.along_x), _straight_end(inside.T, outline.along_y.T)
+
+
+def _straight_end(inside: NDArray[np.bool_], crossings: NDArray[np.float64]) -> float:
+    """Distance from the grid's centre to a straight end along the first axis, in cells; or inf."""
+    last = int(np.flatnonzero(inside.any(axis=1))[-1])
+    if last == len(inside) - 1:
+        return np.inf
+    ends = crossings[last][inside[last]]
+    if len(ends) < 2 or np.ptp(ends) > STRAIGHT_WITHIN:
+        return np.inf
+    return last + 0.5 + float(ends[0]) - len(inside) / 2

@@ -1,0 +1,46 @@
+"""Steps of the coarser runs: fewer requested times, and divided steps."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+
+
+def fewer_times(times: FloatArray, stops: FloatArray, step_ratio: int) -> FloatArray:
+    """Times of which about every `step_ratio`-th one is kept, a power of 2, between the stops."""
+    while step_ratio > 1:
+        times, step_ratio = _every_second(times, stops), step_ratio // 2
+    return times
+
+
+def _every_second(times: FloatArray, stops: FloatArray) -> FloatArray:
+    """Every second time between two stops of the load, without the first step behind each.
+
+    Of an odd number of steps three are joined.
+
+    >>> _every_second(np.arange(10.0), stops=np.array([0.0, 4.0]))
+    array([0., 1., 4., 5., 7., 9.])
+    """
+    within = stops[(stops > times[0]) & (stops < times[-1])]
+    kept = [times[:1]]
+    for begin, end in itertools.pairwise([times[0], *within, times[-1]]):
+        inside = times[(times > begin) & (times <= end)]
+        kept.append(inside[:1])
+        later = np.union1d(inside, end)[1:]
+        joined = np.linspace(0, len(later), max(1, len(later) // 2) + 1).astype(int)
+        kept.append(np.intersect1d(later[joined[1:] - 1], inside) if len(later) else later)
+    return np.unique(np.concatenate(kept))
+
+
+def parts_of_shared_steps(ends: FloatArray, others: FloatArray) -> FloatArray:
+    """Quarters and middles of the steps that two sequences of ends of steps have in common."""
+    begins, finals = np.unique(ends)[:-1], np.unique(ends)[1:]
+    theirs = np.unique(others)
+    after = np.minimum(np.searchsorted(theirs, begins) + 1, len(theirs) - 1)
+    shared = np.isin(begins, theirs) & (theirs[after] == finals)
+    parts = begins[shared] + np.array([[0.25], [0.5]]) * (finals - begins)[shared]
+    return np.asarray(parts.ravel())

@@ -1,0 +1,96 @@
+"""Lower limits of error bars, where coarser runs may agree by chance."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.accuracy.coarser_grids import straight_ends
+from viscontact.accuracy.coarser_runs import CoarserResult, History
+from viscontact.accuracy.levels import moving_maximum, peak_drops
+from viscontact.simulation.setup import RunSetup
+
+Array = NDArray[np.float64]
+
+#: Errors of the scalars, in tolerances of the solver, which bounds the gap.
+SOLVER_ERROR_FACTOR = 3.0
+
+#: Smallest error of extents in cells, however well two grids agree; with spots of few cells; at a
+#: straight sharp end, towards which the contact widens without a limit.
+RIM_CELLS, SPOT_RIM_CELLS, END_RIM_CELLS = 0.2, 1.0, 1.5
+
+#: Extents of the contact along x and y, and scalars that follow from the moments.
+EXTENTS = ("contact_length", "contact_width")
+MOMENTS = ("eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y")
+
+#: Least relative error of scalars, times the square of the cells across the contact: the approach
+#: of a ball is too small by 0.14 +- 0.04.
+LEAST_ERRORS = {"approach": 0.2, "force": 0.3, "work": 0.2, "loss_per_cycle": 0.3}
+
+#: Least relative error of these scalars where the contact reaches the end of a body, times the
+#: cells along the contact: the approach of a round flat punch is too large by 0.24 +- 0.10.
+LEAST_END_ERROR = 0.4
+
+#: Least error of a peak near the rim, in its drop to a neighbouring cell of a coarser grid; a
+#: smooth peak drops by much less than the second number.
+LEAST_PEAK_ERROR, SMOOTH_DROP = 0.2, 0.2
+
+TINY = float(np.finfo(np.float64).tiny)
+
+
+@dataclass(frozen=True, eq=False)
+class ContactKinds:
+    """Times at which a contact reaches the body's end, and consists of spots of few cells."""
+
+    at_end: NDArray[np.bool_]
+    ended: NDArray[np.bool_]  # at the end, or has been there and keeps the error
+    of_spots: NDArray[np.bool_]
+
+
+def least_bar(run: RunSetup, name: str, kinds: ContactKinds, history: History) -> Array | float:
+    """Lower limit of the bars of a scalar over the run's times, in its unit."""
+    if name in EXTENTS:
+        return _least_extent_bar(run, EXTENTS.index(name), kinds)
+    if name in MOMENTS:
+        return _least_moment_bar(run, name, history)
+    if name in LEAST_ERRORS and name != run.problem.load.control:
+        return _least_bulk_bar(run, name, kinds, history)
+    return 0.0
+
+
+def least_peak_bar(history: History, results: list[CoarserResult]) -> Array:
+    """Lower limit of the bar of the peak pressure, from its drop to the cells next to it [Pa]."""
+    drops = moving_maximum(peak_drops(history["time"], results))
+    return np.asarray(
+        LEAST_PEAK_ERROR * drops**2 / (drops + SMOOTH_DROP) * history["peak_pressure"]
+    )
+
+
+def _least_extent_bar(run: RunSetup, axis: int, kinds: ContactKinds) -> Array:
+    """Parts of a cell [m]."""
+    parts = np.where(kinds.of_spots, SPOT_RIM_CELLS, RIM_CELLS)
+    if min(straight_ends(run)) < np.inf:
+        parts = np.where(kinds.at_end, END_RIM_CELLS, parts)
+    return np.asarray(parts * run.grid.cell_size[axis])
+
+
+def _least_moment_bar(run: RunSetup, name: str, history: History) -> Array:
+    """Effect of the solver's tolerance of the moments, force times extent, on a symmetric body."""
+    axis = "contact_length" if name.endswith("x") else "contact_width"
+    extent = np.nan_to_num(history[axis])
+    slope = np.abs(history["approach"]) / np.maximum(extent, TINY)
+    lever = extent if name.startswith("eccentricity") else slope
+    tolerance = SOLVER_ERROR_FACTOR * run.problem.tolerance
+    return np.asarray(np.where(extent > 0, tolerance * lever, 0.0))
+
+
+def _least_bulk_bar(run: RunSetup, name: str, kinds: ContactKinds, history: History) -> Array:
+    """Usual errors on the cells across the contact, or along it where it reaches the end."""
+    across = history["cells_across"]
+    relative = np.where(across > 0, LEAST_ERRORS[name] / np.maximum(across, 1.0) ** 2, 0.0)
+    along = np.fmax(*(history[EXTENTS[k]] / run.grid.cell_size[k] for k in (0, 1)))
+    longest = np.maximum(np.fmax.accumulate(np.nan_to_num(along)), 1.0)
+    at_end = np.where(kinds.ended, LEAST_END_ERROR / longest, 0.0)
+    return np.asarray(np.maximum(relative, at_end) * np.abs(history[name]))
