@@ -1,0 +1,162 @@
+"""Bars of sequences of values whose limit is known by construction.
+
+The scalars of the run and of its coarser runs are replaced by values with a given error of the
+cells and of the steps. The error of the run's own values is then known without any contact theory.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import viscontact as vc
+from viscontact.accuracy.coarser_runs import (
+    CoarserResult,
+    History,
+    history_of,
+    march_coarser_run,
+    plan_coarser_runs,
+)
+from viscontact.accuracy.error_bars import error_bars_from
+from viscontact.problem.problem import Problem
+from viscontact.simulation.setup import RunSetup, prepare_run
+from viscontact.simulation.state_generator import march_run
+
+pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
+
+Solved = tuple[RunSetup, History, list[CoarserResult]]
+
+TABLE_TIMES = np.geomspace(1e-2, 100.0, 13)
+ZENER = vc.Zener(1e6, 1e6, 1e6)
+MEASURED = vc.TabulatedRelaxation(TABLE_TIMES, 1e6 * (1 + TABLE_TIMES) ** -0.3)
+
+PRESCRIBED = ("force", "eccentricity_x", "eccentricity_y")
+#: Bars are at most so many times the error, as the manual states of the median.
+WIDEST = 5.0
+ERROR = 0.05  # relative to the values; the lower limits of bars are smaller
+
+
+def solved(law: vc.Law = ZENER, tolerance: float = 1e-7, steps: int = 5) -> Solved:
+    """A ball beside the origin with its coarser runs, 16 to 20 cells across."""
+    ball = vc.Paraboloid(0.01, 0.01).shifted(1e-4, 5e-5)
+    load = vc.step(0.1, eccentricity_x=1e-4, eccentricity_y=5e-5)
+    material, grid = vc.Material(law, 0.5), vc.Grid((32, 40), (2.7e-3, 2.7e-3))
+    times = vc.uniform_times(3.0, steps)
+    run = prepare_run(Problem(ball, material, load, grid, times, tolerance=tolerance))
+    history = history_of(list(march_run(run)))
+    results = [march_coarser_run(each) for each in plan_coarser_runs(run, history)]
+    return run, history, [each for each in results if each is not None]
+
+
+@pytest.fixture(scope="module")
+def ball() -> Solved:
+    return solved()
+
+
+def with_error(
+    ball: Solved, name: str, *, cells: float = 0.0, steps: float = 0.0, order: float = 2.0
+) -> list[CoarserResult]:
+    """Coarser results with a scalar of constant size and known relative errors of the run's."""
+    _, history, results = ball
+    size, changed = 1e-3, []
+    history[name][:] = size * (1 + cells + steps * step_error(history["time"], history["time"]))
+    for each in results:
+        times = each.scalars["time"]
+        by_steps = steps * step_error(times, history["time"])
+        values = size * (1 + cells * each.spacing**order + by_steps)
+        changed.append(replace(each, scalars=each.scalars | {name: values}))
+    return changed
+
+
+def step_error(times: np.ndarray, own: np.ndarray) -> np.ndarray:
+    """Accumulated cubes of the steps, of second order, in that of the last of the run's times."""
+    total = np.sum(np.diff(own) ** 3)
+    return np.append(0.0, np.cumsum(np.diff(times) ** 3)) / total
+
+
+def bar_over_error(ball: Solved, name: str, results: list[CoarserResult]) -> float:
+    """Half width of the last bar in known errors."""
+    run, history, _ = ball
+    bars = error_bars_from(run, history, results).values[name]
+    return float(bars[-1] / (ERROR * 1e-3))
+
+
+@pytest.fixture
+def known(ball: Solved) -> Solved:
+    """The run with a history that a test may change."""
+    run, history, results = ball
+    return run, {name: values.copy() for name, values in history.items()}, results
+
+
+SMOOTH = [
+    *PRESCRIBED,
+    *("approach", "tilt_x", "tilt_y", "contact_area", "contact_length", "contact_width"),
+    *("peak_pressure", "peak_line_load", "work", "loss_per_cycle"),
+]
+#: Extents at the end of a body are those of its outline, and the peak has a rule of its own.
+AT_END = [each for each in SMOOTH if not each.startswith(("contact_", "peak_pressure"))]
+
+
+@pytest.mark.parametrize("name", SMOOTH)
+def test_bar_holds_an_error_of_second_order_in_the_cells(known: Solved, name: str) -> None:
+    """v(h) = v0 (1 + c h²): the run's own error is c v0."""
+    results = with_error(known, name, cells=ERROR)
+    assert 0.99 < bar_over_error(known, name, results) < WIDEST
+
+
+@pytest.mark.parametrize("name", AT_END)
+def test_bar_at_the_end_of_a_body_holds_an_error_of_first_order(known: Solved, name: str) -> None:
+    """v(h) = v0 (1 + c h): cells replace the end of the body by whole cells."""
+    results = [
+        replace(each, end_pressures=np.ones_like(each.end_pressures))
+        for each in with_error(known, name, cells=ERROR, order=1.0)
+    ]
+    assert 0.99 < bar_over_error(known, name, results) < WIDEST
+
+
+@pytest.mark.parametrize("name", SMOOTH)
+def test_bar_holds_an_error_of_the_steps(known: Solved, name: str) -> None:
+    """Trapezoids are of second order: a step divided at its quarter and middle has 5/32 of it."""
+    results = with_error(known, name, steps=ERROR)
+    assert [each.divides_steps for each in results] == [False, False, True]
+    assert 0.99 < bar_over_error(known, name, results) < WIDEST
+
+
+def test_bars_hold_the_error_of_the_compliance() -> None:
+    """Where all grids agree, what is left is the error of the law: here of a measured modulus."""
+    run, history, results = solved(MEASURED, tolerance=1e-8)
+    inverted = run.problem.compliance.inversion_error
+    assert inverted > 100 * run.problem.tolerance
+    agreed = with_error((run, history, results), "contact_area")
+    (bar,) = set(error_bars_from(run, history, agreed).values["contact_area"])
+    assert 1.0 <= bar / (1e-3 * inverted) < 1.1
+    remembered = replace(run, hereditary=replace(run.hereditary, error=0.02))
+    (bar,) = set(error_bars_from(remembered, history, agreed).values["contact_area"])
+    assert 1.0 <= bar / (1e-3 * 0.02) < 1.1
+
+
+@pytest.mark.parametrize("tolerance", [1e-7, 1e-3])
+def test_bars_of_moments_are_at_least_what_the_tolerance_allows(tolerance: float) -> None:
+    """The moments are met to the tolerance, times force and extent: a body may rest so far off.
+
+    Grids that agree by symmetry do not show it.
+    """
+    egg = vc.Paraboloid(0.02, 0.01)
+    grid, load = vc.Grid((32, 40), (2.7e-3, 2.4e-3)), vc.step(0.1)
+    times = vc.uniform_times(3.0, 5)
+    run = prepare_run(Problem(egg, vc.Material(ZENER, 0.5), load, grid, times, tolerance=tolerance))
+    history = history_of(list(march_run(run)))
+    results = [march_coarser_run(each) for each in plan_coarser_runs(run, history)]
+    for each in results:
+        assert np.abs(each.scalars["eccentricity_x"]).max() < 1e-15  # 1e-12 of the extent
+    bars = error_bars_from(run, history, results).values
+    for axis, extent in (("x", "contact_length"), ("y", "contact_width")):
+        far = tolerance * history[extent]
+        assert np.all(bars[f"eccentricity_{axis}"] >= far)
+        assert np.all(bars[f"eccentricity_{axis}"] <= 10 * far)
+        # Over the extent the tilt changes the gap by so much of the approach.
+        slope = tolerance * history["approach"] / history[extent]
+        assert np.all(bars[f"tilt_{axis}"] >= slope)
+        assert np.all(bars[f"tilt_{axis}"] <= 10 * slope)
