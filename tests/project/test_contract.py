@@ -891,7 +891,7 @@ OPTIONS = {
 }
 FIGURES = (
     *("pressure-map", "pressure-profile", "pressure-radial", "contact-outline"),
-    *("history", "hysteresis", "creep"),
+    *("history", "hysteresis", "creep", "line-load"),
 )
 
 

@@ -172,6 +172,32 @@ def test_csv_files_hold_every_digit(page: _Page) -> None:
     assert [float(row[-1]) for row in rows] == middle.tolist()
 
 
+def test_a_long_contact_has_its_line_load_on_the_page() -> None:
+    """A tilted roller, 57 cells by 18 in contact on 96 by 32: the curve holds the force."""
+    ds = _described(roller(times=(0.0, 100.0), tilt=0.3))
+    page = _Page(report_page(ds))
+    dx, dy = (float(ds[way][1] - ds[way][0]) for way in ("x", "y"))
+    expected = ds["pressure"].values.sum(axis=2) * dy
+    [curve] = [each for each in page.data["sections"] if each["name"] == "line-load"]
+    assert ("div", "id", "line-load") in page.attributes
+    assert (curve["along"], curve["label"], curve["valueUnit"]) == ("x", "Line load", "kN/m")
+    for index, load in enumerate(expected):
+        shown = np.array(curve["values"][index]) * 1e3
+        assert shown.sum() * dx == pytest.approx(ds["pressure"][index].values.sum() * dx * dy)
+        middle = np.interp(0.02, np.array(curve["position"]) * 1e-3, shown)
+        assert middle == pytest.approx(np.interp(0.02, ds.x, load), rel=1e-4)
+    head, *rows = page.download("line-load.csv")
+    assert head == ["x [m]", "line load at 0.0 s [N/m]", "line load at 100.0 s [N/m]"]
+    x, *loads = np.array(rows, dtype=float).T
+    np.testing.assert_array_equal(x, ds["x"])
+    np.testing.assert_allclose(loads, expected, rtol=1e-12)
+
+
+def test_a_round_contact_has_no_line_load_on_the_page(page: _Page) -> None:
+    assert [each["name"] for each in page.data["sections"]] == ["section-x", "section-y"]
+    assert not [value for _, _, value in page.attributes if value.startswith("line-load")]
+
+
 def test_bands_are_the_errors_of_the_result(page: _Page) -> None:
     [panel] = [each for each in page.data["answers"] if each["name"] == "contact_area"]
     assert panel["unit"] == "mm²"

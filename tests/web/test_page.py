@@ -520,3 +520,38 @@ def _same(shown: object, value: object) -> bool:
     if isinstance(value, int | float):
         return float(json.loads(str(shown))) == float(value)
     return shown == value
+
+
+# A roller with sharp ends: its contact is long, and its peak pressure has no limit.
+SHARP_ROLLER = """\
+indenter:
+  shape: roller
+  radius: 5 mm
+  half_length: 3 mm
+  profile: cylindrical
+material: {law: maxwell, shear_modulus: 1 GPa, viscosity: 100 GPa s, poisson_ratio: 0.4}
+load: {kind: step, force: 200 N}
+time: {end: 10 s, steps: 3}
+grid: {shape: [72, 32], size: [8 mm, 1.2 mm]}
+"""
+
+
+@pytest.mark.slow
+def test_the_line_load_of_a_long_contact_is_drawn(page: Any, server: seen.Server) -> None:
+    seen.visit(page, server, SHARP_ROLLER)
+    seen.run(page, "#refine")
+    page.wait_for_selector("#line-load svg")
+    assert "Line load [kN/m]" in page.inner_text("#line-load")
+    heading = page.evaluate(
+        "document.getElementById('line-load').previousElementSibling.textContent"
+    )
+    assert heading == "Line load along x"
+    # The curve holds the whole force.
+    x, load = page.evaluate(
+        "(({ x, y }) => [x, y])(document.getElementById('line-load').data.at(-1))"
+    )
+    assert sum(load) * (x[1] - x[0]) == pytest.approx(200.0, rel=1e-4)  # kN/m times mm
+    seen.write_case(page, BALL)
+    seen.run(page, "#coarse")
+    page.wait_for_selector("#line-load", state="hidden")
+    assert page.locator("#section-y svg").first.is_visible()

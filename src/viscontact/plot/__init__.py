@@ -32,6 +32,7 @@ from viscontact.plot.materials.master_curve import master_curve
 from viscontact.plot.materials.material_curves import material_curves
 from viscontact.plot.pressure.contact_outline import compare_contact_outlines, contact_outline
 from viscontact.plot.pressure.deformed_surface import deformed_surface
+from viscontact.plot.pressure.line_load import compare_line_loads, line_load
 from viscontact.plot.pressure.pressure_map import compare_pressure_maps, pressure_map
 from viscontact.plot.pressure.pressure_profile import compare_pressure_profiles, pressure_profile
 from viscontact.plot.pressure.pressure_radial import pressure_radial
@@ -43,6 +44,7 @@ FIGURES: dict[str, Callable[..., Figure]] = {
     "pressure-map": pressure_map,
     "pressure-profile": pressure_profile,
     "pressure-radial": pressure_radial,
+    "line-load": line_load,
     "pressure-3d": pressure_surface,
     "surface-3d": deformed_surface,
     "contact-outline": contact_outline,
@@ -61,6 +63,7 @@ COMPARISONS: dict[str, Callable[..., Figure]] = {
     "history": compare_histories,
     "hysteresis": compare_hysteresis,
     "pressure-profile": compare_pressure_profiles,
+    "line-load": compare_line_loads,
     "pressure-map": compare_pressure_maps,
     "pressure-3d": compare_pressure_surfaces,
     "contact-outline": compare_contact_outlines,
@@ -81,6 +84,7 @@ __all__ = [
     "compare_creep",
     "compare_histories",
     "compare_hysteresis",
+    "compare_line_loads",
     "compare_pressure_maps",
     "compare_pressure_profiles",
     "compare_pressure_surfaces",
@@ -98,6 +102,7 @@ __all__ = [
     "history",
     "hysteresis",
     "indenter",
+    "line_load",
     "master_curve",
     "material_curves",
     "pressure_map",

@@ -22,6 +22,7 @@ from viscontact.plot.histories.von_mises import von_mises_history
 from viscontact.plot.materials.creep import creep
 from viscontact.plot.pressure.contact_outline import contact_outline
 from viscontact.plot.pressure.deformed_surface import deformed_surface
+from viscontact.plot.pressure.line_load import line_load
 from viscontact.plot.pressure.pressure_map import pressure_map
 from viscontact.plot.pressure.pressure_profile import pressure_profile
 from viscontact.plot.pressure.pressure_radial import pressure_radial
@@ -77,6 +78,10 @@ class ResultPlots:
     def pressure_radial(self, **how: Any) -> Panels:
         """Draw pressure against distance from the axis: `viscontact.plot.pressure_radial`."""
         return self._panels(pressure_radial, how)
+
+    def line_load(self, **how: Any) -> Panels:
+        """Draw the line load along x: `viscontact.plot.line_load`."""
+        return self._panels(line_load, how)
 
     def contact_outline(self, **how: Any) -> Panels:
         """Draw the rim of the contact at several instants: `viscontact.plot.contact_outline`."""

@@ -9,11 +9,13 @@ import math
 from typing import Any, Literal
 
 import numpy as np
+import xarray as xr
 from numpy.typing import NDArray
 
 from viscontact.plot.layout.style import time_colours
 from viscontact.plot.pressure.rim_polygons import rim_curves
 from viscontact.report.shown_fields import ShownFields
+from viscontact.results.shown_scalars import is_long
 from viscontact.results.snapshots import Snapshot
 from viscontact.units.formatting import ReadableUnit, format_compact, readable_unit, time_labels
 
@@ -62,6 +64,12 @@ def map_data(fields: ShownFields) -> dict[str, Any]:
     }
 
 
+def curves_data(ds: xr.Dataset, fields: ShownFields) -> list[dict[str, Any]]:
+    """Return the sections through the pressure, and the line load of a long contact."""
+    sections = [section_data(fields, "x"), section_data(fields, "y")]
+    return [*sections, line_load_data(fields)] if is_long(ds) else sections
+
+
 def section_data(fields: ShownFields, along: Literal["x", "y"]) -> dict[str, Any]:
     """Return the pressure on a line at every instant shown, at full resolution."""
     length, pressure = fields.window.unit, readable_unit("Pa", fields.peak)
@@ -69,13 +77,35 @@ def section_data(fields: ShownFields, along: Literal["x", "y"]) -> dict[str, Any
     positions, _ = fields.snapshots[0].section(along, _crossing(fields, along))
     values = [each.section(along, _crossing(fields, along))[1] for each in fields.snapshots]
     return {
+        "name": f"section-{along}",
         "position": rounded(length(positions[inside])),
-        "pressure": [rounded(pressure(each[inside])) for each in values],
+        "values": [rounded(pressure(each[inside])) for each in values],
         "along": along,
         "unit": length.symbol,
-        "pressureUnit": pressure.symbol,
-        "at": section_place(fields, along),
+        "label": "Pressure",
+        **_unit_of_values("Pa", pressure),
     }
+
+
+def line_load_data(fields: ShownFields) -> dict[str, Any]:
+    """Return the line load along x at every instant shown."""
+    length, inside = fields.window.unit, fields.inside[0]
+    x, _ = fields.snapshots[0].line_load()
+    loads = [each.line_load()[1] for each in fields.snapshots]
+    unit = readable_unit("N/m", *loads)
+    return {
+        "name": "line-load",
+        "position": rounded(length(x[inside])),
+        "values": [rounded(unit(each[inside])) for each in loads],
+        "along": "x",
+        "unit": length.symbol,
+        "label": "Line load",
+        **_unit_of_values("N/m", unit),
+    }
+
+
+def _unit_of_values(si: str, unit: ReadableUnit) -> dict[str, Any]:
+    return {"valueUnit": unit.symbol, "valueFactor": unit.factor, "si": si}
 
 
 def section_place(fields: ShownFields, along: Literal["x", "y"]) -> str:
@@ -88,11 +118,24 @@ def section_place(fields: ShownFields, along: Literal["x", "y"]) -> str:
 def section_csv(fields: ShownFields, along: Literal["x", "y"]) -> str:
     """Write the section at every instant shown as CSV, in SI units."""
     lines = [each.section(along, _crossing(fields, along)) for each in fields.snapshots]
-    heads = [f"pressure at {each.time!r} s [Pa]" for each in fields.snapshots]
+    return _csv(fields, along, "pressure", "Pa", lines)
+
+
+def line_load_csv(fields: ShownFields) -> str:
+    """Write the line load at every instant shown as CSV, in SI units."""
+    lines = [each.line_load() for each in fields.snapshots]
+    return _csv(fields, "x", "line load", "N/m", lines)
+
+
+def _csv(
+    fields: ShownFields, along: str, quantity: str, units: str, lines: list[tuple[Floats, Floats]]
+) -> str:
+    """Write positions, and a column of values for each instant."""
+    heads = [f"{quantity} at {each.time!r} s [{units}]" for each in fields.snapshots]
     file = io.StringIO()
     writer = csv.writer(file, lineterminator="\n")
     writer.writerow([f"{along} [m]", *heads])
-    columns = [lines[0][0].tolist(), *(pressure.tolist() for _, pressure in lines)]
+    columns = [lines[0][0].tolist(), *(values.tolist() for _, values in lines)]
     writer.writerows(zip(*columns, strict=True))
     return file.getvalue()
 

@@ -139,15 +139,15 @@
     }), quiet);
   }
 
-  const sectionLines = (section) => section.pressure.map((values, index) => ({
+  const sectionLines = (section) => section.values.map((values, index) => ({
     x: section.position, y: values, mode: "lines", name: map.labels[index],
     line: index === shown ? { color: warm, width: 2.6 } : { color: map.colours[index], width: 1 },
     opacity: index === shown ? 1 : 0.55,
-    hovertemplate: `${section.along} %{x:.4g} ${section.unit}: %{y:.4g} ${section.pressureUnit}<extra>${map.labels[index]}</extra>`,
+    hovertemplate: `${section.along} %{x:.4g} ${section.unit}: %{y:.4g} ${section.valueUnit}<extra>${map.labels[index]}</extra>`,
   }));
   function drawSections() {
-    data.sections.forEach((section) => Plotly.react(place(`section-${section.along}`), sectionLines(section), layout({
-      xaxis: axis(`${section.along} [${section.unit}]`), yaxis: axis(`Pressure [${section.pressureUnit}]`, { rangemode: "tozero" }),
+    data.sections.forEach((section) => Plotly.react(place(section.name), sectionLines(section), layout({
+      xaxis: axis(`${section.along} [${section.unit}]`), yaxis: axis(`${section.label} [${section.valueUnit}]`, { rangemode: "tozero" }),
     }), quiet));
   }
 

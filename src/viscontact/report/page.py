@@ -16,7 +16,7 @@ from viscontact import __version__
 from viscontact.notebook.html import as_script, element, written
 from viscontact.report import input_chapters, result_chapters
 from viscontact.report.histories import load_panels, response_panels, time_axis
-from viscontact.report.map_data import map_data, section_data
+from viscontact.report.map_data import curves_data, map_data
 from viscontact.report.shown_fields import ShownFields, shown_fields
 
 _CHAPTERS = {
@@ -119,7 +119,7 @@ def _data(ds: xr.Dataset, fields: ShownFields | None) -> dict[str, Any]:
         "load": load_panels(ds),
         "answers": response_panels(ds),
         "map": None if fields is None else map_data(fields),
-        "sections": [] if fields is None else [section_data(fields, way) for way in ("x", "y")],
+        "sections": [] if fields is None else curves_data(ds, fields),
     }
 
 

@@ -13,11 +13,17 @@ import xarray as xr
 
 from viscontact.notebook.html import element
 from viscontact.report.limits import notices
-from viscontact.report.map_data import MOST_CELLS, section_csv, section_place, strides_of
+from viscontact.report.map_data import (
+    MOST_CELLS,
+    line_load_csv,
+    section_csv,
+    section_place,
+    strides_of,
+)
 from viscontact.report.shown_fields import ShownFields
 from viscontact.results.formatting import format_scalar
 from viscontact.results.history_csv import write_history
-from viscontact.results.shown_scalars import shown_labels
+from viscontact.results.shown_scalars import is_long, shown_labels
 from viscontact.results.stated_errors import MESH_DEPENDENT
 from viscontact.results.summary import headline
 from viscontact.results.variables import Place
@@ -67,6 +73,8 @@ def pressure_chapter(ds: xr.Dataset, fields: ShownFields | None) -> Iterator[Ele
     yield _map(fields)
     yield element("h3", "Sections through the pressure")
     yield element("div", *(_section(fields, *way) for way in _WAYS), class_="pair")
+    if is_long(ds):
+        yield _line_load(fields)
     yield element(
         "p",
         "Bold: the instant of the slider.",
@@ -184,6 +192,15 @@ def _section(fields: ShownFields, along: Literal["x", "y"], title: str) -> Eleme
         element("p", f"{title}, at {section_place(fields, along)}", class_="panel-title"),
         element("div", "", id=f"section-{along}", class_="plot"),
         _download("Download (CSV)", f"section-{along}.csv", section_csv(fields, along)),
+    )
+
+
+def _line_load(fields: ShownFields) -> Element:
+    return element(
+        "figure",
+        element("p", "Line load along x: the pressure integrated over y", class_="panel-title"),
+        element("div", "", id="line-load", class_="plot"),
+        _download("Download (CSV)", "line-load.csv", line_load_csv(fields)),
     )
 
 

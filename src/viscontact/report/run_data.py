@@ -11,7 +11,7 @@ from viscontact.plot.histories.time_axis import suits_log_time
 from viscontact.report.accuracy import accuracy_lines
 from viscontact.report.histories import panel_labels
 from viscontact.report.limits import notices, warnings_of
-from viscontact.report.map_data import finite_or_none, map_data, rounded, section_data
+from viscontact.report.map_data import curves_data, finite_or_none, map_data, rounded
 from viscontact.report.result_chapters import title_of
 from viscontact.report.shown_fields import shown_fields
 from viscontact.results.shown_scalars import shown_labels
@@ -25,7 +25,7 @@ def run_data(ds: xr.Dataset) -> dict[str, Any]:
     """Return the numbers of a run that figures are drawn from; ValueError without an instant.
 
     Plain data without NaN and inf, which JSON cannot hold: instants and scalars with their errors
-    in SI units, the prescribed and the listed scalars, the fields by `map_data` and `section_data`
+    in SI units, the prescribed and the listed scalars, the fields by `map_data` and `curves_data`
     with the factors of their units to SI, warnings and the account of accuracy. Null where there
     is no value or an error is unknown; `mesh` marks a scalar that depends on the mesh.
 
@@ -76,6 +76,6 @@ def _map(ds: xr.Dataset) -> dict[str, Any] | None:
         "times": [each.time for each in fields.snapshots],
         "lengthFactor": fields.window.unit.factor,
         "pressureFactor": readable_unit("Pa", fields.peak).factor,
-        "sections": [section_data(fields, "x"), section_data(fields, "y")],
+        "sections": curves_data(ds, fields),
         "crossing": fields.through,
     }

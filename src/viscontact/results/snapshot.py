@@ -101,6 +101,10 @@ class Snapshot:
         share = (at - across[upper - 1]) / (across[upper] - across[upper - 1])
         return positions, (1 - share) * rows[upper - 1] + share * rows[upper]
 
+    def line_load(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Cell centres along x [m], and the pressure integrated over y there [N/m]."""
+        return self.x, self.pressure.sum(axis=1) * self.cell_size[1]
+
 
 def _with_border(body_end: Outline, cells: int, periodic: bool) -> Outline:
     # Where the body ends between one period and the next is not known.

@@ -54,9 +54,9 @@ def plot(
         str,
         typer.Argument(
             metavar="FIGURE",
-            help="pressure-map, pressure-3d, pressure-profile, pressure-radial, surface-3d, "
-            "contact-outline, contact-area, history, hysteresis, exact, creep, stress-section, "
-            "von-mises, indenter, or animation.",
+            help="pressure-map, pressure-3d, pressure-profile, pressure-radial, line-load, "
+            "surface-3d, contact-outline, contact-area, history, hysteresis, exact, creep, "
+            "stress-section, von-mises, indenter, or animation.",
         ),
     ],
     times: Instants = None,
@@ -86,8 +86,8 @@ def compare(
         str,
         typer.Option(
             "--figure",
-            help="history, hysteresis, contact-outline, pressure-profile, pressure-map, "
-            "pressure-3d, creep, or von-mises.",
+            help="history, hysteresis, contact-outline, pressure-profile, line-load, "
+            "pressure-map, pressure-3d, creep, or von-mises.",
         ),
     ] = "history",
     times: Instants = None,

@@ -23,7 +23,7 @@ ANIMATION = "animation"
 #: Figures of the fields at single instants; the others take times as a span.
 _OF_INSTANTS = (
     *("pressure-map", "pressure-profile", "pressure-radial", "contact-outline"),
-    *("pressure-3d", "surface-3d", "stress-section", "von-mises", "indenter"),
+    *("line-load", "pressure-3d", "surface-3d", "stress-section", "von-mises", "indenter"),
 )
 
 

@@ -1,4 +1,4 @@
-// Pressure map with a time slider, and sections along x and y.
+// Pressure map with a time slider, sections along x and y, and the line load of long contacts.
 
 import { axis, config, instant, layout, plotly, quiet } from "./charts.js";
 import { make, place, settled } from "./dom.js";
@@ -9,6 +9,7 @@ const COLOURS = [
   [0, "#f1f8c9"], [0.2, "#c7e9b4"], [0.4, "#7fcdbb"], [0.6, "#41b6c4"],
   [0.8, "#1d91c0"], [0.9, "#225ea8"], [1, "#0c2c84"],
 ];
+const LINE_LOAD = "line-load";
 let picture = null;
 let clock = null;
 
@@ -60,7 +61,8 @@ function showInstant(index) {
   const largest = `Largest pressure ${digits(peak / pressure.factor)} ${pressure.symbol}.`;
   place("map-text").textContent = peak > 0 ? largest + stretch : "No contact.";
   drawPlane();
-  for (const section of map.sections) drawSection(section);
+  place(LINE_LOAD).parentElement.hidden = !map.sections.some((each) => each.name === LINE_LOAD);
+  for (const curve of map.sections) drawCurve(curve);
 }
 
 const rim = (source, index, unit) => {
@@ -116,28 +118,35 @@ function drawPlane() {
   Plotly.react(box, traces, plane, config());
 }
 
-function drawSection(section) {
-  const { map, reference, index, length, pressure, time, Plotly } = picture;
-  const across = (source, part, at, look) => ({
+function drawCurve(curve) {
+  const { map, reference, index, length, time, Plotly } = picture;
+  const unit = unitFor(curve.si, curve.values.flat().map((value) => value * curve.valueFactor));
+  const line = (source, part, at, look) => ({
     x: part.position.map((value) => value * source.lengthFactor / length.factor), mode: "lines", line: look,
-    y: part.pressure[at].map((value) => value * source.pressureFactor / pressure.factor),
-    hovertemplate: `${section.along} %{x:.4g} ${length.symbol}: %{y:.4g} ${pressure.symbol}`
+    y: part.values[at].map((value) => value * part.valueFactor / unit.factor),
+    hovertemplate: `${curve.along} %{x:.4g} ${length.symbol}: %{y:.4g} ${unit.symbol}`
       + `<extra>t = ${instant(source.times[at], time)}</extra>`,
   });
-  const traces = map.times.map((_, each) => across(map, section, each, { color: colour("line"), width: 1 }));
-  if (reference) {
-    const part = reference.sections.find((each) => each.along === section.along);
+  const traces = map.times.map((_, each) => line(map, curve, each, { color: colour("line"), width: 1 }));
+  const part = reference?.sections.find((each) => each.name === curve.name);
+  if (part) {
     const then = nearest(reference.times, map.times[index]);
-    traces.push(across(reference, part, then, { color: colour("warm"), width: 2, dash: "dash" }));
+    traces.push(line(reference, part, then, { color: colour("warm"), width: 2, dash: "dash" }));
   }
-  traces.push(across(map, section, index, { color: colour("blue"), width: 2.4 }));
-  const box = place(`section-${section.along}`), other = section.along === "x" ? 1 : 0;
-  const through = `${"xy"[other]} = ${digits(map.crossing[other] / length.factor, 0)} ${length.symbol}`;
-  box.previousElementSibling.replaceChildren(`Along ${section.along} `, make("span", { textContent: `at ${through}` }));
+  traces.push(line(map, curve, index, { color: colour("blue"), width: 2.4 }));
+  const box = place(curve.name);
+  box.previousElementSibling.replaceChildren(...headingOf(curve));
   Plotly.react(box, traces, layout({
-    xaxis: axis(`${section.along} [${length.symbol}]`),
-    yaxis: axis(`Pressure [${pressure.symbol}]`, { rangemode: "tozero" }),
+    xaxis: axis(`${curve.along} [${length.symbol}]`),
+    yaxis: axis(`${curve.label} [${unit.symbol}]`, { rangemode: "tozero" }),
   }), quiet());
+}
+
+function headingOf(curve) {
+  if (curve.name === LINE_LOAD) return ["Line load along x"];
+  const { map, length } = picture, other = curve.along === "x" ? 1 : 0;
+  const through = `${"xy"[other]} = ${digits(map.crossing[other] / length.factor, 0)} ${length.symbol}`;
+  return [`Along ${curve.along} `, make("span", { textContent: `at ${through}` })];
 }
 
 function play() {

@@ -1,0 +1,150 @@
+"""Curves along an axis of the contact at several instants, of one run or of several."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import ArrayLike, NDArray
+
+from viscontact.plot.layout import style
+from viscontact.plot.layout.compared_runs import require_runs
+from viscontact.plot.layout.error_band import peak_note
+from viscontact.plot.layout.page import Width, page_width
+from viscontact.results.snapshots import Snapshot, take_snapshots
+from viscontact.units.formatting import ReadableUnit, readable_unit, time_labels
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class ContactCurve:
+    """A quantity along an axis of the contact."""
+
+    figure: str  # the name of its figure
+    label: str
+    units: str  # SI
+    along: Literal["x", "y"]
+    #: Positions [m], on a periodic grid slightly beyond the border, and the quantity [SI].
+    values: Callable[[Snapshot], tuple[Array, Array]]
+    largest: Callable[[Snapshot], float]  # which its unit is chosen for
+    note: str  # of runs whose peak pressure depends on the mesh
+
+
+def draw_curves(
+    results: xr.Dataset,
+    curve: ContactCurve,
+    times: ArrayLike | None,
+    axes: Axes | None,
+    width: Width | None,
+) -> Figure:
+    """Draw a curve for each of several instants."""
+    snapshots = take_snapshots(results, times, curve.figure)
+    if axes is None:
+        wide = page_width(width, style.TWO_COLUMNS * 0.8)
+        axes = style.new_figure(wide, min(3.0, 0.75 * wide)).add_subplot()
+    units = _units(snapshots, curve)
+    labels = time_labels(s.time for s in snapshots)
+    colours = style.time_colours(len(snapshots))
+    for snapshot, colour in zip(snapshots, colours, strict=True):
+        _plot(axes, snapshot, curve, units, color=colour, linewidth=style.LINE_WIDTH)
+    lines = axes.get_lines()[-len(snapshots) :]
+    _frame(axes, snapshots, curve, units)
+    style.add_heading(axes, _note([results], [s.time for s in snapshots], curve), aside=True)
+    style.add_legend(axes, lines, labels)
+    return style.figure_of(axes)
+
+
+def compare_curves(
+    runs: Mapping[str, xr.Dataset],
+    curve: ContactCurve,
+    times: ArrayLike | None,
+    width: Width | None,
+) -> Figure:
+    """Overlay the curves of several runs, one panel per instant."""
+    require_runs(runs, curve.figure)
+    first = take_snapshots(next(iter(runs.values())), times, curve.figure, count=2)
+    instants = [snapshot.time for snapshot in first]
+    figure = style.new_figure(page_width(width, style.TWO_COLUMNS), 2.2 * len(instants) + 0.4)
+    panels = list(figure.subplots(len(instants), sharex=True, sharey=True, squeeze=False).flat)
+    drawn = {
+        name: [take_snapshots(run, instant, curve.figure)[0] for instant in instants]
+        for name, run in runs.items()
+    }
+    everything = [snapshot for snapshots in drawn.values() for snapshot in snapshots]
+    units = _units(everything, curve)
+    for column, axes in enumerate(panels):
+        looks = style.run_styles(len(runs))
+        for snapshots, look in zip(drawn.values(), looks, strict=True):
+            _plot(axes, snapshots[column], curve, units, **look)
+    # The panels share their limits, which the last curve may extend.
+    for column, axes in enumerate(panels):
+        at_instant = {name: snapshots[column] for name, snapshots in drawn.items()}
+        _frame(axes, everything, curve, units)
+        style.add_heading(axes, _instants_label(at_instant))
+        style.add_heading(axes, _note(runs.values(), [instants[column]], curve), aside=True)
+    for axes in panels[:-1]:
+        axes.set_xlabel("")
+    style.add_legend_below(figure, panels[0].get_lines(), list(runs))
+    return figure
+
+
+def in_contact(values: Array) -> Array:
+    """Values with NaN outside the contact but for the zeros at its ends."""
+    pressed = values > 0
+    near = pressed | np.append(pressed[1:], False) | np.append(False, pressed[:-1])
+    return np.where(near, values, np.nan)
+
+
+@dataclass(frozen=True)
+class _Units:
+    length: ReadableUnit
+    values: ReadableUnit
+
+
+def _plot(axes: Axes, snapshot: Snapshot, curve: ContactCurve, units: _Units, **look: Any) -> None:
+    positions, values = curve.values(snapshot)
+    axes.plot(units.length(positions), units.values(in_contact(values)), **look)
+
+
+def _note(runs: Iterable[xr.Dataset], times: ArrayLike, curve: ContactCurve) -> str:
+    return curve.note if peak_note(runs, times) else ""
+
+
+def _instants_label(snapshots: Mapping[str, Snapshot]) -> str:
+    instants = sorted({snapshot.time for snapshot in snapshots.values()})
+    return "t = " + ", ".join(time_labels(instants))
+
+
+def _units(snapshots: list[Snapshot], curve: ContactCurve) -> _Units:
+    largest = [curve.largest(snapshot) for snapshot in snapshots]
+    return _Units(
+        readable_unit("m", _limits(snapshots, curve.along)), readable_unit(curve.units, largest)
+    )
+
+
+def _limits(snapshots: list[Snapshot], along: Literal["x", "y"]) -> tuple[float, float]:
+    """Ends of the longest contact along the axis [m], with a margin within a period."""
+    side = 0 if along == "x" else 2
+    ends = np.array([s.extent()[side : side + 2] for s in snapshots if s.touching])
+    low, high = float(ends[:, 0].min()), float(ends[:, 1].max())
+    margin = 0.06 * (high - low)
+    if not snapshots[0].periodic:
+        return low - margin, high + margin
+    borders = snapshots[0].borders()
+    return max(low - margin, borders[side]), min(high + margin, borders[side + 1])
+
+
+def _frame(axes: Axes, snapshots: list[Snapshot], curve: ContactCurve, units: _Units) -> None:
+    axes.set(
+        xlim=units.length(_limits(snapshots, curve.along)),
+        xlabel=units.length.label(curve.along),
+        ylabel=units.values.label(curve.label),
+    )
+    axes.set_ylim(bottom=0.0)
+    style.dress(axes)

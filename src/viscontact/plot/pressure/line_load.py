@@ -1,0 +1,129 @@
+"""Line load along x: the pressure integrated over y."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import ArrayLike, NDArray
+
+from viscontact.plot.layout.page import Width
+from viscontact.plot.pressure.contact_curves import ContactCurve, compare_curves, draw_curves
+from viscontact.results.snapshots import Snapshot
+from viscontact.results.stated_errors import MESH_DEPENDENT
+
+
+def line_load(
+    results: xr.Dataset,
+    *,
+    times: ArrayLike | None = None,
+    axes: Axes | None = None,
+    width: Width | None = None,
+) -> Figure:
+    """Draw the line load along the indenter at several instants.
+
+    Parameters
+    ----------
+    results : xarray.Dataset
+        From `viscontact.simulate` or `viscontact.open_results`, with fields stored.
+    times : array_like, optional
+        Instants [s]; the nearest stored ones are drawn and named. By default five, from the
+        first in contact to the last.
+    axes : matplotlib.axes.Axes, optional
+        Axes to draw in; by default a new figure.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        One line per instant: the pressure integrated over y, q(x) = ∫ p dy.
+
+    Raises
+    ------
+    ValueError
+        If no fields are stored, or the bodies do not touch at these instants.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid, body = vc.Grid((40, 24), (24e-3, 4e-3)), vc.Paraboloid(radius_x=0.2, radius_y=0.01)
+    >>> ds = vc.simulate(body, rubber, vc.step(4.0), grid, [1.0], errors=False)
+    >>> axes = line_load(ds).axes[0]
+    >>> axes.get_xlabel(), axes.get_ylabel()
+    ('x [mm]', 'Line load [N/m]')
+    """
+    return draw_curves(results, _CURVE, times, axes, width)
+
+
+def compare_line_loads(
+    runs: Mapping[str, xr.Dataset], *, times: ArrayLike | None = None, width: Width | None = None
+) -> Figure:
+    """Overlay the line loads of several runs, one panel per instant.
+
+    Parameters
+    ----------
+    runs : mapping of str to xarray.Dataset
+        Results by the name to print, with fields stored.
+    times : array_like, optional
+        Instants [s]; of each run the nearest stored ones are drawn. By default the first in
+        contact and the last of the first run.
+    width : {"single", "double"} or float, optional
+        One or two columns of a journal (89 and 183 mm), or a width [m].
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Panels with common axes, one line per run.
+
+    Raises
+    ------
+    ValueError
+        If there are no runs, or one of them cannot be drawn.
+
+    Examples
+    --------
+    >>> import viscontact as vc
+    >>> rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    >>> grid, body = vc.Grid((40, 24), (24e-3, 4e-3)), vc.Paraboloid(radius_x=0.2, radius_y=0.01)
+    >>> one, two = (
+    ...     vc.simulate(body, rubber, vc.step(force), grid, [0.0, 1.0], errors=False)
+    ...     for force in (2.0, 4.0)
+    ... )
+    >>> len(compare_line_loads({"2 N": one, "4 N": two}, times=[0.0]).axes[0].get_lines())
+    2
+    """
+    return compare_curves(runs, _CURVE, times, width)
+
+
+def _values(snapshot: Snapshot) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    x, load = snapshot.line_load()
+    cell, _ = snapshot.cell_size
+    if snapshot.periodic:
+        return np.concatenate([x[:1] - cell, x, x[-1:] + cell]), np.pad(load, 1, mode="wrap")
+    pressed = np.flatnonzero(load > 0)
+    if not pressed.size:
+        return x, load
+    # The contact ends within half a cell of the border of its last cells.
+    rows = slice(int(pressed[0]), int(pressed[-1]) + 1)
+    ends = x[pressed[0]] - cell / 2, x[pressed[-1]] + cell / 2
+    return np.concatenate([ends[:1], x[rows], ends[1:]]), np.pad(load[rows], 1)
+
+
+def _largest(snapshot: Snapshot) -> float:
+    return float(snapshot.line_load()[1].max())
+
+
+_CURVE = ContactCurve(
+    "line-load",
+    "Line load",
+    "N/m",
+    "x",
+    _values,
+    _largest,
+    f"at a sharp end it {MESH_DEPENDENT}",
+)
