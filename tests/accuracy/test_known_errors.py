@@ -116,12 +116,49 @@ def test_bar_at_the_end_of_a_body_holds_an_error_of_first_order(known: Solved, n
     assert 0.99 < bar_over_error(known, name, results) < WIDEST
 
 
+def test_bar_keeps_the_error_after_the_contact_has_left_the_end() -> None:
+    """A creeping body remembers the pressure at the end: its later approach has the same error."""
+    known = solved(steps=12)
+    results = []
+    for each in with_error(known, "approach", cells=ERROR, order=1.0):
+        ends = np.where(each.scalars["time"] < 0.1, 1.0, 0.0)[:, None] * [1.0, 1.0]
+        results.append(replace(each, end_pressures=ends))
+    assert 0.99 < bar_over_error(known, "approach", results) < WIDEST
+
+
 @pytest.mark.parametrize("name", SMOOTH)
 def test_bar_holds_an_error_of_the_steps(known: Solved, name: str) -> None:
     """Trapezoids are of second order: a step divided at its quarter and middle has 5/32 of it."""
     results = with_error(known, name, steps=ERROR)
     assert [each.divides_steps for each in results] == [False, False, True]
     assert 0.99 < bar_over_error(known, name, results) < WIDEST
+
+
+@pytest.mark.parametrize("cells", [25, 36])
+@pytest.mark.parametrize("shape", ["ball", "punch"])
+def test_bar_holds_the_error_of_runs_that_agree_by_chance(shape: str, cells: int) -> None:
+    """Approach of a ball, a²/R (Hertz 1882), and of a punch, F/(2 E* a) (Boussinesq 1885).
+
+    A quarter of a cell beside the grid's middle: where the rim crosses many cells at once, on a
+    body in the middle, the error scatters more.
+    """
+    radius, reduced, force = 0.01, 4e6, 1.0
+    a = (3 * force * radius / (4 * reduced)) ** (1 / 3)
+    body = vc.Paraboloid(radius, radius) if shape == "ball" else vc.FlatPunch(a)
+    exact = a**2 / radius if shape == "ball" else force / (2 * reduced * a)
+    material, grid = vc.Material(vc.Elastic(1e6), 0.5), vc.Grid((cells, cells), (2.6 * a, 2.6 * a))
+    x, y = np.array(grid.cell_size) / 4
+    load = vc.step(force, eccentricity_x=x, eccentricity_y=y)
+    run = prepare_run(Problem(body.shifted(x, y), material, load, grid, [0.0]))
+    history = history_of(list(march_run(run)))
+    results = [
+        replace(each, scalars=each.scalars | {"approach": history["approach"]})
+        for each in map(march_coarser_run, plan_coarser_runs(run, history))
+        if each is not None
+    ]
+    (bar,) = error_bars_from(run, history, results).values["approach"]
+    (error,) = np.abs(history["approach"] - exact)
+    assert 1.0 < bar / error < WIDEST
 
 
 def test_bars_hold_the_error_of_the_compliance() -> None:
