@@ -21,6 +21,8 @@ from viscontact.surfaces import (
     surface_doubts,
     swept,
 )
+from viscontact.surfaces.levelling import tilt
+from viscontact.surfaces.plausibility import levelling_note
 from viscontact.surfaces.resampling import ALPHA
 
 
@@ -60,6 +62,14 @@ def test_slope_and_height_of_a_wave_are_those_of_its_formula() -> None:
     seen = math.sin(math.pi / 100) / (math.pi / 100)
     exact = 2 * math.pi * 1e-7 / 100e-6 / math.sqrt(2)
     assert wave.rms_slope == pytest.approx(exact * seen, rel=1e-12)
+
+
+def test_slopes_along_x_and_y_count_by_their_own_spacings() -> None:
+    # A saddle z = c x y has the gradient c (y, x): differences give it exactly on any mesh.
+    c, surface = 300.0, rough((25, 18), (2e-6, 3e-6))
+    saddle = surface.with_heights(polynomial(surface, 0, 0, 0, 0, c))
+    exact = c * math.sqrt(np.mean(surface.x**2) + np.mean(surface.y**2))
+    assert saddle.rms_slope == pytest.approx(exact, rel=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -105,6 +115,14 @@ def test_levelling_removes_exactly_the_added_polynomial(level: str, share: float
     np.testing.assert_allclose(again.heights, flat.heights, atol=1e-20)
 
 
+def test_tilt_that_is_taken_off_is_that_of_the_plane() -> None:
+    surface = rough((25, 18), (2e-6, 3e-6))
+    plane = surface.with_heights(polynomial(surface, 3e-6, 0.02, -0.05))
+    assert tilt(plane) == pytest.approx((0.02, -0.05), rel=1e-12)
+    # sqrt(0.02² + 0.05²) = 0.0539
+    assert "a tilt of 53.9 mrad was" in str(levelling_note(plane, "plane"))
+
+
 def test_levelling_far_from_the_reference_loses_no_digits() -> None:
     surface = rough()
     away = surface.with_heights(surface.heights + 0.1)
@@ -136,12 +154,21 @@ def test_flipping_turns_pits_into_peaks_and_twice_is_the_identity() -> None:
 
 
 def test_line_scan_is_refused_and_swept_by_its_width() -> None:
-    scan = Surface(1e-7 * np.sin(np.arange(30.0))[:, np.newaxis], 1e-6)
+    scan = Surface(1e-7 * np.sin(np.arange(30.0))[:, np.newaxis], (1e-6, 5e-6))
     with pytest.raises(ValueError, match=r"width: surface is a line scan .*give the width"):
         indenter_of(scan)
     ridges = swept(scan, 12e-6)
     assert ridges.size == pytest.approx((30e-6, 12e-6))
+    assert ridges.spacing == pytest.approx((1e-6, 1e-6))
     assert (ridges.heights == scan.heights).all()
+    # The same line measured along y: the distance of its points is that along y.
+    across = swept(Surface(scan.heights.T, (5e-6, 1e-6)), 10e-6)
+    assert (across.shape, across.spacing) == ((30, 10), pytest.approx((1e-6, 1e-6)))
+    assert (across.heights == scan.heights).all()
+    # A width that is no multiple of the spacing: along the line nothing changes.
+    wide = swept(scan, 12.4e-6)
+    assert wide.size == pytest.approx((30e-6, 12.4e-6))
+    assert wide.spacing[0] == 1e-6
     with pytest.raises(ValueError, match="width: is for line scans"):
         swept(ridges, 1e-6)
 
