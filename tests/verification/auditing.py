@@ -39,8 +39,8 @@ class Findings:
 def audit(problem, tolerance=1e-6):
     """March a problem, and check all it yields against eqs. 1 to 5 and 7."""
     times = problem.times
-    kinks = [kink for kink in problem.load.kinks if kink <= times[-1]]
-    problem = replace(problem, times=np.unique(np.concatenate([times, kinks])))
+    stops = [stop for stop in problem.load.stops if stop <= times[-1]]
+    problem = replace(problem, times=np.unique(np.concatenate([times, stops])))
     bodies = [b for b in (problem.material, problem.indenter_material) if b is not None]
     compliances = [body.contact_compliance() for body in bodies]
     compliance = sum(compliances[1:], compliances[0])

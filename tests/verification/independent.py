@@ -190,7 +190,7 @@ def audit(indenter, material, load, grid, times, tolerance=1e-6, indenter_materi
     compliance = sum(
         (body.contact_compliance() for body in bodies[1:]), bodies[0].contact_compliance()
     )
-    times = np.unique(np.concatenate([times, [kink for kink in load.kinks if kink <= times[-1]]]))
+    times = np.unique(np.concatenate([times, [stop for stop in load.stops if stop <= times[-1]]]))
     options = {"tolerance": tolerance, "indenter_material": indenter_material}
     states = list(vc.march(indenter, material, load, grid, times, **options))
     open_gap = indenter.gap(grid.x[:, None], grid.y[None, :])

@@ -89,8 +89,8 @@ def worst_violation(stage, rounding=0.0):
     A gap may be off by `rounding` of the approach.
     """
     problem, load = stage.problem, stage.load
-    kinks = load.kinks[load.kinks <= problem.times[-1]]
-    times = np.unique(np.concatenate([problem.times, kinks]))
+    stops = load.stops[load.stops <= problem.times[-1]]
+    times = np.unique(np.concatenate([problem.times, stops]))
     compliance = problem.material.contact_compliance()
     open_gap = problem.indenter.gap(problem.grid.x[:, None], problem.grid.y[None, :])
     # Where the stage asks for rounding only, the solver measures by cells.
