@@ -130,6 +130,10 @@ def test_marks_of_errors_differ() -> None:
     assert format_supported(152.234, math.nan) == "152.2"
     assert format_supported(math.nan, math.inf) == "-"
     assert [format_error(each) for each in (math.nan, 0.0, 0.0312)] == ["±?", "±0", "±0.031"]
+    # A fifth of a cell of 18.75 µm, in mm: the quotient differs by rounding.
+    assert {format_error(each) for each in (3.75e-6 / 1e-3, 3.7500000000000005e-6 / 1e-3)} == {
+        "±0.0038"
+    }
     assert [format_percent(each) for each in (0.0, 9e-5, 0.0996)] == ["0 %", "<0.01 %", "10 %"]
 
 

@@ -13,6 +13,8 @@ from viscontact.units.formatting import ReadableUnit, format_number, format_quan
 #: Significant digits of an error that are worth printing (GUM, 7.2.6); of a number in a table;
 #: and of any number, whatever its error.
 _ERROR_DIGITS, _DIGITS, _MOST_DIGITS = 2, 4, 7
+#: Least bars are parts of a cell, such as 3.75 µm: rounding errors must not decide on the digit.
+_TIES_UP = 1 + 1e-9
 #: Errors of a smaller part of the value are left out.
 NEGLIGIBLE = 1e-4
 #: In a table in place of the error of a number that depends on the mesh.
@@ -126,7 +128,7 @@ def format_bound(part: float) -> str:
 
 
 def _rounded(value: float) -> float:
-    return float(f"{abs(value):.{_ERROR_DIGITS - 1}e}")
+    return float(f"{abs(value) * _TIES_UP:.{_ERROR_DIGITS - 1}e}")
 
 
 def _leading(value: float) -> int:

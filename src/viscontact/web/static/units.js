@@ -52,8 +52,10 @@ export function unitFor(si, ...values) {
 const MINUS = "\u2212";
 // Relative error below which it is not shown; a value of unknown error has four digits.
 const NEGLIGIBLE = 1e-4, DIGITS = 4, MOST = 7;
+// Bars may be parts of a cell, such as 3.75 µm: rounding errors must not decide on the digit.
+const TIES_UP = 1 + 1e-9;
 // Decimal place of the first digit of a number rounded to two digits: 0 for ones, -1 for tenths.
-const leading = (value) => Number(Math.abs(value).toExponential(1).split("e")[1]);
+const leading = (value) => Number(Math.abs(value * TIES_UP).toExponential(1).split("e")[1]);
 
 // A number with a count of significant digits, without an exponent where possible.
 function inDigits(value, count) {
@@ -81,7 +83,7 @@ export function digits(value, error = null) {
 // A value with its error in a unit; without a negligible error.
 export function valueText(unit, value, error, mesh = false) {
   if (value === null || value === undefined) return "–";
-  const number = value / unit.factor, half = isShown(error, value) ? error / unit.factor : null;
+  const number = value / unit.factor, half = isShown(error, value) ? (error / unit.factor) * TIES_UP : null;
   const parts = [mesh ? ">" : "", digits(number, half), half === null ? "" : `± ${inDigits(Number(half.toPrecision(2)), 2)}`];
   return parts.filter(Boolean).join(" ");
 }
