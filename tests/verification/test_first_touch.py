@@ -1,4 +1,4 @@
-"""A stage that comes from above: the contact begins within a step between requested times."""
+"""First touch: the approach at which bodies meet without force, and the first cells in contact."""
 
 import numpy as np
 import pytest
@@ -56,3 +56,43 @@ def test_first_instants_in_contact_follow_the_rods(steps, part):
     expected = exact.force[np.searchsorted(fine, times[first])]
     # Measured 1.3 %; 2 to 8 % if the contact begins within a step.
     assert np.abs(force[first] / expected - 1).max() < 0.016
+
+
+@pytest.mark.parametrize("tilt", [0.0, 4e-3])
+@pytest.mark.parametrize("aside", [0.0, 0.3])
+def test_approach_without_force_is_that_of_the_lowest_point(tilt, aside):
+    """x²/2Rx + y²/2Ry less a plane of slopes tx, ty has its minimum -(Rx tx² + Ry ty²)/2.
+
+    The lowest point lies between the cells, at a part of them aside, of an even and an odd number.
+    """
+    radii, tilts = np.array([0.02, 0.008]), np.array([tilt, -2 * tilt])
+    grid = vc.Grid((48, 31), (2.0e-3, 1.1e-3))
+    shift = aside * np.array(grid.cell_size)
+    egg = vc.Paraboloid(*radii).shifted(*shift)
+    load = vc.ramp(0.2, 1.0, tilt_x=tilts[0], tilt_y=tilts[1])
+    states = list(vc.march(egg, RUBBER, load, grid, np.linspace(0, 1, 6)))
+    lowest = -np.sum(radii * tilts**2) / 2 - tilts @ shift
+    deepest = states[-1].approach - lowest
+    assert states[0].force == 0
+    assert deepest > 1e-6
+    # Samples are a sixteenth of a cell apart; the cells' centres are 10 times as far off.
+    step = np.array(grid.cell_size) / 16
+    assert abs(states[0].approach - lowest) <= np.sum((step / 2) ** 2 / (2 * radii)) + 1e-20
+    # The gap is measured from there: that of the lowest cell is its height above the point.
+    x, y = np.broadcast_arrays(grid.x[:, None], grid.y[None, :])
+    height = (x - shift[0]) ** 2 / (2 * radii[0]) + (y - shift[1]) ** 2 / (2 * radii[1])
+    expected = height - tilts[0] * x - tilts[1] * y - states[0].approach
+    np.testing.assert_allclose(states[0].gap, expected, rtol=1e-9, atol=1e-15)
+
+
+@pytest.mark.parametrize("aside", [(0.0, 0.0), (0.5, 0.0), (0.2, -0.4)])
+def test_mean_pressure_of_few_cells_is_at_most_the_largest(aside):
+    """The area between the cells of so few would be too small: force over it exceeds the peak."""
+    shift = np.array(aside) * GRID.cell_size
+    load = vc.ramp(0.3, 1.0, eccentricity_x=shift[0], eccentricity_y=shift[1])
+    few = 0
+    for state in vc.march(BALL.shifted(*shift), RUBBER, load, GRID, np.geomspace(1e-6, 1, 40)):
+        assert state.mean_pressure <= state.peak_pressure
+        assert state.mean_pressure * state.contact_area == pytest.approx(state.force, rel=1e-12)
+        few += 0 < state.cells_across <= 3
+    assert few >= 5
