@@ -92,6 +92,89 @@ def roller(
     return results
 
 
+#: An ellipse beside the centre, long in y: middle and first semi-axes along x and y [m], and the
+#: largest pressure [Pa].
+ELLIPSE_MIDDLE, ELLIPSE_AXES, ELLIPSE_PEAK = (0.13e-3, -0.21e-3), (0.2e-3, 0.5e-3), 2e6
+ELLIPSE_TIMES = (0.0, 2.0, 5.0)
+#: Cells along x and y, and their edges [m]: no two are equal.
+ELLIPSE_CELLS, ELLIPSE_EDGES = (48, 54), (20e-6, 40e-6)
+
+
+def ellipse_growth(t: float) -> float:
+    """Semi-axes and largest pressure over the first ones: both as the cube root of the force."""
+    return 1 + 0.1 * t
+
+
+def ellipse_pressure(x: FloatArray, y: FloatArray, t: float) -> FloatArray:
+    """Pressure of `ellipse` [Pa] at points [m]: p0 sqrt(1 - u² - v²) (Johnson 1985, eq. 3.58)."""
+    growth = ellipse_growth(t)
+    u, v = (
+        (at - middle) / (growth * axis)
+        for at, middle, axis in zip((x, y), ELLIPSE_MIDDLE, ELLIPSE_AXES, strict=True)
+    )
+    return np.asarray(ELLIPSE_PEAK * growth * np.sqrt(np.maximum(1 - u**2 - v**2, 0.0)))
+
+
+def ellipse(*, transposed: bool = False) -> xr.Dataset:
+    """Hertz's elliptic contact beside the centre under a growing force; x and y may be exchanged.
+
+    The gap only has the form of Hertz's at the rim.
+    """
+    time = np.array(ELLIPSE_TIMES)
+    x, y = (
+        (2 * np.arange(count) - (count - 1)) * edge / 2
+        for count, edge in zip(ELLIPSE_CELLS, ELLIPSE_EDGES, strict=True)
+    )
+    growth = np.array([ellipse_growth(t) for t in time])
+    pressure = np.stack([ellipse_pressure(x[:, None], y[None, :], t) for t in time])
+    u, v = (
+        (at - middle) / axis
+        for at, middle, axis in zip((x, y), ELLIPSE_MIDDLE, ELLIPSE_AXES, strict=True)
+    )
+    outside = (u[:, None] ** 2 + v[None, :] ** 2) / growth[:, None, None] ** 2 - 1
+    gap = 1e-6 * np.maximum(outside, 0.0) ** 1.5
+    semi_axes, middle, radii = ELLIPSE_AXES, ELLIPSE_MIDDLE, (0.02, 0.1)
+    if transposed:
+        x, y, pressure, gap = y, x, pressure.swapaxes(1, 2), gap.swapaxes(1, 2)
+        semi_axes, middle, radii = semi_axes[::-1], middle[::-1], radii[::-1]
+    area = np.pi * semi_axes[0] * semi_axes[1] * growth**2
+    force = 2 / 3 * ELLIPSE_PEAK * growth * area
+    case = {
+        "title": "Ellipse beside the centre",
+        "indenter": {"type": "Paraboloid", "radius_x": radii[0], "radius_y": radii[1]},
+        "material": {
+            "type": "Material",
+            "law": {"type": "Elastic", "shear_modulus": 1e9},
+            "poisson_ratio": 0.3,
+            "bulk_modulus": None,
+        },
+        "load": _steady(0.0) | {"times": time.tolist(), "force": force.tolist()},
+        "grid": {
+            "type": "Grid",
+            "shape": [x.size, y.size],
+            "size": [float(at[1] - at[0]) * at.size for at in (x, y)],
+        },
+        "times": time.tolist(),
+    }
+    half_length = semi_axes[0] * growth
+    results = _results(time, x, y, pressure, gap, 1e-6 * growth**2, half_length, case, True)
+    exact = {
+        "force": force,
+        "eccentricity_x": 0 * time + middle[0],
+        "eccentricity_y": 0 * time + middle[1],
+        "contact_area": area,
+        "contact_width": 2 * semi_axes[1] * growth,
+        "peak_pressure": ELLIPSE_PEAK * growth,
+        "mean_pressure": 2 / 3 * ELLIPSE_PEAK * growth,
+    }
+    for name, values in exact.items():
+        results[name][:] = values
+    further = {"residual": 1e-7, "time_error": 0.0, "work": 1e-3, "loss_per_cycle": np.nan}
+    for name, value in {**further, "iterations": 9, "cells_across": 20, "outcome": 0}.items():
+        results[name] = "time", np.full(time.size, value), {"units": "1"}
+    return results
+
+
 def maxwell_pressure(r: FloatArray, t: float) -> FloatArray:
     """Pressure [Pa] at r [m] and t [s]: 8G/(pi R) [s(t) - int exp((t'-t)/tau) s(t') dt' / tau]."""
     tau = VISCOSITY / SHEAR_MODULUS
