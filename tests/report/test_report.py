@@ -211,8 +211,12 @@ def test_a_peak_that_depends_on_the_mesh_is_marked() -> None:
     ds = _run(fields=False)
     ds["peak_pressure_error"][:] = np.inf
     [panel] = [each for each in response_panels(ds) if each["name"] == "peak_pressure"]
-    assert (set(panel["half"]), panel["mesh"]) == ({None}, True)
-    assert re.search(r"the peak pressure [\d.]+ MPa \(depends on the mesh\)\.", headline(ds))
+    assert (set(panel["half"]), set(panel["value"])) == ({None}, {None})
+    assert (panel["note"], panel["words"]) == (
+        "depends on the mesh",
+        "not drawn: smaller cells give more",
+    )
+    assert re.search(r"the peak pressure >[\d.]+ MPa \(depends on the mesh\)\.", headline(ds))
     assert "smaller cells give more" in dict(accuracy_lines(ds))["Depends on the mesh"]
 
 
@@ -362,7 +366,13 @@ def test_run_data_is_the_result_in_si_units_and_fits_into_json() -> None:
     # area is counted in cells, 30 to 50 across.
     area, approach = (scalars[name]["value"] for name in ("contact_area", "approach"))
     assert area == pytest.approx(np.pi * 0.01 * np.array(approach), rel=0.03)
-    assert scalars["peak_pressure"]["mesh"]
+    assert scalars["peak_pressure"]["mesh"] == [True] * len(TIMES)
+    assert scalars["peak_pressure"]["drawn"] == [None] * len(TIMES)
+    assert None not in scalars["peak_pressure"]["value"]
+    assert scalars["approach"]["mesh"] == [False] * len(TIMES)
+    assert scalars["approach"]["drawn"] == scalars["approach"]["value"]
+    assert shown["mesh"] == [True] * len(TIMES)
+    assert all(re.fullmatch(r">[\d.]+ MPa", each) for each in shown["peaks"])
     assert scalars["peak_pressure"]["error"] == [None] * len(TIMES)
     assert [each is None for each in scalars["approach"]["error"]] == [True] + [False] * 4
     # All the force is in the map: its cells times their pressure.

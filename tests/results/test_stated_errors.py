@@ -382,8 +382,34 @@ def test_panel_of_a_peak_that_depends_on_the_mesh_says_so_and_has_no_band(
     assert bands(panel(FIGURES["history"](singular), "Approach"))
     assert panel(FIGURES["history"](ds), "Peak").get_title(loc="right") == ""
     both = COMPARISONS["history"]({"round": ds, "sharp": singular})
-    assert panel(both, "Peak").get_title(loc="right") == "peak depends on the mesh"
+    said = "1 of 2 runs not drawn:\npeak depends on the mesh"
+    assert panel(both, "Peak").get_title(loc="right") == said
     assert len(bands(panel(both, "Peak"))) == 1
+
+
+def test_peak_that_depends_on_the_mesh_has_no_curve(
+    singular: xr.Dataset, ds: xr.Dataset, bare: xr.Dataset
+) -> None:
+    axes = panel(FIGURES["history"](singular), "Peak")
+    assert [text.get_text() for text in axes.texts] == ["not drawn:\nsmaller cells give more"]
+    assert axes.get_yticks().size == 0
+    [line] = axes.get_lines()
+    assert np.isnan(np.asarray(line.get_ydata(), dtype=float)).all()
+    # The other run of a comparison is drawn, on an axis that fits it.
+    axes = panel(COMPARISONS["history"]({"round": ds, "sharp": singular}), "Peak")
+    first, second = (np.asarray(line.get_ydata(), dtype=float) for line in axes.get_lines())
+    assert np.isfinite(first).all()
+    assert np.isnan(second).all()
+    assert first.max() <= axes.get_ylim()[1] < 2 * first.max()
+    assert not axes.texts
+    # Of a peak that depends on the mesh at some instants, the others are drawn.
+    error = 0.1 * bare.peak_pressure.values
+    error[4:7] = np.inf
+    axes = panel(FIGURES["history"](with_errors(bare, peak_pressure=error)), "Peak")
+    drawn = np.isfinite(np.asarray(axes.get_lines()[0].get_ydata(), dtype=float))
+    assert drawn.tolist() == np.isfinite(error).tolist()
+    assert axes.get_title(loc="right") == "peak depends on the mesh"
+    assert not axes.texts
 
 
 @pytest.mark.parametrize("name", ["pressure-map", "pressure-profile", "pressure-radial"])
@@ -496,6 +522,7 @@ def test_check_says_of_which_bodies_the_peak_depends_on_the_mesh(
     assert main(["check", str(tmp_path / "case.yaml")]) == 0
     printed = capsys.readouterr().out
     [line] = [line for line in printed.splitlines() if line.startswith("  peak pressure")]
+    assert bool(re.search(r">[\d.]+ [kM]?Pa on a coarse mesh", line)) == is_singular
     assert ("depends on the mesh" in line) == is_singular
 
 

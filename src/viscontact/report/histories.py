@@ -14,7 +14,14 @@ from viscontact.report.map_data import finite_or_none, rounded
 from viscontact.results.formatting import format_with_error
 from viscontact.results.recorded_case import prescribes_approach
 from viscontact.results.shown_scalars import shown_scalars
-from viscontact.results.stated_errors import MESH_DEPENDENT, errors_of, is_centred
+from viscontact.results.stated_errors import (
+    MESH_DEPENDENT,
+    NOT_DRAWN,
+    drawn_values,
+    errors_of,
+    is_centred,
+    lacks_curve,
+)
 from viscontact.results.variables import SCALARS, Place, shown_in
 from viscontact.units.formatting import format_compact, format_quantity, readable_unit
 
@@ -90,17 +97,17 @@ def _varies(ds: xr.Dataset, name: str) -> bool:
 def _panel(ds: xr.Dataset, name: str) -> dict[str, Any]:
     values = np.asarray(ds[name].values, dtype=np.float64)
     units = SCALARS[name].units
-    unit, errors = readable_unit(units, values), errors_of(ds, name)
+    unit, errors, drawn = readable_unit(units, values), errors_of(ds, name), drawn_values(ds, name)
     return {
         "name": name,
         "label": SCALARS[name].label,
         "unit": unit.symbol,
-        "value": finite_or_none(unit(values)),
+        "value": finite_or_none(unit(drawn)),
         "half": finite_or_none(unit(errors)),
-        "range": _range(unit(values), unit(errors)),
+        "range": _range(unit(drawn), unit(errors)),
         "hover": _hover(ds, values, errors, units),
         "note": _note(errors, values),
-        "mesh": bool(np.isposinf(errors).any()),
+        "words": NOT_DRAWN if lacks_curve(ds, name) else "",
     }
 
 

@@ -52,12 +52,8 @@ def map_data(fields: ShownFields) -> dict[str, Any]:
         "parts": [_parts(each, fields, strides) for each in fields.snapshots],
         "rims": [_rim(each, length) for each in fields.snapshots],
         "labels": list(time_labels(each.time for each in fields.snapshots)),
-        "peaks": [
-            f"{format_compact(float(pressure(each.pressure.max())), 4)} {pressure.symbol}"
-            if each.touching
-            else ""
-            for each in fields.snapshots
-        ],
+        "peaks": _peaks(fields, pressure),
+        "mesh": list(fields.marked),
         "colours": time_colours(len(fields.snapshots)),
         "outlines": _outlined(fields),
         "start": fields.start,
@@ -168,6 +164,17 @@ def _parts(snapshot: Snapshot, fields: ShownFields, strides: tuple[int, int]) ->
     # A cell in contact is not to vanish from the map.
     parts = np.where(joined > 0, np.maximum(parts, 1), 0)
     return base64.b64encode(parts.T.astype("<u2").tobytes()).decode("ascii")
+
+
+def _peaks(fields: ShownFields, unit: ReadableUnit) -> list[str]:
+    """Largest pressures, with ``>`` in front if they depend on the mesh; empty without contact."""
+    pairs = zip(fields.snapshots, fields.marked, strict=True)
+    return [
+        f"{'>' * marked}{format_compact(float(unit(each.pressure.max())), 4)} {unit.symbol}"
+        if each.touching
+        else ""
+        for each, marked in pairs
+    ]
 
 
 def _joined(values: Floats, stride: int, axis: int = 0) -> Floats:

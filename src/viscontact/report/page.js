@@ -54,14 +54,17 @@
     return { x, y, mode: "lines", fill: "toself", fillcolor: "rgba(0,114,178,0.22)", line: { width: 0 }, hoverinfo: "skip" };
   }
 
+  // Words in place of a curve.
+  const inWords = (text) => ({ text, showarrow: false, xref: "paper", yref: "paper", x: 0.5, y: 0.5, font: { size: 12, color: faint } });
   function drawPanel(panel) {
     const line = {
       x: places(), y: panel.value, mode: panel.value.length < 2 ? "markers" : "lines",
-      line: { color: blue, width: 2, dash: panel.mesh ? "dash" : "solid" }, text: panel.hover,
+      line: { color: blue, width: 2 }, text: panel.hover,
       hovertemplate: "%{text}<extra></extra>",
     };
     return Plotly.react(place(`history-${panel.name}`), [band(panel), line], layout({
-      xaxis: timeAxis(), yaxis: axis("", { range: panel.range }), hovermode: "x",
+      xaxis: timeAxis(), yaxis: axis("", { range: panel.range, showticklabels: !panel.words }), hovermode: "x",
+      annotations: panel.words ? [inWords(panel.words)] : [],
     }), quiet);
   }
 

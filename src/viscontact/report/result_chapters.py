@@ -108,7 +108,7 @@ def history_chapter(
     yield element("div", *map(_panel, answers), class_="panels")
     legend = "Shaded: the error of each value. "
     if any(panel["note"] == MESH_DEPENDENT for panel in answers):
-        legend += "Dashed: the value depends on the mesh, smaller cells give more. "
+        legend += "A value that depends on the mesh is not drawn; its error in the CSV is inf. "
     yield element("p", legend + "All numbers are in the CSV file, in SI units.", class_="faint")
 
 

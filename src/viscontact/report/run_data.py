@@ -15,7 +15,7 @@ from viscontact.report.map_data import curves_data, finite_or_none, map_data, ro
 from viscontact.report.result_chapters import title_of
 from viscontact.report.shown_fields import shown_fields
 from viscontact.results.shown_scalars import shown_labels
-from viscontact.results.stated_errors import errors_of
+from viscontact.results.stated_errors import drawn_values, errors_of
 from viscontact.results.summary import summary_scalars
 from viscontact.results.variables import SCALARS, Place
 from viscontact.units.formatting import readable_unit
@@ -27,7 +27,8 @@ def run_data(ds: xr.Dataset) -> dict[str, Any]:
     Plain data without NaN and inf, which JSON cannot hold: instants and scalars with their errors
     in SI units, the prescribed and the listed scalars, the fields by `map_data` and `curves_data`
     with the factors of their units to SI, warnings and the account of accuracy. Null where there
-    is no value or an error is unknown; `mesh` marks a scalar that depends on the mesh.
+    is no value or an error is unknown; `mesh` marks instants at which a scalar depends on the
+    mesh, where `drawn` has no value.
 
     >>> import viscontact as vc
     >>> pmma = vc.Material(vc.Elastic(1e9), 0.4)
@@ -62,7 +63,8 @@ def _scalar(ds: xr.Dataset, name: str) -> dict[str, Any]:
         "meaning": SCALARS[name].long_name,
         "value": finite_or_none(values, 9),
         "error": finite_or_none(errors, 9),
-        "mesh": bool(np.isposinf(errors).any()),
+        "drawn": finite_or_none(drawn_values(ds, name), 9),
+        "mesh": np.isposinf(errors).tolist(),
     }
 
 

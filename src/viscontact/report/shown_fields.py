@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 
 from viscontact.plot.layout.window import Window, window_around
 from viscontact.results.snapshots import Snapshot, field_times, take_snapshots
+from viscontact.results.stated_errors import mesh_dependent
 
 #: More instants than these make a page large and show no more.
 MOST_INSTANTS = 24
@@ -23,6 +25,7 @@ class ShownFields:
     snapshots: tuple[Snapshot, ...]  # at least one of them in contact
     window: Window  # part of the surface that contains every contact
     stored: int  # number of instants with fields in the result
+    marked: tuple[bool, ...]  # at which the peak pressure depends on the mesh
 
     @property
     def peak(self) -> float:
@@ -64,7 +67,12 @@ def shown_fields(ds: xr.Dataset) -> ShownFields:
     stored = field_times(ds, "map")
     chosen = np.unique(np.linspace(0, stored.size - 1, MOST_INSTANTS).round().astype(int))
     snapshots = tuple(take_snapshots(ds, stored[chosen], "map"))
-    return ShownFields(snapshots, window_around(snapshots), stored.size)
+    return ShownFields(snapshots, window_around(snapshots), stored.size, _marked(ds, snapshots))
+
+
+def _marked(ds: xr.Dataset, snapshots: Sequence[Snapshot]) -> tuple[bool, ...]:
+    instants, marked = ds["time"].values, mesh_dependent(ds, "peak_pressure")
+    return tuple(bool(marked[np.abs(instants - each.time).argmin()]) for each in snapshots)
 
 
 def _between(positions: NDArray[np.float64], limits: tuple[float, float]) -> slice:

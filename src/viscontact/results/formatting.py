@@ -30,13 +30,26 @@ def format_with_error(value: float, error: float, units: str) -> str:
     Examples
     --------
     >>> format_with_error(57.634e-6, 0.149e-6, "m2"), format_with_error(152.2e6, math.inf, "Pa")
-    ('57.63 ± 0.15 mm²', '152.2 MPa (depends on the mesh)')
+    ('57.63 ± 0.15 mm²', '>152.2 MPa (depends on the mesh)')
     """
-    if not error > NEGLIGIBLE * abs(value) or math.isinf(error):
-        number = format_quantity(value, units)
-        return f"{number} ({MESH_DEPENDENT})" if math.isinf(error) else number
+    if math.isinf(error):
+        return f"{format_bounded(value, error, units)} ({MESH_DEPENDENT})"
+    if not error > NEGLIGIBLE * abs(value):
+        return format_quantity(value, units)
     unit = readable_unit(units, value)
     return f"{format_with_error_in(unit, value, error)} {unit.symbol}".rstrip()
+
+
+def format_bounded(value: float, error: float, units: str) -> str:
+    """Format a value without its error, with ``>`` in front if it depends on the mesh; all in SI.
+
+    Examples
+    --------
+    >>> [format_bounded(152.2e6, error, "Pa") for error in (5e6, math.nan, math.inf)]
+    ['152.2 MPa', '152.2 MPa', '>152.2 MPa']
+    """
+    number = format_quantity(value, units)
+    return f">{number}" if math.isinf(error) else number
 
 
 def format_with_error_in(unit: ReadableUnit, value: float, error: float) -> str:

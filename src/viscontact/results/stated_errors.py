@@ -12,6 +12,8 @@ from viscontact.results.variables import error_name
 
 #: Of a value whose stated error is infinite, and why it is.
 MESH_DEPENDENT = "depends on the mesh"
+#: In place of its curve over time.
+NOT_DRAWN = "not drawn: smaller cells give more"
 WHY_MESH_DEPENDENT = "the number is the largest mean over a cell, and smaller cells give more"
 #: Exactly centred loads leave eccentricities of rounding size [m].
 _ROUNDING_ECCENTRICITY = 1e-12
@@ -51,6 +53,29 @@ def mesh_dependent(results: xr.Dataset, name: str) -> NDArray[np.bool_]:
     """
     error = stated_error(results, name)
     return np.zeros(results.sizes["time"], dtype=np.bool_) if error is None else np.isposinf(error)
+
+
+def drawn_values(results: xr.Dataset, name: str) -> NDArray[np.float64]:
+    """Values of a scalar for a curve over time: NaN where it depends on the mesh.
+
+    All are NaN if only zeros, as without contact, would remain.
+
+    Examples
+    --------
+    >>> peak = {"p": ("time", [0.0, 2.0, 3.0]), "p_error": ("time", [0.0, np.inf, 0.1])}
+    >>> drawn_values(xr.Dataset(peak), "p"), drawn_values(xr.Dataset(peak).isel(time=[0, 1]), "p")
+    (array([ 0., nan,  3.]), array([nan, nan]))
+    """
+    values = np.asarray(results[name].values, dtype=np.float64)
+    marked = mesh_dependent(results, name)
+    drawn = np.where(marked, np.nan, values)
+    return drawn if not marked.any() or np.any(drawn > 0) else np.full(values.shape, np.nan)
+
+
+def lacks_curve(results: xr.Dataset, name: str) -> bool:
+    """Test for a scalar whose values all depend on the mesh, or are zero without contact."""
+    marked = mesh_dependent(results, name)
+    return bool(marked.any() and np.isnan(drawn_values(results, name)).all())
 
 
 @dataclass(frozen=True)

@@ -140,7 +140,7 @@ def expectations(prepared: PreparedRun, expected: Forecast) -> tuple[str, list[t
 def _peak_pressure(expected: Forecast, found: ContactEstimate) -> str:
     peak = format_quantity(found.peak_pressure, "Pa", 3)
     is_sharp = not SINGULAR_KINDS.isdisjoint(expected.warnings)
-    return f"{MESH_DEPENDENT} ({peak} on a coarse one)" if is_sharp else peak
+    return f">{peak} on a coarse mesh ({MESH_DEPENDENT})" if is_sharp else peak
 
 
 def warnings_of(prepared: PreparedRun, expected: Forecast) -> list[str]:

@@ -13,12 +13,12 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from viscontact.results.formatting import format_percent
+from viscontact.results.formatting import format_percent, format_supported
 from viscontact.results.netcdf import open_results
-from viscontact.results.stated_errors import largest_error
+from viscontact.results.stated_errors import largest_error, mesh_dependent
 from viscontact.results.variables import SCALARS, Place, shown_in
 from viscontact.runs.processes.child import Ended
-from viscontact.units.formatting import format_number, format_quantity, readable_unit
+from viscontact.units.formatting import ReadableUnit, format_quantity, readable_unit
 
 #: Largest number of runs named with a warning.
 _NAMED = 3
@@ -33,6 +33,7 @@ class _Found:
     """
 
     largest: dict[str, float]
+    marked: frozenset[str]  # scalars that depend on the mesh at any instant
     error: float
     seconds: float
     warnings: tuple[str, ...]
@@ -64,7 +65,8 @@ def _of(ds: xr.Dataset) -> _Found:
     warnings = tuple(str(ds.attrs.get("warnings", "")).splitlines())
     known = [found.part for name in names if (found := largest_error(ds, name)) is not None]
     error = max((part for part in known if not math.isnan(part)), default=math.nan)
-    return _Found(largest, error, float(ds.attrs["wall_time"]), warnings)
+    marked = frozenset(name for name in names if mesh_dependent(ds, name).any())
+    return _Found(largest, marked, error, float(ds.attrs["wall_time"]), warnings)
 
 
 def _table(runs: Sequence[Ended], found: Sequence[_Found | None]) -> Table:
@@ -91,17 +93,20 @@ def _table(runs: Sequence[Ended], found: Sequence[_Found | None]) -> Table:
     for ended, each in zip(runs, found, strict=True):
         cells = ["", *("" for _ in names)]
         if each is not None:
-            values = (
-                format_number(each.largest[name] / units[name].factor)
-                if name in each.largest
-                else ""
-                for name in names
-            )
+            values = (_value(each, name, units[name]) for name in names)
             cells = [format_quantity(each.seconds, "s", 2), *values]
             if has_errors:
                 cells.append("" if math.isnan(each.error) else format_percent(each.error))
         table.add_row(escape(ended.job.name), ended.outcome, *cells)
     return table
+
+
+def _value(found: _Found, name: str, unit: ReadableUnit) -> str:
+    """Largest value in the unit of its column; empty where an older result lacks the scalar."""
+    if name not in found.largest:
+        return ""
+    error = math.inf if name in found.marked else math.nan
+    return format_supported(found.largest[name] / unit.factor, error)
 
 
 def _warnings(runs: Sequence[Ended], found: Sequence[_Found | None]) -> list[str]:

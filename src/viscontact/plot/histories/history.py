@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -22,7 +23,13 @@ from viscontact.plot.layout.error_band import (
 )
 from viscontact.plot.layout.page import NARROW, Width, page_width
 from viscontact.results.shown_scalars import shown_scalars
-from viscontact.results.stated_errors import is_centred, stated_error
+from viscontact.results.stated_errors import (
+    NOT_DRAWN,
+    drawn_values,
+    is_centred,
+    lacks_curve,
+    stated_error,
+)
 from viscontact.results.variables import SCALARS, Place, shown_in
 from viscontact.units.formatting import ReadableUnit, readable_unit
 
@@ -52,8 +59,8 @@ def history(
     matplotlib.figure.Figure
         One panel a quantity. Force and tilts have one only where they change. Time is
         logarithmic where the run's steps are and the load is held nearly from the start. Bands
-        are the errors that the result states; a peak pressure that depends on the mesh is called
-        so.
+        are the errors that the result states. A peak pressure that depends on the mesh has no
+        curve; its panel says so.
 
     Raises
     ------
@@ -90,6 +97,7 @@ def compare_histories(
     -------
     matplotlib.figure.Figure
         One panel per quantity, one line per run, and a band around it where its error is known.
+        A peak pressure that depends on the mesh has no line; its panel says so.
 
     Raises
     ------
@@ -179,22 +187,34 @@ def _draw(
     variable = SCALARS[scalar]
     unit = readable_unit(variable.units, *(run[scalar].values for run in runs.values()))
     for (name, run), look in zip(runs.items(), style.run_styles(len(runs)), strict=True):
-        values = run[scalar].values
+        values = drawn_values(run, scalar)
         instants, error = time_unit(run["time"].values), stated_error(run, scalar)
         axes.plot(instants, unit(values), label=name, **look)
         bar = None if error is None else unit(error)
         bands.append(draw_band(axes, instants, unit(values), bar, look["color"]))
     axes.set_ylabel(unit.label(variable.label))
-    if scalar == "force":
+    missing = sum(lacks_curve(run, scalar) for run in runs.values())
+    if missing == len(runs):
+        _say_not_drawn(axes)
+    elif scalar == "force":
         axes.set_ylim(0.0, 1.08 * axes.dataLim.y1)
     elif np.ptp(axes.dataLim.intervaly) <= _ROUNDING * abs(axes.dataLim.y1):
         axes.set_ylim(0.0, 1.15 * axes.dataLim.y1 or 1.0)
     drawn = [band for band in bands if band is not None]
     if drawn:
-        limit_axis_to_curves(axes, *(unit(run[scalar].values) for run in runs.values()))
+        limit_axis_to_curves(axes, *(unit(drawn_values(run, scalar)) for run in runs.values()))
     if scalar == "peak_pressure":
-        style.add_heading(axes, peak_note(runs.values()), aside=True)
+        left_out = f"{missing} of {len(runs)} runs not drawn:\n" if 0 < missing < len(runs) else ""
+        style.add_heading(axes, left_out + peak_note(runs.values()), aside=True)
     return drawn
+
+
+def _say_not_drawn(axes: Axes) -> None:
+    """Words in place of a curve."""
+    look: dict[str, Any] = {"fontsize": style.TICK_SIZE, "color": style.FAINT}
+    text = NOT_DRAWN.replace(": ", ":\n")
+    axes.text(0.5, 0.5, text, ha="center", va="center", transform=axes.transAxes, **look)
+    axes.set_yticks([])
 
 
 def _add_key(figure: Figure, panels: list[Axes], names: list[str], bands: list[Band]) -> None:

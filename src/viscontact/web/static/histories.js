@@ -28,14 +28,21 @@ function drawPanel(Plotly, name, label, shown, reference, scale) {
   const scalar = shown.data.scalars[name], other = reference?.data.scalars[name];
   const unit = unitFor(scalar.unit, scalar.value, other?.value ?? []);
   const box = panelBox(name);
-  const note = scalar.mesh ? "depends on the mesh" : "";
+  const note = scalar.mesh.some(Boolean) ? "depends on the mesh" : "";
+  const isDrawn = [scalar, other].some((each) => each?.drawn.some((value) => value !== null));
   box.querySelector("h4").replaceChildren(`${label} [${unit.symbol}]`, make("span", { textContent: note }));
   const traces = [band(shown.data, scalar, unit, scale), line(shown.data, scalar, unit, scale, colour("blue"), "solid")];
   if (other) traces.unshift(line(reference.data, other, unit, scale, colour("warm"), "dash"));
   return Plotly.react(box.querySelector(".plot"), traces, layout({
-    xaxis: scale.axis(), yaxis: axis("", { range: range([scalar, other], unit) }), hovermode: "x",
+    xaxis: scale.axis(), yaxis: axis("", { range: range([scalar, other], unit), showticklabels: isDrawn }), hovermode: "x",
+    annotations: note && !isDrawn ? [inWords("not drawn: smaller cells give more")] : [],
   }), quiet());
 }
+
+// Words in place of a curve.
+const inWords = (text) => ({
+  text, showarrow: false, xref: "paper", yref: "paper", x: 0.5, y: 0.5, font: { size: 12, color: colour("faint") },
+});
 
 function panelBox(name) {
   const found = place("histories").querySelector(`[data-panel="${name}"]`);
@@ -47,9 +54,9 @@ function panelBox(name) {
 const scaled = (values, unit) => values.map((value) => (value === null ? null : value / unit.factor));
 
 function line(data, scalar, unit, scale, ink, dash) {
-  const y = scaled(scalar.value, unit);
+  const y = scaled(scalar.drawn, unit);
   const hoverText = (value, index) => {
-    const number = quantityText(value, scalar.error[index], scalar.unit, scalar.mesh);
+    const number = quantityText(value, scalar.error[index], scalar.unit, scalar.mesh[index]);
     return `t = ${instant(data.time[index], scale.unit)}: ${number}`;
   };
   return {
@@ -79,11 +86,11 @@ function band(data, scalar, unit, scale) {
 
 // One wild error is not to flatten what there is to see; a constant is drawn as one.
 function range(scalars, unit) {
-  const given = scalars.filter(Boolean).flatMap((each) => scaled(each.value, unit)).filter((value) => value !== null);
+  const given = scalars.filter(Boolean).flatMap((each) => scaled(each.drawn, unit)).filter((value) => value !== null);
   if (!given.length) return [0, 1];
   const low = Math.min(...given), high = Math.max(...given), size = Math.max(Math.abs(low), Math.abs(high));
   if (high - low <= 1e-6 * size) return [Math.min(0, 1.15 * low), Math.max(0, 1.15 * high) || 1];
-  const bars = scalars[0].value.map((value, i) => [value, scalars[0].error[i] ?? 0]).filter(([value]) => value !== null);
+  const bars = scalars[0].drawn.map((value, i) => [value, scalars[0].error[i] ?? 0]).filter(([value]) => value !== null);
   const room = Math.max(high - low, 0.5 * size);
   const least = Math.max(Math.min(low, ...bars.map(([value, error]) => (value - error) / unit.factor)), low - room);
   const most = Math.min(Math.max(high, ...bars.map(([value, error]) => (value + error) / unit.factor)), high + room);

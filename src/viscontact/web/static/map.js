@@ -58,7 +58,7 @@ function showInstant(index) {
   place("instant").value = label;
   place("instant-slider").setAttribute("aria-valuetext", label);
   const stretch = map.stretch === 1 ? "" : ` y is drawn ${digits(map.stretch, 0)} times as long as x.`;
-  const largest = `Largest pressure ${digits(peak / pressure.factor)} ${pressure.symbol}.`;
+  const largest = `Largest pressure ${map.mesh[index] ? "> " : ""}${digits(peak / pressure.factor)} ${pressure.symbol}.`;
   place("map-text").textContent = peak > 0 ? largest + stretch : "No contact.";
   drawPlane();
   place(LINE_LOAD).parentElement.hidden = !map.sections.some((each) => each.name === LINE_LOAD);

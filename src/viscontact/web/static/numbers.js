@@ -20,7 +20,7 @@ export function numbersTable(data, reference) {
     make("thead", {}, head(data, reference, stated)), make("tbody", {}, rows));
 }
 
-const isStated = (scalar) => scalar.mesh || scalar.error.some((error) => error !== null);
+const isStated = (scalar) => scalar.mesh.some(Boolean) || scalar.error.some((error) => error !== null);
 
 function head(data, reference, stated) {
   const time = unitFor("s", data.time), at = (index) => `t = ${instant(data.time.at(index), time)}`.replaceAll(" ", "\u00a0");
@@ -36,15 +36,14 @@ function row(name, data, reference, stated) {
   const before = reference?.data.listed.includes(name) ? other.value.at(-1) : null;
   const unit = unitFor(scalar.unit, scalar.value);
   const at = largestAt(scalar.value), largest = scalar.value[at] ?? null;
-  const cell = (value, error, style) =>
-    number(whole(valueText(unit, value, shownError(value, error, largest), scalar.mesh)), style);
+  const cell = (value, error, mesh, style) =>
+    number(whole(valueText(unit, value, shownError(value, error, largest), mesh)), style);
+  const cellAt = (index, style) => cell(scalar.value.at(index), scalar.error.at(index), scalar.mesh.at(index), style);
   return make("tr", {},
     make("th", { scope: "row" }, titleOf(name), make("small", { textContent: ` [${unit.symbol}]` })),
-    cell(scalar.value[0], scalar.error[0], "first"),
-    cell(scalar.value.at(-1), scalar.error.at(-1)),
-    cell(largest, scalar.error[at] ?? null, "largest"),
+    cellAt(0, "first"), cellAt(-1), cellAt(at, "largest"),
     stated && number(errorText(scalar, largest, data.time), "worst"),
-    reference && [cell(before, other?.error.at(-1) ?? null), number(change(scalar.value.at(-1), before))]);
+    reference && [cell(before, other?.error.at(-1) ?? null, other?.mesh.at(-1)), number(change(scalar.value.at(-1), before))]);
 }
 
 // On narrow pages a value is placed above its error.
@@ -59,7 +58,7 @@ const shownError = (value, error, largest) =>
 
 // The largest error as a part of the largest value, and its time.
 function errorText(scalar, largest, times) {
-  if (scalar.mesh) return "depends on the mesh";
+  if (scalar.mesh.some(Boolean)) return "depends on the mesh";
   const worst = scalar.error.reduce((best, error, index) =>
     (error !== null && !(error <= (scalar.error[best] ?? -1)) ? index : best), -1);
   if (worst < 0) return "not known";

@@ -71,7 +71,7 @@ function drawFacts(data) {
   write(place("facts-when"), atEnd ? when : `${when}, when the contact is largest`);
   place("facts").replaceChildren(...Object.entries(data.facts).map(([name, label]) => {
     const { value, error, unit, mesh } = data.scalars[name];
-    const [number, half] = quantityText(value[index], error[index], unit, mesh).split(" ± ");
+    const [number, half] = quantityText(value[index], error[index], unit, mesh[index]).split(" ± ");
     return make("div", {}, make("dt", { textContent: label }),
       make("dd", {}, half ? `${number} ${half.split(" ").at(-1)}` : number,
         half && make("small", { textContent: `± ${half}` })));
