@@ -134,6 +134,18 @@ def test_bar_holds_an_error_of_the_steps(known: Solved, name: str) -> None:
     assert 0.99 < bar_over_error(known, name, results) < WIDEST
 
 
+@pytest.mark.parametrize("steps", [8, 20])
+def test_bar_holds_an_error_of_many_steps(steps: int) -> None:
+    """Both coarser runs take fewer steps where those of the run hardly change the pressure."""
+    run, history, results = solved(vc.Zener(1e6, 1e8, 1e8), steps=steps)
+    assert not any(each.divides_steps for each in results)
+    for name in SMOOTH:
+        known = run, {key: values.copy() for key, values in history.items()}, results
+        ratio = bar_over_error(known, name, with_error(known, name, steps=ERROR))
+        # The coarsest steps, of four, have an error of 16.
+        assert 0.99 < ratio < 16.0, name
+
+
 @pytest.mark.parametrize("cells", [25, 36])
 @pytest.mark.parametrize("shape", ["ball", "punch"])
 def test_bar_holds_the_error_of_runs_that_agree_by_chance(shape: str, cells: int) -> None:
