@@ -1,0 +1,181 @@
+"""Maps and sections of a page and of the calculator: an ellipse beside the centre.
+
+On nx != ny cells of dx != dy, so that no map can exchange the axes; against closed forms.
+"""
+
+from __future__ import annotations
+
+import base64
+import csv
+import io
+import json
+import re
+from typing import Any
+from urllib.parse import unquote
+
+import numpy as np
+import pytest
+import xarray as xr
+from numpy.typing import NDArray
+
+import viscontact as vc
+from synthetic_results import (
+    ELLIPSE_AXES,
+    ELLIPSE_MIDDLE,
+    ELLIPSE_PEAK,
+    ELLIPSE_TIMES,
+    ellipse,
+    ellipse_growth,
+    ellipse_pressure,
+)
+from viscontact.report import report_page
+from viscontact.report.run_data import run_data
+
+FloatArray = NDArray[np.float64]
+
+LENGTHS = {"mm": 1e-3, "µm": 1e-6}
+PRESSURES = {"MPa": 1e6, "kPa": 1e3}
+
+
+@pytest.fixture(scope="module", params=[False, True], ids=["long in y", "long in x"])
+def transposed(request: pytest.FixtureRequest) -> bool:
+    return bool(request.param)
+
+
+@pytest.fixture(scope="module")
+def page(transposed: bool) -> str:
+    return report_page(ellipse(transposed=transposed))
+
+
+@pytest.fixture(scope="module", params=["page", "calculator"])
+def data(request: pytest.FixtureRequest, page: str, transposed: bool) -> dict[str, Any]:
+    """What the figures of a page, and of the calculator, are drawn from."""
+    if request.param == "calculator":
+        found = run_data(ellipse(transposed=transposed))["map"]
+        return {"map": found, "sections": found["sections"]}
+    script = re.search(r'<script[^>]*id="data"[^>]*>(.*?)</script>', page, re.DOTALL)
+    assert script
+    parsed: dict[str, Any] = json.loads(script[1])
+    return parsed
+
+
+def exact(x: FloatArray, y: FloatArray, t: float, transposed: bool) -> FloatArray:
+    return ellipse_pressure(*((y, x) if transposed else (x, y)), t)
+
+
+def middle(transposed: bool) -> tuple[float, float]:
+    x, y = ELLIPSE_MIDDLE
+    return (y, x) if transposed else (x, y)
+
+
+def test_map_is_the_pressure_at_its_places(data: dict[str, Any], transposed: bool) -> None:
+    """Rows of the map follow y and its columns x, as Plotly draws heat maps."""
+    drawn = data["map"]
+    x, y = (np.array(drawn[way]) * LENGTHS[drawn["unit"]] for way in ("x", "y"))
+    assert x.size != y.size
+    for part, t in zip(drawn["parts"], ELLIPSE_TIMES, strict=True):
+        steps = np.frombuffer(base64.b64decode(part), "<u2").reshape(y.size, x.size)
+        pressure = steps / drawn["steps"] * drawn["peak"] * PRESSURES[drawn["pressureUnit"]]
+        expected = exact(x, y[:, None], t, transposed)
+        np.testing.assert_allclose(pressure, expected, atol=1e-4 * ELLIPSE_PEAK)
+        assert np.count_nonzero(expected) > 300
+
+
+def test_rims_of_the_map_are_the_ellipses(data: dict[str, Any], transposed: bool) -> None:
+    drawn = data["map"]
+    assert drawn["labels"] == [f"{t:g} s" for t in ELLIPSE_TIMES]
+    for rim, t in zip(drawn["rims"], ELLIPSE_TIMES, strict=True):
+        points = np.array([rim["x"][:-1], rim["y"][:-1]], dtype=float) * LENGTHS[drawn["unit"]]
+        offsets = points - np.array(middle(transposed))[:, None]
+        axes = ellipse_growth(t) * np.array(ELLIPSE_AXES[::-1] if transposed else ELLIPSE_AXES)
+        np.testing.assert_allclose(np.hypot(*(offsets / axes[:, None])), 1.0, atol=0.02)
+
+
+def assert_is_section(
+    position: FloatArray, pressure: FloatArray, along: str, t: float, transposed: bool
+) -> None:
+    """Pressure on a line through the middle, in each cell but for those at the rim."""
+    x, y = middle(transposed)
+    places = (position, np.full_like(position, y))
+    if along == "y":
+        places = (np.full_like(position, x), position)
+    expected = exact(*places, t, transposed)
+    peak = ELLIPSE_PEAK * ellipse_growth(t)
+    inner = expected > 0.4 * peak
+    assert np.count_nonzero(inner) >= 15
+    # Between two rows of cells the pressure is linear, the circle's chord.
+    np.testing.assert_allclose(pressure[inner], expected[inner], atol=0.01 * peak)
+    assert np.all(pressure[expected == 0] < 0.1 * peak)
+    assert pressure.max() == pytest.approx(peak, rel=0.01)
+
+
+def test_sections_of_the_figures_run_through_the_middle(
+    data: dict[str, Any], transposed: bool
+) -> None:
+    sections = [each for each in data["sections"] if each.get("name") != "line-load"]
+    assert [each["along"] for each in sections] == ["x", "y"]
+    for each in sections:
+        position = np.array(each["position"]) * LENGTHS[each["unit"]]
+        values = each.get("values") or each["pressure"]
+        unit = each.get("valueUnit") or each["pressureUnit"]
+        # The window holds the largest contact.
+        way = "xy".index(each["along"])
+        reach = ellipse_growth(ELLIPSE_TIMES[-1]) * ELLIPSE_AXES[way ^ transposed]
+        assert position[0] < middle(transposed)[way] - reach
+        assert position[-1] > middle(transposed)[way] + reach
+        for pressure, t in zip(values, ELLIPSE_TIMES, strict=True):
+            found = np.array(pressure) * PRESSURES[unit]
+            assert_is_section(position, found, each["along"], t, transposed)
+
+
+@pytest.mark.parametrize("along", ["x", "y"])
+def test_tables_of_the_sections_name_their_axis_and_instants(
+    page: str, along: str, transposed: bool
+) -> None:
+    link = re.search(rf'<a [^>]*download="section-{along}.csv"[^>]*>', page)
+    assert link
+    reference = re.search(r'href="data:text/csv;charset=utf-8,([^"]*)"', link[0])
+    assert reference
+    head, *rows = csv.reader(io.StringIO(unquote(reference[1])))
+    assert head == [f"{along} [m]", *(f"pressure at {t} s [Pa]" for t in ELLIPSE_TIMES)]
+    position, *columns = np.array(rows, dtype=float).T
+    np.testing.assert_allclose(position, ellipse(transposed=transposed)[along], rtol=1e-12)
+    for pressure, t in zip(columns, ELLIPSE_TIMES, strict=True):
+        assert_is_section(position, pressure, along, t, transposed)
+
+
+def test_page_states_where_the_sections_lie(page: str, transposed: bool) -> None:
+    """To a hundredth of a cell."""
+    x, y = middle(transposed)
+    for name, place in (("x", x), ("y", y)):
+        stated = re.search(rf"at {name} = (-?[\d.]+) (mm|µm)", page.replace("−", "-"))
+        assert stated
+        assert float(stated[1]) * LENGTHS[stated[2]] == pytest.approx(place, abs=1e-6)
+
+
+# --- the account of accuracy ------------------------------------------------------------------
+
+
+def accuracy_of(ds: xr.Dataset) -> dict[str, str]:
+    return dict(run_data(ds)["accuracy"])
+
+
+@pytest.mark.parametrize("worst", range(len(ELLIPSE_TIMES)))
+def test_residual_is_the_largest_of_all_instants(worst: int) -> None:
+    ds = ellipse()
+    ds["residual"][:] = 1e-9
+    ds["residual"][worst] = 4.2e-7
+    assert accuracy_of(ds)["Residual"].startswith("4.2e-07 at most")
+
+
+@pytest.mark.parametrize("errors", [True, False])
+def test_coarser_runs_are_reported_if_there_were_any(errors: bool) -> None:
+    rubber, grid = vc.Material(vc.Zener(1e6, 1e6, 1e6), 0.5), vc.Grid((32, 24), (2.7e-3, 2.4e-3))
+    times = np.linspace(0.0, 1.0, 9)
+    ds = vc.simulate(
+        vc.Paraboloid(0.01, 0.01), rubber, vc.step(0.1), grid, times, errors=errors, fields="none"
+    )
+    assert float(ds.time_error.max()) > 0  # estimated in the run itself
+    said = accuracy_of(ds)["Coarser runs"]
+    assert said.startswith("two coarser runs" if errors else "none: ")
+    assert said in report_page(ds)
