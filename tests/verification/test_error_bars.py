@@ -122,7 +122,7 @@ def pressed(cells: int, *, steps: int = 20, tolerance: float = 1e-7):
 
 
 def test_bars_shrink_with_cells_and_steps() -> None:
-    """Approach at second order, extents at first; the rim's scatter takes something away."""
+    """At second order; the rim's scatter takes something away from areas and extents."""
     names = ("approach", "contact_area", "contact_length")
     found = {name: [] for name in names}
     for cells, steps in ((20, 16), (40, 32), (80, 64)):
@@ -131,8 +131,8 @@ def test_bars_shrink_with_cells_and_steps() -> None:
             found[name].append(float(np.median(bars[name])))
     orders = {name: math.log(bars[0] / bars[2]) / math.log(4) for name, bars in found.items()}
     assert orders["approach"] > 1.5
-    assert orders["contact_area"] > 0.8
-    assert orders["contact_length"] > 0.6
+    assert orders["contact_area"] > 1.5
+    assert orders["contact_length"] > 1.2
 
 
 def test_a_loose_tolerance_widens_the_bars() -> None:

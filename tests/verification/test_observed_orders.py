@@ -37,11 +37,11 @@ def relative_errors(radii, cells, rng):
 
 
 @pytest.mark.parametrize("shape", RADII)
-def test_pressure_and_approach_are_of_second_order_and_the_area_of_first(shape):
-    """The area's error is where the rim hits its cells by chance: 1 % of a cell's edge off.
+def test_pressure_approach_and_area_are_of_second_order(shape):
+    """Also the scatter of the area with the place of the rim among the cells.
 
-    Measured, sphere: pressure 2.1, approach 1.9, area 0.85, down to 2.7e-5, 2.5e-5, 6.0e-4;
-    ellipse: 2.1, 1.9, 1.05, down to 2.7e-5, 2.4e-5, 3.4e-4. Other draws: area 0.84 to 1.35.
+    Measured, sphere: pressure 2.1, approach 1.9, area 2.1, down to 2.7e-5, 2.5e-5, 1.2e-5;
+    ellipse: 2.1, 1.9, 3.4, down to 2.7e-5, 2.4e-5, 1.9e-5.
     """
     rng = np.random.default_rng(0)
     table = [
@@ -51,6 +51,6 @@ def test_pressure_and_approach_are_of_second_order_and_the_area_of_first(shape):
     pressure, approach, area = np.transpose(table)
     assert order(1 / CELLS, pressure) == pytest.approx(2.0, abs=0.3)
     assert order(1 / CELLS, approach) == pytest.approx(2.0, abs=0.3)
-    assert order(1 / CELLS, area) == pytest.approx(1.0, abs=0.4)
+    assert order(1 / CELLS, area) > 1.8
     assert max(pressure[-1], approach[-1]) < 6e-5
-    assert area[-1] < 1.5e-3
+    assert area[-1] < 1.5e-4

@@ -1,9 +1,10 @@
 """The contact's area below the cell size, where counting cells would be off by a per cent.
 
-The exact area follows from eq. 16 of Spinu & Cerlinca (2018), a³ = 3 R W J(t)/4, on circles whose
-centre lies anywhere between the cells. A held soft solid is the hard case: its surface has crept
-far beyond what the pressure of now would cause, so an estimate that takes the gap for elastic
-with the instantaneous modulus misses the rim.
+The exact area of a creeping ball follows from eq. 16 of Spinu & Cerlinca (2018), a³ = 3 R W J(t)/4,
+on circles whose centre lies anywhere between the cells. A held soft solid is the hard case: its
+surface has crept far beyond what the pressure of now would cause, so an estimate that takes the gap
+for elastic with the instantaneous modulus misses the rim. The orders of other contacts are in
+`test_order_of_the_rim`.
 """
 
 import math
@@ -58,17 +59,17 @@ def held(ratio, steps):
 
 
 def test_traced_area_is_far_better_than_counted_cells():
-    """Measured at 15 cells a radius over 12 places: traced 1e-3, counted 1.5e-2."""
+    """Measured at 15 cells a radius over 40 places: traced 2.5e-4, counted 2.1e-2."""
     errors = area_errors(ELASTIC, [0.0], 15, offsets=12)
-    assert abs(errors.traced).max() < 4e-3
-    assert abs(errors.counted).max() > 3 * abs(errors.traced).max()
+    assert abs(errors.traced).max() < 5e-4
+    assert abs(errors.counted).max() > 20 * abs(errors.traced).max()
 
 
 @pytest.mark.parametrize(
     ("cells", "bias", "scatter", "worst"),
     [
-        (15, 2e-3, 1.2e-3, 4e-3),  # measured over 40 places: -1.2e-3, 6.5e-4, 2.7e-3
-        (28, 1.5e-3, 6e-4, 2.5e-3),  # -8.5e-4, 2.7e-4, 1.5e-3
+        (15, 2e-4, 1.5e-4, 5e-4),  # measured over 40 places: 8.2e-5, 9.3e-5, 2.5e-4
+        (28, 5e-5, 5e-5, 1.5e-4),  # 1.4e-5, 3.3e-5, 9.2e-5
     ],
 )
 def test_area_of_an_elastic_contact(cells, bias, scatter, worst):
@@ -78,23 +79,26 @@ def test_area_of_an_elastic_contact(cells, bias, scatter, worst):
     assert abs(errors).max() < worst
 
 
-def test_bias_of_the_area_falls_with_the_cell_size():
-    """The polygon is inscribed, so the area is always too small. Measured: order 0.85 to 1.3."""
-    cells = np.array([12, 18, 27, 41])
-    bias = [abs(area_errors(ELASTIC, [0.0], n, offsets=12).traced).mean() for n in cells]
-    assert order(1 / cells, bias) > 0.7
+@pytest.mark.parametrize("ratio", [10, 100])
+@pytest.mark.filterwarnings("ignore:a time step:viscontact.AccuracyWarning")  # of pressure
+def test_area_of_a_held_soft_solid(ratio):
+    """M(0)/M(inf) = 10 and 100, held until all creep is over: as accurate as an elastic contact."""
+    errors = area_errors(soft_solid(ratio), held(ratio, 40), 15, offsets=4).traced
+    assert abs(errors).max() < 5e-4
 
 
 @pytest.mark.parametrize("ratio", [10, 100])
 @pytest.mark.filterwarnings("ignore:a time step:viscontact.AccuracyWarning")  # of pressure
-def test_area_of_a_held_soft_solid(ratio):
-    """M(0)/M(inf) = 10 and 100, held until all creep is over.
-
-    Measured at 15 cells a radius over 12 places, for both ratios: bias -1.5e-3, scatter 7e-4,
-    worst 2.6e-3; at 28 cells -9e-4, 2e-4, 1.2e-3.
-    """
-    errors = area_errors(soft_solid(ratio), held(ratio, 40), 15, offsets=4).traced
-    assert abs(errors).max() < 4e-3
+@pytest.mark.filterwarnings("ignore:only:viscontact.AccuracyWarning")  # few cells, on purpose
+def test_area_of_a_held_soft_solid_is_of_second_order(ratio):
+    """Mean errors measured, for both ratios: 4.7e-4, 1.3e-4, 9.3e-6."""
+    cells = np.array([8, 14, 24])
+    errors = [
+        abs(area_errors(soft_solid(ratio), held(ratio, 40), n, offsets=4).traced).mean()
+        for n in cells
+    ]
+    assert order(1 / cells, errors) > 1.8
+    assert errors[-1] < 8e-5
 
 
 @pytest.mark.parametrize("ratio", [10, 100])
@@ -102,11 +106,11 @@ def test_area_of_a_soft_solid_held_for_100_relaxation_times(ratio):
     """The other reading of a long hold: with M(0)/M(inf) = 100 the contact then still grows.
 
     Steps of half a relaxation time: fine enough for the pressure at the rim, which newly touched
-    surface enters at the instantaneous stiffness. Measured: 1.4e-3 at most for both.
+    surface enters at the instantaneous stiffness. Measured: 1.8e-4 at most for both.
     """
     times = vc.uniform_times(100 * RELAXATION_TIME, 200)
     errors = area_errors(soft_solid(ratio), times, 15, offsets=2).traced
-    assert abs(errors).max() < 4e-3
+    assert abs(errors).max() < 5e-4
 
 
 @pytest.mark.slow
@@ -116,9 +120,9 @@ def test_area_of_a_soft_solid_held_for_100_relaxation_times(ratio):
 def test_bias_and_scatter_of_a_held_soft_solid(ratio, cells):
     """As above over 12 places: bias and scatter."""
     errors = area_errors(soft_solid(ratio), held(ratio, 40), cells, offsets=12).traced
-    assert abs(errors.mean()) < 2e-3
-    assert errors.std() < 1.5e-3
-    assert abs(errors).max() < 4e-3
+    assert abs(errors.mean()) < 2e-4
+    assert errors.std() < 1.5e-4
+    assert abs(errors).max() < 5e-4
 
 
 def test_area_does_not_suffer_from_steps_long_against_the_relaxation():
@@ -128,4 +132,4 @@ def test_area_does_not_suffer_from_steps_long_against_the_relaxation():
     """
     times = vc.log_times(0.01, 100 * RELAXATION_TIME, 40)
     errors = area_errors(soft_solid(100), times, 15, offsets=2).traced
-    assert abs(errors).max() < 4e-3
+    assert abs(errors).max() < 5e-4

@@ -186,7 +186,7 @@ def test_force_swings_three_times(name):
     """Graham (1965): haversines of force, sampled. Measured, worst: approach 2.5e-4, radius 9.9e-4.
 
     Where the contact has just begun to shrink, the gap just outside is next to nothing, and the
-    traced rim is late by up to 0.08 of a cell: hence the fine mesh.
+    traced rim is late by up to 0.09 of a cell: hence the fine mesh.
     """
     body, times = BODIES[name], vc.uniform_times(6 * RISE, 180)
     force = haversine(times, FORCE)
@@ -195,7 +195,7 @@ def test_force_swings_three_times(name):
         SPHERE, times, force=force, creep_compliance=body.creep, elements=150, substeps=2
     )
     load, largest = vc.ForceHistory(times, force), exact.contact_radius.max()
-    cells = 38.3 if name == "zener" else 64.3
+    cells = 64.3 if name == "zener" else 100.3
     run = pressed(body.material, load, times, largest, cells=cells, odd=False, tolerance=1e-6)
     assert deviation(run.approach, exact.approach) < BOUND / 2
     assert radius_deviation(run, exact.contact_radius) < BOUND

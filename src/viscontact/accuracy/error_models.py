@@ -35,14 +35,14 @@ _WORK = ErrorModel(2.0, 1.8, at_end=ErrorModel(0.7, 1.2))
 #: Area and peak, also where contact consists of spots of fewer cells across, in the mean: some of
 #: them exist on one grid only. Calibrated on self-affine surfaces, 2 to 9 cells across.
 COARSE_SPOT_CELLS = 8.0
-_AREA = ErrorModel(2.0, 2.0, of_spots=ErrorModel(1.0, 1.5))
+_AREA = ErrorModel(2.0, 1.25, of_spots=ErrorModel(1.0, 1.5))
 _PEAK = ErrorModel(2.0, 1.5, at_end=ErrorModel(1.0, 1.5), of_spots=ErrorModel(2.0, 4.0))
 
 #: Peak of the line load, a mean over a twentieth of the contact. Calibrated on ellipses, crowned
 #: rollers, and rollers and punches with sharp ends, 15 to 80 cells long.
 _LINE_LOAD = ErrorModel(2.0, 2.0, at_end=ErrorModel(0.7, 1.1), of_spots=ErrorModel(2.0, 4.0))
 
-_EXTENT = ErrorModel(1.0, 0.5)
+_EXTENT = ErrorModel(2.0, 1.0)
 
 #: Error models of the scalars; the mean pressure follows from force and area. Pressure is smooth
 #: except at the rim, which lies between cells.

@@ -19,7 +19,7 @@ SOLVER_ERROR_FACTOR = 3.0
 
 #: Smallest error of extents in cells, however well two grids agree; with spots of few cells; at a
 #: straight sharp end, towards which the contact widens without a limit.
-RIM_CELLS, SPOT_RIM_CELLS, END_RIM_CELLS = 0.2, 1.0, 1.5
+RIM_CELLS, SPOT_RIM_CELLS, END_RIM_CELLS = 0.05, 1.0, 1.5
 
 #: Extents of the contact along x and y, and scalars that follow from the moments.
 EXTENTS = ("contact_length", "contact_width")

@@ -1,9 +1,10 @@
 """Rim of a contact, located between cell centres.
 
 An area by counting cells is a jagged function of time. Just outside a smooth rim the gap opens as
-distance^(3/2), whatever the law and whether the contact grows or shrinks, so gap^(2/3) of the first
-two open cells of a grid line extrapolates to the rim. Polygons through these crossings enclose the
-contact. Where the body ends in that cell, the rim is its outline.
+distance^(3/2), whatever the law and whether the contact grows or shrinks; on cells it opens in a
+way that `straight_edge` computes. The first open cells of a grid line locate the rim. Polygons
+through these crossings enclose the contact. Where the body ends in that cell, the rim is its
+outline.
 """
 
 from __future__ import annotations
@@ -16,10 +17,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.contact.body_edge import Outline
+from viscontact.contact.rim_crossings import MARGIN, locate_rim, places
 from viscontact.grid import Grid
 
-#: Rows and columns of some cells.
-Place = tuple[NDArray[np.intp], NDArray[np.intp]]
+#: Area between a curved rim and the chords through its crossings, in cells per quarter turn. A
+#: chord of a row is dy/cos φ long, with the direction φ of its normal, where the rim crosses rows
+#: rather than columns; chords of length c lose c²/12 dφ, in a whole turn 8 dx dy/12.
+SEGMENTS = 1 / 6
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,8 +36,8 @@ class Rim:
 
     grid: Grid
     contact: NDArray[np.bool_]  # cells under pressure in the block
-    #: Distance from the inner centre, in cells, as in `Outline`; slightly negative where that
-    #: centre lies just outside.
+    #: Distance from the inner centre, in cells, as in `Outline`; negative where that centre lies
+    #: just outside, and of any size on a chord that crosses the line outside the cells.
     along_x: NDArray[np.float64]
     along_y: NDArray[np.float64]
     rows: NDArray[np.intp]  # position of the block in the grid
@@ -108,45 +112,45 @@ def trace_rim(
     """Locate the rim of a contact between cell centres.
 
     The gap is +inf outside the body [m]; where the body ends, the rim is its outline, or the middle
-    between two centres if none is given. At 15 cells a radius, the area is too small by about
-    1.3e-3, which falls in proportion to the cell size, with a scatter of up to 2e-3, which falls
-    faster.
+    between two centres if none is given. The area is accurate to the second order.
 
     Notes
     -----
     The square root of the pressure inside a smooth rim belongs to an opening of distance^(3/2)
-    outside (Johnson 1985, Contact Mechanics, eq. 5.9). Only the gap is used, so no modulus has to
-    be chosen for a creeping body.
+    outside (Johnson 1985, eq. 5.9), on cells to that of `EdgeLaw`, for any creep law.
 
     Examples
     --------
-    Gaps 1 and 2**1.5 at distances 1 and 2 from the rim: the rim is at the inner cell's centre.
+    A straight edge 0.4 cells outside the inner centre, with the gaps of `EdgeLaw`:
 
-    >>> gap = np.tile([0.0, 0.0, 1.0, 2**1.5], (4, 1)).T
-    >>> rim = trace_rim(Grid((4, 4), (4.0, 4.0)), gap == 0, gap)
-    >>> float(round(rim.along_x[1, 0], 12))
-    0.0
+    >>> from viscontact.contact.straight_edge import edge_law
+    >>> grid = Grid((4, 4), (4.0, 4.0))
+    >>> law = edge_law(1.0, periodic=False)
+    >>> t, (b, c) = 0.6 - law.threshold, law.growth
+    >>> gap = np.tile([0.0, t, 1 + (1 + b) * t, 2 + b + (1 + b + c) * t], (4, 1)).T
+    >>> rim = trace_rim(grid, gap == 0, gap)
+    >>> float(round(rim.along_x[0, 0], 12))
+    0.4
     """
     if grid.periodic:
         return _trace_around(grid, contact, gap, outline)
     rows, columns = _block(contact, axis=0), _block(contact, axis=1)
     contact, gap = contact[rows, columns], gap[rows, columns]
-    end_x = end_y = None
+    ends = None
     if outline is not None:
         end_x = outline.along_x[rows, columns][: len(contact) - 1]
-        end_y = outline.along_y[rows, columns][:, : contact.shape[1] - 1]
-    along_x = _crossings(contact, gap, end_x, axis=0)
-    along_y = _crossings(contact, gap, end_y, axis=1)
-    lines = (np.arange(n)[block] for n, block in zip(grid.shape, (rows, columns), strict=True))
+        ends = end_x, outline.along_y[rows, columns][:, : contact.shape[1] - 1]
+    along_x, along_y = locate_rim(grid, contact, gap, ends)
+    lines = (np.arange(n)[each] for n, each in zip(grid.shape, (rows, columns), strict=True))
     return Rim(grid, contact, along_x, along_y, *lines)
 
 
 def _block(contact: NDArray[np.bool_], axis: int) -> slice:
-    """The contact's span along an axis, and two open cells on both sides."""
+    """The contact's span along an axis, and the open cells on both sides."""
     touched = np.flatnonzero(contact.any(axis=1 - axis))
     if len(touched) == 0:
         return slice(0, 2)
-    return slice(max(int(touched[0]) - 2, 0), int(touched[-1]) + 3)
+    return slice(max(int(touched[0]) - MARGIN, 0), int(touched[-1]) + 1 + MARGIN)
 
 
 def _trace_around(
@@ -154,17 +158,19 @@ def _trace_around(
 ) -> Rim:
     """Trace the rim of a contact that continues across the border of its period."""
     rows, columns = _turn(contact, axis=0), _turn(contact, axis=1)
-    # Two more cells on both sides, from which the rim in the block is extrapolated.
+    # More cells on both sides, from which the rim in the block is extrapolated.
     wide = np.ix_(_beyond(rows, grid.shape[0]), _beyond(columns, grid.shape[1]))
     contact, gap = contact[wide], gap[wide]
-    end_x = end_y = None
+    ends = None
     if outline is not None:
         # A body that reaches the border ends there, in the middle between two centres.
         end_x = np.pad(outline.along_x, ((0, 1), (0, 0)), constant_values=np.nan)[wide][:-1]
         end_y = np.pad(outline.along_y, ((0, 0), (0, 1)), constant_values=np.nan)[wide][:, :-1]
-    along_x = _crossings(contact, gap, end_x, axis=0)[2:-2, 2:-2]
-    along_y = _crossings(contact, gap, end_y, axis=1)[2:-2, 2:-2]
-    return Rim(grid, contact[2:-2, 2:-2], along_x, along_y, rows, columns)
+        ends = end_x, end_y
+    inner = slice(MARGIN, -MARGIN)
+    along_x, along_y = locate_rim(grid, contact, gap, ends)
+    block = contact[inner, inner]
+    return Rim(grid, block, along_x[inner, inner], along_y[inner, inner], rows, columns)
 
 
 def _turn(contact: NDArray[np.bool_], axis: int) -> NDArray[np.intp]:
@@ -182,44 +188,8 @@ def _turn(contact: NDArray[np.bool_], axis: int) -> NDArray[np.intp]:
 
 
 def _beyond(lines: NDArray[np.intp], count: int) -> NDArray[np.intp]:
-    """Given lines, and two more before and behind them."""
-    return np.asarray((np.arange(-2, len(lines) + 2) + lines[0]) % count)
-
-
-def _crossings(
-    contact: NDArray[np.bool_],
-    gap: NDArray[np.float64],
-    outline: NDArray[np.float64] | None,
-    axis: int,
-) -> NDArray[np.float64]:
-    """Distance from the inner centre, in cells, where contact changes along an axis."""
-    changes = contact[1:] != contact[:-1] if axis == 0 else contact[:, 1:] != contact[:, :-1]
-    place = _places(changes)
-    inside = contact[place]
-    # First and second open cell, outwards from the crossing.
-    first = _shifted(place, axis, inside)
-    second = _shifted(first, axis, np.where(inside, 1, -1))
-    second[axis].clip(0, contact.shape[axis] - 1, out=second[axis])
-    opening, far = gap[first], gap[second]
-    near = np.maximum(opening, 0.0)
-    # The middle, if the second gap is not wider (a groove of one cell, the body's end).
-    known = np.isfinite(far) & (far > near) & ~contact[second]
-    ratio = np.divide(near, far, out=np.full(len(near), 0.5), where=known) ** (2 / 3)
-    distance = np.where(known, ratio / (1 - np.where(known, ratio, 0.0)), 0.5)
-    located = np.maximum(1 - distance, -0.5)
-    if outline is not None:
-        end = outline[place]
-        end[np.isnan(end)] = 0.5
-        located = np.where(np.isinf(opening), end, located)
-    crossings = np.full(changes.shape, np.nan)
-    crossings[place] = located
-    return crossings
-
-
-def _shifted(place: Place, axis: int, by: NDArray[Any]) -> Place:
-    """Cells next to given cells along an axis."""
-    rows, columns = place
-    return (rows + by, columns) if axis == 0 else (rows, columns + by)
+    """Given lines, and more before and behind them."""
+    return np.asarray((np.arange(-MARGIN, len(lines) + MARGIN) + lines[0]) % count)
 
 
 def _enclosed_squares(rim: Rim) -> float:
@@ -227,28 +197,25 @@ def _enclosed_squares(rim: Rim) -> float:
     inside = rim.contact
     pairs = inside[1:].view(np.int8) + inside[:-1].view(np.int8)
     count = pairs[:, 1:] + pairs[:, :-1]
-    i, j = _places((count & 3) != 0)  # neither none nor all four
+    i, j = places((count & 3) != 0)  # neither none nor all four
     along_x, along_y = rim.along_x, rim.along_y
     edges = np.array([along_x[i, j], along_x[i, j + 1], along_y[i, j], along_y[i + 1, j]])
-    edges = np.fmin(np.fmax(edges, 0.0), 1.0)  # NaN, no crossing, becomes 0
+    edges[np.isnan(edges)] = 0.0  # no crossing
     u, v = edges[0] + edges[1], edges[2] + edges[3]
     # One corner inside: a triangle. Two neighbours: a trapezium between the crossings of the two
-    # edges that leave their side. Three: the square without a triangle.
+    # edges that leave their side. Three: the square without a triangle. Signed areas where a
+    # crossing lies beyond the square: their sum is that of the polygons.
     corners = count[i, j]
-    enclosed = np.choose(corners - 1, [u * v / 2, (u + v) / 2, 1 - (1 - u) * (1 - v) / 2])
+    triangle, rest = u * v / 2 + SEGMENTS, 1 - (1 - u) * (1 - v) / 2 - SEGMENTS
+    enclosed = np.choose(corners - 1, [triangle, (u + v) / 2, rest])
     # Opposite corners inside: two separate triangles.
     first = inside[i, j]
     apart = np.flatnonzero((corners == 2) & (first == inside[i + 1, j + 1]))
     if apart.size:
         left, right, lower, upper = edges[:, apart]
         ends = np.where(first[apart], left * lower + right * upper, left * upper + right * lower)
-        enclosed[apart] = ends / 2
+        enclosed[apart] = ends / 2 + 2 * SEGMENTS
     return float(np.count_nonzero(count == 4) + enclosed.sum())
-
-
-def _places(where: NDArray[np.bool_]) -> Place:
-    """Rows and columns of the true entries; `np.nonzero` takes eight times as long."""
-    return np.divmod(np.flatnonzero(where), where.shape[1])
 
 
 def _extent(contact: NDArray[np.bool_], crossings: NDArray[np.float64]) -> float:
@@ -257,12 +224,16 @@ def _extent(contact: NDArray[np.bool_], crossings: NDArray[np.float64]) -> float
     if not touched.size:
         return 0.0
     # A crossing lies between half a cell inside and one outside of its inner centre: two rows
-    # contain the extreme ones.
+    # contain the extreme ones. A chord may cross its line elsewhere.
     (from_first, first), (from_last, last) = (
         (max(int(row) - 1, 0), min(int(row) + 1, len(crossings))) for row in touched[[0, -1]]
     )
-    starts = np.arange(from_first, first)[:, None] + 1 - crossings[from_first:first]
-    ends = np.arange(from_last, last)[:, None] + crossings[from_last:last]
+    near, far = (
+        np.where(np.abs(each) <= 1, each, np.nan)
+        for each in (crossings[from_first:first], crossings[from_last:last])
+    )
+    starts = np.arange(from_first, first)[:, None] + 1 - near
+    ends = np.arange(from_last, last)[:, None] + far
     upper, lower = contact[from_last:last], contact[from_first + 1 : first + 1]
     end = np.fmax.reduce(ends[upper], initial=0.0)
     return float(end - np.fmin.reduce(starts[lower], initial=len(contact) - 1.0))

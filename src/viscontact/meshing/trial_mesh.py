@@ -18,10 +18,10 @@ from viscontact.loads import LoadPoint
 from viscontact.meshing.body_fit import fitted_extents
 from viscontact.meshing.elastic_estimate import elastic_contact
 
-#: Error of the rim's position on a row of cells, in cells. The error of the area changes sign with
-#: the position of the rim among the cells, so that two meshes may agree by chance; measured on
-#: Hertz's ellipses.
-RIM_SCATTER = 0.07
+#: Error of the rim's position on a row of cells, in cells, the largest on Hertz's ellipses. The
+#: error of the area changes sign with the position of the rim among the cells, so that two meshes
+#: may agree by chance.
+RIM_SCATTER = 0.05
 
 #: Least relative error of a peak pressure within END_DEPTH cells of the body's end: on four times
 #: as many cells it was up to 20 % larger or smaller (Lundberg's and Johns and Gohar's profiles).

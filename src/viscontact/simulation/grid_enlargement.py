@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from scipy import fft
 
 from viscontact.contact.domain import ContactDomain
+from viscontact.contact.rim_crossings import MARGIN
 from viscontact.grid import Grid
 from viscontact.meshing.contact_extent import MAX_CELLS
 from viscontact.simulation.step_solution import StepSolution
@@ -17,8 +18,8 @@ from viscontact.simulation.step_solution import StepSolution
 #: Growth of the grid along an axis where the contact reaches its rim [-].
 FACTOR = 1.5
 
-#: Cells that stay free around a contact whose grid may grow; its rim is traced in two of them.
-FREE = 2
+#: Cells that stay free around a contact whose grid may grow; its rim is traced in them.
+FREE = MARGIN
 
 
 def overrun(pressure: NDArray[np.float64], free: int = 1) -> tuple[bool, bool]:
