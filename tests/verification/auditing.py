@@ -48,14 +48,15 @@ def audit(problem, tolerance=1e-6):
     open_gap = problem.indenter.gap(x, y)
     found, scale = Findings(), 1e-12 * max(problem.grid.cell_size)
     instants, past = [], []
+    bends = np.append(problem.load.kinks, problem.load.touches)
     for state in _states(problem, tolerance, found):
         if state.time > 0 and state.time in problem.load.jumps:
             instants.append(state.time)
             past.append(_before_jump(problem, state.time, tolerance))
-            scale = max(scale, float(superposed(compliance, instants, past).max()))
+            scale = max(scale, float(superposed(compliance, instants, past, bends).max()))
         instants.append(state.time)
         past.append(deflection(state.pressure, problem.grid.cell_size))
-        displacement = superposed(compliance, instants, past)
+        displacement = superposed(compliance, instants, past, bends)
         scale = max(scale, float(displacement.max()))
         _check_instant(problem, state, displacement, open_gap, scale, found)
     return found

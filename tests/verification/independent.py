@@ -121,16 +121,40 @@ def rise(compliance, duration, after_jump):
     return duration * brentq(debt, 0.0, 1.0, xtol=1e-15)
 
 
-def superposed(compliance, times, fields):
-    """Boltzmann's integral at the last instant: a jump at times[0] and at doubled instants."""
+def superposed(compliance, times, fields, kinks=None):
+    """Boltzmann's integral at the last instant: a jump at times[0] and at doubled instants.
+
+    No step continues the one before after `kinks` of the load, or anywhere if none are given.
+    """
     end = times[-1]
     total = compliance(end - times[0]) * fields[0]
-    for i in range(1, len(times)):
-        step, after_jump = times[i] - times[i - 1], i == 1 or times[i - 1] == times[i - 2]
-        length = rise(compliance, step, after_jump) if step > 0 else 0.0
-        mean = mean_creep(compliance, end - times[i - 1] - length, length)
-        total = total + mean * (fields[i] - fields[i - 1])
+    for start, length, increment in linear_parts(compliance, times, fields, kinks):
+        age = max(end - start - length, 0.0)  # not negative by rounding
+        total = total + mean_creep(compliance, age, length) * increment
     return total
+
+
+def linear_parts(compliance, times, fields, kinks):
+    """Start and length of each part of the steps over which the fields are linear, and increment.
+
+    What the package says it does in steps longer than their rise: the line to the new value begins,
+    at the end of the rise, on the one from the mean of the same part of the step before.
+    """
+    mean = age = None
+    for i in range(1, len(times)):
+        start, step = times[i - 1], times[i] - times[i - 1]
+        after_jump = i == 1 or times[i - 1] == times[i - 2]
+        length = rise(compliance, step, after_jump) if step > 0 else 0.0
+        smooth = kinks is not None and i > 1 and start not in kinks and step > 0
+        turn = fields[i]
+        if smooth and mean is not None and compliance.instant > 0 and step - length <= 4.8 * age:
+            part = (length + age) / (step + age)
+            turn = part * fields[i] + (1 - part) * mean
+        yield start, length, turn - fields[i - 1]
+        yield start + length, step - length, fields[i] - turn
+        mean = age = None
+        if smooth and length < step and fields[i].any():
+            mean, age = (turn + fields[i]) / 2, (step - length) / 2
 
 
 @dataclass(frozen=True)
@@ -195,14 +219,15 @@ def audit(indenter, material, load, grid, times, tolerance=1e-6, indenter_materi
     states = list(vc.march(indenter, material, load, grid, times, **options))
     open_gap = indenter.gap(grid.x[:, None], grid.y[None, :])
     instants, fields, found, scale = [], [], [], 0.0
+    bends = np.append(load.kinks, load.touches)
     for state in states:
         if state.time > 0 and state.time in load.jumps:
             instants.append(state.time)
             fields.append(_before_jump(indenter, material, load, grid, times, state.time, options))
-            scale = max(scale, float(superposed(compliance, instants, fields).max()))
+            scale = max(scale, float(superposed(compliance, instants, fields, bends).max()))
         instants.append(state.time)
         fields.append(deflection(state.pressure, grid.cell_size))
-        displacement = superposed(compliance, instants, fields)
+        displacement = superposed(compliance, instants, fields, bends)
         scale = max(scale, float(displacement.max()))
         point = load.at(state.time)
         if point.force > 0:

@@ -169,7 +169,7 @@ def hereditary_error(crept):
     """
     load, peak, _ = crept
     sums = [
-        [superposed(COMPLIANCE, TIMES[: i + 1], history[: i + 1]) for i in range(len(TIMES))]
+        [superposed(COMPLIANCE, TIMES[: i + 1], history[: i + 1], [0.0]) for i in range(len(TIMES))]
         for history in (load, peak)
     ]
     return np.abs(sums[1] / np.sqrt(np.array(sums[0]) / (math.pi * RADIUS)) - 1).max()

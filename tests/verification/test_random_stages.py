@@ -95,12 +95,12 @@ def worst_violation(stage, rounding=0.0):
     open_gap = problem.indenter.gap(problem.grid.x[:, None], problem.grid.y[None, :])
     # Where the stage asks for rounding only, the solver measures by cells.
     scale, worst = 1e-12 * max(problem.grid.cell_size), 0.0
-    instants, fields = [], []
+    instants, fields, bends = [], [], np.append(load.kinks, load.touches)
     arguments = (problem.indenter, problem.material, load, problem.grid, times)
     for state in vc.march(*arguments, tolerance=TOLERANCE):
         instants.append(state.time)
         fields.append(independent.deflection(state.pressure, problem.grid.cell_size))
-        displacement = independent.superposed(compliance, instants, fields)
+        displacement = independent.superposed(compliance, instants, fields, bends)
         least = rounding * abs(state.approach) / TOLERANCE
         scale = max(scale, least, float(displacement.max()))
         point = load.at(state.time)

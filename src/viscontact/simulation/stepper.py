@@ -205,7 +205,7 @@ def _force(point: LoadPoint) -> NDArray[np.float64]:
 
 
 def _response(memory: HereditaryIntegral, step: Step) -> HereditaryResponse:
-    return memory.jump() if step.is_jump else memory.ramp(step.duration)
+    return memory.jump() if step.is_jump else memory.ramp(step.duration, smooth=step.smooth)
 
 
 def _guess(reference: ElasticReference | None, response: HereditaryResponse) -> Guess | None:

@@ -1,9 +1,9 @@
 """Hereditary integral of any law as a sum over all increments (Boltzmann superposition).
 
 A product integration rule for the Volterra integral (Linz 1985, Analytical and Numerical Methods
-for Volterra Equations): the field is linear in time over the rise of each step, so its increment is
-weighted by the mean of J over the ages of that rise, without approximation of J. Work of a step and
-memory are proportional to the number of steps.
+for Volterra Equations): the field is linear in time over each part of a step (`step_shape`), so its
+increment is weighted by the mean of J over the ages of that part, without approximation of J. Work
+of a step and memory are proportional to the number of steps.
 """
 
 from __future__ import annotations
@@ -15,13 +15,12 @@ from numpy.typing import NDArray
 
 from viscontact.materials.compliance import ContactCompliance
 from viscontact.time_integration.hereditary_integral import (
-    FieldMap,
     HereditaryIntegral,
     HereditaryResponse,
     is_resolved,
-    longest_smooth_rise,
 )
 from viscontact.time_integration.restart_data import RestartData
+from viscontact.time_integration.step_shape import FieldMap, StepShape, Trend, step_shape
 
 #: Steps ahead for which the sum over the past is computed at once, as one matrix product.
 BLOCK_STEPS = 16
@@ -61,65 +60,79 @@ class BoltzmannSum(HereditaryIntegral):
         self._compliance, self._shape = compliance, shape
         self._planned = np.zeros(0) if instants is None else instants
         rows = max(len(self._planned), steps)
-        # A row each: increment of the field, and start and end of its rise.
+        # A row for each linear part of a step: increment of the field, and start and end.
         self._increments = np.zeros((rows, int(np.prod(shape))))
         self._began, self._ended = np.zeros(rows), np.zeros(rows)
-        self._count = 0
+        self._count = self._steps = 0
         self._value = np.zeros(shape)
         self._time = 0.0
-        self._jumped = self._next_jumps = False
-        self._next = (0.0, 0.0)
+        self._jumped = self._next_jumps = self._next_smooth = False
+        self._end, self._step = 0.0, StepShape(0.0, 0.0)
+        self._trend: Trend | None = None
+        #: Sums computed ahead: for which steps, and of how many rows.
         self._ahead = np.zeros((0, self._increments.shape[1]))
-        self._ahead_from = 0
+        self._ahead_from = self._ahead_count = 0
 
     def jump(self) -> HereditaryResponse:
         """Response to a jump; see `HereditaryIntegral.jump`."""
-        self._next_jumps = True
-        past = self._history_at(self._time, rise=0.0)
+        self._next_jumps, self._next_smooth = True, False
+        past = self._history_at(self._time, StepShape(0.0, 0.0))
         compliance = self._compliance.instant
         return HereditaryResponse(past - compliance * self._value, compliance, resolved=True)
 
-    def ramp(self, duration: float) -> HereditaryResponse:
+    def ramp(self, duration: float, *, smooth: bool = False) -> HereditaryResponse:
         """Response to a step of a duration [s]; see `HereditaryIntegral.ramp`."""
-        rise = longest_smooth_rise(self._compliance, duration, after_jump=self._jumped)
-        self._next_jumps = False
-        compliance = self._compliance.mean(duration - rise, duration)
+        self._next_jumps, self._next_smooth = False, smooth
+        trend = self._trend if smooth else None
+        step = step_shape(self._compliance, duration, after_jump=self._jumped, trend=trend)
+        history = self._history_at(self._time + duration, step)
+        # Weights of the changes over both parts of the step.
+        risen = self._compliance.mean(step.slow, duration)
+        compliance = risen
+        history = history - risen * self._value
+        if trend is not None and not step.is_level:
+            slow = self._compliance.mean(0.0, step.slow)
+            compliance = slow + step.turn_weight * (risen - slow)
+            history += (1 - step.turn_weight) * (risen - slow) * trend.mean
         crept = self._compliance(duration) - self._compliance.instant
-        resolved = is_resolved(crept, self._compliance.instant, whole=rise == duration)
-        past = self._history_at(self._time + duration, rise=rise)
-        return HereditaryResponse(
-            past - compliance * self._value, compliance, resolved, held=1 - rise / duration
-        )
+        resolved = is_resolved(crept, self._compliance.instant, whole=step.slow == 0)
+        return HereditaryResponse(history, compliance, resolved, step.held, step.trended)
 
     def accept(self, value: NDArray[np.float64]) -> None:
-        """Add the increment to the new value of the field, and close the step."""
+        """Add the increments to the new value of the field, and close the step."""
+        value = value.copy() if value.flags.writeable else value
         self._jumped = self._next_jumps
-        if self._count == len(self._began):
-            self._grow_arrays()
-        row, (end, rise) = self._count, self._next
-        self._increments[row] = (value - self._value).ravel()
-        self._began[row], self._ended[row] = self._time, self._time + rise
-        self._value = value.copy()
-        self._time = end
-        self._count += 1
+        step, turned = self._step, value
+        risen_at = self._time + step.rise
+        if self._trend is not None and not step.is_level:
+            turned = step.turn_weight * value + (1 - step.turn_weight) * self._trend.mean
+            self._add(value - turned, risen_at, self._end)
+        self._add(turned - self._value, self._time, risen_at)
+        self._trend = step.trend(value, self._trend) if self._next_smooth else None
+        self._value, self._time = value, self._end
+        self._steps += 1
 
     def restart_data(self) -> RestartData:
-        """Restart data: all increments so far, and the sums computed ahead."""
+        """Restart data: all increments so far, the trend, and the sums computed ahead."""
         return {
             "increments": self._increments[: self._count],
             "began": self._began[: self._count],
             "ended": self._ended[: self._count],
             "value": self._value,
             "time": self._time,
+            "steps": self._steps,
             "jumped": self._jumped,
+            "trend": None if self._trend is None else vars(self._trend),
             "ahead": self._ahead,
             "ahead_from": self._ahead_from,
+            "ahead_count": self._ahead_count,
         }
 
     def map_fields(self, grown: FieldMap) -> None:
         """Continue with a larger field; see `HereditaryIntegral.map_fields`."""
         old, increments, ahead = self._shape, self._increments, self._ahead
         self._value = grown(self._value)
+        self._trend = None if self._trend is None else self._trend.mapped(grown)
         self._shape, size = self._value.shape, self._value.size
         self._increments = np.zeros((len(increments), size))
         for row in range(self._count):
@@ -128,23 +141,36 @@ class BoltzmannSum(HereditaryIntegral):
 
     def restore(self, restart_data: RestartData) -> None:
         """Continue from restart data; see `HereditaryIntegral.restore`."""
-        self._count = len(restart_data["began"])
-        while len(self._began) < self._count:
+        count = len(restart_data["began"])
+        while len(self._began) < count:
             self._grow_arrays()
+        self._count = count
         self._increments[: self._count] = restart_data["increments"]
         self._began[: self._count] = restart_data["began"]
         self._ended[: self._count] = restart_data["ended"]
-        self._value, self._time, self._jumped = (
-            restart_data[name] for name in ("value", "time", "jumped")
+        self._value, self._time, self._steps, self._jumped = (
+            restart_data[name] for name in ("value", "time", "steps", "jumped")
         )
-        self._ahead, self._ahead_from = restart_data["ahead"], restart_data["ahead_from"]
+        trend = restart_data["trend"]
+        self._trend = None if trend is None else Trend(**trend)
+        self._ahead, self._ahead_from, self._ahead_count = (
+            restart_data[name] for name in ("ahead", "ahead_from", "ahead_count")
+        )
 
-    def _history_at(self, end: float, *, rise: float) -> NDArray[np.float64]:
-        """Displacement from the past at the end of a step whose rise is given [s]."""
-        step = self._count
+    def _add(self, increment: NDArray[np.float64], began: float, ended: float) -> None:
+        """Add a row for an increment of the field between two times [s]."""
+        if self._count == len(self._began):
+            self._grow_arrays()
+        self._increments[self._count] = increment.ravel()
+        self._began[self._count], self._ended[self._count] = began, ended
+        self._count += 1
+
+    def _history_at(self, end: float, shape: StepShape) -> NDArray[np.float64]:
+        """Displacement from the past at the end of a step [s]."""
+        step = self._steps
         is_planned = step < len(self._planned) and isclose(self._planned[step], end, rel_tol=1e-9)
         end = float(self._planned[step]) if is_planned else end
-        self._next = (end, rise)
+        self._end, self._step = end, shape
         past = self._planned_history(step) if is_planned else self._summed(np.array([end]), 0)[0]
         return past.reshape(self._shape)
 
@@ -152,9 +178,9 @@ class BoltzmannSum(HereditaryIntegral):
         """Displacement at the end of a planned step from all increments so far."""
         if not self._ahead_from <= step < self._ahead_from + len(self._ahead):
             self._ahead = self._summed(self._planned[step : step + BLOCK_STEPS], 0)
-            self._ahead_from = step
+            self._ahead_from, self._ahead_count = step, self._count
         # Increments since the block was computed are added singly.
-        recent = self._summed(self._planned[step : step + 1], self._ahead_from)[0]
+        recent = self._summed(self._planned[step : step + 1], self._ahead_count)[0]
         return np.asarray(self._ahead[step - self._ahead_from] + recent)
 
     def _summed(self, ends: NDArray[np.float64], first: int) -> NDArray[np.float64]:

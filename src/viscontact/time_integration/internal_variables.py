@@ -1,10 +1,10 @@
 """Hereditary integral of a Prony series, by a recursion of internal variables.
 
 One internal field for each exponential term replaces the load history. For a field q that is linear
-in time over a step, or over its first part and then held, the update is exact for steps of any
-length:
+in time over a step, or over each of two parts of it (`step_shape`), the update is exact for steps
+of any length:
 
-    d(t + h) = exp(-h/τ) d(t) + w_old q(t) + w_new q(t + h)
+    d(t + h) = exp(-h/τ) d(t) + w_old q(t) + w_new q(t + h) + w_trend (mean of q before)
 """
 
 from __future__ import annotations
@@ -17,13 +17,12 @@ from numpy.typing import NDArray
 
 from viscontact.materials.compliance import SeriesCompliance
 from viscontact.time_integration.hereditary_integral import (
-    FieldMap,
     HereditaryIntegral,
     HereditaryResponse,
     is_resolved,
-    longest_smooth_rise,
 )
 from viscontact.time_integration.restart_data import RestartData
+from viscontact.time_integration.step_shape import FieldMap, StepShape, Trend, step_shape
 
 
 class InternalVariables(HereditaryIntegral):
@@ -57,55 +56,73 @@ class InternalVariables(HereditaryIntegral):
         self._value = np.zeros(shape)
         self._term = np.empty(shape)  # work array
         self._jumped = self._next_jumps = False
-        self._next = _jump(compliance)
+        self._next, self._shape = _jump(compliance), StepShape(0.0, 0.0)
+        #: Trend of the last step, and whether the next one begins with a kink.
+        self._trend: Trend | None = None
+        self._next_smooth = False
 
     def jump(self) -> HereditaryResponse:
         """Response to a jump; see `HereditaryIntegral.jump`."""
-        self._next_jumps = True
-        self._next = _jump(self._compliance)
+        self._next_jumps, self._next_smooth = True, False
+        self._next, self._shape = _jump(self._compliance), StepShape(0.0, 0.0)
         return self._response()
 
-    def ramp(self, duration: float) -> HereditaryResponse:
+    def ramp(self, duration: float, *, smooth: bool = False) -> HereditaryResponse:
         """Response to a step of a duration [s]; see `HereditaryIntegral.ramp`."""
-        self._next_jumps = False
-        self._next = ramp_weights(self._compliance, duration, after_jump=self._jumped)
+        self._next_jumps, self._next_smooth = False, smooth
+        trend = self._trend if smooth else None
+        self._shape = step_shape(self._compliance, duration, after_jump=self._jumped, trend=trend)
+        self._next = ramp_weights(self._compliance, self._shape)
         return self._response()
 
     def accept(self, value: NDArray[np.float64]) -> None:
         """Update the internal variables with the new value of the field, and close the step."""
         self._jumped = self._next_jumps
-        # d(t + h) = decay d(t) + w_old q(t) + w_new q(t + h), term by term.
-        for field, decay, old, new in zip(
-            self._fields, self._next.decay, self._next.old, self._next.new, strict=True
-        ):
-            field *= decay
-            field += np.multiply(old, self._value, out=self._term)
-            field += np.multiply(new, value, out=self._term)
-        self._value = value.copy() if value.flags.writeable else value
+        value = value.copy() if value.flags.writeable else value
+        values = [(self._next.old, self._value), (self._next.new, value)]
+        if self._trend is not None and not self._shape.is_level:
+            values.append((self._next.trend, self._trend.mean))
+        # d(t + h) = decay d(t) + w_old q(t) + w_new q(t + h) + w_trend (mean of q), term by term.
+        for index, field in enumerate(self._fields):
+            field *= self._next.decay[index]
+            for weights, each in values:
+                field += np.multiply(weights[index], each, out=self._term)
+        self._trend = self._shape.trend(value, self._trend) if self._next_smooth else None
+        self._value = value
 
     def restart_data(self) -> RestartData:
-        """Restart data: internal variables and last value."""
-        return {"fields": self._fields.copy(), "value": self._value, "jumped": self._jumped}
+        """Restart data: internal variables, last value and trend."""
+        return {
+            "fields": self._fields.copy(),
+            "value": self._value,
+            "jumped": self._jumped,
+            "trend": None if self._trend is None else vars(self._trend),
+        }
 
     def map_fields(self, grown: FieldMap) -> None:
         """Continue with a larger field; see `HereditaryIntegral.map_fields`."""
         self._fields, self._value = grown(self._fields), grown(self._value)
+        self._trend = None if self._trend is None else self._trend.mapped(grown)
         self._term = np.empty(self._value.shape)
 
     def restore(self, restart_data: RestartData) -> None:
         """Continue from restart data; see `HereditaryIntegral.restore`."""
         self._fields = restart_data["fields"].copy()
         self._value, self._jumped = restart_data["value"], restart_data["jumped"]
+        trend = restart_data["trend"]
+        self._trend = None if trend is None else Trend(**trend)
 
     def _response(self) -> HereditaryResponse:
         """Response to the step whose weights are set."""
         # History: all of the displacement that does not depend on the new value.
-        step = self._next
+        step, shape = self._next, self._shape
         history = step.old.sum() * self._value
         for field, decay in zip(self._fields, step.decay, strict=True):
             history += np.multiply(decay, field, out=self._term)
+        if self._trend is not None and not shape.is_level:
+            history += np.multiply(step.trend.sum(), self._trend.mean, out=self._term)
         compliance = self._compliance.instant + float(step.new.sum())
-        return HereditaryResponse(history, compliance, step.resolved, step.held)
+        return HereditaryResponse(history, compliance, step.resolved, shape.held, shape.trended)
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,41 +132,45 @@ class RampWeights:
     decay: NDArray[np.float64]  # factor of the term's internal variable [-]
     old: NDArray[np.float64]  # weight of the value before the step [1/Pa]
     new: NDArray[np.float64]  # weight of the value at its end [1/Pa]
+    trend: NDArray[np.float64]  # weight of the trend's mean [1/Pa]
     resolved: bool = True  # the step is short against the law
-    held: float = 0.0  # part of the step over which the new value is held [-]
 
 
 def _jump(compliance: SeriesCompliance) -> RampWeights:
     """Weights of a jump: the internal variables do not change."""
     nothing = np.zeros(compliance.term_count)
-    return RampWeights(nothing + 1.0, nothing, nothing)
+    return RampWeights(nothing + 1.0, nothing, nothing, nothing)
 
 
 # Cached, as the integrals of fields and of the numbers that go with them take the same step.
 @lru_cache(maxsize=16)
-def ramp_weights(compliance: SeriesCompliance, duration: float, *, after_jump: bool) -> RampWeights:
-    """Weights of a step of a duration [s], with a rise and a hold; those of the fluidity last.
+def ramp_weights(compliance: SeriesCompliance, shape: StepShape) -> RampWeights:
+    """Weights of a step, for each term; those of the fluidity last.
 
     Examples
     --------
     >>> flow = SeriesCompliance(1.0, [], [], 0.01)
-    >>> ramp_weights(flow, 2.0, after_jump=False).new.tolist()
+    >>> ramp_weights(flow, StepShape(2.0, rise=2.0)).new.tolist()
     [0.01]
     """
-    rise = longest_smooth_rise(compliance, duration, after_jump=after_jump)
     times, amplitudes = np.asarray(compliance.times), np.asarray(compliance.amplitudes)
-    ratio, rest = rise / times, np.exp((rise - duration) / times)
-    share = _share_of_new(ratio)
-    decay = np.exp(-duration / times)
-    old = amplitudes * (-np.expm1(-ratio) - share) * rest
-    new = amplitudes * (share * rest - np.expm1((rise - duration) / times))
+    rise, slow = shape.rise, shape.slow
+    first, second = (_share_of_new(part / times) for part in (rise, slow))
+    rest = np.exp(-slow / times)
+    decay = np.exp(-shape.duration / times)
+    # Of the value before the step, at the turn between its parts, and at its end.
+    old = amplitudes * (-np.expm1(-rise / times) - first) * rest
+    turn = amplitudes * (first * rest - np.expm1(-slow / times) - second)
+    end = amplitudes * second
     if compliance.fluidity > 0:
         decay = np.append(decay, 1.0)
         old = np.append(old, compliance.fluidity * rise / 2)
-        new = np.append(new, compliance.fluidity * (duration - rise / 2))
-    crept = compliance(duration) - compliance.instant
-    resolved = is_resolved(crept, compliance.instant, whole=rise == duration)
-    return RampWeights(decay, old, new, resolved, 1 - rise / duration)
+        turn = np.append(turn, compliance.fluidity * shape.duration / 2)
+        end = np.append(end, compliance.fluidity * slow / 2)
+    weight = shape.turn_weight
+    crept = compliance(shape.duration) - compliance.instant
+    resolved = is_resolved(crept, compliance.instant, whole=slow == 0)
+    return RampWeights(decay, old, end + weight * turn, (1 - weight) * turn, resolved)
 
 
 def _share_of_new(ratio: NDArray[np.float64]) -> NDArray[np.float64]:

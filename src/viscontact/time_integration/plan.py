@@ -32,24 +32,24 @@ class HereditaryPlan:
 
     compliance: ContactCompliance  # J(t) as it is used
     instants: NDArray[np.float64]  # planned ends of the steps [s], empty for adaptive steps
-    steps: int  # expected number of steps
+    rows: int  # expected number of increments, one for each linear part of a step
     method: str  # description for users
     error: float  # largest relative deviation of the J that is used from the material's [-]
     prony_approximation: SeriesCompliance  # J(t) as a Prony series, for estimates and predictions
 
     @property
     def fields_kept(self) -> int:
-        """Number of stored fields: one for each exponential, or one for each step."""
+        """Number of stored fields: one for each exponential, or for each linear part of a step."""
         if isinstance(self.compliance, SeriesCompliance):
             return self.compliance.term_count
-        return self.steps
+        return self.rows
 
     def integral(self, shape: tuple[int, ...]) -> HereditaryIntegral:
         """Hereditary integral of a field of this shape, without a history."""
         if isinstance(self.compliance, SeriesCompliance):
             return InternalVariables(self.compliance, shape)
         is_adaptive = not self.instants.size
-        room = STEP_RESERVE * self.steps if is_adaptive else self.steps
+        room = STEP_RESERVE * self.rows if is_adaptive else self.rows
         return BoltzmannSum(self.compliance, shape, self.instants, room)
 
 
@@ -78,12 +78,20 @@ def plan_hereditary_integral(
         first = 1.0  # a jump alone, where time does not matter
     last = max(float(instants[-1]), 10 * first)
     series, error = as_exponentials(compliance, first, last)
-    steps = len(instants)
-    if steps <= MAX_SUMMED_STEPS and 8.0 * steps * numbers <= MAX_HISTORY_BYTES:
+    rows = len(instants) + _long_steps(compliance, durations)
+    if len(instants) <= MAX_SUMMED_STEPS and 8.0 * rows * numbers <= MAX_HISTORY_BYTES:
         method = "direct sum over all earlier steps, with the given law"
-        return HereditaryPlan(compliance, instants, steps, method, 0.0, series)
+        return HereditaryPlan(compliance, instants, rows, method, 0.0, series)
     method = (
         f"sum of {len(series.times)} exponentials, within {error:.1e} of the law's creep "
         f"compliance from {format_quantity(first, 's', 3)} to {format_quantity(last, 's', 3)}"
     )
-    return HereditaryPlan(series, instants, steps, method, error, series)
+    return HereditaryPlan(series, instants, rows, method, error, series)
+
+
+def _long_steps(compliance: ContactCompliance, durations: NDArray[np.float64]) -> int:
+    """Number of steps over which the field does not rise all the way (`longest_smooth_rise`)."""
+    lasting = durations[durations > 0]
+    new = compliance.mean(np.zeros(lasting.size), lasting)
+    limit = np.where(compliance.instant > 0, compliance.instant, new / 2)
+    return int(np.count_nonzero(compliance(lasting) - new > limit))

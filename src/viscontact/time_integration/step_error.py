@@ -16,10 +16,11 @@ from numpy.typing import NDArray
 
 from viscontact.loads import LoadHistory, LoadPoint
 from viscontact.time_integration.fixed_steps import Step
-from viscontact.time_integration.hereditary_integral import FieldMap, HereditaryResponse
+from viscontact.time_integration.hereditary_integral import HereditaryResponse
 from viscontact.time_integration.internal_variables import ramp_weights
 from viscontact.time_integration.plan import HereditaryPlan
 from viscontact.time_integration.restart_data import RestartData
+from viscontact.time_integration.step_shape import FieldMap, step_shape
 
 #: Interpolation error of a first step after a kink, in those that the curvature of its successor
 #: gives; after a first touch, where q grows as t^(2/3), the ratio is 2.9.
@@ -31,6 +32,10 @@ CURVATURE_SAFETY = 2.0
 #: Interpolation error of a step without a successor, as a part of the change over it: that of the
 #: central pressure after a first touch, which grows as t^(1/3); under t² from rest it is a sixth.
 ISOLATED_STEP_SHARE = 1 / 4
+
+#: Interpolation error of a step that continues the last one's trend, 2 h² q''/9 for two of equal
+#: length, over that of a linear step, h² q''/12.
+TREND_ERROR_RATIO = 8 / 3
 
 #: Power of the load's level with which its effect is assumed to grow.
 LOAD_GROWTH_EXPONENT = 1 / 4
@@ -166,7 +171,8 @@ class TimeErrors:
             return max(late, ISOLATED_STEP_SHARE * travel)
         change = _largest(rate - before)
         curvature = 2 * change / (step.duration + self._past[-1][0])
-        return CURVATURE_SAFETY * step.duration**2 / 12 * curvature + late
+        part = (1 + (TREND_ERROR_RATIO - 1) * response.trended) / 12
+        return CURVATURE_SAFETY * part * step.duration**2 * curvature + late
 
     def _last_rate(self) -> NDArray[np.float64] | None:
         """Rate of the unit displacement over the last step [Pa m/s], None after a kink."""
@@ -188,8 +194,12 @@ class TimeErrors:
 
     def _remember(self, duration: float, interpolation_error: float) -> None:
         """Add the interpolation error of a step to the terms, and its effect on the pressure."""
-        held = ramp_weights(self._compliance, duration, after_jump=True)
-        step = ramp_weights(self._compliance, duration, after_jump=self._jumped)
+        held, step = (
+            ramp_weights(
+                self._compliance, step_shape(self._compliance, duration, after_jump=jumped)
+            )
+            for jumped in (True, self._jumped)
+        )
         self._term_errors = (
             step.decay * self._term_errors + (held.old + held.new) * interpolation_error
         )
