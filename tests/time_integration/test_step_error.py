@@ -16,12 +16,13 @@ from viscontact.time_integration.step_error import (
     CURVATURE_SAFETY,
     FIRST_STEP_CURVATURE,
     ISOLATED_STEP_SHARE,
+    LARGEST_OVER_MEAN,
     TimeErrors,
 )
 
 FLUID = SeriesCompliance(1.0, [], [], 0.01)  # so stiff that steps of 1 s rise all the way
 LOAD = step(1.0)
-FIELD = np.array([[0.0, 0.0], [0.5, 1.0]])  # pressure, which does not count, and deflection
+FIELD = np.array([[1.0, 1.0], [0.5, 1.0]])  # pressure, all in contact, and unit displacement
 
 
 def follow(values, duration=1.0, compliance=FLUID):
@@ -56,7 +57,7 @@ def test_under_a_parabola_the_estimate_is_the_sum_of_its_bulges(steps):
     # A line through a step of t² lies above it by d²/6 in the mean, and flow adds them all up; the
     # first step's is taken from its change, which is less than the guess from its successor.
     assert ISOLATED_STEP_SHARE < FIRST_STEP_CURVATURE * CURVATURE_SAFETY / 6
-    bulges = ISOLATED_STEP_SHARE + CURVATURE_SAFETY / 6 * (steps - 1)
+    bulges = LARGEST_OVER_MEAN * (ISOLATED_STEP_SHARE + CURVATURE_SAFETY / 6 * (steps - 1))
     assert estimates[-1] == pytest.approx(1e-6 * bulges / (met * steps**2), rel=1e-4)
 
 
@@ -86,7 +87,8 @@ def test_a_first_step_without_a_successor_counts_by_its_change():
         measured = errors.of_step(each, LOAD.at(each.time), value * FIELD, response)
         estimate = errors.after(each, value * FIELD, measured)
         memory.accept(value * FIELD)
-    assert estimate == pytest.approx(ISOLATED_STEP_SHARE * 0.01 / response.compliance, rel=1e-12)
+    expected = LARGEST_OVER_MEAN * ISOLATED_STEP_SHARE * 0.01 / response.compliance
+    assert estimate == pytest.approx(expected, rel=1e-12)
 
 
 def test_an_elastic_body_has_no_error_of_time():

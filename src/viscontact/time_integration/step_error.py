@@ -5,6 +5,10 @@ mean over a step of length d, enters the hereditary integral and decays as the b
 displacement error e(t) that results is compensated by a pressure error dq with J * dq = -e. A
 recursion of single numbers, one for each term of J, follows both, with all interpolation errors of
 one sign: an estimate of their largest possible sum, without cancellation.
+
+Unit displacements and their changes are means over the contact. A single cell that is touched or
+released within a step has a large error of its own for a moment, at every such event: steps that
+resolved them all would be as many as the cells, and the other cells would hardly change.
 """
 
 from __future__ import annotations
@@ -33,9 +37,17 @@ CURVATURE_SAFETY = 2.0
 #: central pressure after a first touch, which grows as t^(1/3); under t² from rest it is a sixth.
 ISOLATED_STEP_SHARE = 1 / 4
 
+#: Largest change of the unit displacement within the contact over its mean: 2 for one that falls as
+#: 1 - (r/a)² from the centre, and a margin.
+LARGEST_OVER_MEAN = 2.1
+
 #: Interpolation error of a step that continues the last one's trend, 2 h² q''/9 for two of equal
 #: length, over that of a linear step, h² q''/12.
 TREND_ERROR_RATIO = 8 / 3
+
+#: Weight of the error of a step that is long against the law: it relaxes within the step, and does
+#: not add to those of other steps.
+FORGOTTEN_ERROR_WEIGHT = 0.2
 
 #: Power of the load's level with which its effect is assumed to grow.
 LOAD_GROWTH_EXPONENT = 1 / 4
@@ -47,8 +59,9 @@ class StepError:
 
     interpolation_error: float  # mean distance of the unit displacement from the line [Pa m]
     relative: float  # added pressure error, relative to the largest pressure to come [-]
-    size: float  # largest unit displacement so far [Pa m]
+    size: float  # largest unit displacement of the contact so far [Pa m]
     level: float  # largest level of the load so far [N or m]
+    travel: float = 0.0  # change of the unit displacement over the step [Pa m]
     #: Rate of the unit displacement over the step [Pa m/s], None for a jump.
     rate: NDArray[np.float64] | None = None
 
@@ -88,19 +101,25 @@ class TimeErrors:
         `values` are pressure p [Pa] and unit displacement K p [Pa m] at its end. For the first step
         after a kink it is estimated from the change over it.
         """
-        # The unit displacement is positive, as the kernel is.
-        size, level = max(self._size, float(values[1].max())), max(self._level, point.level)
+        contact = values[0] > 0
+        if self._past:
+            contact |= self._past[-1][1][0] > 0
+        size = max(self._size, _mean_over(contact, values[1]))
+        level = max(self._level, point.level)
         if step.is_jump or not self._past:
             return StepError(0.0, 0.0, size, level)
         rate = values[1] - self._past[-1][1][1]
         rate /= step.duration
-        interpolation_error = self._interpolation_error(step, rate, response)
+        travel = LARGEST_OVER_MEAN * step.duration * _mean_over(contact, rate)
+        interpolation_error = self._interpolation_error(step, rate, contact, travel, response)
         crept = self._compliance(step.duration) - self._compliance.instant
         to_come = size * self._growth_to_come(level)
-        relative = (
-            interpolation_error * crept / (response.compliance * to_come) if size > 0 else 0.0
-        )
-        return StepError(interpolation_error, relative, size, level, rate)
+        relative = 0.0
+        if size > 0:
+            relative = interpolation_error * crept / (response.compliance * to_come)
+            forgotten = response.held + response.trended
+            relative *= 1 - (1 - FORGOTTEN_ERROR_WEIGHT) * forgotten
+        return StepError(interpolation_error, relative, size, level, travel, rate)
 
     def after(self, step: Step, values: NDArray[np.float64], error: StepError) -> float:
         """Accept a step, and return the estimated error of the pressure after it.
@@ -117,8 +136,7 @@ class TimeErrors:
                 self._pressure_error = -float(self._term_errors.sum()) / self._compliance.instant
                 self._jumped = True
         elif len(self._past) < 2:
-            change = 0.0 if error.rate is None else step.duration * _largest(error.rate)
-            self._pending = (step.duration, change)
+            self._pending = (step.duration, error.travel)
         else:
             self._settle(
                 alone=False, interpolation_error=error.interpolation_error / step.duration**2
@@ -161,15 +179,18 @@ class TimeErrors:
         return (self._load.largest_level / level) ** LOAD_GROWTH_EXPONENT if level > 0 else 1.0
 
     def _interpolation_error(
-        self, step: Step, rate: NDArray[np.float64], response: HereditaryResponse
+        self,
+        step: Step,
+        rate: NDArray[np.float64],
+        contact: NDArray[np.bool_],
+        travel: float,
+        response: HereditaryResponse,
     ) -> float:
         """Interpolation error of a step from second differences of unit displacements [Pa m]."""
-        before = self._rate if step.smooth else None
-        travel = step.duration * _largest(rate) if response.held or before is None else 0.0
         late = response.held * travel / 2
-        if before is None:
+        if not step.smooth or self._rate is None:
             return max(late, ISOLATED_STEP_SHARE * travel)
-        change = _largest(rate - before)
+        change = LARGEST_OVER_MEAN * _mean_over(contact, rate - self._rate)
         curvature = 2 * change / (step.duration + self._past[-1][0])
         part = (1 + (TREND_ERROR_RATIO - 1) * response.trended) / 12
         return CURVATURE_SAFETY * part * step.duration**2 * curvature + late
@@ -210,6 +231,7 @@ class TimeErrors:
         self._term_errors += step.new * self._pressure_error
 
 
-def _largest(field: NDArray[np.float64]) -> float:
-    """Largest absolute value."""
-    return max(float(field.max()), -float(field.min()))
+def _mean_over(where: NDArray[np.bool_], field: NDArray[np.float64]) -> float:
+    """Mean of the absolute values of a field over some of the cells; 0 over none."""
+    count = np.count_nonzero(where)
+    return float(np.abs(field).sum(where=where)) / count if count else 0.0
