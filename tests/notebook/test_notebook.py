@@ -20,7 +20,14 @@ from numpy.typing import NDArray
 
 import viscontact as vc
 from saturating_force import SaturatingForce
-from synthetic_results import maxwell_sphere
+from synthetic_results import (
+    ELLIPSE_MIDDLE,
+    ELLIPSE_PEAK,
+    ELLIPSE_TIMES,
+    ellipse,
+    ellipse_pressure,
+    maxwell_sphere,
+)
 from viscontact.case import read_case
 from viscontact.notebook.curves import law_span
 from viscontact.units.parsing import parse_quantity
@@ -287,6 +294,20 @@ def test_map_of_a_surface_has_its_strongest_tone_on_its_peak_and_holes_where_it_
     assert drawn == pytest.approx(31 * side, abs=1.0)
 
 
+def test_section_of_a_surface_runs_along_x_through_its_highest_point() -> None:
+    x, y = np.arange(30), np.arange(47)
+    heights = 1e-6 * np.outer(np.sin(np.pi * x / 29), 1 - ((y - 40) / 40) ** 2)
+    _, section = _parsed(vc.Surface(heights, (1e-6, 2e-6))).iter("svg")
+    at, text = _ticks(section, "y")
+    _, places = _line(section, "curve")
+    found = np.polyval(np.polyfit(at, np.array(text, dtype=float), 1), places)
+    # From 0 to the height at x = 14 or 15, whose sine is 0.9985.
+    assert np.ptp(found) * _unit(section, "height") == pytest.approx(0.9985e-6, rel=0.02)
+    at, text = _ticks(section, "x")
+    ends = np.polyval(np.polyfit(at, np.array(text, dtype=float), 1), _line(section, "curve")[0])
+    assert np.ptp(ends) * _unit(section, "x") == pytest.approx(29e-6, rel=0.02)
+
+
 def test_dots_of_a_fit_lie_on_its_curve_where_it_misses_nothing() -> None:
     drawing = next(_parsed(MEASURED[1]).iter("svg"))
     [curve] = [path for path in drawing.iter("path") if path.get("class") == "curve"]
@@ -347,6 +368,30 @@ def test_a_result_shows_its_key_numbers() -> None:
     found = np.polyval(np.polyfit(at, np.array(text, dtype=float) * 1e6, 1), peaks)
     exact = [float(ds.pressure[k].max()) for k in (0, -1)]  # first dashed, then the last
     np.testing.assert_allclose(found, exact, rtol=0.005)
+
+
+@pytest.mark.parametrize("transposed", [False, True])
+def test_section_of_a_result_runs_along_the_longer_extent(transposed: bool) -> None:
+    """Through the middle of Hertz's ellipse, at the first instant and at the last."""
+    drawing = next(_parsed(ellipse(transposed=transposed).viscontact).iter("svg"))
+    along = "x" if transposed else "y"
+    assert _text(drawing).startswith(f"along {along}")
+    scales = []
+    for axis in ("x", "y"):
+        at, text = _ticks(drawing, axis)
+        scales.append(np.polyfit(at, np.array(text, dtype=float), 1))
+    length, pressure = _unit(drawing, along), _unit(drawing, "pressure")
+    curves = [path for path in drawing.iter("path") if path.get("class") == "curve"]
+    for curve, t in zip(curves, (ELLIPSE_TIMES[0], ELLIPSE_TIMES[-1]), strict=True):
+        pairs = re.findall(r"(?<=[ML ])([\d.-]+),([\d.-]+)", curve.get("d", ""))
+        places = np.array(pairs, dtype=float).T
+        position, found = (np.polyval(fit, at) for fit, at in zip(scales, places, strict=True))
+        x, y = np.full(position.size, ELLIPSE_MIDDLE[0]), position * length
+        exact = ellipse_pressure(x, y, t)
+        inner = exact > 0.4 * ELLIPSE_PEAK
+        assert np.count_nonzero(inner) >= 10
+        # A pixel is about a hundredth of the panel.
+        np.testing.assert_allclose(found[inner] * pressure, exact[inner], atol=0.03 * exact.max())
 
 
 def test_a_dataset_that_is_no_result_is_reported() -> None:

@@ -16,7 +16,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.contour import QuadContourSet
 from matplotlib.figure import Figure
-from matplotlib.patches import PathPatch
+from matplotlib.patches import PathPatch, Rectangle
 from numpy.typing import NDArray
 
 import viscontact as vc
@@ -225,6 +225,45 @@ def test_counted_area_is_the_number_of_cells_times_their_own_area(results: xr.Da
     np.testing.assert_allclose(counted.get_xdata(), ELLIPSE_TIMES)
 
 
+@pytest.mark.parametrize(("times", "named"), [(None, 5.0), ([2.2], 2.0)])
+def test_indenter_is_drawn_with_the_box_of_the_contact_of_the_instant_named(
+    results: xr.Dataset, transposed: bool, times: list[float] | None, named: float
+) -> None:
+    figure = FIGURES["indenter"](results, times=times)
+    along, across, plan, text = figure.axes
+    assert f"contact at {named:g} s" in " ".join(text.texts[0].get_text().split())
+    middle, extents = np.array(ELLIPSE_MIDDLE), 2 * ellipse_growth(named) * np.array(ELLIPSE_AXES)
+    edges = np.array(ELLIPSE_EDGES)
+    if transposed:
+        middle, extents, edges = middle[::-1], extents[::-1], edges[::-1]
+    box = next(patch for patch in plan.patches if isinstance(patch, Rectangle))
+    for way, span in enumerate(
+        ((box.get_x(), box.get_width()), (box.get_y(), box.get_height())),
+    ):
+        low, size = np.array(span) * factor(_label(plan, "xy"[way]))
+        assert low + size / 2 == pytest.approx(middle[way], abs=edges[way])
+        assert size == pytest.approx(extents[way], abs=2 * edges[way])
+    for way, axes in enumerate((along, across)):
+        assert axes.get_xlabel().startswith("xy"[way])
+        shaded = next(patch for patch in axes.patches if isinstance(patch, Rectangle))
+        middle_of = (shaded.get_x() + shaded.get_width() / 2) * factor(axes.get_xlabel())
+        assert middle_of == pytest.approx(middle[way], abs=edges[way])
+
+
+def test_each_frame_shows_the_rim_and_the_section_of_its_instant(
+    results: xr.Dataset, transposed: bool
+) -> None:
+    film = plot.animation(results, seconds=1.0, fps=6.0)
+    surface, _, below, *_ = film.figure.axes
+    along = "x" if transposed else "y"  # the longer extent
+    assert below.get_xlabel().startswith(along)
+    for t in (5.0, 0.0, 2.0):
+        film.show(t)
+        assert times_of(film.figure)[0] == t
+        assert_is_rim(surface.patches[0], surface, t, transposed)
+        assert_is_section(below, 0, along, 0.0, t, transposed)
+
+
 # --- stresses ---------------------------------------------------------------------------------
 
 
@@ -264,6 +303,14 @@ def test_stresses_below_an_ellipse_are_those_of_the_table(
         assert depths[row] / short == pytest.approx(0.665, abs=0.03)
         place = found[found.max_shear.dims[-1]].values[column]
         assert place == pytest.approx(middle[1 - plane], abs=0.6 * ELLIPSE_EDGES[1 - plane])
+
+
+def test_stresses_reach_two_of_the_shorter_half_widths_deep_by_default(
+    results: xr.Dataset,
+) -> None:
+    depths = vc.section_stresses(results).z.values
+    shorter = ellipse_growth(ELLIPSE_TIMES[-1]) * min(ELLIPSE_AXES)
+    assert (depths[0], depths[-1]) == (0.0, pytest.approx(2 * shorter))
 
 
 def test_stresses_do_not_depend_on_the_names_of_the_axes() -> None:

@@ -16,6 +16,8 @@ from urllib.parse import unquote
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 
 import viscontact as vc
@@ -28,7 +30,7 @@ from synthetic_results import (
     ellipse_growth,
     ellipse_pressure,
 )
-from viscontact.report import report_page
+from viscontact.report import drawings, report_page
 from viscontact.report.run_data import run_data
 
 FloatArray = NDArray[np.float64]
@@ -151,6 +153,25 @@ def test_page_states_where_the_sections_lie(page: str, transposed: bool) -> None
         stated = re.search(rf"at {name} = (-?[\d.]+) (mm|µm)", page.replace("−", "-"))
         assert stated
         assert float(stated[1]) * LENGTHS[stated[2]] == pytest.approx(place, abs=1e-6)
+
+
+def test_plan_of_the_geometry_shades_the_largest_contact_in_its_place(
+    transposed: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    figures: list[Figure] = []
+    draw = drawings.as_svg
+    monkeypatch.setattr(drawings, "as_svg", lambda each: (figures.append(each), draw(each))[1])
+    ds = ellipse(transposed=transposed)
+    drawings.geometry(ds)
+    plan = figures[0].axes[2]
+    units = [LENGTHS[re.search(r"\[(.*)\]", plan.get_xlabel())[1]]] * 2
+    box = next(patch for patch in plan.patches if isinstance(patch, Rectangle))
+    corner, size = np.array(box.get_xy()) * units, np.array([box.get_width(), box.get_height()])
+    growth = ellipse_growth(ELLIPSE_TIMES[-1])
+    extents = 2 * growth * np.array(ELLIPSE_AXES[::-1] if transposed else ELLIPSE_AXES)
+    np.testing.assert_allclose(size * units, extents, rtol=1e-9)
+    # Found to half a cell.
+    np.testing.assert_allclose(corner + extents / 2, middle(transposed), atol=20e-6)
 
 
 # --- the account of accuracy ------------------------------------------------------------------
