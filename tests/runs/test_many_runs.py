@@ -73,6 +73,7 @@ def test_runs_at_once_end_in_the_bits_of_runs_alone(
     printed = capsys.readouterr()
     assert re.search(r"^zener +done", printed.out, re.MULTILINE)
     assert "2 of 2 runs ended" in printed.err
+    assert "line" not in printed.out  # the line load of balls is of no use
     for name in ("zener", "maxwell"):
         assert main(["run", f"{name}.yaml", "-o", "alone", "--overwrite", "-q"]) == 0
         assert contents("alone") == contents(name)

@@ -15,6 +15,7 @@ from rich.table import Table
 
 from viscontact.results.formatting import format_percent, format_supported
 from viscontact.results.netcdf import open_results
+from viscontact.results.shown_scalars import shown_scalars
 from viscontact.results.stated_errors import largest_error, mesh_dependent
 from viscontact.results.variables import SCALARS, Place, shown_in
 from viscontact.runs.processes.child import Ended
@@ -60,7 +61,7 @@ def _found(ended: Ended) -> _Found | None:
 
 
 def _of(ds: xr.Dataset) -> _Found:
-    names = shown_in(Place.KEY, ds)
+    names = shown_scalars(ds, Place.KEY)
     largest = {name: float(np.nanmax(np.abs(ds[name].values), initial=0.0)) for name in names}
     warnings = tuple(str(ds.attrs.get("warnings", "")).splitlines())
     known = [found.part for name in names if (found := largest_error(ds, name)) is not None]
@@ -81,7 +82,8 @@ def _table(runs: Sequence[Ended], found: Sequence[_Found | None]) -> Table:
     table.add_column("run", no_wrap=True)
     table.add_column("outcome", no_wrap=True)
     table.add_column("took", justify="right", no_wrap=True)
-    names, units = shown_in(Place.KEY), {}
+    shown = {name for each in found if each for name in each.largest}
+    names, units = [name for name in shown_in(Place.KEY) if name in shown], {}
     for name in names:
         largest = max((each.largest.get(name, 0.0) for each in found if each), default=0.0)
         units[name] = readable_unit(SCALARS[name].units, largest)
