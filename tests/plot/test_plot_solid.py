@@ -13,7 +13,14 @@ from matplotlib.colors import to_hex
 from numpy.typing import NDArray
 
 import viscontact as vc
-from synthetic_results import maxwell_sphere, roller
+from synthetic_results import (
+    ELLIPSE_AXES,
+    ELLIPSE_MIDDLE,
+    ellipse,
+    ellipse_growth,
+    maxwell_sphere,
+    roller,
+)
 from viscontact.plot import COMPARISONS, FIGURES, save_figure
 from viscontact.plot.layout import style
 from viscontact.plot.pressure import relief
@@ -64,7 +71,9 @@ def heights_at_cells(corners: FloatArray, x: FloatArray, y: FloatArray) -> dict[
 
 
 @pytest.mark.parametrize(
-    "results", [maxwell_sphere(cells=24), roller(shape=(48, 16))], ids=["sphere", "roller"]
+    "results",
+    [maxwell_sphere(cells=24), roller(shape=(48, 16)), ellipse(), ellipse(transposed=True)],
+    ids=["sphere", "roller", "ellipse", "transposed ellipse"],
 )
 def test_height_of_the_pressure_surface_is_the_pressure(results: xr.Dataset, caught: Caught):
     last = float(results.time[-1])
@@ -100,6 +109,19 @@ def test_foot_of_the_pressure_surface_is_the_rim_of_a_hertz_contact(caught: Caug
     assert foot.shape[0] > 100
 
 
+def test_foot_of_the_pressure_surface_is_the_rim_of_an_ellipse_on_unequal_cells(caught: Caught):
+    axes = FIGURES["pressure-3d"](ellipse(), times=[2.0]).axes[0]
+    points = caught.corners[0].reshape(-1, 3)
+    unit = {"mm": 1e-3, "µm": 1e-6}[axes.get_xlabel()[-3:-1]]
+    foot = points[points[:, 2] == 0, :2] * unit
+    semi_axes = ellipse_growth(2.0) * np.array(ELLIPSE_AXES)
+    error = np.abs(np.linalg.norm((foot - ELLIPSE_MIDDLE) / semi_axes, axis=1) - 1)
+    # A cell is a twelfth and a fifteenth of the semi-axes.
+    assert np.median(error) < 0.025 / 12
+    assert error.max() < 0.5 / 12
+    assert foot.shape[0] > 100
+
+
 def test_of_very_many_cells_the_largest_pressure_is_drawn(caught: Caught):
     results = roller(shape=(640, 32))
     single = int(np.flatnonzero(results.pressure[0, :, 16].values > 0)[157])
@@ -128,6 +150,20 @@ def test_depth_of_the_deformed_surface_is_the_displacement(caught: Caught):
     np.testing.assert_allclose(high, 80.0, rtol=2e-2)
     assert bar.yaxis_inverted()
     assert 0 <= low < 10
+
+
+@pytest.mark.parametrize("transposed", [False, True])
+def test_depth_on_unequal_cells_is_that_of_its_place_and_instant(transposed: bool, caught: Caught):
+    results = ellipse(transposed=transposed).assign_coords(time=[0.0, 120.0, 300.0])
+    figure = FIGURES["surface-3d"](with_dent(results), times=[120.0])
+    label = figure.axes[0].get_xlabel()
+    found = heights_at_cells(caught.corners[0], drawn(results.x, label), drawn(results.y, label))
+    # The formula of the dent, at the instant drawn.
+    x, y = results.x.values[:, None], results.y.values
+    depth = 40 * (1 + 120 / 300) * np.exp(-((x / 4e-4) ** 2) - (y / 3e-4) ** 2)
+    assert len(found) > 1000
+    for cell, value in found.items():
+        assert value == pytest.approx(depth[cell], rel=1e-9)
 
 
 def test_indenter_lies_on_the_surface_where_they_touch_and_above_it_elsewhere():
