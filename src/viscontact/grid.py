@@ -188,20 +188,25 @@ class AutomaticGrid(Displayable):
         Largest relative error of the quantities due to the mesh, between 1e-4 and 0.5 [-].
     quantities : sequence of str, optional
         Any of ``"peak_pressure"``, ``"contact_area"``, ``"approach"``; all when left out.
+    largest_cell : tuple of float, optional
+        Largest edge lengths (dx, dy) of a cell [m]; cells that the tolerance allows to be larger
+        get these. Runs on equal cells can be compared where a peak pressure has no limit.
 
     Raises
     ------
     ValueError
-        If the tolerance is out of range, or a quantity is unknown.
+        If the tolerance is out of range, a quantity is unknown, or a length is not positive and
+        finite.
 
     Examples
     --------
     >>> AutomaticGrid(tolerance=0.005, quantities=["approach"])
-    AutomaticGrid(tolerance=0.005, quantities=('approach',))
+    AutomaticGrid(tolerance=0.005, quantities=('approach',), largest_cell=None)
     """
 
     tolerance: float = field(default=0.01, metadata={"unit": "1"})
     quantities: Sequence[str] = GRID_QUANTITIES
+    largest_cell: tuple[float, float] | None = field(default=None, metadata={"unit": "m"})
 
     def __post_init__(self) -> None:
         allowed = as_real(self.tolerance)
@@ -217,6 +222,10 @@ class AutomaticGrid(Displayable):
             )
         object.__setattr__(self, "tolerance", allowed)
         object.__setattr__(self, "quantities", tuple(dict.fromkeys(names)))
+        if self.largest_cell is not None:
+            pairs = zip(("dx", "dy"), _pair("largest_cell", self.largest_cell), strict=True)
+            cell = tuple(positive(f"grid.largest_cell: {name}", each, "m") for name, each in pairs)
+            object.__setattr__(self, "largest_cell", cell)
 
 
 def _pair(name: str, given: Any) -> tuple[Any, Any]:

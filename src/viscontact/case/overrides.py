@@ -48,8 +48,8 @@ def _put(data: Any, path: KeyPath, value: Any) -> str | None:
             return f"--set {dotted(path)}: {_why_not(data, step, path[:position])}"
         if position == len(path) - 1:
             data[step] = value
-        elif isinstance(data, dict):
-            data.setdefault(step, {})
+        elif isinstance(data, dict) and data.get(step) is None:  # also an empty section
+            data[step] = {}
         data = data[step]
     return None
 

@@ -113,17 +113,25 @@ class Cells(Section):
         default=None,
         description="with an automatic grid: quantities with this error; all when left out",
     )
+    largest_cell: Annotated[tuple[Length, Length], Field(strict=False)] | None = Field(
+        default=None,
+        description="with an automatic grid: largest lengths of a cell along x and y; as the "
+        "tolerance allows when left out",
+        examples=[["50 um", "10 um"]],
+    )
 
     def build(self) -> grid.Grid | grid.AutomaticGrid:
         """Return the grid, or the settings of an automatic one."""
         if self.shape and self.size:
             return grid.Grid(self.shape, self.size, self.periodic)
         quantities = grid.GRID_QUANTITIES if self.quantities is None else self.quantities
-        return grid.AutomaticGrid(self.tolerance or DEFAULT_TOLERANCE, quantities)
+        tolerance = self.tolerance or DEFAULT_TOLERANCE
+        return grid.AutomaticGrid(tolerance, quantities, self.largest_cell)
 
     @model_validator(mode="after")
     def _accepted(self) -> Cells:
-        requests = [name for name in ("tolerance", "quantities") if getattr(self, name) is not None]
+        automatic = ("tolerance", "quantities", "largest_cell")
+        requests = [name for name in automatic if getattr(self, name) is not None]
         cells = [name for name in ("shape", "size") if getattr(self, name) is not None]
         if requests and cells:
             raise ValueError(

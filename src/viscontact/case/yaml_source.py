@@ -66,8 +66,8 @@ def with_overrides(text: str, values: dict[KeyPath, Any]) -> str:
     for path, value in values.items():
         target = document
         for step in path[:-1]:
-            if isinstance(target, dict):
-                target.setdefault(step, {})
+            if isinstance(target, dict) and target.get(step) is None:  # also an empty section
+                target[step] = {}
             target = target[step]
         target[path[-1]] = value
     return write(document)

@@ -7,6 +7,7 @@
    a grid of its own size; the cells over the whole grid follow in proportion.
 4. Refine for the largest contact on the whole grid (`refinement`).
 5. State the expected errors, no smaller than the error of a height map's facets.
+6. Make cells smaller that are larger than a requested limit (`cell_limit`).
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from viscontact.indenters import Indenter
 from viscontact.indenters.rounding import rounding_remedy
 from viscontact.indenters.textures import CELLS_OF_A_WAVE
 from viscontact.meshing.body_fit import straight_ends
+from viscontact.meshing.cell_limit import with_small_cells
 from viscontact.meshing.contact_extent import (
     MAX_CELLS,
     PointContact,
@@ -85,13 +87,17 @@ def choose_mesh(problem: Problem, end: float | None) -> Mesh:
     largest = next(each for each in found if each.point.level == highest)
     reach = np.array([each.estimate.reach for each in found], dtype=np.float64).max(axis=0)
     size = 2 * MARGIN * reach
-    # Steps 2 to 5.
+    # Steps 2 to 6.
     choice = _first_choice(indenter, request, largest, size)
     smallest = smallest_contact(indenter, compliance, load, end, found)
     if min(np.divide(smallest.estimate.extents, largest.estimate.extents)) < SMALLER:
         choice = _refined_for_smallest(indenter, request, smallest, size, choice)
     mesh = _refined_for_largest(indenter, request, largest, size, choice)
-    return _limited_by_map(indenter, largest, mesh)
+    mesh = _limited_by_map(indenter, largest, mesh)
+    if request.largest_cell is None:
+        return mesh
+    ends = straight_ends(indenter, mesh.grid.size, largest.estimate.reach)
+    return replace(mesh, grid=with_small_cells(mesh.grid, request.largest_cell, ends))
 
 
 @dataclass(frozen=True, eq=False)

@@ -89,7 +89,7 @@ def refine_mesh(
     (True, (48, 48))
     """
     exact = min(MAX_TRIAL_TOLERANCE, TRIAL_TOLERANCE_SHARE * tolerance)
-    names, shape = tuple(quantities), _good_shape(fewest, finest)
+    names, shape = tuple(quantities), good_shape(fewest, finest)
     trials: list[MeshTrial] = []
     while True:
         # Step 1: errors on this mesh.
@@ -144,7 +144,7 @@ def _refined(
     if (factors == 1).all() and _needs_confirmation(trial, names):
         factors = np.where(trial.at_end, MAX_AT_ONCE, 1.0)
     step = np.where(factors > 1, np.clip(factors, MIN_AT_ONCE, MAX_AT_ONCE), 1.0)
-    return _good_shape(trial.shape * step, finest)
+    return good_shape(trial.shape * step, finest)
 
 
 def _factors(trial: MeshTrial, names: Sequence[str], tolerance: float) -> NDArray[np.float64]:
@@ -187,7 +187,7 @@ def _growth(before: MeshTrial, now: MeshTrial) -> float:
     return math.log(now.values[peak] / before.values[peak]) / math.log(refined)
 
 
-def _good_shape(fewest: ArrayLike, finest: ArrayLike) -> tuple[int, int]:
+def good_shape(fewest: ArrayLike, finest: ArrayLike) -> tuple[int, int]:
     """Numbers of cells that are multiples of four, so halves are even, and fast to transform."""
     quarters = np.maximum(2, np.ceil(np.minimum(fewest, finest) / 4)).astype(int).tolist()
     counts = [4 * int(fft.next_fast_len(quarter, real=True)) for quarter in quarters]

@@ -109,7 +109,7 @@ def _value(unit: str, key: str, value: Any) -> str:
         numbers = np.atleast_1d(np.asarray(value, dtype=np.float64)).ravel().tolist()
     except (TypeError, ValueError):
         return str(value)
-    if key in ("shape", "size"):
+    if key in ("shape", "size", "largest_cell"):
         return " × ".join(_format(number, unit) for number in numbers)
     if isinstance(value, list) and isinstance(value[0], list):
         return f"{len(value)} × {len(value[0])} points, {_ends(numbers, unit)}"

@@ -9,7 +9,8 @@ from dataclasses import dataclass, replace
 from os import cpu_count
 from pathlib import Path
 
-from viscontact.cli.many.variations import as_typed, variations
+from viscontact.cli.many.common_cells import with_common_cells
+from viscontact.cli.many.variations import as_typed, key_of, variations
 from viscontact.cli.run.checked_run import checked_run
 from viscontact.cli.run.run_directory import chosen_directory
 from viscontact.cli.terminal.messages import CommandError, refuse
@@ -81,9 +82,10 @@ def checked_jobs(request: ManyRequest) -> list[Job]:
     jobs: list[Job] = []
     problems: dict[str, list[RunRequest]] = {}
     requests = request.runs()
-    for each in requests:
+    keys = [key_of(text) for text in request.varied]
+    for each, run in zip(requests, with_common_cells(requests, keys), strict=True):
         try:
-            jobs.append(_checked(each))
+            jobs.append(_checked(run))
         except CommandError as refusal:
             for line in refusal.lines:
                 problems.setdefault(as_typed(line, request.varied), []).append(each)

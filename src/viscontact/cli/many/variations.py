@@ -33,7 +33,7 @@ def variations(varied: Sequence[str], settings: Sequence[str] = ()) -> list[Vari
     ('force=10kN_shape=32-32', 'tolerance=5%')
     """
     axes = dict(_axis(text) for text in varied)
-    _refuse_keys_given_twice([_key(text) for text in (*varied, *settings)], set(axes))
+    _refuse_keys_given_twice([key_of(text) for text in (*varied, *settings)], set(axes))
     short = _short_names(list(axes))
     found = []
     for values in product(*axes.values()):
@@ -53,7 +53,7 @@ def as_typed(line: str, varied: Sequence[str]) -> str:
     """
     option, blank, rest = line.partition(" ")
     key = re.split(r"[:=\s]", rest, maxsplit=1)[0]
-    is_varied = option == "--set" and any(_share_a_branch(key, _key(text)) for text in varied)
+    is_varied = option == "--set" and any(_share_a_branch(key, key_of(text)) for text in varied)
     return f"--vary{blank}{rest}" if is_varied else line
 
 
@@ -65,12 +65,13 @@ def _share_a_branch(one: str, other: str) -> bool:
 def _axis(text: str) -> tuple[str, list[str]]:
     _, equals, given = text.partition("=")
     values = _split(given)
-    if not (_key(text) and equals and values and all(values)):
+    if not (key_of(text) and equals and values and all(values)):
         refuse(f"--vary {text}: write KEY=VALUE,VALUE,..., e.g. --vary load.force=5kN,10kN")
-    return _key(text), values
+    return key_of(text), values
 
 
-def _key(text: str) -> str:
+def key_of(text: str) -> str:
+    """Key of a `--set` or `--vary`, as KEY=VALUE."""
     return text.partition("=")[0].strip()
 
 

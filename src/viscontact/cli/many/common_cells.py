@@ -1,0 +1,107 @@
+"""Common cells of the runs of a sweep, so that their results can be compared.
+
+Runs that vary a key choose automatic grids of their own. A peak pressure without a limit depends on
+the cells, and the errors of all other values jump from grid to grid. Therefore the runs of one case
+get the smallest cells that any of them chooses, as the setting `grid.largest_cell`, which is
+recorded with each run. A run is resumed on the cells that it began with.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from viscontact.case import CaseError, read_case
+from viscontact.case.document import read_document
+from viscontact.cli.run.checked_run import prepare
+from viscontact.cli.terminal.messages import CommandError, say
+from viscontact.run_files import CASE_NAME
+from viscontact.runs import resources
+from viscontact.runs.free_memory import available_memory
+from viscontact.runs.processes.request import RunRequest
+from viscontact.simulation.setup import RunSetup
+from viscontact.units.formatting import format_quantity
+
+#: Key of the case, in its section `grid`.
+_KEY = "largest_cell"
+
+#: Most cells of a run on common cells, unless its own choice has more.
+MOST_CELLS = 2**18
+
+
+def with_common_cells(requests: Sequence[RunRequest], keys: Sequence[str]) -> list[RunRequest]:
+    """Add the common cells to the settings of runs that differ in the values of some keys.
+
+    Runs keep their own cells where the keys concern the grid, where the grid or its largest cell
+    is given, or where the common cells would be too many.
+    """
+    if not keys or any(key.partition(".")[0] == "grid" for key in keys):
+        return list(requests)
+    sweeps: dict[Path, list[RunRequest]] = {}
+    for each in requests:
+        sweeps.setdefault(each.case, []).append(each)
+    added = {case: _settings(runs) for case, runs in sweeps.items()}
+    return [replace(each, settings=(*each.settings, *added[each.case])) for each in requests]
+
+
+def _settings(requests: Sequence[RunRequest]) -> tuple[str, ...]:
+    """Setting of the common cells of the runs of a case; none if they keep their own."""
+    try:
+        asked = read_case(requests[0].case, requests[0].settings).automatic_grid
+        if len(requests) == 1 or asked is None or asked.largest_cell is not None:
+            return ()
+        begun = [found for each in requests if each.resume and (found := _begun_with(each))]
+        if begun:
+            return begun[0].settings
+        return _chosen(requests)
+    except (CaseError, CommandError):
+        return ()  # reported when the runs are checked
+
+
+@dataclass(frozen=True)
+class _Begun:
+    """Setting of the common cells of a run that has begun; none if it has cells of its own."""
+
+    settings: tuple[str, ...]
+
+
+def _begun_with(request: RunRequest) -> _Begun | None:
+    """Cells that a run began with; None if it has not begun."""
+    recorded = (request.output or Path()) / CASE_NAME
+    if not recorded.is_file():
+        return None
+    grid = read_document(recorded).data.get("grid")
+    cell = grid.get(_KEY) if isinstance(grid, dict) else None
+    return _Begun(_setting(*cell) if isinstance(cell, list) else ())
+
+
+def _chosen(requests: Sequence[RunRequest]) -> tuple[str, ...]:
+    """The smallest cells that any of the runs chooses, as a setting."""
+    runs = [prepare(each.case, each.settings, each.threads).run for each in requests]
+    dx, dy = np.min([run.grid.cell_size for run in runs], axis=0).tolist()
+    shown = " x ".join(format_quantity(length, "m", 3) for length in (dx, dy))
+    affordable = all(_is_affordable(run, (dx, dy)) for run in runs)
+    if not requests[0].quiet:
+        say(
+            f"--vary: common cells of {shown} in all runs of {requests[0].case}"
+            if affordable
+            else f"--vary: each run of {requests[0].case} has cells of its own, as common cells of "
+            f"{shown} would be too many; mesh-dependent values of different runs cannot be compared"
+        )
+    return _setting(*(f"{1e6 * length:.9g} um" for length in (dx, dy))) if affordable else ()
+
+
+def _is_affordable(run: RunSetup, cell: tuple[float, float]) -> bool:
+    """Test whether a run on smaller cells fits into the limit and into the free memory."""
+    before = math.prod(run.grid.shape)
+    now = math.prod(size / length for size, length in zip(run.grid.size, cell, strict=True))
+    arrays = (resources.run_memory(run) - resources.PROGRAM) * now / before
+    return now <= max(before, MOST_CELLS) and resources.PROGRAM + arrays < available_memory()
+
+
+def _setting(dx: str, dy: str) -> tuple[str, ...]:
+    return (f"grid.{_KEY}=[{dx}, {dy}]",)

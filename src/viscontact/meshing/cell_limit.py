@@ -1,0 +1,58 @@
+"""Grid whose cells are no larger than a limit."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from viscontact.grid import Grid
+from viscontact.meshing.contact_extent import MAX_CELLS
+from viscontact.meshing.refinement import good_shape
+
+#: Relative excess over the limit that is rounding.
+ROUNDING = 1e-6
+
+
+def with_small_cells(
+    grid: Grid, largest_cell: tuple[float, float], ends: tuple[float, float]
+) -> Grid:
+    """Cover a grid with cells no larger than `largest_cell` [m], equal to it where possible.
+
+    Along an axis with smaller cells the grid remains. Cells end where the body ends, whose
+    distances are `ends` (`straight_ends`) [m]. ValueError if there would be too many cells.
+
+    Examples
+    --------
+    >>> grid = with_small_cells(Grid((40, 40), (20e-3, 1e-3)), (0.3e-3, 0.1e-3), (8e-3, math.inf))
+    >>> grid.shape, round(8e-3 / grid.cell_size[0], 6), grid.size[1]
+    ((72, 40), 28.0, 0.001)
+    """
+    cells = [
+        _cell(*each) for each in zip(grid.cell_size, largest_cell, grid.size, ends, strict=True)
+    ]
+    counts = np.divide(grid.size, cells)
+    if not float(counts.prod()) <= MAX_CELLS:
+        raise ValueError(
+            f"grid.largest_cell: cells this small would be about {float(counts.prod()):.2g}, more "
+            "than an automatic grid has; allow larger cells, or give a grid"
+        )
+    wanted = good_shape(counts * (1 - ROUNDING), math.inf)
+    axes = zip(grid.shape, wanted, cells, grid.cell_size, grid.size, strict=True)
+    shape, size = zip(
+        *(
+            (count, extent) if cell == own else (more, more * cell)
+            for count, more, cell, own, extent in axes
+        ),
+        strict=True,
+    )
+    return Grid(shape, size)
+
+
+def _cell(own: float, largest: float, extent: float, end: float) -> float:
+    """Length of a cell along an axis; pairs of cells end where the body ends."""
+    if own <= largest * (1 + ROUNDING):
+        return own
+    if not end < extent / 2:
+        return largest
+    return end / (2 * math.ceil(end / (2 * largest) * (1 - ROUNDING)))
