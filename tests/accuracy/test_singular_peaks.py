@@ -59,7 +59,7 @@ def test_peak_at_an_end_has_no_limit_if_it_lies_there_and_grows(ball, exponent, 
 def test_bar_of_a_peak_near_an_end_is_at_least_its_excess(ball):
     history, results = at_end(ball, exponent=0.0, beside=0.5, inner=0.8)
     (bar,) = peak_bars(BARS, history, results)
-    assert bar == pytest.approx(0.2 * history["peak_pressure"][0])
+    assert 0.2 <= bar / history["peak_pressure"][0] <= 0.6
 
 
 def test_peak_that_an_automatic_grid_left_out_has_no_limit_at_an_end(ball):

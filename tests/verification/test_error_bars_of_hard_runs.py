@@ -1,9 +1,12 @@
 """Error bars hold where coarser runs share steps, history or edges with the run."""
 
+import math
+
 import numpy as np
 import pytest
 
 import viscontact as vc
+from verification.families.rollers import roller_problem, stored_values
 from viscontact import reference
 
 pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
@@ -69,3 +72,25 @@ def test_bars_of_a_sharp_ended_roller_are_not_far_above_its_error() -> None:
     for name, limit in (("approach", 0.03), ("eccentricity_x", 0.15)):
         value, bar = float(coarse[name][0]), float(coarse[f"{name}_error"][0])
         assert abs(value - float(fine[name][0])) < bar < limit * value
+
+
+@pytest.mark.parametrize("along", [28.3, 33.1])
+@pytest.mark.parametrize("index", [10, 4, 6, 21], ids=lambda each: roller_problem(each).name)
+def test_bars_hold_the_outline_of_contacts_near_the_ends_of_a_roller(
+    index: int, along: float
+) -> None:
+    """Against a ladder of grids.
+
+    The contact ends half a cell before a logarithmic end, where all grids see it in the last cell,
+    and becomes wider towards a sharp one: the width on the finest grid was 10 % larger.
+    """
+    problem, ladder = roller_problem(index), stored_values()[str(index)]
+    cells = (2 * problem.half_length / along, 2 * problem.half_width / 14)
+    shape = math.ceil(1.25 * along), math.ceil(1.9 * 14)
+    grid = vc.Grid(shape, (shape[0] * cells[0], shape[1] * cells[1]))
+    found = vc.simulate(problem.indenter, problem.material, problem.load, grid, [0.0])
+    names = ("contact_area", "contact_length", "mean_pressure")
+    for name in (*names, "contact_width") if "sharp" in problem.name else names:
+        exact, bar = ladder[name][0][0], float(found[f"{name}_error"][0])
+        assert abs(float(found[name][0]) - exact) <= bar + 1e-9 * exact
+        assert bar < 0.25 * exact

@@ -67,6 +67,7 @@ class CoarserResult:
     bend_growth: NDArray[np.float64]
     spots: NDArray[np.float64]  # mean width of the contact spots, in cells of the original run
     peak_drops: FloatArray  # relative drop of pressure from the largest one to the cells next to it
+    rises_to_ends: NDArray[np.bool_]  # pressure rises to both ends along x, y; shape (instants, 2)
     is_sharp: bool  # the largest pressure lies on a point or a ridge of the body
 
     @property
@@ -127,6 +128,7 @@ def march_coarser_run(
     `on_step` is called after each step, and may stop the run by an exception.
     """
     run, states, ends, bends, spots, drops = coarser_run.run, [], [], [], [], []
+    rises: list[tuple[bool, bool]] = []
     peak = 0.0
     sharp = False
     try:
@@ -140,6 +142,7 @@ def march_coarser_run(
             bends.append(_bend_growth(run, state))
             spots.append(cells_across_spots(state.pressure > 0, periodic=run.grid.periodic))
             drops.append(_drop_beside_peak(state.pressure))
+            rises.append((_rises_to_ends(state.pressure), _rises_to_ends(state.pressure.T)))
             if state.peak_pressure > 1.1 * peak:
                 peak = state.peak_pressure
                 sharp = sharp or _peaks_at_point(coarser_run, state)
@@ -153,6 +156,7 @@ def march_coarser_run(
         np.array(bends, dtype=float),
         coarser_run.spacing * np.array(spots, dtype=float),
         np.array(drops, dtype=float),
+        np.array(rises, dtype=bool).reshape(-1, 2),
         sharp,
     )
 
@@ -200,6 +204,13 @@ def _drop_beside_peak(pressure: FloatArray) -> float:
     around = pressure[max(i - 1, 0) : i + 2, max(j - 1, 0) : j + 2]
     peak = float(pressure[i, j])
     return float(1 - around.min(where=around > 0, initial=peak) / peak) if peak > 0 else 0.0
+
+
+def _rises_to_ends(pressure: FloatArray) -> bool:
+    """Test whether the largest pressures across the first axis rise to both ends of the contact."""
+    lines = pressure.max(axis=1)
+    pressed = lines[lines > 0]
+    return len(pressed) > 1 and bool(pressed[0] >= pressed[1] and pressed[-1] >= pressed[-2])
 
 
 def _peaks_at_point(coarser_run: CoarserRun, state: ContactState) -> bool:

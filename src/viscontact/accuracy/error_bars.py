@@ -23,7 +23,6 @@ from viscontact.accuracy.coarser_runs import (
 )
 from viscontact.accuracy.error_models import COARSE_SPOT_CELLS, ERROR_MODELS
 from viscontact.accuracy.least_bars import (
-    EXTENTS,
     SOLVER_ERROR_FACTOR,
     ContactKinds,
     least_bar,
@@ -35,17 +34,15 @@ from viscontact.accuracy.levels import (
     end_flags,
     moving_maximum,
     moving_minimum,
+    rises_to_ends,
     spots_across,
 )
-from viscontact.accuracy.singular_peaks import peak_bars, singular_warnings
+from viscontact.accuracy.singular_peaks import peak_bars, singular_warnings, unbounded_peak
 from viscontact.results.variables import scalars_with_error
 from viscontact.simulation.setup import RunSetup
 
 Array = NDArray[np.float64]
 
-
-#: Relative difference below which all grids agree on an extent: it is that of the body.
-AGREEMENT_TOLERANCE = 1e-6
 
 #: Scalars whose errors a creeping body keeps after the contact has left the end.
 ERRORS_KEPT = (
@@ -118,15 +115,9 @@ def error_bars_from(
     found = list(results)
     if not found:
         return unknown_bars(len(history["time"]))
-    at_end = moving_maximum(end_flags(history["time"], found)) > 0
-    spots = spots_across(history["time"], found)
-    of_spots = np.where(np.isnan(spots), moving_minimum(spots), spots) < COARSE_SPOT_CELLS
-    # A creeping body keeps the error of a contact that has reached the end.
-    creeping = creeps(run.problem.compliance, history["time"])
-    ended = np.logical_or.accumulate(at_end) if creeping else at_end
-    places = ContactKinds(at_end, ended, of_spots)
+    kinds = _contact_kinds(run, history, found)
     values = {
-        name: _bar(run, name, RefinementLevels.of(name, history, found), places, history)
+        name: _bar(run, name, RefinementLevels.of(name, history, found), kinds, history)
         for name in ERROR_MODELS
     }
     values["peak_pressure"] = np.fmax(values["peak_pressure"], least_peak_bar(history, found))
@@ -134,7 +125,7 @@ def error_bars_from(
     left_out = run.mesh is not None and "peak" in run.mesh.warnings
     values["peak_pressure"] = peak_bars(values["peak_pressure"], history, found, left_out=left_out)
     # A sharp corner of the body has the same effect on the line load as its end.
-    sharp = replace(places, at_end=at_end | np.isinf(values["peak_pressure"]))
+    sharp = replace(kinds, at_end=kinds.at_end | np.isinf(values["peak_pressure"]))
     line_load = RefinementLevels.of("peak_line_load", history, found)
     values["peak_line_load"] = _bar(run, "peak_line_load", line_load, sharp, history)
     touching = _touching(history, found)
@@ -144,6 +135,19 @@ def error_bars_from(
         values[name][apart] = 0.0
     warnings = singular_warnings(values["peak_pressure"], run.problem.indenter, issued)
     return ErrorBars(values, warnings)
+
+
+def _contact_kinds(run: RunSetup, history: History, results: list[CoarserResult]) -> ContactKinds:
+    """Kinds of contact over the run's times, by its coarser runs."""
+    times = history["time"]
+    at_end = moving_maximum(end_flags(times, results)) > 0
+    spots = spots_across(times, results)
+    of_spots = np.where(np.isnan(spots), moving_minimum(spots), spots) < COARSE_SPOT_CELLS
+    # A creeping body keeps the error of a contact that has reached the end.
+    creeping = creeps(run.problem.compliance, times)
+    ended = np.logical_or.accumulate(at_end) if creeping else at_end
+    singular = moving_maximum(unbounded_peak(history, results)) > 0
+    return ContactKinds(at_end, ended, of_spots, singular, rises_to_ends(times, results))
 
 
 def unknown_bars(count: int) -> ErrorBars:
@@ -158,7 +162,7 @@ def unknown_bars(count: int) -> ErrorBars:
 
 
 def _bar(
-    run: RunSetup, name: str, levels: RefinementLevels, places: ContactKinds, history: History
+    run: RunSetup, name: str, levels: RefinementLevels, kinds: ContactKinds, history: History
 ) -> Array:
     """Half width of the bars of one scalar over the run's times."""
     own = np.abs(levels.values[0])
@@ -166,10 +170,10 @@ def _bar(
     model = ERROR_MODELS[name]
     by_cells = model.of(levels)
     if model.at_end is not None:
-        ended = places.ended if name in ERRORS_KEPT else places.at_end
+        ended = kinds.ended if name in ERRORS_KEPT else kinds.at_end
         by_cells = np.where(ended, model.at_end.of(levels), by_cells)
     if model.of_spots is not None:
-        by_cells = np.where(places.of_spots, model.of_spots.of(levels), by_cells)
+        by_cells = np.where(kinds.of_spots, model.of_spots.of(levels), by_cells)
     nothing = np.where(np.isnan(by_cells), np.nan, 0.0)
     parts = [
         moving_maximum(np.divide(part, scale, out=nothing.copy(), where=scale > 0))
@@ -178,10 +182,7 @@ def _bar(
     solver = SOLVER_ERROR_FACTOR * run.problem.tolerance + run.hereditary.error
     solver += run.problem.compliance.inversion_error
     bar = (parts[0] + np.nan_to_num(parts[1]) + solver) * scale
-    # An extent on which the grids agree at all times is that of the body.
-    differs = np.any(by_cells > AGREEMENT_TOLERANCE * own) or not np.isfinite(by_cells).any()
-    if differs or name not in EXTENTS:
-        bar = np.maximum(bar, least_bar(run, name, places, history))
+    bar = np.maximum(bar, least_bar(run, name, kinds, history, by_cells))
     return np.where(np.isnan(own), np.nan, bar)
 
 

@@ -18,8 +18,12 @@ Array = NDArray[np.float64]
 SOLVER_ERROR_FACTOR = 3.0
 
 #: Smallest error of extents in cells, however well two grids agree; with spots of few cells; at a
-#: straight sharp end, towards which the contact widens without a limit.
-RIM_CELLS, SPOT_RIM_CELLS, END_RIM_CELLS = 0.05, 1.0, 1.5
+#: straight end; at a sharp one, towards which the contact widens without a limit; and where
+#: the contact may end in the last cells of the body.
+RIM_CELLS, SPOT_RIM_CELLS, END_RIM_CELLS, SHARP_RIM_CELLS, LAST_CELLS = 0.05, 1.0, 1.5, 3.5, 1.5
+
+#: Relative difference below which all grids agree on an extent: it is that of the body.
+AGREEMENT_TOLERANCE = 1e-6
 
 #: Extents of the contact along x and y, and scalars that follow from the moments.
 EXTENTS = ("contact_length", "contact_width")
@@ -29,9 +33,14 @@ MOMENTS = ("eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y")
 #: of a ball is too small by 0.14 +- 0.04.
 LEAST_ERRORS = {"approach": 0.2, "force": 0.3, "work": 0.2, "loss_per_cycle": 0.3}
 
-#: Least relative error of these scalars where the contact reaches the end of a body, times the
-#: cells along the contact: the approach of a round flat punch is too large by 0.24 +- 0.10.
+#: Least relative error of these scalars where the contact reaches the curved end of a body, times
+#: the cells along the contact: the approach of a round flat punch is too large by 0.24 +- 0.10.
+#: Straight ends lie alike within the cells of all grids, whose differences show the error.
 LEAST_END_ERROR = 0.4
+
+#: Least relative error of the area of a contact that ends with the body along one axis only, times
+#: the cells along the contact.
+LEAST_END_AREA_ERROR = 0.8
 
 #: Least error of a peak near the rim, in its drop to a neighbouring cell of a coarser grid; a
 #: smooth peak drops by much less than the second number.
@@ -42,17 +51,32 @@ TINY = float(np.finfo(np.float64).tiny)
 
 @dataclass(frozen=True, eq=False)
 class ContactKinds:
-    """Times at which a contact reaches the body's end, and consists of spots of few cells."""
+    """Kinds of contact over the times of a run."""
 
     at_end: NDArray[np.bool_]
     ended: NDArray[np.bool_]  # at the end, or has been there and keeps the error
-    of_spots: NDArray[np.bool_]
+    of_spots: NDArray[np.bool_]  # consists of spots of few cells
+    singular: NDArray[np.bool_]  # the largest pressure has no limit
+    #: Pressure rises to both ends of the contact along x, y; shape (2, times).
+    rises: NDArray[np.bool_]
 
 
-def least_bar(run: RunSetup, name: str, kinds: ContactKinds, history: History) -> Array | float:
-    """Lower limit of the bars of a scalar over the run's times, in its unit."""
+def least_bar(
+    run: RunSetup, name: str, kinds: ContactKinds, history: History, by_cells: Array
+) -> Array | float:
+    """Lower limit of the bars of a scalar over the run's times, in its unit.
+
+    `by_cells` is its error from the cells by the differences between the grids.
+    """
     if name in EXTENTS:
-        return _least_extent_bar(run, EXTENTS.index(name), kinds)
+        axis = EXTENTS.index(name)
+        # An extent on which the grids agree at all times is that of the body.
+        agree = np.all(~(by_cells > AGREEMENT_TOLERANCE * history[name]))
+        if agree and np.isfinite(by_cells).any():
+            return _least_body_extent_bar(run, axis, kinds)
+        return _least_extent_bar(run, axis, kinds)
+    if name == "contact_area":
+        return _least_area_bar(run, kinds, history)
     if name in MOMENTS:
         return _least_moment_bar(run, name, history)
     if name in LEAST_ERRORS and name != run.problem.load.control:
@@ -73,7 +97,29 @@ def _least_extent_bar(run: RunSetup, axis: int, kinds: ContactKinds) -> Array:
     parts = np.where(kinds.of_spots, SPOT_RIM_CELLS, RIM_CELLS)
     if min(straight_ends(run)) < np.inf:
         parts = np.where(kinds.at_end, END_RIM_CELLS, parts)
+        parts = np.where(kinds.at_end & kinds.singular, SHARP_RIM_CELLS, parts)
     return np.asarray(parts * run.grid.cell_size[axis])
+
+
+def _least_body_extent_bar(run: RunSetup, axis: int, kinds: ContactKinds) -> Array:
+    """Cells in which the contact may end before the body does [m]: pressure falls to its ends."""
+    uncertain = ~kinds.rises[axis] & (not run.grid.periodic)
+    return np.asarray(np.where(uncertain, LAST_CELLS * run.grid.cell_size[axis], 0.0))
+
+
+def _least_area_bar(run: RunSetup, kinds: ContactKinds, history: History) -> Array:
+    """Cells at straight ends in which the contact becomes wider, or ends before the body [m²]."""
+    if min(straight_ends(run)) == np.inf:
+        return np.zeros(len(kinds.at_end))
+    uncertain = kinds.at_end & ~kinds.rises.all(axis=0)
+    relative = LEAST_END_AREA_ERROR / _cells_along(run, history)
+    return np.asarray(np.where(uncertain, relative * history["contact_area"], 0.0))
+
+
+def _cells_along(run: RunSetup, history: History) -> Array:
+    """Cells on the longer extent of the contact, at least 1."""
+    along = (np.nan_to_num(history[EXTENTS[k]]) / run.grid.cell_size[k] for k in (0, 1))
+    return np.maximum(np.fmax(*along), 1.0)
 
 
 def _least_moment_bar(run: RunSetup, name: str, history: History) -> Array:
@@ -90,7 +136,7 @@ def _least_bulk_bar(run: RunSetup, name: str, kinds: ContactKinds, history: Hist
     """Usual errors on the cells across the contact, or along it where it reaches the end."""
     across = history["cells_across"]
     relative = np.where(across > 0, LEAST_ERRORS[name] / np.maximum(across, 1.0) ** 2, 0.0)
-    along = np.fmax(*(history[EXTENTS[k]] / run.grid.cell_size[k] for k in (0, 1)))
-    longest = np.maximum(np.fmax.accumulate(np.nan_to_num(along)), 1.0)
-    at_end = np.where(kinds.ended, LEAST_END_ERROR / longest, 0.0)
+    longest = np.fmax.accumulate(_cells_along(run, history))
+    curved = kinds.ended & (min(straight_ends(run)) == np.inf)
+    at_end = np.where(curved, LEAST_END_ERROR / longest, 0.0)
     return np.asarray(np.maximum(relative, at_end) * np.abs(history[name]))

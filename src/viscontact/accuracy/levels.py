@@ -57,6 +57,16 @@ def end_flags(times: Array, results: list[CoarserResult]) -> Array:
     return flags
 
 
+def rises_to_ends(times: Array, results: list[CoarserResult]) -> NDArray[np.bool_]:
+    """Times at which pressure rises to both ends of the contact; along x, y; shape (2, times)."""
+    found = np.full((2, len(times)), np.nan)
+    for result in results:
+        theirs = result.scalars["time"]
+        shared, known = np.isin(times, theirs), np.isin(theirs, times)
+        found[:, shared] = np.fmin(found[:, shared], result.rises_to_ends[known].T)
+    return np.array([moving_minimum(each) == 1 for each in found])
+
+
 def spots_across(times: Array, results: list[CoarserResult]) -> Array:
     """Least number of cells across spots in the coarser runs; NaN without contact."""
     spots = np.full(len(times), np.nan)

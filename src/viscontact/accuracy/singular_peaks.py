@@ -42,6 +42,9 @@ UNBOUNDED_EXPONENT = 0.1
 #: Largest pressures that differ by less than this part are the same.
 SAME_PEAK = 1e-3
 
+#: Error of a peak in the body's last cells over its excess over the pressure before them.
+EXCESS_FACTOR = 2.0
+
 #: Warning of a peak without a limit.
 SINGULAR = (
     "the peak pressure has no limit as cells become smaller: it depends on the mesh, at a sharp "
@@ -57,7 +60,7 @@ def peak_bars(
 
     `left_out` if the automatic grid was refined without it, as it had no limit on finer cells.
     """
-    excess = moving_maximum(_end_excess(history["time"], results))
+    excess = EXCESS_FACTOR * moving_maximum(_end_excess(history["time"], results))
     widened = np.maximum(bars, np.nan_to_num(excess) * history["peak_pressure"])
     unbounded = unbounded_peak(history, results)
     if left_out:

@@ -27,6 +27,10 @@ RIM_SCATTER = 0.05
 #: as many cells it was up to 20 % larger or smaller (Lundberg's and Johns and Gohar's profiles).
 UNRESOLVED_END = 0.1
 
+#: Error of the area in the cells at the body's end, in cells: the contact becomes wider in them, or
+#: ends before the body does; measured on rollers with sharp and logarithmic ends.
+END_SCATTER = 0.3
+
 TINY = float(np.finfo(np.float64).tiny)
 
 
@@ -100,14 +104,15 @@ def try_mesh(pressing: ElasticContact, shape: tuple[int, int], tolerance: float)
     fine = _found(pressing, grid, tolerance, (spread[0] + spread[1]) / 2)
     changes = np.stack([np.abs(other.values - fine.values) / fine.scales for other in coarser])
     area = GRID_QUANTITIES.index("contact_area")
-    changes[:, area] = np.maximum(changes[:, area], RIM_SCATTER / fine.consecutive_cells)
+    at_end: NDArray[np.bool_] = np.any(
+        end_cells(fine.open_gap, 1) & (fine.pressure > 0), axis=(1, 2)
+    )
+    scatter = np.where(at_end & np.isfinite(pressing.ends), END_SCATTER, RIM_SCATTER)
+    changes[:, area] = np.maximum(changes[:, area], scatter / fine.consecutive_cells)
     peak = GRID_QUANTITIES.index("peak_pressure")
     excess = _end_excess(fine)
     unresolved = np.where(excess > 0, np.maximum(excess, UNRESOLVED_END), 0.0)
     changes[:, peak] = np.maximum(changes[:, peak], unresolved)
-    at_end: NDArray[np.bool_] = np.any(
-        end_cells(fine.open_gap, 1) & (fine.pressure > 0), axis=(1, 2)
-    )
     return MeshTrial(grid, fine.values, changes, excess, at_end, fine.consecutive_cells)
 
 
