@@ -30,7 +30,7 @@ from viscontact.units.formatting import format_quantity
 _KEY = "largest_cell"
 
 #: Most cells of a run on common cells, unless its own choice has more.
-MOST_CELLS = 2**18
+MOST_CELLS = 2**16
 
 
 def with_common_cells(requests: Sequence[RunRequest], keys: Sequence[str]) -> list[RunRequest]:
