@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -10,12 +9,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscontact.loads import LoadHistory
 from viscontact.materials.compliance import ContactCompliance
+from viscontact.time_integration.default_times import default_times
 from viscontact.time_integration.fixed_steps import snap_to_kink
-from viscontact.time_integration.requested_times import AdaptiveTimes, uniform_times
+from viscontact.time_integration.requested_times import AdaptiveTimes
 from viscontact.units.formatting import format_quantity
-
-#: Steps of a run whose times are not given.
-DEFAULT_STEPS = 60
 
 
 def run_instants(
@@ -34,10 +31,10 @@ def run_instants(
     >>> from viscontact.loads import step
     >>> law = SeriesCompliance(1.0, [1.0], [2.0])
     >>> run_instants(None, "all", step(1.0), law)[[0, 1, -1]].round(3).tolist()
-    [0.0, 0.167, 10.0]
+    [0.0, 0.103, 10.0]
     """
     if times is None:
-        return _default_times(load, compliance)
+        return default_times(load, compliance)
     if not isinstance(times, AdaptiveTimes):
         return _checked_times(times)
     kept = _instants("fields", [0.0] if isinstance(fields, str) else fields)
@@ -98,23 +95,3 @@ def _checked_times(times: ArrayLike) -> NDArray[np.float64]:
             f"{format_quantity(after, 's', 6)}"
         )
     return instants
-
-
-def _default_times(load: LoadHistory, compliance: ContactCompliance) -> NDArray[np.float64]:
-    """The load's kinks, and steps to its end or through the creep under a held load [s]."""
-    end = float(load.kinks[-1])
-    if load.level_at(end) > 0:
-        settled = compliance.settled_after
-        if math.isinf(settled):
-            raise ValueError(
-                "times: the law does not say when its creep is over; say when the run ends, e.g. "
-                "times=log_times(first, end, n)"
-            )
-        is_measured = math.isfinite(compliance.measured_until)
-        end = max(end, settled) if is_measured else end + settled
-    if end == 0:
-        return np.zeros(1)
-    kinks = load.kinks[load.kinks <= end]
-    even = uniform_times(end, DEFAULT_STEPS)
-    apart = np.abs(even[:, None] - kinks).min(axis=1) > 1e-9 * end
-    return np.unique(np.concatenate([even[apart], kinks]))
