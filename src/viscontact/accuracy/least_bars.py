@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.accuracy.coarser_grids import straight_ends
-from viscontact.accuracy.coarser_runs import CoarserResult, History
+from viscontact.accuracy.coarser_runs import CoarserResult, History, creeps
 from viscontact.accuracy.levels import moving_maximum, peak_drops
 from viscontact.simulation.setup import RunSetup
 
@@ -24,6 +24,17 @@ RIM_CELLS, SPOT_RIM_CELLS, END_RIM_CELLS, SHARP_RIM_CELLS, LAST_CELLS = 0.05, 1.
 
 #: Relative difference below which all grids agree on an extent: it is that of the body.
 AGREEMENT_TOLERANCE = 1e-6
+
+#: Growth of the first with the logarithm of a cell's length over its breadth, as the rim is curved
+#: within a long cell. Hertz's ellipses on cells as slender as they are too short by 0.2 cells if 18
+#: times as long as wide, by 0.35 cells at 70 times, on 12 to 52 cells.
+LONG_CELLS = 0.1
+
+#: Where a contact on a creeping body has shrunk by less than LATE_CELLS since it last grew, the
+#: surface that it left is still almost closed and its rim is found too far outside. Least error of
+#: the rim over the way that it has moved, and its largest value in cells: balls under forces err
+#: by 0.02 cells in the median, 9 of 10 by less than 0.2.
+LATE_PART, LATE_CELLS, MOST_LATE = 0.5, 2.0, 0.1
 
 #: Extents of the contact along x and y, and scalars that follow from the moments.
 EXTENTS = ("contact_length", "contact_width")
@@ -74,9 +85,9 @@ def least_bar(
         agree = np.all(~(by_cells > AGREEMENT_TOLERANCE * history[name]))
         if agree and np.isfinite(by_cells).any():
             return _least_body_extent_bar(run, axis, kinds)
-        return _least_extent_bar(run, axis, kinds)
+        return _least_extent_bar(run, axis, kinds, history)
     if name == "contact_area":
-        return _least_area_bar(run, kinds, history)
+        return np.maximum(_least_area_bar(run, kinds, history), _late_area(run, history))
     if name in MOMENTS:
         return _least_moment_bar(run, name, history)
     if name in LEAST_ERRORS and name != run.problem.load.control:
@@ -92,13 +103,33 @@ def least_peak_bar(history: History, results: list[CoarserResult]) -> Array:
     )
 
 
-def _least_extent_bar(run: RunSetup, axis: int, kinds: ContactKinds) -> Array:
+def _least_extent_bar(run: RunSetup, axis: int, kinds: ContactKinds, history: History) -> Array:
     """Parts of a cell [m]."""
-    parts = np.where(kinds.of_spots, SPOT_RIM_CELLS, RIM_CELLS)
+    length, breadth = run.grid.cell_size[axis], run.grid.cell_size[1 - axis]
+    smooth = RIM_CELLS + LONG_CELLS * max(float(np.log(length / breadth)), 0.0)
+    smooth_or_late = np.maximum(smooth, 2 * _late_cells(run, history))
+    parts = np.where(kinds.of_spots, SPOT_RIM_CELLS, smooth_or_late)
     if min(straight_ends(run)) < np.inf:
         parts = np.where(kinds.at_end, END_RIM_CELLS, parts)
         parts = np.where(kinds.at_end & kinds.singular, SHARP_RIM_CELLS, parts)
-    return np.asarray(parts * run.grid.cell_size[axis])
+    return np.asarray(parts * length)
+
+
+def _late_cells(run: RunSetup, history: History) -> Array:
+    """Least error of the rim of a shrinking contact, in cells."""
+    radius = np.sqrt(history["contact_area"] / (np.pi * run.grid.cell_area))
+    if not creeps(run.problem.compliance, history["time"]):
+        return np.zeros_like(radius)
+    grows = np.diff(radius, prepend=0.0) > 0
+    last = np.maximum.accumulate(np.where(grows, np.arange(len(radius)), 0))
+    way = radius[last] - radius
+    return np.where(way < LATE_CELLS, np.minimum(LATE_PART * way, MOST_LATE), 0.0)
+
+
+def _late_area(run: RunSetup, history: History) -> Array:
+    """Least error of the area of a shrinking contact [m²]."""
+    girth = 2 * np.sqrt(np.pi * history["contact_area"] * run.grid.cell_area)
+    return np.asarray(girth * _late_cells(run, history))
 
 
 def _least_body_extent_bar(run: RunSetup, axis: int, kinds: ContactKinds) -> Array:
