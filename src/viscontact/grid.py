@@ -15,6 +15,9 @@ from viscontact.units.numbers import as_real, positive, whole
 #: Quantities that a mesh can be chosen for.
 GRID_QUANTITIES = ("peak_pressure", "contact_area", "approach")
 
+#: Least number of cells across the largest contact of a run.
+MIN_CELLS_ACROSS = 4
+
 #: Range of tolerances of an automatic mesh.
 FINEST, COARSEST = 1e-4, 0.5
 

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from viscontact.contact.rim import mean_chords
 
-#: Fewer cells across the largest contact than these cause a warning, or an error.
-WARNING_CELLS, MIN_CELLS_ACROSS = 10, 4
+#: Fewer cells across the largest contact than these cause a warning.
+WARNING_CELLS = 10
 
 
 #: A smaller mean chord causes a warning. A disc of d cells has a mean chord of pi/4 d: 4 belong to

@@ -18,7 +18,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.grid import AutomaticGrid, Grid
+from viscontact.grid import MIN_CELLS_ACROSS, AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.indenters.rounding import rounding_remedy
 from viscontact.indenters.textures import CELLS_OF_A_WAVE
@@ -33,7 +33,7 @@ from viscontact.meshing.contact_extent import (
 )
 from viscontact.meshing.height_map_error import facet_error
 from viscontact.meshing.refinement import PEAK, USUAL_ORDER, Resolution, refine_mesh
-from viscontact.meshing.trial_mesh import RIM_SCATTER, ElasticContact
+from viscontact.meshing.trial_mesh import RIM_SCATTER, ElasticContact, MeshTrial
 from viscontact.problem.problem import Problem
 from viscontact.units.formatting import format_quantity
 
@@ -215,7 +215,20 @@ def _refined_for_largest(
         chosen = replace(
             chosen, warnings=chosen.warnings | _spacing_warning(worst, chosen.errors[worst])
         )
+    _refuse_few_cells(found.trial)
     return Mesh(found.trial.grid, chosen.errors, chosen.warnings)
+
+
+def _refuse_few_cells(trial: MeshTrial) -> None:
+    """Refuse a mesh whose run would be refused: a contact far smaller than its distance from 0."""
+    if trial.cells_across >= MIN_CELLS_ACROSS:
+        return
+    x, y = (format_quantity(each, "m", 3) for each in trial.peak_place)
+    raise ValueError(
+        f"grid: only {trial.cells_across} cells of the finest automatic grid, which is centred on "
+        f"x = y = 0 and as fine as the height map, lie across the contact at x = {x}, y = {y}: "
+        "move the map so that its highest peak lies at x = y = 0, or give a grid"
+    )
 
 
 def _limited_by_map(indenter: Indenter, largest: PointContact, mesh: Mesh) -> Mesh:

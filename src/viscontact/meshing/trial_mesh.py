@@ -64,6 +64,8 @@ class MeshTrial:
     at_end: NDArray[np.bool_]  # the contact reaches the body's end along x, and along y
     #: Mean chords of the contact along x and along y, in cells.
     consecutive_cells: NDArray[np.float64]
+    cells_across: int  # cells over the shorter extent of the contact
+    peak_place: tuple[float, float]  # position of the largest pressure [m]
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -113,7 +115,16 @@ def try_mesh(pressing: ElasticContact, shape: tuple[int, int], tolerance: float)
     excess = _end_excess(fine)
     unresolved = np.where(excess > 0, np.maximum(excess, UNRESOLVED_END), 0.0)
     changes[:, peak] = np.maximum(changes[:, peak], unresolved)
-    return MeshTrial(grid, fine.values, changes, excess, at_end, fine.consecutive_cells)
+    return MeshTrial(
+        grid,
+        fine.values,
+        changes,
+        excess,
+        at_end,
+        fine.consecutive_cells,
+        fine.cells_across,
+        grid.largest_at(fine.pressure),
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,6 +136,7 @@ class _Found:
     values: NDArray[np.float64]
     scales: NDArray[np.float64]
     consecutive_cells: NDArray[np.float64]
+    cells_across: int
 
 
 def _end_excess(found: _Found) -> NDArray[np.float64]:
@@ -160,8 +172,9 @@ def _found(
         start=start,
     )
     contact = found.pressure > 0
-    area = trace_rim(grid, contact, found.gap, trace_outline(indenter, grid)).area
-    values = np.array([found.peak_pressure, area, found.approach])
+    rim = trace_rim(grid, contact, found.gap, trace_outline(indenter, grid))
+    values = np.array([found.peak_pressure, rim.area, found.approach])
     # A body that mostly tilts has a small approach: its error is relative to the displacement.
     scales = np.maximum(values, [TINY, TINY, found.largest_displacement])
-    return _Found(open_gap, found.pressure, values, scales, mean_chords(contact))
+    chords = mean_chords(contact)
+    return _Found(open_gap, found.pressure, values, scales, chords, rim.cells_across)

@@ -14,13 +14,14 @@ from viscontact.checks.material import (
     data_warnings,
     early_warnings,
 )
-from viscontact.checks.mesh import MIN_CELLS_ACROSS, cells_across_spots, mesh_warnings
+from viscontact.checks.mesh import cells_across_spots, mesh_warnings
 from viscontact.checks.singularities import strain_of
 from viscontact.checks.steps import unreported_peak_warnings
 from viscontact.contact.body_edge import trace_outline
 from viscontact.contact.line_load import line_load, peak_line_load
 from viscontact.contact.rim import Rim, trace_rim
 from viscontact.errors import DomainError
+from viscontact.grid import MIN_CELLS_ACROSS
 from viscontact.loads.history import LoadPoint
 from viscontact.simulation.grid_enlargement import GridEnlargement
 from viscontact.simulation.load_cycles import LoadCycleWork
