@@ -40,7 +40,7 @@ def test_limits_above_the_chosen_cells_change_nothing():
 
 
 def test_small_cells_end_where_the_body_ends():
-    for limit in (390e-6, 210e-6, 110e-6):
+    for limit in (260e-6, 210e-6, 110e-6):
         dx, dy = grid_of(ROLLER, vc.step(200.0), largest_cell=(limit, 8e-6)).cell_size
         assert dy == pytest.approx(8e-6, rel=1e-12)
         assert 0.9 * limit < dx <= limit
