@@ -35,7 +35,7 @@ _WORK = ErrorModel(2.0, 1.8, at_end=ErrorModel(0.7, 1.2))
 #: Area and peak, also where contact consists of spots of fewer cells across, in the mean: some of
 #: them exist on one grid only. Calibrated on self-affine surfaces, 2 to 9 cells across.
 COARSE_SPOT_CELLS = 8.0
-_AREA = ErrorModel(2.0, 1.15, of_spots=ErrorModel(1.0, 1.5))
+_AREA = ErrorModel(2.0, 1.12, of_spots=ErrorModel(1.0, 1.5))
 _PEAK = ErrorModel(2.0, 1.5, at_end=ErrorModel(1.0, 1.5), of_spots=ErrorModel(2.0, 4.0))
 
 #: Peak of the line load, a mean over a twentieth of the contact. Calibrated on ellipses, crowned
