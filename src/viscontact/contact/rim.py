@@ -161,6 +161,7 @@ def _trace_around(
     grid: Grid, contact: NDArray[np.bool_], gap: NDArray[np.float64], outline: Outline | None
 ) -> Rim:
     """Trace the rim of a contact that continues across the border of its period."""
+    segment = _mean_segment(contact, gap, periodic=True)
     rows, columns = _turn(contact, axis=0), _turn(contact, axis=1)
     # More cells on both sides, from which the rim in the block is extrapolated.
     wide = np.ix_(_beyond(rows, grid.shape[0]), _beyond(columns, grid.shape[1]))
@@ -173,7 +174,7 @@ def _trace_around(
         ends = end_x, end_y
     inner = slice(MARGIN, -MARGIN)
     along_x, along_y = locate_rim(grid, contact, gap, ends)
-    block, segment = contact[inner, inner], _mean_segment(contact, gap)
+    block = contact[inner, inner]
     return Rim(grid, block, along_x[inner, inner], along_y[inner, inner], rows, columns, segment)
 
 
@@ -196,9 +197,11 @@ def _beyond(lines: NDArray[np.intp], count: int) -> NDArray[np.intp]:
     return np.asarray((np.arange(-MARGIN, len(lines) + MARGIN) + lines[0]) % count)
 
 
-def _mean_segment(contact: NDArray[np.bool_], gap: NDArray[np.float64]) -> float:
+def _mean_segment(
+    contact: NDArray[np.bool_], gap: NDArray[np.float64], *, periodic: bool = False
+) -> float:
     """Area between the rim and its chords per quarter turn, less the error of the crossings."""
-    chords, beyond = mean_chords(contact), np.isinf(gap)
+    chords, beyond = mean_chords(contact, periodic=periodic), np.isinf(gap)
     if not chords.any():
         return SEGMENTS
     # Crossings at the body's outline have no such error.
