@@ -41,8 +41,8 @@ EXTENTS = ("contact_length", "contact_width")
 MOMENTS = ("eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y")
 
 #: Least relative error of scalars, times the square of the cells across the contact: the approach
-#: of a ball is too small by 0.14 +- 0.04.
-LEAST_ERRORS = {"approach": 0.2, "force": 0.3, "work": 0.2, "loss_per_cycle": 0.3}
+#: of a ball is too small by 0.14 +- 0.04, at most by 0.23, with the place of the rim in its cells.
+LEAST_ERRORS = {"approach": 0.25, "force": 0.3, "work": 0.2, "loss_per_cycle": 0.3}
 
 #: Least relative error of these scalars where the contact reaches the curved end of a body, times
 #: the cells along the contact: the approach of a round flat punch is too large by 0.24 +- 0.10.
