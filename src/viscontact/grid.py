@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.display import Displayable
-from viscontact.units.numbers import as_real, positive, whole
+from viscontact.units.numbers import as_real, finite, positive, whole
 
 #: Quantities that a mesh can be chosen for.
 GRID_QUANTITIES = ("peak_pressure", "contact_area", "approach")
@@ -24,7 +24,7 @@ FINEST, COARSEST = 1e-4, 0.5
 
 @dataclass(frozen=True)
 class Grid(Displayable):
-    """A uniform grid of rectangular cells, centred on the origin.
+    """A uniform grid of rectangular cells, centred on the origin or elsewhere.
 
     Parameters
     ----------
@@ -35,12 +35,16 @@ class Grid(Displayable):
     periodic : bool, optional
         If true, the grid is one period of a surface that is periodic along x and y; otherwise it
         is a part of a half-space without load outside.
+    centre : tuple of float, optional
+        Position (x, y) of the middle of the grid [m]; the origin by default. Moments and
+        eccentricities are about the origin on every grid.
 
     Raises
     ------
     ValueError
         If a number of cells is not a whole number of at least 4, an extent is not
-        positive and finite, or periodic is neither true nor false.
+        positive and finite, periodic is neither true nor false, or the centre is no pair of finite
+        numbers.
 
     Examples
     --------
@@ -49,11 +53,16 @@ class Grid(Displayable):
     (0.005, 0.0025)
     >>> grid.x.tolist()
     [-0.0075, -0.0025, 0.0025, 0.0075]
+    >>> Grid(shape=(4, 8), size=(0.02, 0.02), centre=(0.5, 0.0)).x.tolist()
+    [0.4925, 0.4975, 0.5025, 0.5075]
     """
 
     shape: tuple[int, int] = field(metadata={"unit": "1"})
     size: tuple[float, float] = field(metadata={"unit": "m"})
     periodic: bool = False
+    centre: tuple[float, float] = field(
+        default=(0.0, 0.0), kw_only=True, metadata={"unit": "m", "recorded": "if given"}
+    )
 
     def __post_init__(self) -> None:
         cells, extents = _pair("shape", self.shape), _pair("size", self.size)
@@ -63,9 +72,17 @@ class Grid(Displayable):
             positive(f"grid.size: {name}", extent, "m")
         if not isinstance(self.periodic, bool | np.bool_):
             raise ValueError(f"grid.periodic must be true or false, got {self.periodic!r}")
+        middle = _pair("centre", self.centre)
+        for name, place in zip("xy", middle, strict=True):
+            finite(f"grid.centre: {name}", place, "m")
+        object.__setattr__(self, "centre", (float(middle[0]), float(middle[1])))
         object.__setattr__(self, "periodic", bool(self.periodic))
         object.__setattr__(self, "shape", (int(cells[0]), int(cells[1])))
         object.__setattr__(self, "size", (float(extents[0]), float(extents[1])))
+
+    def __repr__(self) -> str:
+        centre = f", centre={self.centre}" if any(self.centre) else ""
+        return f"Grid(shape={self.shape}, size={self.size}, periodic={self.periodic}{centre})"
 
     @property
     def cell_size(self) -> tuple[float, float]:
@@ -86,12 +103,22 @@ class Grid(Displayable):
     @property
     def x(self) -> NDArray[np.float64]:
         """Cell centres along x, shape (nx,) [m]."""
-        return _centres(self.shape[0], self.size[0])
+        return _centres(self.shape[0], self.size[0], self.centre[0])
 
     @property
     def y(self) -> NDArray[np.float64]:
         """Cell centres along y, shape (ny,) [m]."""
-        return _centres(self.shape[1], self.size[1])
+        return _centres(self.shape[1], self.size[1], self.centre[1])
+
+    @property
+    def size_about_origin(self) -> tuple[float, float]:
+        """Extents of the smallest region centred on the origin that contains the grid [m].
+
+        >>> Grid((4, 4), (1.0, 1.0), centre=(-2.0, 0.0)).size_about_origin
+        (5.0, 1.0)
+        """
+        (lx, ly), (x, y) = self.size, self.centre
+        return lx + 2 * abs(x), ly + 2 * abs(y)
 
     def largest_at(self, field: NDArray[np.float64]) -> tuple[float, float]:
         """Position of the largest value of a field over this grid.
@@ -147,7 +174,7 @@ class Grid(Displayable):
             raise ValueError(f"a period of {self.shape} cells has no more, got {shape}")
         pairs = zip(self.size, self.shape, shape, strict=True)
         along, across = (s if old == new else s / old * new for s, old, new in pairs)
-        return Grid(shape, (along, across), self.periodic)
+        return replace(self, shape=shape, size=(along, across))
 
     def embed(
         self, field: NDArray[np.float64], wider: Grid, beyond: float = 0.0
@@ -239,10 +266,10 @@ def _pair(name: str, given: Any) -> tuple[Any, Any]:
     return along_x, along_y
 
 
-def _centres(cells: int, extent: float) -> NDArray[np.float64]:
-    # Built from whole numbers so that mirrored centres are exact opposites.
+def _centres(cells: int, extent: float, middle: float) -> NDArray[np.float64]:
+    # Built from whole numbers so that mirrored centres are exact opposites around the origin.
     offsets = (2 * np.arange(cells) - (cells - 1)).astype(np.float64)
-    return offsets * (extent / (2 * cells))
+    return middle + offsets * (extent / (2 * cells))
 
 
 def height_over_neighbours(gap: NDArray[np.float64], axis: int) -> NDArray[np.float64]:

@@ -443,6 +443,15 @@ def test_an_automatic_grid_is_asked_for_in_words(grid, wish):
     assert Cells(**grid).build() == vc.AutomaticGrid(*wish)
 
 
+def test_a_grid_lies_around_the_centre_that_the_case_gives(tmp_path: Path) -> None:
+    place = "grid: {shape: [8, 4], size: [2 mm, 1 mm], centre: [-7 mm, 40 um]}\n"
+    assert read_case(written(tmp_path, SPHERE + place)).grid == vc.Grid(
+        (8, 4), (2e-3, 1e-3), centre=(-7e-3, 4e-5)
+    )
+    (found,) = problems(tmp_path, SPHERE + place.replace("40 um", "40"))
+    assert found.startswith("case.yaml:5: grid.centre[2]: 40 has no unit, a length is wanted")
+
+
 @pytest.mark.parametrize(
     ("grid", "complaint"),
     [
@@ -451,6 +460,9 @@ def test_an_automatic_grid_is_asked_for_in_words(grid, wish):
         ({"tolerance": 0.01, "shape": [64, 64]}, "tolerance goes with an automatic grid"),
         ({"shape": [64, 64]}, "size is missing"),
         ({"quantities": []}, "must name some of peak_pressure"),
+        ({"centre": ["1 mm", "0 mm"]}, "centre goes with shape and size"),
+        ({"centre": ["1 mm", "2 N"]}, "cannot read '2 N' as a length"),
+        ({"centre": ["1 mm"]}, "Field required"),
     ],
 )
 def test_grids_that_are_half_given_are_refused(grid, complaint):

@@ -19,6 +19,7 @@ import xarray as xr
 import viscontact as vc
 from viscontact.case import read_case
 from viscontact.cli import main
+from viscontact.results.descriptions import describe, rebuild
 
 # A handful of steps is enough here; that they are few is warned about, and tested elsewhere.
 pytestmark = [
@@ -625,6 +626,29 @@ def test_law_without_instant_compliance_is_accepted_and_refused_only_where_the_l
 def test_bad_grid_is_refused_with_what_was_got(shape: Any, size: Any, said: str) -> None:
     with pytest.raises(ValueError, match=said):
         vc.Grid(shape, size)
+
+
+@pytest.mark.parametrize(
+    ("centre", "said"),
+    [
+        (1.0, "grid.centre needs two entries, along x and y, got 1.0"),
+        ((0.0, math.nan), "grid.centre: y must be a finite number in m, got nan"),
+        (("1", 0.0), "grid.centre: x must be a finite number in m, got '1'"),
+    ],
+)
+def test_bad_centre_of_a_grid_is_refused_with_what_was_got(centre: Any, said: str) -> None:
+    with pytest.raises(ValueError, match=said):
+        vc.Grid((64, 64), (1, 1), centre=centre)
+
+
+def test_centre_of_a_grid_is_shown_and_recorded_only_if_given() -> None:
+    plain, placed = GRID, vc.Grid((8, 4), (1.0, 2.0), centre=(-3, 4))
+    assert "centre" not in describe(plain)
+    assert "centre" not in f"{plain!r} {plain}"
+    assert (plain.x == -plain.x[::-1]).all()
+    assert eval(repr(placed), {"Grid": vc.Grid}) == rebuild(describe(placed)) == placed
+    assert "-3 m, 4 m" in str(placed)
+    assert placed.widened((12, 4)).x[2:-2] == pytest.approx(placed.x, rel=1e-15)
 
 
 @pytest.mark.parametrize(

@@ -9,6 +9,7 @@ import xarray as xr
 import viscontact as vc
 from viscontact import plot
 from viscontact.halfspace.stress import stress_on_section
+from viscontact.results.recorded_case import recorded_grid
 
 GRID = vc.Grid((40, 40), (2.6e-3, 2.6e-3))
 
@@ -35,6 +36,32 @@ def test_stresses_are_those_of_each_instants_pressure(results: xr.Dataset) -> No
             ours = found[f"stress_{name}"].values[index]
             assert ours == pytest.approx(exact[name], rel=1e-9, abs=1e-6)
         assert found.max_shear.values[index] == pytest.approx(exact.max_shear, rel=1e-9)
+
+
+def test_stresses_under_a_moved_ball_are_those_under_the_ball(results: xr.Dataset) -> None:
+    place = (5e-3, -3e-3)
+    moved = vc.simulate(
+        vc.Paraboloid(0.01, 0.01).shifted(*place),
+        vc.Material(vc.Zener(1e6, 1e6, 1e6), 0.3),
+        vc.step(0.1, tilt_x=0.0, tilt_y=0.0),
+        vc.Grid(GRID.shape, GRID.size, centre=place),
+        [0.0, 0.3, 0.6, 1.0],
+        fields=[0.0, 1.0],
+    )
+    kept = recorded_grid(moved)
+    assert kept.shape == GRID.shape
+    assert (*kept.size, *kept.centre) == pytest.approx((*GRID.size, *place), rel=1e-12)
+    for where, there in (({}, {}), ({"x": 1e-4}, {"x": 1e-4 + place[0]})):
+        own, found = (
+            vc.section_stresses(ds, [1e-4, 3e-4], **at).von_mises.values
+            for ds, at in ((results, where), (moved, there))
+        )
+        assert found == pytest.approx(own, rel=1e-4)
+    line = plot.pressure_profile(moved).axes[0].get_lines()[-1]
+    peak = float(moved.peak_pressure[-1])  # in the middle of four cells
+    assert 1e3 * np.nanmax(line.get_ydata()) == pytest.approx(peak, rel=0.01)
+    film = plot.animation(moved, seconds=1.0, fps=4.0).figure
+    assert "at y = -3 mm" in [axes.get_title(loc="left") for axes in film.axes]
 
 
 def test_creeping_ball_is_strained_most_as_hertzs_at_every_instant(results: xr.Dataset) -> None:

@@ -101,6 +101,44 @@ def test_moved_body_and_moved_force_move_the_field(original):
         assert abs(one.approach - state.approach - state.tilt_x * shift) < BOUND * one.approach
 
 
+def test_moved_body_force_and_grid_keep_the_field_and_move_its_moments(original):
+    shift = np.array([2.5, -1.75])
+    moved = vc.HeightMap(axis_x + shift[0], axis_y + shift[1], height)
+    other = vc.ForceHistory(load.times, load.force, 0.03 + shift[0], -0.05 + shift[1])
+    there = vc.Grid(grid.shape, grid.size, centre=tuple(shift))
+    theirs = run(moved, rubber, other, there, times)
+    names = [name for name in SCALARS if name != "approach"]
+    assert_same(original, theirs, names=names)
+    assert_tilts(original, theirs, 1, 1)
+    for one, state in zip(original, theirs, strict=True):
+        tilts = np.array([state.tilt_x, state.tilt_y])
+        assert abs(one.approach - state.approach - tilts @ shift) < BOUND * abs(one.approach)
+        at, there = ([each.eccentricity_x, each.eccentricity_y] for each in (one, state))
+        assert one.force == 0 or distance(np.add(at, shift), there) < BOUND
+
+
+def test_level_ball_on_a_grid_around_it_has_its_values_bars_and_place_anywhere():
+    """Even about the middle of its grid, which is no symmetry of the moments about the origin."""
+    ball, gentle = vc.Paraboloid(1.0, 1.2), vc.triangle(300.0, 1.0, tilt_x=0.0, tilt_y=0.0)
+    (x, y), cells = (3.0, -0.5), ((36, 32), (1.1, 1.1))
+    here, there = (
+        vc.simulate(body, rubber, gentle, where, vc.uniform_times(2.0, 12), tolerance=TOLERANCE)
+        for body, where in (
+            (ball, vc.Grid(*cells)),
+            (ball.shifted(x, y), vc.Grid(*cells, centre=(x, y))),
+        )
+    )
+    assert distance(here.pressure, there.pressure) < BOUND
+    assert here.pressure.values.max() > 0
+    for name in SCALARS:
+        assert distance(here[name], there[name]) < BOUND, name
+        assert distance(here[f"{name}_error"], there[f"{name}_error"]) < 1e-3, name
+    touching = here.force.values > 0
+    assert there.eccentricity_x.values[touching] == pytest.approx(x, abs=1e-7)
+    assert there.eccentricity_y.values[touching] == pytest.approx(y, abs=1e-7)
+    assert np.allclose(there.x - x, here.x, rtol=0, atol=1e-15)
+
+
 @pytest.mark.parametrize("c", [7.0, 1e-4])
 def test_softer_body_and_smaller_force_keep_the_contact(original, c):
     softer = vc.Material(vc.Zener(1e6 / c, 5e5 / c, 5e5 / c), 0.4)

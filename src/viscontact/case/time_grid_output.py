@@ -15,6 +15,7 @@ from viscontact.case.quantities import (
     GridTolerance,
     Instant,
     Length,
+    Offset,
     Section,
     StepCount,
     TimeTolerance,
@@ -92,13 +93,19 @@ _GOES_WITH = {"steps": ("uniform", "log"), "first": ("log",), "tolerance": ("ada
 
 
 class Cells(Section):
-    """The grid of pressure cells, centred on the origin, or the settings of an automatic one."""
+    """The grid of pressure cells, or the settings of an automatic one."""
 
     shape: Annotated[tuple[CellCount, CellCount], Field(strict=False)] | None = Field(
         default=None, description="numbers of cells along x and y", examples=[[256, 128]]
     )
     size: Annotated[tuple[Length, Length], Field(strict=False)] | None = Field(
         default=None, description="extents along x and y", examples=[["50 mm", "5 mm"]]
+    )
+    centre: Annotated[tuple[Offset, Offset], Field(strict=False)] | None = Field(
+        default=None,
+        description="with shape and size: position of the middle of the grid along x and y; the "
+        "origin when left out",
+        examples=[["12 mm", "0 mm"]],
     )
     periodic: bool = Field(
         default=False,
@@ -123,7 +130,8 @@ class Cells(Section):
     def build(self) -> grid.Grid | grid.AutomaticGrid:
         """Return the grid, or the settings of an automatic one."""
         if self.shape and self.size:
-            return grid.Grid(self.shape, self.size, self.periodic)
+            centre = self.centre or (0.0, 0.0)
+            return grid.Grid(self.shape, self.size, self.periodic, centre=centre)
         quantities = grid.GRID_QUANTITIES if self.quantities is None else self.quantities
         tolerance = self.tolerance or DEFAULT_TOLERANCE
         return grid.AutomaticGrid(tolerance, quantities, self.largest_cell)
@@ -142,6 +150,11 @@ class Cells(Section):
             raise ValueError(
                 "periodic goes with shape and size, an automatic grid knows no period; write e.g. "
                 "'shape: [128, 128]' and 'size: [1 mm, 1 mm]'"
+            )
+        if self.centre is not None and not cells:
+            raise ValueError(
+                "centre goes with shape and size, an automatic grid finds its place; write e.g. "
+                "'shape: [128, 128]' and 'size: [1 mm, 1 mm]', or leave it out"
             )
         if len(cells) == 1:
             missing = "size" if self.shape else "shape"

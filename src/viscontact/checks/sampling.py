@@ -54,8 +54,8 @@ class Sampling:
     def _rings(self) -> NDArray[np.float64]:
         """Largest distances along x and y and least gap of rings of points beyond the grid [m]."""
         x, y, gap = self.beyond
-        (lx, ly), distances = self.grid.size, np.abs([x, y])
-        outwards = np.argsort(np.maximum(distances[0] / lx, distances[1] / ly))
+        distances = np.abs([x, y])  # from the pivot of the tilts, the origin
+        outwards = np.argsort(np.maximum(*_from_middle(self.grid, x, y)))
         rings = [ring for ring in np.array_split(outwards, RINGS) if ring.size]
         found = [[*distances[:, ring].max(axis=1), gap[ring].min()] for ring in rings]
         return np.reshape(found, (-1, 3)).T
@@ -102,10 +102,10 @@ class Sampling:
 
     def _sampled_points(self) -> Iterator[Points]:
         """Points near and far from the grid, and those of a height map."""
-        lx, ly = self.grid.size
+        (lx, ly), (middle_x, middle_y) = self.grid.size, self.grid.centre
         one_side = np.concatenate([NEAR, FAR])
         part = np.concatenate([-one_side[:0:-1], one_side])
-        yield _mesh(lx * part, ly * part)
+        yield _mesh(middle_x + lx * part, middle_y + ly * part)
         yield self.indenter.sample_points
 
 
@@ -190,9 +190,14 @@ def texture_warnings(indenter: Indenter, grid: Grid) -> dict[str, str]:
 
 def _outside(grid: Grid, x: NDArray[np.float64], y: NDArray[np.float64]) -> Points:
     """The points that lie outside a grid."""
-    lx, ly = grid.size
-    outside = (np.abs(x) > lx / 2) | (np.abs(y) > ly / 2)
+    outside = np.maximum(*_from_middle(grid, x, y)) > 0.5
     return x[outside], y[outside]
+
+
+def _from_middle(grid: Grid, x: NDArray[np.float64], y: NDArray[np.float64]) -> Points:
+    """Distances of points from the grid's middle along x and y, in sizes of the grid."""
+    (lx, ly), (middle_x, middle_y) = grid.size, grid.centre
+    return np.abs(x - middle_x) / lx, np.abs(y - middle_y) / ly
 
 
 def _mesh(x: NDArray[np.float64], y: NDArray[np.float64]) -> Points:

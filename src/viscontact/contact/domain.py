@@ -83,6 +83,8 @@ class ContactDomain:
         odd = [count % 2 for count in grid.shape]
         if np.any(np.logical_and(mirrored, odd)):
             raise ValueError(f"a mirrored grid needs an even number of cells, got {grid.shape}")
+        if np.any(np.logical_and(mirrored, grid.centre)):
+            raise ValueError(f"a mirrored grid is centred on the origin, not on {grid.centre}")
         if any(mirrored) and grid.periodic:
             raise ValueError("a periodic grid is worked with as a whole, not mirrored")
         self.grid = grid
@@ -206,9 +208,16 @@ class ContactDomain:
         )
 
 
-def mirrored_axes(open_gap: NDArray[np.float64], even_load: tuple[bool, bool]) -> tuple[bool, bool]:
-    """Symmetry of a problem across x = 0 and across y = 0: True if gap and load are even."""
-    along_x, along_y = (even_load[axis] and is_even(open_gap, axis) for axis in (0, 1))
+def mirrored_axes(
+    grid: Grid, open_gap: NDArray[np.float64], even_load: tuple[bool, bool]
+) -> tuple[bool, bool]:
+    """Symmetry of a problem across x = 0 and across y = 0: True if gap and load are even.
+
+    Moments are about the origin, so that the grid must be centred on it along the axis.
+    """
+    along_x, along_y = (
+        even_load[axis] and grid.centre[axis] == 0 and is_even(open_gap, axis) for axis in (0, 1)
+    )
     return along_x, along_y
 
 

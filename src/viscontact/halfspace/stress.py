@@ -68,7 +68,7 @@ def stress_on_section(
     x: float | None = None,
     y: float | None = None,
 ) -> Stress:
-    """Stress on a vertical plane of given x or y [m]; at y = 0 if neither is given.
+    """Stress on a vertical plane of given x or y [m]; at the y of the grid's middle if neither is.
 
     Parameters
     ----------
@@ -114,15 +114,16 @@ def stress_on_section(
     if x is not None and y is not None:
         raise ValueError("a section lies at an x or at a y; give one of them")
     if x is not None:
-        turned = Grid(grid.shape[::-1], grid.size[::-1], grid.periodic)
+        turned = Grid(grid.shape[::-1], grid.size[::-1], grid.periodic, centre=grid.centre[::-1])
         stress = stress_on_section(pressure.T, turned, below, poisson_ratio, y=x)
         # x and y are exchanged on the turned grid.
         return Stress(stress.components[[1, 0, 2, 4, 3, 5]])
+    y = grid.centre[1] if y is None else y
     if grid.periodic:
-        return _below_period(pressure, grid, below, poisson_ratio, y or 0.0)
+        return _below_period(pressure, grid, below, poisson_ratio, y)
     lines = np.flatnonzero(pressure.any(axis=0))
     loaded = slice(lines[0], lines[-1] + 1) if lines.size else slice(0, 1)
-    return _along_x(pressure[:, loaded], grid, loaded, below, poisson_ratio, y or 0.0)
+    return _along_x(pressure[:, loaded], grid, loaded, below, poisson_ratio, y)
 
 
 def _along_x(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -46,7 +47,7 @@ def with_small_cells(
         ),
         strict=True,
     )
-    return Grid(shape, size)
+    return replace(grid, shape=shape, size=size)
 
 
 def _cell(own: float, largest: float, extent: float, end: float) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -88,12 +88,12 @@ class ContactEstimate:
 
     @cached_property
     def centre(self) -> tuple[float, float]:
-        """Middle of the contact [m]; 0 along an axis on which it fills the period."""
+        """Middle of the contact [m]; that of the grid along an axis whose period it fills."""
         if self.grid.periodic:
             x, y = self.grid.x[self.rim.rows], self.grid.y[self.rim.columns]
             return (
-                float(np.median(x)) if self.rim.length < self.grid.size[0] else 0.0,
-                float(np.median(y)) if self.rim.width < self.grid.size[1] else 0.0,
+                float(np.median(x)) if self.rim.length < self.grid.size[0] else self.grid.centre[0],
+                float(np.median(y)) if self.rim.width < self.grid.size[1] else self.grid.centre[1],
             )
         contact = self.pressure > 0
         rows, columns = np.flatnonzero(contact.any(axis=1)), np.flatnonzero(contact.any(axis=0))
@@ -115,7 +115,12 @@ class ContactEstimate:
     @property
     def reach(self) -> tuple[float, float]:
         """Farthest distances of the contact from the origin along x and y [m]."""
-        return abs(self.centre[0]) + self.length / 2, abs(self.centre[1]) + self.width / 2
+        return self.reach_from((0.0, 0.0))
+
+    def reach_from(self, place: tuple[float, float]) -> tuple[float, float]:
+        """Farthest distances of the contact from a place along x and y [m]."""
+        x, y = (abs(own - at) for own, at in zip(self.centre, place, strict=True))
+        return x + self.length / 2, y + self.width / 2
 
 
 def elastic_contact(
@@ -202,7 +207,7 @@ def estimate_period(
     0.5
     """
     nx, ny = (min(count, MAX_PERIOD_CELLS) for count in grid.shape)
-    coarse = Grid((nx, ny), grid.size, periodic=True)
+    coarse = replace(grid, shape=(nx, ny))
     open_gap = indenter.gap(coarse.x[:, None], coarse.y[None, :])
     found = elastic_contact(open_gap, contact_compliance, point, coarse)
     if not found.converged:

@@ -168,7 +168,7 @@ def _found(
         point,
         grid,
         tolerance=tolerance,
-        mirrored=mirrored_axes(open_gap, even),
+        mirrored=mirrored_axes(grid, open_gap, even),
         start=start,
     )
     contact = found.pressure > 0

@@ -113,7 +113,7 @@ def _value(unit: str, key: str, value: Any) -> str:
         return " × ".join(_format(number, unit) for number in numbers)
     if isinstance(value, list) and isinstance(value[0], list):
         return f"{len(value)} × {len(value[0])} points, {_ends(numbers, unit)}"
-    if len(set(numbers)) == 1:
+    if len(set(numbers)) == 1 and key != "centre":
         numbers = numbers[:1]
     if len(numbers) > _MAX_LISTED:
         return f"{len(numbers)} values, {_ends(numbers, unit)}"

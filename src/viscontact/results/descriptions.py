@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from dataclasses import fields, is_dataclass
+from dataclasses import Field, fields, is_dataclass
 from inspect import isabstract
 from typing import Any
 
@@ -35,7 +35,11 @@ def describe(obj: Any) -> Any:
     {'type': 'Grid', 'shape': [4, 8], 'size': [0.1, 0.2], 'periodic': False}
     """
     if is_dataclass(obj) and not isinstance(obj, type):
-        arguments = {item.name: describe(getattr(obj, item.name)) for item in fields(obj)}
+        arguments = {
+            item.name: describe(getattr(obj, item.name))
+            for item in fields(obj)
+            if not _is_left_out(item, obj)
+        }
         return {"type": type(obj).__name__, **arguments}
     if isinstance(obj, np.ndarray):
         # JSON has no NaN, which marks the holes of a map.
@@ -48,6 +52,11 @@ def describe(obj: Any) -> Any:
     if obj is None or isinstance(obj, str | int | float):
         return obj
     return {"type": type(obj).__name__, "repr": repr(obj)}
+
+
+def _is_left_out(item: Field[Any], obj: Any) -> bool:
+    """True for a field that is recorded only if it differs from its default."""
+    return item.metadata.get("recorded") == "if given" and getattr(obj, item.name) == item.default
 
 
 def rebuild(description: Any) -> Any:

@@ -44,12 +44,13 @@ def recorded_poisson_ratio(results: xr.Dataset) -> float:
 
 
 def recorded_grid(results: xr.Dataset) -> Grid:
-    """Grid of a result: from its coordinates, periodic as in its case."""
+    """Grid of a result: shape, size and centre from its coordinates, periodic as in its case."""
     x, y = results["x"].values, results["y"].values
     shape = (x.size, y.size)
     size = (float(x[1] - x[0]) * shape[0], float(y[1] - y[0]) * shape[1])
     recorded = case_of(results).get("grid") or {}
-    return Grid(shape, size, bool(recorded.get("periodic", False)))
+    centre = (float(x[0] + x[-1]) / 2, float(y[0] + y[-1]) / 2)
+    return Grid(shape, size, bool(recorded.get("periodic", False)), centre=centre)
 
 
 def prescribes_approach(ds: xr.Dataset) -> bool:

@@ -79,19 +79,25 @@ class Snapshot:
         body_end = None if end is None else _with_border(end, cells, self.periodic)
         return Snapshot(self.time, x, y, pressure, gap, body_end)
 
+    @property
+    def middle(self) -> tuple[float, float]:
+        """Middle of the grid [m]."""
+        return float(self.x[0] + self.x[-1]) / 2, float(self.y[0] + self.y[-1]) / 2
+
     def section(
-        self, along: Literal["x", "y"] = "x", at: float = 0.0
+        self, along: Literal["x", "y"] = "x", at: float | None = None
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Cell centres [m] and pressure [Pa] on a line parallel to an axis.
 
-        It crosses the other axis at `at` [m]. Between two rows of cells the pressure is
-        interpolated linearly: on an even grid the line through the origin takes the mean of the
-        two middle rows.
+        It crosses the other axis at `at` [m], by default in the middle of the grid. Between two
+        rows of cells the pressure is interpolated linearly: on an even grid the line through the
+        middle takes the mean of the two middle rows.
         """
         if along not in ("x", "y"):
             raise ValueError(f"along must be 'x' or 'y', got {along!r}")
         positions, across = (self.x, self.y) if along == "x" else (self.y, self.x)
         rows = self.pressure.T if along == "x" else self.pressure
+        at = self.middle[1 if along == "x" else 0] if at is None else at
         if not across[0] <= at <= across[-1]:
             raise ValueError(
                 f"at must lie on the grid, between {format_quantity(across[0], 'm')} and "

@@ -36,7 +36,7 @@ def section_stresses(
         Depths below the surface, 0 or positive [m]; from 0 to two half widths of the largest
         contact when left out.
     x, y : float, optional
-        Position of the plane, one of them [m]; y = 0 when both are left out.
+        Position of the plane, one of them [m]; when both are left out, the y of the grid's middle.
     times : sequence of float, optional
         Instants [s], the nearest stored ones are taken; all when left out.
     poisson_ratio : float, optional

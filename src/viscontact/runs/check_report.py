@@ -9,6 +9,7 @@ import numpy as np
 
 from viscontact.checks.half_space_theory import SINGULAR_KINDS
 from viscontact.checks.mesh import WARNING_CELLS
+from viscontact.grid import Grid
 from viscontact.meshing.elastic_estimate import ContactEstimate
 from viscontact.results.stated_errors import MESH_DEPENDENT
 from viscontact.runs.forecast import Forecast
@@ -31,8 +32,8 @@ def verdict(prepared: PreparedRun, expected: Forecast) -> str:
 
 
 def drawn_size(run: RunSetup) -> tuple[float, float]:
-    """Extents of the drawn region along x and y [m]: the grid, and nearby ends of the body."""
-    size = list(run.grid.size)
+    """Extents of the drawn region around the origin [m]: the grid, and nearby ends of the body."""
+    size = list(run.grid.size_about_origin)
     for axis in (0, 1):
         beyond = np.linspace(1.0, FARTHEST_END, 400) * size[axis] / 2
         places = np.zeros((2, 2, beyond.size))
@@ -56,7 +57,7 @@ def needs(prepared: PreparedRun, expected: Forecast) -> list[tuple[str, str]]:
         (
             "grid",
             f"{nx} x {ny} cells on {format_quantity(lx, 'm')} x "
-            f"{format_quantity(ly, 'm')}{chosen}{period}",
+            f"{format_quantity(ly, 'm')}{_place(run.grid)}{chosen}{period}",
         ),
         ("cell", f"{format_quantity(dx, 'm', 3)} x {format_quantity(dy, 'm', 3)}"),
         *_grid_error(run),
@@ -65,6 +66,14 @@ def needs(prepared: PreparedRun, expected: Forecast) -> list[tuple[str, str]]:
         ("memory", f"about {_bytes(expected.memory)} {free}{growing}"),
         ("run time", f"{_duration(expected.seconds)} on this machine"),
     ]
+
+
+def _place(grid: Grid) -> str:
+    """Middle of a grid that is not centred on the origin, in words."""
+    if not any(grid.centre):
+        return ""
+    x, y = (format_quantity(each, "m", 4) for each in grid.centre)
+    return f" around x = {x}, y = {y}"
 
 
 def _grid_error(run: RunSetup) -> list[tuple[str, str]]:
@@ -150,7 +159,9 @@ def warnings_of(prepared: PreparedRun, expected: Forecast) -> list[str]:
         return list(expected.warnings.values())
     warnings = []
     if not expected.fits:
-        reach = " and ".join(format_quantity(far, "m", 3) for far in expected.estimate.reach)
+        reach = " and ".join(
+            format_quantity(far, "m", 3) for far in expected.estimate.reach_from(grid.centre)
+        )
         ends = " and ".join(format_quantity(extent / 2, "m", 3) for extent in grid.size)
         warnings.append(
             f"the contact will probably overrun the grid: it reaches {reach} from the middle "

@@ -62,7 +62,7 @@ def forecast(run: RunSetup, *, errors: bool = False) -> Forecast:
     compliance, named = _representative_compliance(run.problem, time)
     if point.level > 0:
         estimate = _estimate(run, compliance, point)
-        extents, reach = (estimate.length, estimate.width), estimate.reach
+        extents, reach = (estimate.length, estimate.width), estimate.reach_from(run.grid.centre)
     else:
         estimate, extents, reach = None, (0.0, 0.0), (0.0, 0.0)
     along, across = (

@@ -128,7 +128,7 @@ def _gap_on(problem: Problem, grid: Grid) -> NDArray[np.float64]:
 def _mirrored(problem: Problem, open_gap: NDArray[np.float64], grid: Grid) -> tuple[bool, bool]:
     if grid.periodic:
         return False, False
-    return mirrored_axes(open_gap, (problem.load.is_even(0), problem.load.is_even(1)))
+    return mirrored_axes(grid, open_gap, (problem.load.is_even(0), problem.load.is_even(1)))
 
 
 def plan_history(problem: Problem, open_gap: NDArray[np.float64], grid: Grid) -> HereditaryPlan:

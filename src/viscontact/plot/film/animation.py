@@ -271,7 +271,10 @@ def _set_up_fields(sheet: Sheet, scene: _Scene) -> Line2D:
     sheet.section.set(xlim=window.unit(limits), xlabel=window.unit.label(scene.along))
     sheet.section.set(ylim=(0.0, float(unit(scene.levels[-1]))), ylabel=unit.label("Pressure"))
     across = "y" if scene.along == "x" else "x"
-    style.add_heading(sheet.section, f"at {across} = 0")
+    middle = scene.read(0).middle[1 if scene.along == "x" else 0]
+    style.add_heading(
+        sheet.section, f"at {across} = {format_quantity(middle, 'm') if middle else 0}"
+    )
     return sheet.section.plot([], [], color=style.LINE, linewidth=style.LINE_WIDTH)[0]
 
 

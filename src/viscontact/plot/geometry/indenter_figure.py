@@ -62,5 +62,5 @@ def indenter(
         middle = ((x_low + x_high) / 2, (y_low + y_high) / 2)
         contact = (*middle, x_high - x_low, y_high - y_low)
         shaded = f"contact at {time_labels([snapshot.time])[0]}"
-    size = recorded_grid(results).size
+    size = recorded_grid(results).size_about_origin
     return draw_indenter(body, size, contact=contact, shaded=shaded, width=width)

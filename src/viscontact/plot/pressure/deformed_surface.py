@@ -185,7 +185,7 @@ def _draw_indenter(
     _, top = axes.get_zlim()
     snapshot, depth = contact.snapshot, unit(contact.indenter)
     depth = np.where(depth >= top, depth, np.nan)
-    i, j = (int(np.abs(at).argmin()) for at in (snapshot.x, snapshot.y))
+    i, j = (int(np.abs(2 * at - at[0] - at[-1]).argmin()) for at in (snapshot.x, snapshot.y))
     (x, chosen_x), (y, chosen_y) = _points(snapshot.x, window.x), _points(snapshot.y, window.y)
     look = {"color": _BODY, "linewidth": style.LINE_WIDTH, "zorder": 4}
     axes.plot(

@@ -21,7 +21,7 @@ def pressure_profile(
     *,
     times: ArrayLike | None = None,
     along: Literal["x", "y"] = "x",
-    at: float = 0.0,
+    at: float | None = None,
     axes: Axes | None = None,
     width: Width | None = None,
 ) -> Figure:
@@ -37,8 +37,8 @@ def pressure_profile(
     along : {"x", "y"}, optional
         Direction of the line: along a roller, or across it.
     at : float, optional
-        Position of the line on the other axis [m]; between two rows of cells the pressure is
-        interpolated.
+        Position of the line on the other axis [m]; by default the middle of the grid. Between two
+        rows of cells the pressure is interpolated.
     axes : matplotlib.axes.Axes, optional
         Axes to draw in; by default a new figure.
     width : {"single", "double"} or float, optional
@@ -73,7 +73,7 @@ def compare_pressure_profiles(
     *,
     times: ArrayLike | None = None,
     along: Literal["x", "y"] = "x",
-    at: float = 0.0,
+    at: float | None = None,
     width: Width | None = None,
 ) -> Figure:
     """Overlay the pressure sections of several runs, one panel per instant.
@@ -123,7 +123,7 @@ def _beyond_border(snapshot: Snapshot) -> Snapshot:
     return snapshot.with_border(1) if snapshot.periodic else snapshot
 
 
-def _curve(along: Literal["x", "y"], at: float) -> ContactCurve:
+def _curve(along: Literal["x", "y"], at: float | None) -> ContactCurve:
     return ContactCurve(
         "pressure-profile",
         "Pressure",

@@ -17,7 +17,7 @@ export const LATER = new Set([
   "rotation", "offset_x", "offset_y", "cross_section",
   "bulk_modulus", "measured_until", "thickness", "temperature", "shift",
   "mean_pressure", "tilt_x", "tilt_y", "eccentricity_y", "phase",
-  "first", "periodic", "quantities", "largest_cell", "columns", "set", "before", "beyond",
+  "first", "periodic", "centre", "quantities", "largest_cell", "columns", "set", "before", "beyond",
   "height_factor", "channel", "width", "flip", "crop", "missing", "resample", "filter", "cutoff",
 ]);
 
