@@ -107,6 +107,74 @@ def test_every_instant_of_a_creeping_run_is_within_the_tolerance(tolerance):
     np.testing.assert_allclose(values[0, [0, -1]], peaks, rtol=tolerance)
 
 
+RELAXING_FORCE, RELAXING_RADIUS = 10.0, 0.01
+
+
+def peak_error_on_relaxing_ball(ratio, duration, tolerance):
+    """Error of the peak over its largest value, and the one expected; by Lee and Radok.
+
+    A body that relaxes by a ratio in 1 s, under a force that rises for a duration and is held; at
+    instants where the contact is 10 cells across, as early ones have few cells.
+    """
+    stiff, force, radius = 1e9, RELAXING_FORCE, RELAXING_RADIUS
+    soft = stiff / ratio
+    material = vc.Material(vc.RelaxationSeries(soft, [stiff - soft], [1.0]), 0.5)
+    compliance = material.contact_compliance()
+
+    def relaxation(t):
+        return (soft + (stiff - soft) * np.exp(-t)) / (stiff * compliance.instant)
+
+    if duration == 0:
+        load = vc.step(force)
+        exact = reference.lee_radok_step(force, radius, compliance, relaxation)
+    else:
+        load = vc.ramp(force, duration)
+        exact = reference.lee_radok_ramp(force, duration, radius, compliance, relaxation)
+    # The radius begins to grow like a power of time.
+    rise = duration * np.append(np.linspace(0, 1, 61), np.geomspace(1e-4, 0.1, 30))
+    times = np.union1d(rise, duration + np.linspace(0, 16, 321))
+    body, request = vc.Paraboloid(radius, radius), vc.AutomaticGrid(tolerance)
+    # The run is as long as the creep, of which the first part is compared.
+    times = np.append(times, times[-1] + 5 * ratio)
+    run = prepare_run(Problem(body, material, load, request, times))
+    states = list(vc.march(body, material, load, run.grid, times[:-1], fields="none"))
+    parts = 1 - np.geomspace(3e-3, 1.0, 24)  # the ring is narrow when the contact grows slowly
+    worst, largest = 0.0, 0.0
+    for state in states[1 if duration else 0 :: 6]:
+        radii = parts * exact.contact_radius(state.time)
+        peak = float(np.max(exact.pressure(radii, state.time)))
+        largest = max(largest, peak)
+        if state.cells_across >= 10:
+            worst = max(worst, abs(state.peak_pressure - peak))
+    return worst / largest, run.mesh
+
+
+@pytest.mark.parametrize(
+    ("ratio", "duration", "tolerance"),
+    [
+        (10.0, 1.0, 0.03),
+        pytest.param(10.0, 5.0, 0.01, marks=pytest.mark.slow),
+        pytest.param(10.0, 0.1, 0.01, marks=pytest.mark.slow),
+        pytest.param(10.0, 0.0, 0.01, marks=pytest.mark.slow),
+        pytest.param(2.0, 5.0, 0.01, marks=pytest.mark.slow),
+    ],
+)
+def test_peak_of_ball_on_relaxing_body_is_within_the_tolerance_at_every_instant(
+    ratio, duration, tolerance
+):
+    error, mesh = peak_error_on_relaxing_ball(ratio, duration, tolerance)
+    assert error <= tolerance
+    assert mesh.warnings == {}
+
+
+@pytest.mark.parametrize("tolerance", [0.1, pytest.param(0.05, marks=pytest.mark.slow)])
+def test_expected_peak_error_on_relaxing_body_is_the_true_one_within_a_factor_of_three(tolerance):
+    error, mesh = peak_error_on_relaxing_ball(10.0, 5.0, tolerance)
+    expected = mesh.errors["peak_pressure"]
+    assert expected / 3 <= error <= 3 * expected
+    assert error > 0.01  # the ring dominates
+
+
 ROLLER = vc.Roller(5e-3, 9.565e-3, 75e-3)
 #: Contacts without an exact solution: shape, load, and how much finer the grid is that tells.
 CONTACTS = {

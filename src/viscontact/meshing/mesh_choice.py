@@ -6,8 +6,10 @@
 3. Refine for the smallest contact under the largest load, if it is smaller than the largest one, on
    a grid of its own size; the cells over the whole grid follow in proportion.
 4. Refine for the largest contact on the whole grid (`refinement`).
-5. State the expected errors, no smaller than the error of a height map's facets.
-6. Make cells smaller that are larger than a requested limit (`cell_limit`).
+5. On a body that relaxes, refine for the peak pressure at the edge of the growing contact
+   (`edge_ring`).
+6. State the expected errors, no smaller than the error of a height map's facets.
+7. Make cells smaller that are larger than a requested limit (`cell_limit`).
 """
 
 from __future__ import annotations
@@ -31,6 +33,8 @@ from viscontact.meshing.contact_extent import (
     largest_compliance,
     smallest_contact,
 )
+from viscontact.meshing.creeping_peak import contact_growth
+from viscontact.meshing.edge_ring import resolve_ring, ring_warning
 from viscontact.meshing.height_map_error import facet_error
 from viscontact.meshing.refinement import PEAK, USUAL_ORDER, Resolution, refine_mesh
 from viscontact.meshing.trial_mesh import RIM_SCATTER, ElasticContact, MeshTrial
@@ -68,7 +72,8 @@ class Mesh:
     """A chosen grid, and the errors expected on it."""
 
     grid: Grid
-    #: Expected relative errors of the requested quantities under the largest load [-].
+    #: Expected relative errors of the requested quantities under the largest load; that of the
+    #: peak pressure also over its largest value, at any instant [-].
     errors: dict[str, float]
     warnings: dict[str, str]  # sentences by kind of warning
 
@@ -87,12 +92,13 @@ def choose_mesh(problem: Problem, end: float | None) -> Mesh:
     largest = next(each for each in found if each.point.level == highest)
     reach = np.array([each.estimate.reach for each in found], dtype=np.float64).max(axis=0)
     size = 2 * MARGIN * reach
-    # Steps 2 to 6.
+    # Steps 2 to 7.
     choice = _first_choice(indenter, request, largest, size)
     smallest = smallest_contact(indenter, compliance, load, end, found)
     if min(np.divide(smallest.estimate.extents, largest.estimate.extents)) < SMALLER:
         choice = _refined_for_smallest(indenter, request, smallest, size, choice)
     mesh = _refined_for_largest(indenter, request, largest, size, choice)
+    mesh = _refined_for_ring(problem, end, largest, choice, mesh)
     mesh = _limited_by_map(indenter, largest, mesh)
     if request.largest_cell is None:
         return mesh
@@ -219,6 +225,30 @@ def _refined_for_largest(
     return Mesh(found.trial.grid, chosen.errors, chosen.warnings)
 
 
+def _refined_for_ring(
+    problem: Problem, end: float | None, largest: PointContact, choice: _MeshChoice, mesh: Mesh
+) -> Mesh:
+    """Step 5: refine for the peak pressure while the contact grows, within a limit on the cells."""
+    if PEAK not in mesh.errors:
+        return mesh
+    indenter, request = problem.indenter, problem.automatic_grid or AutomaticGrid()
+    growth = contact_growth(indenter, problem.compliance, problem.load, end, largest)
+    if growth is None:
+        return mesh
+    shape, size = np.array(mesh.grid.shape), np.array(mesh.grid.size)
+    steps = np.array(indenter.sample_spacing)
+    finest = np.divide(size, steps, out=np.full(2, math.inf), where=steps > 0) / shape
+    most = np.append(finest, MAX_CELLS_EARLY / shape.prod())
+    across = np.divide(largest.estimate.extents, mesh.grid.cell_size)
+    ring = resolve_ring(growth, across, request.tolerance, most)
+    if (ring.factors > 1).any():
+        choice = replace(choice, cells=ring.factors * shape)
+        mesh = _refined_for_largest(indenter, request, largest, size, choice)
+    warnings = ring_warning(ring.error) if ring.error > request.tolerance else {}
+    errors = mesh.errors | {PEAK: max(mesh.errors[PEAK], ring.error)}
+    return replace(mesh, errors=errors, warnings=mesh.warnings | warnings)
+
+
 def _refuse_few_cells(trial: MeshTrial) -> None:
     """Refuse a mesh whose run would be refused: a contact far smaller than its distance from 0."""
     if trial.cells_across >= MIN_CELLS_ACROSS:
@@ -232,7 +262,7 @@ def _refuse_few_cells(trial: MeshTrial) -> None:
 
 
 def _limited_by_map(indenter: Indenter, largest: PointContact, mesh: Mesh) -> Mesh:
-    """Step 5: raise the expected error of the peak pressure to that of the map's facets."""
+    """Step 6: raise the expected error of the peak pressure to that of the map's facets."""
     facets = facet_error(indenter, largest.estimate, largest.compliance)
     if facets <= mesh.errors.get(PEAK, math.inf):
         return mesh

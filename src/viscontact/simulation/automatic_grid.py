@@ -47,7 +47,9 @@ def auto_grid(
     Grid
         Holds the contact at the largest compliance under every corner of the load's history,
         with a margin; fine enough for the tolerance under the largest load, from its first
-        instant on. A peak pressure that has no limit (at a sharp edge or tip) is left out.
+        instant on. A peak pressure that has no limit (at a sharp edge or tip) is left out. On a
+        body that relaxes, the error of the peak pressure counts at every instant, relative to its
+        largest value, as fresh material at the edge of a growing contact is stiff.
 
     Raises
     ------

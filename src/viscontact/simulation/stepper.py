@@ -35,7 +35,7 @@ from viscontact.time_integration.extrapolation import (
     predict,
 )
 from viscontact.time_integration.fixed_steps import Step
-from viscontact.time_integration.hereditary_integral import HereditaryIntegral, HereditaryResponse
+from viscontact.time_integration.hereditary_integral import HereditaryResponse, response_to
 from viscontact.time_integration.internal_variables import InternalVariables
 from viscontact.time_integration.restart_data import RestartData
 from viscontact.time_integration.step_error import StepError, TimeErrors
@@ -133,7 +133,7 @@ class Stepper:
         """Pose a step: load at its end, response of the history, elastic contact to be solved."""
         point = self._run.problem.load.at(step.time, side=step.side)  # step 1
         response, force_response = (
-            _response(each, step) for each in (self._memory, self._force_memory)
+            response_to(step, each) for each in (self._memory, self._force_memory)
         )
         reference_force = float(force_response.of(_force(point))[0])
         drive = reference_force if point.approach is None else point.approach
@@ -202,10 +202,6 @@ class Stepper:
 def _force(point: LoadPoint) -> NDArray[np.float64]:
     """The prescribed force as a field of one number [N]; 0 under a prescribed approach."""
     return np.array([point.force or 0.0])
-
-
-def _response(memory: HereditaryIntegral, step: Step) -> HereditaryResponse:
-    return memory.jump() if step.is_jump else memory.ramp(step.duration, smooth=step.smooth)
 
 
 def _guess(reference: ElasticReference | None, response: HereditaryResponse) -> Guess | None:

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from viscontact.loads import LoadHistory
 from viscontact.materials.compliance import ContactCompliance
 from viscontact.time_integration.adaptive_steps import AdaptiveSteps
-from viscontact.time_integration.fixed_steps import KINK_TOLERANCE, Step
-from viscontact.time_integration.hereditary_integral import HereditaryIntegral, HereditaryResponse
+from viscontact.time_integration.fixed_steps import KINK_TOLERANCE
+from viscontact.time_integration.hereditary_integral import response_to
 from viscontact.time_integration.internal_variables import InternalVariables
 from viscontact.time_integration.plan import plan_hereditary_integral
 from viscontact.time_integration.requested_times import AdaptiveTimes, uniform_times
@@ -51,7 +51,7 @@ def default_times(load: LoadHistory, compliance: ContactCompliance) -> NDArray[n
     >>> float(times[-1]), 0.5 in times, int((times < 0.5).sum())
     (50.5, True, 18)
     """
-    end = _end(load, compliance)
+    end = default_end(load, compliance)
     if end == 0:
         return np.zeros(1)
     even = uniform_times(end, EVEN_STEPS)
@@ -59,7 +59,7 @@ def default_times(load: LoadHistory, compliance: ContactCompliance) -> NDArray[n
     chosen = kinks[:0]
     load_steps = len(kinks) + min(end, float(load.kinks[-1])) / load.longest_step
     if load_steps <= MAX_LOAD_STEPS and compliance(end) > compliance.instant:
-        chosen = _steps_of_one_cell(load, compliance, end)
+        chosen = steps_of_one_cell(load, compliance, end)
         if math.isfinite(load.longest_step):  # every run divides its steps while it oscillates
             chosen = chosen[chosen >= load.kinks[-1]]
         chosen = _apart(chosen, even)
@@ -77,7 +77,7 @@ def _apart(times: NDArray[np.float64], others: NDArray[np.float64]) -> NDArray[n
     return np.asarray(times[distance > MIN_DISTANCE * shortest])
 
 
-def _end(load: LoadHistory, compliance: ContactCompliance) -> float:
+def default_end(load: LoadHistory, compliance: ContactCompliance) -> float:
     """End of the load, or of the creep under a load that is held at last [s]."""
     end = float(load.kinks[-1])
     if load.level_at(end) <= 0:
@@ -92,10 +92,10 @@ def _end(load: LoadHistory, compliance: ContactCompliance) -> float:
     return max(end, settled) if is_measured else end + settled
 
 
-def _steps_of_one_cell(
+def steps_of_one_cell(
     load: LoadHistory, compliance: ContactCompliance, end: float
 ) -> NDArray[np.float64]:
-    """Ends of the adaptive steps of a contact of one cell, and 0 [s]."""
+    """Ends of the adaptive steps of a contact of one cell up to `end`, and 0 [s]."""
     ages = np.append(0.0, np.geomspace(1e-9 * end, end, 100))
     plan = plan_hereditary_integral(compliance, ages, 2)
     request = AdaptiveTimes(end, DEFAULT_TIME_ERROR)
@@ -105,7 +105,7 @@ def _steps_of_one_cell(
     times = [0.0]
     while (step := steps.next_step()) is not None:
         point = load.at(step.time, side=step.side)
-        response, force_response = (_response(each, step) for each in (memory, force_memory))
+        response, force_response = (response_to(step, each) for each in (memory, force_memory))
         level = wanted = np.array([max(point.level, 0.0)])
         if point.force is not None:
             wanted = np.maximum(force_response.of(level), 0.0) ** SPHERE_EXPONENT
@@ -119,7 +119,3 @@ def _steps_of_one_cell(
             errors.after(step, values, error)
             times.append(step.time)
     return np.unique(times)
-
-
-def _response(memory: HereditaryIntegral, step: Step) -> HereditaryResponse:
-    return memory.jump() if step.is_jump else memory.ramp(step.duration, smooth=step.smooth)

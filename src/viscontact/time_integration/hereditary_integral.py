@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from viscontact.time_integration.fixed_steps import Step
 from viscontact.time_integration.restart_data import RestartData
 from viscontact.time_integration.step_shape import FieldMap
 
@@ -73,6 +74,11 @@ class HereditaryIntegral(ABC):
     @abstractmethod
     def restore(self, restart_data: RestartData) -> None:
         """Continue from restart data of the same law and shape."""
+
+
+def response_to(step: Step, memory: HereditaryIntegral) -> HereditaryResponse:
+    """Response of a hereditary integral to a jump or to a step in time."""
+    return memory.jump() if step.is_jump else memory.ramp(step.duration, smooth=step.smooth)
 
 
 def is_resolved(crept: float, instant: float, *, whole: bool) -> bool:
