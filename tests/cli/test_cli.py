@@ -515,6 +515,24 @@ def test_check_warns_of_a_grid_that_the_contact_will_overrun(
     assert "fewer than 10 cells across" in capsys.readouterr().out
 
 
+def test_contact_far_from_the_origin_is_checked_and_run_on_a_grid_around_it(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text, _, _ = SPHERE.partition("grid:")
+    (folder / "far.yaml").write_text(text, encoding="utf-8")
+    far = ["--set", "indenter.offset_x=8 mm", "--set", "load.force=1 uN"]
+    level = ["--set", "load.tilt_x=0 rad", "--set", "load.tilt_y=0 rad"]
+    assert main(["check", "far.yaml", *far, *level]) == 0
+    printed = " ".join(capsys.readouterr().out.split())
+    assert "around x = 8 mm, y = 0 m (automatic)" in printed
+    (expected,) = re.findall(r"cells in it \d+ along, (\d+) across", printed)
+    assert main(["run", "far.yaml", *far, *level, "-q"]) == 0
+    ds = vc.open_results("far/result.nc")
+    assert float(ds.x.mean()) == pytest.approx(8e-3, rel=1e-6)
+    assert int(ds.cells_across.max()) == pytest.approx(int(expected), rel=0.1)
+    assert ds.eccentricity_x.values[ds.force > 0] == pytest.approx(8e-3, rel=1e-4)
+
+
 def test_check_warns_of_a_contact_too_large_for_small_strains(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -233,9 +233,10 @@ def test_contact_between_the_coarse_points_is_found() -> None:
 
 def test_automatic_grid_of_millions_of_cells_is_refused() -> None:
     sphere, gel = vc.Sphere(0.01), vc.Material(vc.Elastic(1e7), 0.5)
-    load = vc.step(4.0, eccentricity_x=5e-3, eccentricity_y=5e-3)
+    there_and_back = [5e-3, -5e-3]
+    load = vc.ForceHistory([0.0, 1.0], [4.0, 4.0], there_and_back, there_and_back)
     with pytest.raises(ValueError, match="more than an automatic grid has"):
-        # A contact a tenth as large as where it is, with 400 cells across.
+        # A contact that moves by twenty times its size, with 400 cells across.
         vc.auto_grid(sphere, gel, load, tolerance=1e-4)
 
 

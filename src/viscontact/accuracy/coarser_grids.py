@@ -58,9 +58,10 @@ def aligned_spacing(run: RunSetup, spacing: float, parity: bool) -> tuple[float,
 
 
 def straight_ends(run: RunSetup) -> tuple[float, float]:
-    """Distances from the grid's centre to the body's straight ends on +x and +y, in cells.
+    """Distances from the grid's centre to the body's straight ends along x and y, in cells.
 
-    They are inf where there is none; the end of a round body has no single place in a cell.
+    Those on +x and +y, or else on -x and -y; inf where there is none: the end of a round body has
+    no single place in a cell.
     """
     inside = np.isfinite(run.open_gap)
     if run.grid.periodic or inside.all():
@@ -71,6 +72,12 @@ def straight_ends(run: RunSetup) -> tuple[float, float]:
 
 def _straight_end(inside: NDArray[np.bool_], crossings: NDArray[np.float64]) -> float:
     """Distance from the grid's centre to a straight end along the first axis, in cells; or inf."""
+    positive = _positive_end(inside, crossings)
+    return positive if positive < np.inf else _positive_end(inside[::-1], crossings[::-1])
+
+
+def _positive_end(inside: NDArray[np.bool_], crossings: NDArray[np.float64]) -> float:
+    """That on the positive side."""
     last = int(np.flatnonzero(inside.any(axis=1))[-1])
     if last == len(inside) - 1:
         return np.inf

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.checks.sampling import Sampling, sampling_warnings
+from viscontact.checks.sampling import Sampling, local_approach, sampling_warnings
 from viscontact.checks.singularities import DEPENDS_ON_MESH, end_pressures, is_sharp
 from viscontact.contact.rim import Rim
 from viscontact.grid import Grid
@@ -130,9 +130,10 @@ def strain_warnings(geometry: Geometry, rim: Rim, motion: NDArray[np.float64]) -
     # Without a radius, a steep slope is reported already, and the extents of a contact of few cells
     # are inaccurate.
     known = math.isfinite(radius) or (slope <= STEEP_SLOPE and _spans(rim.contact, FEW_CELLS))
-    if known and motion[0] > most * measure:
+    approach = local_approach(geometry.grid, motion)
+    if known and approach > most * measure:
         warnings["approach"] = (
-            f"the approach {be} {motion[0] / measure:.2g} of the {named}; "
+            f"the approach {be} {approach / measure:.2g} of the {named}; "
             f"small-strain theory is meant for less than {most:g}"
         )
     return warnings

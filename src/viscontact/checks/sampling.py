@@ -109,6 +109,16 @@ class Sampling:
         yield self.indenter.sample_points
 
 
+def local_approach(grid: Grid, motion: NDArray[np.float64]) -> float:
+    """Approach in the middle of a grid, which may be far from the pivot of the tilts [m].
+
+    >>> local_approach(Grid((4, 4), (1.0, 1.0), centre=(100.0, 0.0)), np.array([2.0, -0.01, 0.0]))
+    1.0
+    """
+    x, y = grid.centre
+    return float(motion[0] + motion[1] * x + motion[2] * y)
+
+
 def map_warnings(missed: float, cell: float, strain: float) -> dict[str, str]:
     """Warn of a height map that is finer than the grid.
 
@@ -145,7 +155,7 @@ def sampling_warnings(
     if not sampling.sees_all:
         missed = float(rim.cut(sampling.missed).max(where=rim.contact, initial=0.0))
     extent = min(rim.length, rim.width)
-    strain = 2 * float(motion[0]) / extent if extent > 0 else math.inf
+    strain = 2 * local_approach(sampling.grid, motion) / extent if extent > 0 else math.inf
     cell = max(sampling.grid.cell_size)
     warnings = map_warnings(missed, cell, strain) | texture_warnings(
         sampling.indenter, sampling.grid

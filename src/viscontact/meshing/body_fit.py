@@ -22,11 +22,14 @@ MAX_CHANGE = 0.1
 
 
 def straight_ends(
-    indenter: Indenter, size: tuple[float, float], reach: tuple[float, float]
+    indenter: Indenter,
+    size: tuple[float, float],
+    reach: tuple[float, float],
+    centre: tuple[float, float] = (0.0, 0.0),
 ) -> tuple[float, float]:
-    """Distances of a body's straight ends from the origin along x and y, inf without any [m].
+    """Distances of a body's straight ends from a centre along x and y, inf without any [m].
 
-    They lie on a grid of this size; lines farther from the origin than `reach` [m] do not count.
+    They lie on a grid of this size; lines farther from its centre than `reach` [m] do not count.
 
     Examples
     --------
@@ -35,13 +38,14 @@ def straight_ends(
     >>> round(ends[0], 9), ends[1]
     (0.004, inf)
     """
-    grid = Grid((LINES, LINES), size)
+    grid = Grid((LINES, LINES), size, centre=centre)
+    x, y = grid.x - centre[0], grid.y - centre[1]
     inside = np.isfinite(indenter.gap(grid.x[:, None], grid.y[None, :]))
     outline = trace_outline(indenter, grid)
-    near_x, near_y = np.abs(grid.x) <= reach[0], np.abs(grid.y) <= reach[1]
+    near_x, near_y = np.abs(x) <= reach[0], np.abs(y) <= reach[1]
     return (
-        _straight_end(grid.x, inside[:, near_y], outline.along_x[:, near_y]),
-        _straight_end(grid.y, inside[near_x].T, outline.along_y[near_x].T),
+        _straight_end(x, inside[:, near_y], outline.along_x[:, near_y]),
+        _straight_end(y, inside[near_x].T, outline.along_y[near_x].T),
     )
 
 

@@ -13,7 +13,8 @@ from viscontact.indenters import Indenter
 from viscontact.loads import LoadHistory, LoadPoint
 from viscontact.loads.largest_load import largest_load
 from viscontact.materials.compliance import ContactCompliance, SeriesCompliance
-from viscontact.meshing.elastic_estimate import ContactEstimate, estimate_contact
+from viscontact.meshing.contact_place import locate_contact
+from viscontact.meshing.elastic_estimate import ContactEstimate
 
 #: Upper limit on the cells of an automatic grid.
 MAX_CELLS = 2**22
@@ -51,7 +52,7 @@ def contacts_of_history(
             "give a grid"
         )
     return [
-        PointContact(point, compliance, estimate_contact(indenter, compliance, point))
+        PointContact(point, compliance, locate_contact(indenter, compliance, point))
         for point in points
     ]
 
@@ -75,7 +76,7 @@ def smallest_contact(
     stiffer = _compliance_at_largest_load(compliance, load, end)
     if not 0 < stiffer < smallest.compliance:
         return smallest
-    estimate = estimate_contact(indenter, stiffer, smallest.point)
+    estimate = locate_contact(indenter, stiffer, smallest.point)
     return PointContact(smallest.point, stiffer, estimate)
 
 

@@ -25,7 +25,7 @@ from viscontact.indenters import Indenter
 from viscontact.loads import LoadHistory
 from viscontact.materials.compliance import ContactCompliance, SeriesCompliance
 from viscontact.meshing.contact_extent import PointContact
-from viscontact.meshing.elastic_estimate import estimate_contact
+from viscontact.meshing.contact_place import locate_contact
 from viscontact.meshing.strip_contact import StripContact, mean_pressure, strip_contact
 from viscontact.time_integration.default_times import (
     MAX_LOAD_STEPS,
@@ -178,7 +178,7 @@ def _exponents(indenter: Indenter, largest: PointContact) -> tuple[tuple[float, 
         compliance *= SMALLER_REFERENCE
     else:
         point = replace(point, approach=SMALLER_REFERENCE * point.approach)
-    smaller, estimate = estimate_contact(indenter, compliance, point), largest.estimate
+    smaller, estimate = locate_contact(indenter, compliance, point), largest.estimate
     ratios = np.divide(
         [*smaller.extents, smaller.peak_pressure * compliance],
         [*estimate.extents, estimate.peak_pressure * largest.compliance],

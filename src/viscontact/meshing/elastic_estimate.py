@@ -158,10 +158,14 @@ def elastic_contact(
 
 
 def estimate_contact(
-    indenter: Indenter, contact_compliance: float, point: LoadPoint
+    indenter: Indenter,
+    contact_compliance: float,
+    point: LoadPoint,
+    around: tuple[float, float] | None = None,
 ) -> ContactEstimate:
     """Solve an elastic contact to a few per cent, on a coarse grid that is fitted to it.
 
+    The grid is centred on the origin, or follows a contact whose probable place is `around` [m].
     Raises ValueError if no grid fits, for example because the force acts outside the body.
 
     Examples
@@ -172,18 +176,23 @@ def estimate_contact(
     >>> round(found.length / 2 * 1e3, 1)  # Hertz: (3 * 100 * 0.01 * 1e-9 / 4)**(1/3) = 0.909 mm
     0.9
     """
-    size = np.full(2, _first_size(indenter, contact_compliance, point))
+    scale, centre = _first_scale(indenter, contact_compliance, point), around or (0.0, 0.0)
+    lever = max(abs(point.eccentricity_x), abs(point.eccentricity_y)) if around is None else 0.0
+    size = np.full(2, 4 * max(scale, lever))
     for _ in range(MAX_TRIES):
-        grid = Grid((COARSE_CELLS, COARSE_CELLS), (float(size[0]), float(size[1])))
+        cells, extents = (COARSE_CELLS, COARSE_CELLS), (float(size[0]), float(size[1]))
+        grid = Grid(cells, extents, centre=centre)
         open_gap = indenter.gap(grid.x[:, None], grid.y[None, :])
         if not np.isfinite(open_gap).any():
             size = 2.0 * size
             continue
         found = elastic_contact(open_gap, contact_compliance, point, grid)
-        factors = _size_factors(found)
+        factors = _size_factors(found, follows=around is not None)
         if factors is None:
             return found
         size = size * factors
+        if around is not None and (found.pressure > 0).any():
+            centre = found.centre
     raise ValueError(
         "grid: no fitting grid was found for this load; the force may be too large for so soft a "
         "material, or act outside what can touch, or the contact runs on without end. Press less, "
@@ -215,8 +224,8 @@ def estimate_period(
     return found
 
 
-def _first_size(indenter: Indenter, compliance: float, point: LoadPoint) -> float:
-    """Edge of the first grid: four times a length from Hertz's theory or from the load [m]."""
+def _first_scale(indenter: Indenter, compliance: float, point: LoadPoint) -> float:
+    """Length from Hertz's theory or from the load, a quarter of the first grid's [m]."""
     radius = indenter.radius_of_curvature
     level, is_round = point.level, math.isfinite(radius) and radius > 0
     if point.force is None:
@@ -225,18 +234,22 @@ def _first_size(indenter: Indenter, compliance: float, point: LoadPoint) -> floa
         scale = math.sqrt(level * compliance)
         if is_round:
             scale = (0.75 * level * radius * compliance) ** (1 / 3)
-    return 4 * max(scale, abs(point.eccentricity_x), abs(point.eccentricity_y))
+    return scale
 
 
-def _size_factors(found: ContactEstimate) -> NDArray[np.float64] | None:
-    """Factors that make the grid fit the contact along x and y; None if it fits."""
+def _size_factors(found: ContactEstimate, *, follows: bool) -> NDArray[np.float64] | None:
+    """Factors that make the grid fit the contact along x and y; None if it fits.
+
+    The grid lies around the origin, or `follows` the contact.
+    """
     contact = found.pressure > 0
     if not contact.any():
         return _refining_factors(found.open_gap)
     at_edge = bool(contact[[0, -1]].any()), bool(contact[:, [0, -1]].any())
     if any(at_edge) or not found.converged:
         return np.where(at_edge if any(at_edge) else (True, True), 2.0, 1.0)
-    part = np.array(found.reach) / (np.array(found.grid.size) / 2)
+    reach = np.array(found.extents) / 2 if follows else np.array(found.reach)
+    part = reach / (np.array(found.grid.size) / 2)
     if ((part >= MIN_REACH) & (part <= MAX_REACH)).all():
         return None
     # The size of a contact of a few cells is inaccurate: correct it by a factor of 4 at most.

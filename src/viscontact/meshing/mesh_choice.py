@@ -1,7 +1,8 @@
 """Choice of a run's mesh: large enough for its contacts, and fine enough for the tolerance.
 
 1. Estimate the contacts under the loads of the history at the largest compliance
-   (`contact_extent`); the grid's size is their largest reach with a margin.
+   (`contact_extent`); the grid's size is their largest reach with a margin from its centre, which
+   is the origin unless they are far away (`contact_place`).
 2. Start from the number of cells that the rule for the first trial gives the largest contact.
 3. Refine for the smallest contact under the largest load, if it is smaller than the largest one, on
    a grid of its own size; the cells over the whole grid follow in proportion.
@@ -33,6 +34,7 @@ from viscontact.meshing.contact_extent import (
     largest_compliance,
     smallest_contact,
 )
+from viscontact.meshing.contact_place import grid_centre
 from viscontact.meshing.creeping_peak import contact_growth
 from viscontact.meshing.edge_ring import resolve_ring, ring_warning
 from viscontact.meshing.height_map_error import facet_error
@@ -90,10 +92,11 @@ def choose_mesh(problem: Problem, end: float | None) -> Mesh:
     found = contacts_of_history(indenter, largest_compliance(compliance, end), load, end)
     highest = max(each.point.level for each in found)
     largest = next(each for each in found if each.point.level == highest)
-    reach = np.array([each.estimate.reach for each in found], dtype=np.float64).max(axis=0)
+    centre = grid_centre([each.estimate for each in found])
+    reach = np.array([each.estimate.reach_from(centre) for each in found]).max(axis=0)
     size = 2 * MARGIN * reach
     # Steps 2 to 7.
-    choice = _first_choice(indenter, request, largest, size)
+    choice = _first_choice(indenter, request, largest, size, centre)
     smallest = smallest_contact(indenter, compliance, load, end, found)
     if min(np.divide(smallest.estimate.extents, largest.estimate.extents)) < SMALLER:
         choice = _refined_for_smallest(indenter, request, smallest, size, choice)
@@ -102,7 +105,7 @@ def choose_mesh(problem: Problem, end: float | None) -> Mesh:
     mesh = _limited_by_map(indenter, largest, mesh)
     if request.largest_cell is None:
         return mesh
-    ends = straight_ends(indenter, mesh.grid.size, largest.estimate.reach)
+    ends = straight_ends(indenter, mesh.grid.size, largest.estimate.reach_from(centre), centre)
     return replace(mesh, grid=with_small_cells(mesh.grid, request.largest_cell, ends))
 
 
@@ -115,6 +118,7 @@ class _MeshChoice:
     errors: dict[str, float]
     warnings: dict[str, str]
     remedy: str  # for a singular peak pressure
+    centre: tuple[float, float]  # of the grid [m]
 
     def after(self, found: Resolution, cells: NDArray[np.float64]) -> _MeshChoice:
         """The choice after a contact has been resolved by some cells on the whole grid."""
@@ -136,6 +140,7 @@ def _first_choice(
     request: AutomaticGrid,
     largest: PointContact,
     size: NDArray[np.float64],
+    centre: tuple[float, float],
 ) -> _MeshChoice:
     """Step 2: the fewest cells for the largest contact."""
     cells, across = _first_cells(indenter, request, largest, size), _first_across(request)
@@ -153,7 +158,7 @@ def _first_choice(
             f"{format_quantity(size[1], 'm', 3)} needs {float(np.prod(cells)):.2g} cells for a "
             f"relative error of {request.tolerance:.2g}, more than an automatic grid has; {remedy}"
         )
-    return _MeshChoice(cells, tuple(request.quantities), {}, {}, rounding_remedy(indenter))
+    return _MeshChoice(cells, tuple(request.quantities), {}, {}, rounding_remedy(indenter), centre)
 
 
 def _first_cells(
@@ -182,7 +187,8 @@ def _refined_for_smallest(
     choice: _MeshChoice,
 ) -> _MeshChoice:
     """Step 3: refine for a contact smaller than the largest, within a limit on the cells."""
-    size = np.minimum(2 * MARGIN * np.array(smallest.estimate.reach), whole)
+    reach = np.array(smallest.estimate.reach_from(choice.centre))
+    size = np.minimum(2 * MARGIN * reach, whole)
     part = size / whole
     fewest = np.maximum(_first_cells(indenter, request, smallest, size), choice.cells * part)
     most = max(MAX_CELLS_EARLY, float(choice.cells.prod())) * float(part.prod())
@@ -190,7 +196,7 @@ def _refined_for_smallest(
     if excess > 1:
         cells = np.maximum(fewest / math.sqrt(excess), choice.cells * part)
         return replace(choice, cells=cells / part, warnings=choice.warnings | EARLY_WARNING)
-    found = _resolved(indenter, request, smallest, size, choice.quantities, fewest, most)
+    found = _resolved(indenter, request, smallest, size, choice, fewest, most)
     chosen = choice.after(found, np.array(found.trial.shape) / part)
     if found.is_enough or found.at_finest:
         return chosen
@@ -205,7 +211,7 @@ def _refined_for_largest(
     choice: _MeshChoice,
 ) -> Mesh:
     """Step 4: refine for the largest contact, or refuse the tolerance with the one in reach."""
-    found = _resolved(indenter, request, largest, size, choice.quantities, choice.cells, MAX_CELLS)
+    found = _resolved(indenter, request, largest, size, choice, choice.cells, MAX_CELLS)
     chosen = choice.after(found, np.array(found.trial.shape))
     if not found.is_enough:
         worst = max(chosen.errors, key=chosen.errors.__getitem__)
@@ -250,14 +256,14 @@ def _refined_for_ring(
 
 
 def _refuse_few_cells(trial: MeshTrial) -> None:
-    """Refuse a mesh whose run would be refused: a contact far smaller than its distance from 0."""
+    """Refuse a mesh whose run would be refused: contacts far smaller than their distances."""
     if trial.cells_across >= MIN_CELLS_ACROSS:
         return
     x, y = (format_quantity(each, "m", 3) for each in trial.peak_place)
     raise ValueError(
-        f"grid: only {trial.cells_across} cells of the finest automatic grid, which is centred on "
-        f"x = y = 0 and as fine as the height map, lie across the contact at x = {x}, y = {y}: "
-        "move the map so that its highest peak lies at x = y = 0, or give a grid"
+        f"grid: only {trial.cells_across} cells of the finest automatic grid, which is as fine as "
+        f"the height map, lie across the contact at x = {x}, y = {y}: the body rests on peaks far "
+        "apart; keep one of them only, prescribe the tilts if they are free, or give a grid"
     )
 
 
@@ -275,19 +281,20 @@ def _resolved(
     request: AutomaticGrid,
     contact: PointContact,
     size: NDArray[np.float64],
-    quantities: tuple[str, ...],
+    choice: _MeshChoice,
     fewest: NDArray[np.float64],
     most: float,
 ) -> Resolution:
     """Refine for one contact on a grid of this size, not beyond the spacing of a height map."""
     extents = (float(size[0]), float(size[1]))
-    ends = straight_ends(indenter, extents, contact.estimate.reach)
-    pressing = ElasticContact(indenter, contact.compliance, contact.point, extents, ends)
+    centre = choice.centre
+    ends = straight_ends(indenter, extents, contact.estimate.reach_from(centre), centre)
+    pressing = ElasticContact(indenter, contact.compliance, contact.point, extents, ends, centre)
     steps = np.array(indenter.sample_spacing)
     finest = np.divide(size, steps, out=np.full(2, math.inf), where=steps > 0)
     return refine_mesh(
         pressing,
-        quantities,
+        choice.quantities,
         request.tolerance,
         fewest=fewest,
         finest=np.maximum(fewest, finest),

@@ -43,10 +43,11 @@ class ElasticContact:
     point: LoadPoint
     size: tuple[float, float]  # extents of the grid, to be fitted to the body's ends [m]
     ends: tuple[float, float] = (math.inf, math.inf)  # of the body, from `straight_ends` [m]
+    centre: tuple[float, float] = (0.0, 0.0)  # of the grid [m]
 
     def grid(self, shape: tuple[int, int]) -> Grid:
         """Grid with these numbers of cells, which end where the body ends."""
-        return Grid(shape, fitted_extents(self.size, shape, self.ends))
+        return Grid(shape, fitted_extents(self.size, shape, self.ends), centre=self.centre)
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,7 +16,7 @@ from viscontact.checks.material import (
     data_warnings,
     early_warnings,
 )
-from viscontact.checks.sampling import Sampling, map_warnings, texture_warnings
+from viscontact.checks.sampling import Sampling, local_approach, map_warnings, texture_warnings
 from viscontact.checks.singularities import strain_of
 from viscontact.meshing.elastic_estimate import ContactEstimate
 from viscontact.problem.problem import Problem
@@ -49,7 +49,7 @@ def _contact_warnings(run: RunSetup, found: ContactEstimate, compliance: float) 
     within_x = np.abs(run.grid.x - found.centre_x) <= found.length / 2
     within_y = np.abs(run.grid.y - found.centre_y) <= found.width / 2
     missed = float(on_grid.missed[np.ix_(within_x, within_y)].max(initial=0.0))
-    strain = 2 * found.approach / min(found.length, found.width)
+    strain = 2 * local_approach(found.grid, found.motion) / min(found.length, found.width)
     # An automatic grid that was refined for the peak pressure shows that this has a limit.
     has_limit = run.mesh is not None and "peak_pressure" in run.mesh.errors
     return (

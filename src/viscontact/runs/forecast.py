@@ -12,7 +12,8 @@ from scipy import fft
 from viscontact.accuracy.coarser_runs import usual_coarsening
 from viscontact.grid import Grid
 from viscontact.loads import LoadPoint
-from viscontact.meshing.elastic_estimate import ContactEstimate, estimate_contact, estimate_period
+from viscontact.meshing.contact_place import locate_contact
+from viscontact.meshing.elastic_estimate import ContactEstimate, estimate_period
 from viscontact.problem.problem import Problem
 from viscontact.runs.expected_warnings import predicted_warnings
 from viscontact.runs.free_memory import available_memory
@@ -85,7 +86,7 @@ def forecast(run: RunSetup, *, errors: bool = False) -> Forecast:
 def _estimate(run: RunSetup, compliance: float, point: LoadPoint) -> ContactEstimate:
     if run.grid.periodic:
         return estimate_period(run.problem.indenter, compliance, point, run.grid)
-    return estimate_contact(run.problem.indenter, compliance, point)
+    return locate_contact(run.problem.indenter, compliance, point)
 
 
 def _representative_compliance(problem: Problem, time: float) -> tuple[float, str]:
