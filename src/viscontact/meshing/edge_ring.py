@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.meshing.creeping_peak import ContactGrowth
-from viscontact.units.formatting import format_number
 
 #: Ratio of the cells of neighbouring meshes along an axis, and of the finest and the coarsest.
 STEP, LARGEST_FACTOR = 2**0.25, 4.0
@@ -74,15 +73,3 @@ def _fewest(errors: NDArray[np.float64], tolerance: float) -> int:
     """First mesh that meets the tolerance, else the best."""
     enough = errors <= tolerance
     return int((enough if enough.any() else -errors).argmax())
-
-
-def ring_warning(error: float) -> dict[str, str]:
-    """Warning that an automatic grid does not resolve the ring, with the error of the peak [-]."""
-    return {
-        "ring": (
-            "the contact grows on a body that relaxes, and carries a ring of high pressure along "
-            "its edge, which is narrower than the cells of the automatic grid: the peak pressure "
-            f"has an error of up to about {format_number(100 * error, 1)} % of its largest value, "
-            "which smaller cells reduce slowly; ask for such a tolerance, or give a grid"
-        )
-    }

@@ -36,8 +36,15 @@ from viscontact.meshing.contact_extent import (
 )
 from viscontact.meshing.contact_place import grid_centre
 from viscontact.meshing.creeping_peak import contact_growth
-from viscontact.meshing.edge_ring import resolve_ring, ring_warning
+from viscontact.meshing.edge_ring import resolve_ring
 from viscontact.meshing.height_map_error import facet_error
+from viscontact.meshing.mesh_warnings import (
+    EARLY_WARNING,
+    PEAK_WARNING,
+    facet_warning,
+    ring_warning,
+    spacing_warning,
+)
 from viscontact.meshing.refinement import PEAK, USUAL_ORDER, Resolution, refine_mesh
 from viscontact.meshing.trial_mesh import RIM_SCATTER, ElasticContact, MeshTrial
 from viscontact.problem.problem import Problem
@@ -54,19 +61,6 @@ MIN_ACROSS, ACROSS = 20.0, 3.0
 
 #: A smaller contact is resolved by itself if its extents are below this part of the largest one's.
 SMALLER = 0.95
-
-#: Warnings of a pressure that grows as cells become smaller, and of a contact that is too small for
-#: the grid at the beginning.
-PEAK_WARNING = (
-    "the peak pressure depends on the mesh here: at a sharp edge or tip it grows on as cells get "
-    "smaller, and the grid was not chosen for it; "
-)
-EARLY_WARNING = {
-    "early": (
-        "the contact is much smaller when the load is first largest than it becomes: the grid does "
-        "not keep the tolerance until it has grown; give a grid, or make the run shorter"
-    )
-}
 
 
 @dataclass(frozen=True, eq=False)
@@ -225,7 +219,7 @@ def _refined_for_largest(
                 f"tolerance of {reachable:.2g} or more, or give a grid"
             )
         chosen = replace(
-            chosen, warnings=chosen.warnings | _spacing_warning(worst, chosen.errors[worst])
+            chosen, warnings=chosen.warnings | spacing_warning(worst, chosen.errors[worst])
         )
     _refuse_few_cells(found.trial)
     return Mesh(found.trial.grid, chosen.errors, chosen.warnings)
@@ -272,7 +266,7 @@ def _limited_by_map(indenter: Indenter, largest: PointContact, mesh: Mesh) -> Me
     facets = facet_error(indenter, largest.estimate, largest.compliance)
     if facets <= mesh.errors.get(PEAK, math.inf):
         return mesh
-    warnings = mesh.warnings | _facet_warning(facets)
+    warnings = mesh.warnings | facet_warning(facets)
     return replace(mesh, errors=mesh.errors | {PEAK: facets}, warnings=warnings)
 
 
@@ -300,25 +294,3 @@ def _resolved(
         finest=np.maximum(fewest, finest),
         most_cells=most,
     )
-
-
-def _spacing_warning(name: str, error: float) -> dict[str, str]:
-    """Warning that the spacing of a height map limits the accuracy."""
-    return {
-        "map spacing": (
-            f"cells as small as the steps of the height map leave a relative error of about "
-            f"{error:.1g} in the {name.replace('_', ' ')}; a map of smaller steps would be more "
-            "accurate"
-        )
-    }
-
-
-def _facet_warning(error: float) -> dict[str, str]:
-    """Warning that the facets of a height map limit the accuracy."""
-    return {
-        "facets": (
-            "between its points the height map is taken as straight, which leaves a relative error "
-            f"of about {error:.1g} in the peak pressure however small the cells are; a map of "
-            "smaller steps would be more accurate"
-        )
-    }
