@@ -58,6 +58,27 @@ def test_first_instants_in_contact_follow_the_rods(steps, part):
     assert np.abs(force[first] / expected - 1).max() < 0.016
 
 
+@pytest.mark.parametrize("part", [0.25, 0.75])
+def test_bars_hold_where_the_contact_begins_in_the_last_step(part):
+    """Force and work by the rods: no step before the first touch shows the error of this one."""
+    times = np.array([0.0, 0.2, 0.5, END])
+    touch = times[-2] + part * (END - times[-2])
+    approach = np.array([-touch / (END - touch), 1.0]) * DEPTH
+    fine = np.append(0.0, np.linspace(touch, END, 1601))
+    exact = reference.press_axisymmetric(
+        reference.SphereProfile(RADIUS),
+        fine,
+        approach=np.interp(fine, [0.0, END], approach),
+        creep_compliance=RUBBER.contact_compliance(),
+        elements=300,
+    )
+    load = vc.ApproachHistory([0.0, END], approach)
+    ds = vc.simulate(BALL, RUBBER, load, GRID, times)
+    error = abs(float(ds.force[-1]) - exact.force[-1])
+    assert error > 0.01 * exact.force[-1]  # one step of creep
+    assert error < float(ds.force_error[-1]) < 5 * error
+
+
 @pytest.mark.parametrize("tilt", [0.0, 4e-3])
 @pytest.mark.parametrize("aside", [0.0, 0.3])
 def test_approach_without_force_is_that_of_the_lowest_point(tilt, aside):

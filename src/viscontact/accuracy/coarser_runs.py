@@ -14,6 +14,7 @@ from viscontact.accuracy.coarser_steps import fewer_times, parts_of_shared_steps
 from viscontact.checks.mesh import cells_across_spots
 from viscontact.checks.singularities import bend_at, end_pressures, is_sharp, strain_of
 from viscontact.errors import ConvergenceError, DomainError
+from viscontact.grid import is_even
 from viscontact.materials.compliance import ContactCompliance
 from viscontact.results.variables import scalars_with_error
 from viscontact.simulation.march import March
@@ -32,6 +33,10 @@ STEP_RATIOS = ((16, (2, 4)), (7, (2, 2)), (0, (1, 1)))
 #: add. Errors of cells and of steps of opposite sign may cancel in their differences, so above it
 #: both have the same steps.
 SMALL_TIME_ERROR = 3e-3
+
+#: Peak pressure, over the largest one, from which the error of a step at whose beginning there was
+#: no contact is large: it cannot be estimated from the steps before.
+LARGE_FIRST_PEAK = 0.1
 
 #: Least number of cells across the largest contact on the coarsest grid.
 MIN_ACROSS = 4.5
@@ -79,16 +84,16 @@ class CoarserResult:
 def plan_coarser_runs(run: RunSetup, history: History) -> Iterator[CoarserRun]:
     """Yield the coarser runs of a completed run, the cheapest first.
 
-    Two are coarser in cells and in steps. Where the estimated time error is not small, a third one
-    divides the steps that these two take like the run: the first ones behind kinks and jumps of the
-    load, and all of a run of few steps.
+    Two are coarser in cells and in steps. Where the time error is not known to be small, a third
+    one divides the steps that these two take like the run: the first ones behind kinks and jumps of
+    the load, and all of a run of few steps.
     """
     times, load = history["time"], run.problem.load
     own = step_ends(plan_steps(times, load))
     creeping = creeps(run.problem.compliance, times)
-    divides = creeping and float(np.nanmax(history["time_error"])) > SMALL_TIME_ERROR
+    divides = creeping and not _has_small_time_error(history)
     step_ratios = _step_ratios(len(own), divides=divides)
-    spacings = _spacings(float(history["cells_across"].max(initial=0.0)))
+    spacings = _spacings(float(history["cells_across"].max(initial=0.0)), _is_symmetric(run))
     levels = list(zip(spacings, step_ratios, strict=True))
     for spacing, step_ratio in reversed(levels):
         yield _coarser_run(run, *spacing, step_ratio, fewer_times(times, load.stops, step_ratio))
@@ -100,6 +105,13 @@ def plan_coarser_runs(run: RunSetup, history: History) -> Iterator[CoarserRun]:
         yield replace(divided, divides_steps=True)
 
 
+def _has_small_time_error(history: History) -> bool:
+    """Test whether the estimated time errors are small; there is none at the first touch."""
+    peak, error = history["peak_pressure"], history["time_error"]
+    begins = (peak[1:] > LARGE_FIRST_PEAK * peak.max(initial=0.0)) & (peak[:-1] == 0)
+    return bool(np.nanmax(error) <= SMALL_TIME_ERROR and (error[1:][begins] > 0).all())
+
+
 def usual_coarsening(steps: int) -> tuple[tuple[float, int], ...]:
     """Ratios of cells and of steps of the coarser runs of a run with a number of steps.
 
@@ -107,6 +119,8 @@ def usual_coarsening(steps: int) -> tuple[tuple[float, int], ...]:
     --------
     >>> usual_coarsening(60)
     ((1.5, 2), (2.4, 4))
+    >>> usual_coarsening(7), usual_coarsening(6)
+    (((1.5, 2), (2.4, 2)), ((1.5, 1), (2.4, 1)))
     """
     step_ratios = _step_ratios(steps, divides=False)
     return tuple(
@@ -172,12 +186,22 @@ def history_of(states: Sequence[ContactState]) -> History:
     }
 
 
-def _spacings(across: float) -> tuple[tuple[float, bool], ...]:
+def _is_symmetric(run: RunSetup) -> bool:
+    """Test whether the body mirrors itself on an even number of cells along x and y.
+
+    Only a quarter of the cells is solved then, on coarser grids as well if their numbers are even.
+    """
+    return is_even(run.open_gap, 0) and is_even(run.open_gap, 1)
+
+
+def _spacings(across: float, keeps_parity: bool) -> tuple[tuple[float, bool], ...]:
     """Ratios of cells, closer to 1 if the run has few cells across its contact."""
     coarsest = CELL_RATIOS[-1][0]
     most = min(coarsest, max(across / MIN_ACROSS, MIN_COARSENING))
     closer = (most - 1) / (coarsest - 1)
-    return tuple((1 + (spacing - 1) * closer, parity) for spacing, parity in CELL_RATIOS)
+    return tuple(
+        (1 + (spacing - 1) * closer, parity or keeps_parity) for spacing, parity in CELL_RATIOS
+    )
 
 
 def creeps(compliance: ContactCompliance, times: FloatArray) -> bool:

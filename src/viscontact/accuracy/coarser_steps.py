@@ -9,6 +9,10 @@ from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
 
+#: Length of a step, over the longest of the run's steps within it, below which a coarser run takes
+#: it as the run does.
+SHARED_RATIO = 1.5
+
 
 def fewer_times(times: FloatArray, stops: FloatArray, step_ratio: int) -> FloatArray:
     """Times of which about every `step_ratio`-th one is kept, a power of 2, between the stops."""
@@ -37,10 +41,16 @@ def _every_second(times: FloatArray, stops: FloatArray) -> FloatArray:
 
 
 def parts_of_shared_steps(ends: FloatArray, others: FloatArray) -> FloatArray:
-    """Quarters and middles of the steps that two sequences of ends of steps have in common."""
-    begins, finals = np.unique(ends)[:-1], np.unique(ends)[1:]
-    theirs = np.unique(others)
-    after = np.minimum(np.searchsorted(theirs, begins) + 1, len(theirs) - 1)
-    shared = np.isin(begins, theirs) & (theirs[after] == finals)
-    parts = begins[shared] + np.array([[0.25], [0.5]]) * (finals - begins)[shared]
+    """Quarters and middles of the steps of the others that are hardly longer than the own ones.
+
+    >>> parts_of_shared_steps(np.array([0.0, 1.0, 9.0, 12.0, 15.0]), np.array([0.0, 9.0, 15.0]))
+    array([2.25, 4.5 ])
+    """
+    own, theirs = np.unique(ends), np.unique(others)
+    begins, lengths = theirs[:-1], np.diff(theirs)
+    longest = np.zeros(len(begins))
+    place = np.clip(np.searchsorted(theirs, own[1:]) - 1, 0, len(begins) - 1)
+    np.maximum.at(longest, place, np.diff(own))
+    shared = lengths < SHARED_RATIO * longest
+    parts = begins[shared] + np.array([[0.25], [0.5]]) * lengths[shared]
     return np.asarray(parts.ravel())
