@@ -178,12 +178,42 @@ def test_bars_hold_the_error_of_the_compliance() -> None:
     run, history, results = solved(MEASURED, tolerance=1e-8)
     inverted = run.problem.compliance.inversion_error
     assert inverted > 100 * run.problem.tolerance
-    agreed = with_error((run, history, results), "contact_area")
-    (bar,) = set(error_bars_from(run, history, agreed).values["contact_area"])
+    agreed = with_error((run, history, results), "force")
+    (bar,) = set(error_bars_from(run, history, agreed).values["force"])
     assert 1.0 <= bar / (1e-3 * inverted) < 1.1
     remembered = replace(run, hereditary=replace(run.hereditary, error=0.02))
-    (bar,) = set(error_bars_from(remembered, history, agreed).values["contact_area"])
+    (bar,) = set(error_bars_from(remembered, history, agreed).values["force"])
     assert 1.0 <= bar / (1e-3 * 0.02) < 1.1
+
+
+@pytest.mark.parametrize("part", [0.1, 0.4, 0.8])
+def test_bar_of_mean_pressure_holds_the_error_of_an_area_that_is_too_large(
+    known: Solved, part: float
+) -> None:
+    """Area A (1 + c) instead of A: the mean pressure F/A is too small by c/(1 + c) of itself."""
+    results = with_error(known, "contact_area", cells=part)
+    run, history, _ = known
+    history["mean_pressure"] = history["force"] / history["contact_area"]
+    values = error_bars_from(run, history, results).values
+    bar, mean = values["mean_pressure"][-1], history["mean_pressure"][-1]
+    if values["contact_area"][-1] < history["contact_area"][-1]:
+        assert part < bar / mean < WIDEST * part  # exact F/A is 1 + c times as large
+    else:
+        assert np.isnan(bar)
+
+
+def test_error_of_a_step_that_coarser_runs_leave_out_is_at_least_a_large_estimate() -> None:
+    """The last step before the contact is lost is not theirs: the run's own estimate counts."""
+    known = run, history, _ = solved(steps=8)
+    agreed = with_error(known, "contact_area")
+    left_out = np.array([time not in agreed[-1].scalars["time"] for time in history["time"]])
+    assert agreed[-1].divides_steps
+    assert left_out.any()
+    before = error_bars_from(run, history, agreed).values["contact_area"]
+    history["time_error"] = np.where(left_out, 0.8, 0.0)
+    after = error_bars_from(run, history, agreed).values["contact_area"]
+    assert (before < 0.01 * history["contact_area"]).all()
+    assert (after[left_out] > 0.4 * history["contact_area"][left_out]).all()
 
 
 @pytest.mark.parametrize("tolerance", [1e-7, 1e-3])

@@ -3,7 +3,7 @@
 On grids of cells h a scalar differs by c (h2^p - h1^p); each pair of grids gives c, and the largest
 one counts, since the rim's position between cells scatters and a single difference may be small by
 accident. The error of the time steps follows in the same way from a run with halved steps on one of
-the grids. The largest relative difference within a window of times counts for all of them.
+the grids. The largest relative difference at an instant and the ones next to it counts.
 """
 
 from __future__ import annotations
@@ -31,9 +31,11 @@ from viscontact.accuracy.least_bars import (
 from viscontact.accuracy.levels import (
     RefinementLevels,
     aligned,
+    between_known,
     end_flags,
     moving_maximum,
     moving_minimum,
+    peak_drops,
     rises_to_ends,
     spots_across,
 )
@@ -120,7 +122,7 @@ def error_bars_from(
         name: _bar(run, name, RefinementLevels.of(name, history, found), kinds, history)
         for name in ERROR_MODELS
     }
-    values["peak_pressure"] = np.fmax(values["peak_pressure"], least_peak_bar(history, found))
+    values["peak_pressure"] = np.fmax(values["peak_pressure"], least_peak_bar(kinds, history))
     values["mean_pressure"] = _mean_pressure_bar(history, values)
     left_out = run.mesh is not None and "peak" in run.mesh.warnings
     values["peak_pressure"] = peak_bars(values["peak_pressure"], history, found, left_out=left_out)
@@ -147,7 +149,8 @@ def _contact_kinds(run: RunSetup, history: History, results: list[CoarserResult]
     creeping = creeps(run.problem.compliance, times)
     ended = np.logical_or.accumulate(at_end) if creeping else at_end
     singular = moving_maximum(unbounded_peak(history, results)) > 0
-    return ContactKinds(at_end, ended, of_spots, singular, rises_to_ends(times, results))
+    drops = moving_maximum(peak_drops(times, results))
+    return ContactKinds(at_end, ended, of_spots, singular, rises_to_ends(times, results), drops)
 
 
 def unknown_bars(count: int) -> ErrorBars:
@@ -172,28 +175,40 @@ def _bar(
     if model.at_end is not None:
         ended = kinds.ended if name in ERRORS_KEPT else kinds.at_end
         by_cells = np.where(ended, model.at_end.of(levels), by_cells)
+    if model.steep is not None:
+        by_cells = np.where(kinds.steep, model.steep.of(levels), by_cells)
     if model.of_spots is not None:
         by_cells = np.where(kinds.of_spots, model.of_spots.of(levels), by_cells)
-    nothing = np.where(np.isnan(by_cells), np.nan, 0.0)
-    parts = [
-        moving_maximum(np.divide(part, scale, out=nothing.copy(), where=scale > 0))
-        for part in (by_cells, levels.by_steps)
-    ]
-    solver = SOLVER_ERROR_FACTOR * run.problem.tolerance + run.hereditary.error
-    solver += run.problem.compliance.inversion_error
-    bar = (parts[0] + np.nan_to_num(parts[1]) + solver) * scale
+    relative = _around(_over(by_cells, scale)) + np.nan_to_num(
+        _around(_over(levels.by_steps, scale))
+    )
+    relative += SOLVER_ERROR_FACTOR * run.problem.tolerance + run.hereditary.error
+    bar = (relative + run.problem.compliance.inversion_error) * scale
     bar = np.maximum(bar, least_bar(run, name, kinds, history, by_cells))
     return np.where(np.isnan(own), np.nan, bar)
 
 
+def _over(error: Array, scale: Array) -> Array:
+    """Error over a scale; 0 where that is zero, NaN where the error is unknown."""
+    nothing = np.where(np.isnan(error), np.nan, 0.0)
+    return np.divide(error, scale, out=nothing, where=scale > 0)
+
+
+def _around(relative: Array) -> Array:
+    """Largest error at an instant, the ones next to it and those that coarser runs leave out."""
+    return moving_maximum(between_known(relative), 1)
+
+
 def _mean_pressure_bar(history: History, values: dict[str, Array]) -> Array:
-    """Bar of force over area, from the relative bars of both; without contact that of the peak."""
-    force, area = history["force"], history["contact_area"]
-    touching = area > 0
-    relative = np.zeros_like(area)
-    for name, own in (("force", force), ("contact_area", area)):
-        relative += np.divide(values[name], own, out=np.zeros_like(own), where=touching)
-    return np.where(touching, relative * history["mean_pressure"], values["peak_pressure"])
+    """Bar of force over area, from the bars of both; without contact that of the peak.
+
+    It is unknown where the area may be zero.
+    """
+    area = history["contact_area"]
+    least = area - values["contact_area"]
+    error = np.hypot(values["force"], values["contact_area"] * history["mean_pressure"])
+    bar = np.divide(error, least, out=np.full_like(area, np.nan), where=least > 0)
+    return np.where(area > 0, bar, values["peak_pressure"])
 
 
 def _touching(history: History, results: list[CoarserResult]) -> NDArray[np.bool_]:

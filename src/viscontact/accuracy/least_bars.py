@@ -8,8 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.accuracy.coarser_grids import straight_ends
-from viscontact.accuracy.coarser_runs import CoarserResult, History, creeps
-from viscontact.accuracy.levels import moving_maximum, peak_drops
+from viscontact.accuracy.coarser_runs import History, creeps
 from viscontact.simulation.setup import RunSetup
 
 Array = NDArray[np.float64]
@@ -22,13 +21,21 @@ SOLVER_ERROR_FACTOR = 3.0
 #: the contact may end in the last cells of the body.
 RIM_CELLS, SPOT_RIM_CELLS, END_RIM_CELLS, SHARP_RIM_CELLS, LAST_CELLS = 0.05, 1.0, 1.5, 3.5, 1.5
 
+#: Cells across the contact at which the first of them is twice as large, as its rim is curved.
+FEW_CELLS = 10.0
+
+#: Least relative error of the area, times the square of the cells across; and times these cells
+#: where the pressure is largest near the rim.
+LEAST_AREA_ERROR, STEEP_AREA_ERROR = 0.2, 0.05
+
 #: Relative difference below which all grids agree on an extent: it is that of the body.
 AGREEMENT_TOLERANCE = 1e-6
 
-#: Growth of the first with the logarithm of a cell's length over its breadth, as the rim is curved
-#: within a long cell. Hertz's ellipses on cells as slender as they are too short by 0.2 cells if 18
-#: times as long as wide, by 0.35 cells at 70 times, on 12 to 52 cells.
-LONG_CELLS = 0.1
+#: Growth of the smallest error of extents in cells with the logarithm of a cell's length over its
+#: breadth, as the rim is curved within a long cell; and least relative error of the area over its
+#: square, times the cells along and across. Hertz's ellipses on cells as slender as they are too
+#: short by 0.2 cells if 10 times as long as wide, by 0.35, at most 0.55 cells at 30 times.
+LONG_CELLS, LONG_CELLS_AREA = 0.15, 0.35
 
 #: Where a contact on a creeping body has shrunk by less than LATE_CELLS since it last grew, the
 #: surface that it left is still almost closed and its rim is found too far outside. Least error of
@@ -44,6 +51,10 @@ MOMENTS = ("eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y")
 #: of a ball is too small by 0.14 +- 0.04, at most by 0.23, with the place of the rim in its cells.
 LEAST_ERRORS = {"approach": 0.25, "force": 0.3, "work": 0.2, "loss_per_cycle": 0.3}
 
+#: Growth of the first of these with the logarithm of a contact's length over its width: Hertz's
+#: ellipses err by 0.15 in the mean, at most by 0.8.
+LONG_CONTACT = 0.15
+
 #: Least relative error of these scalars where the contact reaches the curved end of a body, times
 #: the cells along the contact: the approach of a round flat punch is too large by 0.24 +- 0.10.
 #: Straight ends lie alike within the cells of all grids, whose differences show the error.
@@ -51,7 +62,7 @@ LEAST_END_ERROR = 0.4
 
 #: Least relative error of the area of a contact that ends with the body along one axis only, times
 #: the cells along the contact.
-LEAST_END_AREA_ERROR = 0.8
+LEAST_END_AREA_ERROR = 1.1
 
 #: Least error of a peak near the rim, in its drop to a neighbouring cell of a coarser grid; a
 #: smooth peak drops by much less than the second number.
@@ -70,6 +81,12 @@ class ContactKinds:
     singular: NDArray[np.bool_]  # the largest pressure has no limit
     #: Pressure rises to both ends of the contact along x, y; shape (2, times).
     rises: NDArray[np.bool_]
+    drops: Array  # relative drop of pressure from the peak to the cells next to it; NaN if unknown
+
+    @property
+    def steep(self) -> NDArray[np.bool_]:
+        """Pressure is largest at a tip or near the rim, inside the body: it drops steeply there."""
+        return np.asarray((self.drops > SMOOTH_DROP) & ~self.at_end)
 
 
 def least_bar(
@@ -87,7 +104,8 @@ def least_bar(
             return _least_body_extent_bar(run, axis, kinds)
         return _least_extent_bar(run, axis, kinds, history)
     if name == "contact_area":
-        return np.maximum(_least_area_bar(run, kinds, history), _late_area(run, history))
+        smooth = np.maximum(_least_rim_area(run, kinds, history), _late_area(run, history))
+        return np.maximum(_least_end_area(run, kinds, history), smooth)
     if name in MOMENTS:
         return _least_moment_bar(run, name, history)
     if name in LEAST_ERRORS and name != run.problem.load.control:
@@ -95,9 +113,9 @@ def least_bar(
     return 0.0
 
 
-def least_peak_bar(history: History, results: list[CoarserResult]) -> Array:
+def least_peak_bar(kinds: ContactKinds, history: History) -> Array:
     """Lower limit of the bar of the peak pressure, from its drop to the cells next to it [Pa]."""
-    drops = moving_maximum(peak_drops(history["time"], results))
+    drops = kinds.drops
     return np.asarray(
         LEAST_PEAK_ERROR * drops**2 / (drops + SMOOTH_DROP) * history["peak_pressure"]
     )
@@ -106,7 +124,9 @@ def least_peak_bar(history: History, results: list[CoarserResult]) -> Array:
 def _least_extent_bar(run: RunSetup, axis: int, kinds: ContactKinds, history: History) -> Array:
     """Parts of a cell [m]."""
     length, breadth = run.grid.cell_size[axis], run.grid.cell_size[1 - axis]
-    smooth = RIM_CELLS + LONG_CELLS * max(float(np.log(length / breadth)), 0.0)
+    few = 1 + (FEW_CELLS / np.maximum(history["cells_across"], 1.0)) ** 2
+    long = max(float(np.log(length / breadth)), 0.0)
+    smooth = RIM_CELLS * few + LONG_CELLS * long
     smooth_or_late = np.maximum(smooth, 2 * _late_cells(run, history))
     parts = np.where(kinds.of_spots, SPOT_RIM_CELLS, smooth_or_late)
     if min(straight_ends(run)) < np.inf:
@@ -138,7 +158,17 @@ def _least_body_extent_bar(run: RunSetup, axis: int, kinds: ContactKinds) -> Arr
     return np.asarray(np.where(uncertain, LAST_CELLS * run.grid.cell_size[axis], 0.0))
 
 
-def _least_area_bar(run: RunSetup, kinds: ContactKinds, history: History) -> Array:
+def _least_rim_area(run: RunSetup, kinds: ContactKinds, history: History) -> Array:
+    """Least error of the area where the rim is steep, or curved within long cells [m²]."""
+    across, along = np.maximum(history["cells_across"], 1.0), _cells_along(run, history)
+    smooth = LEAST_AREA_ERROR / across**2
+    steep = np.where(kinds.steep, STEEP_AREA_ERROR / across, 0.0)
+    long = float(np.log(run.grid.cell_size[0] / run.grid.cell_size[1])) ** 2
+    relative = np.maximum(smooth, np.maximum(steep, LONG_CELLS_AREA * long / (along * across)))
+    return np.asarray(relative * history["contact_area"])
+
+
+def _least_end_area(run: RunSetup, kinds: ContactKinds, history: History) -> Array:
     """Cells at straight ends in which the contact becomes wider, or ends before the body [m²]."""
     if min(straight_ends(run)) == np.inf:
         return np.zeros(len(kinds.at_end))
@@ -166,8 +196,17 @@ def _least_moment_bar(run: RunSetup, name: str, history: History) -> Array:
 def _least_bulk_bar(run: RunSetup, name: str, kinds: ContactKinds, history: History) -> Array:
     """Usual errors on the cells across the contact, or along it where it reaches the end."""
     across = history["cells_across"]
-    relative = np.where(across > 0, LEAST_ERRORS[name] / np.maximum(across, 1.0) ** 2, 0.0)
+    least = LEAST_ERRORS[name] + (LONG_CONTACT * _slenderness(history) if name == "approach" else 0)
+    relative = np.where(across > 0, least / np.maximum(across, 1.0) ** 2, 0.0)
     longest = np.fmax.accumulate(_cells_along(run, history))
     curved = kinds.ended & (min(straight_ends(run)) == np.inf)
     at_end = np.where(curved, LEAST_END_ERROR / longest, 0.0)
     return np.asarray(np.maximum(relative, at_end) * np.abs(history[name]))
+
+
+def _slenderness(history: History) -> Array:
+    """Logarithm of the contact's longer extent over its shorter one; 0 without contact."""
+    length, width = (np.nan_to_num(history[name]) for name in EXTENTS)
+    touching = (length > 0) & (width > 0)
+    ratio = np.divide(length, width, out=np.ones_like(length), where=touching)
+    return np.abs(np.log(ratio))

@@ -17,6 +17,12 @@ Array = NDArray[np.float64]
 #: where a law creeps within the first quarter.
 DIVIDED_STEP_FACTOR = 1.25
 
+#: Part of an estimated time error of the pressure, above a large one, by which the scalars err at
+#: least: halved steps may change little where all of them are long. The estimate is usually several
+#: times too large. At instants that coarser runs leave out, such as the last one before the contact
+#: is lost, it counts in full.
+LARGE_TIME_ERROR, PART_OF_LARGE = 0.2, 0.3
+
 
 @dataclass(frozen=True, eq=False)
 class RefinementLevels:
@@ -36,8 +42,9 @@ class RefinementLevels:
         for divided in (each for each in results if each.divides_steps):
             for grid, row in zip(grids, rows[1:], strict=True):
                 if grid.spacing == divided.spacing:
-                    difference = np.abs(row - aligned(name, times, divided))
-                    by_steps = DIVIDED_STEP_FACTOR * difference
+                    by_steps = DIVIDED_STEP_FACTOR * np.abs(row - aligned(name, times, divided))
+        large = np.fmax(history["time_error"] - LARGE_TIME_ERROR, 0.0) * np.abs(own)
+        by_steps = np.where(np.isnan(by_steps), large, np.maximum(by_steps, PART_OF_LARGE * large))
         return cls((1.0, *(each.spacing for each in grids)), rows, by_steps)
 
     def by_cells(self, order: float) -> Array:
@@ -116,6 +123,21 @@ def moving_maximum(values: NDArray[Any], reach: int = WINDOW_STEPS) -> Array:
     array([1., 5., 5., 5., 2.])
     """
     return np.asarray(np.fmax.reduce(_windows(values, reach), axis=1))
+
+
+def between_known(values: Array) -> Array:
+    """Larger one of the nearest known values on both sides; NaN where one of them is unknown.
+
+    Examples
+    --------
+    >>> between_known(np.array([1.0, np.nan, 5.0, 2.0, np.nan]))
+    array([ 1.,  5.,  5.,  2., nan])
+    """
+    places = np.arange(len(values))
+    known = ~np.isnan(values)
+    before = np.maximum.accumulate(np.where(known, places, 0))
+    after = np.minimum.accumulate(np.where(known, places, len(values) - 1)[::-1])[::-1]
+    return np.maximum(values[before], values[after])
 
 
 def moving_minimum(values: NDArray[Any]) -> Array:
