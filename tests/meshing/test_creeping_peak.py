@@ -115,6 +115,18 @@ def test_tighter_tolerance_gives_more_cells_on_a_relaxing_body():
     assert (np.array(errors) <= (0.05, 0.02, 0.01, 0.005)).all()
 
 
+def test_cells_resolve_the_ring_along_the_edges_that_move(monkeypatch):
+    """The contact of a roller grows in width; its length is the roller's, but for the crowns."""
+    roller, load = vc.Roller(5e-3, 9.565e-3, 75e-3), vc.ramp(1000.0, 2.0)
+    nx, ny = chosen(relaxing(10.0), load, 20.0, indenter=roller).grid.shape
+    turned = chosen(relaxing(10.0), load, 20.0, indenter=roller.rotated(math.pi / 2))
+    assert turned.grid.shape == (ny, nx)
+    monkeypatch.setattr(mesh_choice, "contact_growth", lambda *_: None)
+    elastic_x, elastic_y = chosen(relaxing(10.0), load, 20.0, indenter=roller).grid.shape
+    assert nx == elastic_x
+    assert ny > 1.5 * elastic_y
+
+
 def test_ring_that_cells_cannot_resolve_is_reported_with_the_error():
     mesh = chosen(relaxing(100.0), vc.step(10.0), 300.0)
     assert mesh.errors["peak_pressure"] > 0.03
