@@ -163,6 +163,22 @@ def test_moved_map_moves_its_pressure():
         assert getattr(there, name) == pytest.approx(getattr(here, name), rel=1e-7)
 
 
+def test_waves_and_their_period_may_lie_anywhere():
+    body = vc.Material(vc.Zener(1e6, 5e5, 1e6), 0.5)
+    waves, place = vc.Waviness(1e-6, wavelength_x=1e-3), (3e-4, -2e-3)
+    one, other = (
+        vc.simulate(shape, body, vc.step(0.5), period, [0.0, 1.0], tolerance=1e-9)
+        for shape, period in (
+            (waves, vc.Grid((64, 8), (1e-3, 1e-3), periodic=True)),
+            (waves.shifted(*place), vc.Grid((64, 8), (1e-3, 1e-3), periodic=True, centre=place)),
+        )
+    )
+    for name in ("pressure", "approach", "contact_length", "peak_pressure", "approach_error"):
+        largest = float(abs(one[name]).max())
+        assert other[name].values == pytest.approx(one[name].values, abs=1e-6 * largest), name
+        assert largest > 0
+
+
 def test_ball_far_from_its_images_is_alone():
     """In a period of ten contact radii and more the pressure tends to that of a free half-space.
 
