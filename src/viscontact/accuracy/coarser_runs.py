@@ -93,7 +93,8 @@ def plan_coarser_runs(run: RunSetup, history: History) -> Iterator[CoarserRun]:
     creeping = creeps(run.problem.compliance, times)
     divides = creeping and not _has_small_time_error(history)
     step_ratios = _step_ratios(len(own), divides=divides)
-    spacings = _spacings(float(history["cells_across"].max(initial=0.0)), _is_symmetric(run))
+    across = float(history["cells_across"].max(initial=0.0))
+    spacings = _spacings(across, symmetric=_is_symmetric(run))
     levels = list(zip(spacings, step_ratios, strict=True))
     for spacing, step_ratio in reversed(levels):
         yield _coarser_run(run, *spacing, step_ratio, fewer_times(times, load.stops, step_ratio))
@@ -187,20 +188,21 @@ def history_of(states: Sequence[ContactState]) -> History:
 
 
 def _is_symmetric(run: RunSetup) -> bool:
-    """Test whether the body mirrors itself on an even number of cells along x and y.
-
-    Only a quarter of the cells is solved then, on coarser grids as well if their numbers are even.
-    """
+    """Test whether the body mirrors itself on an even number of cells along x and y."""
     return is_even(run.open_gap, 0) and is_even(run.open_gap, 1)
 
 
-def _spacings(across: float, keeps_parity: bool) -> tuple[tuple[float, bool], ...]:
-    """Ratios of cells, closer to 1 if the run has few cells across its contact."""
+def _spacings(across: float, *, symmetric: bool) -> tuple[tuple[float, bool], ...]:
+    """Ratios of cells, closer to 1 if the run has few cells across its contact.
+
+    Of a symmetric run only a quarter of the cells is solved, also on a coarser grid that keeps the
+    parity: the larger one does.
+    """
     coarsest = CELL_RATIOS[-1][0]
     most = min(coarsest, max(across / MIN_ACROSS, MIN_COARSENING))
     closer = (most - 1) / (coarsest - 1)
     return tuple(
-        (1 + (spacing - 1) * closer, parity or keeps_parity) for spacing, parity in CELL_RATIOS
+        (1 + (spacing - 1) * closer, parity != symmetric) for spacing, parity in CELL_RATIOS
     )
 
 

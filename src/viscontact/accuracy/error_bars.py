@@ -179,9 +179,10 @@ def _bar(
         by_cells = np.where(kinds.steep, model.steep.of(levels), by_cells)
     if model.of_spots is not None:
         by_cells = np.where(kinds.of_spots, model.of_spots.of(levels), by_cells)
-    relative = _around(_over(by_cells, scale)) + np.nan_to_num(
-        _around(_over(levels.by_steps, scale))
-    )
+    # The relative error from the cells falls with their number in a growing contact.
+    cells = np.maximum(history["contact_area"] / run.grid.cell_area, 1.0)
+    relative = _around(cells * _over(by_cells, scale)) / cells
+    relative += np.nan_to_num(_around(_over(levels.by_steps, scale)))
     relative += SOLVER_ERROR_FACTOR * run.problem.tolerance + run.hereditary.error
     bar = (relative + run.problem.compliance.inversion_error) * scale
     bar = np.maximum(bar, least_bar(run, name, kinds, history, by_cells))

@@ -19,10 +19,10 @@ SOLVER_ERROR_FACTOR = 3.0
 #: Smallest error of extents in cells, however well two grids agree; with spots of few cells; at a
 #: straight end; at a sharp one, towards which the contact widens without a limit; and where
 #: the contact may end in the last cells of the body.
-RIM_CELLS, SPOT_RIM_CELLS, END_RIM_CELLS, SHARP_RIM_CELLS, LAST_CELLS = 0.05, 1.0, 1.5, 3.5, 1.5
+RIM_CELLS, SPOT_RIM_CELLS, END_RIM_CELLS, SHARP_RIM_CELLS, LAST_CELLS = 0.045, 1.0, 1.5, 3.5, 1.5
 
 #: Cells across the contact at which the first of them is twice as large, as its rim is curved.
-FEW_CELLS = 10.0
+FEW_CELLS = 9.0
 
 #: Least relative error of the area, times the square of the cells across; and times these cells
 #: where the pressure is largest near the rim.
@@ -31,16 +31,16 @@ LEAST_AREA_ERROR, STEEP_AREA_ERROR = 0.2, 0.05
 #: Relative difference below which all grids agree on an extent: it is that of the body.
 AGREEMENT_TOLERANCE = 1e-6
 
-#: Growth of the smallest error of extents in cells with the logarithm of a cell's length over its
-#: breadth, as the rim is curved within a long cell; and least relative error of the area over its
-#: square, times the cells along and across. Hertz's ellipses on cells as slender as they are too
-#: short by 0.2 cells if 10 times as long as wide, by 0.35, at most 0.55 cells at 30 times.
-LONG_CELLS, LONG_CELLS_AREA = 0.15, 0.35
+#: Error of the extents in cells, and relative error of the area times the cells along and across,
+#: where the tip of a slender contact is curved within a cell: they grow with L and L², where
+#: L = ln(1 + 2 cell/radius of the tip). Hertz's ellipses on cells as slender as they are too short
+#: by 0.2 cells if 10 times as long as wide, by 0.35, at most 0.55 cells at 30 times.
+TIP_CELLS, TIP_AREA = 0.1, 0.3
 
-#: Where a contact on a creeping body has shrunk by less than LATE_CELLS since it last grew, the
-#: surface that it left is still almost closed and its rim is found too far outside. Least error of
-#: the rim over the way that it has moved, and its largest value in cells: balls under forces err
-#: by 0.02 cells in the median, 9 of 10 by less than 0.2.
+#: Where a contact on a creeping body has shrunk by less than LATE_CELLS since it last grew, or is
+#: that much smaller than it has been, the surface that it left is still almost closed and its rim
+#: is found too far outside. Least error of the rim over the way that it has moved, and its largest
+#: value in cells: balls under forces err by 0.02 cells in the median, 9 of 10 by less than 0.2.
 LATE_PART, LATE_CELLS, MOST_LATE = 0.5, 2.0, 0.1
 
 #: Extents of the contact along x and y, and scalars that follow from the moments.
@@ -49,7 +49,7 @@ MOMENTS = ("eccentricity_x", "eccentricity_y", "tilt_x", "tilt_y")
 
 #: Least relative error of scalars, times the square of the cells across the contact: the approach
 #: of a ball is too small by 0.14 +- 0.04, at most by 0.23, with the place of the rim in its cells.
-LEAST_ERRORS = {"approach": 0.25, "force": 0.3, "work": 0.2, "loss_per_cycle": 0.3}
+LEAST_ERRORS = {"approach": 0.25, "force": 0.3, "work": 0.15, "loss_per_cycle": 0.25}
 
 #: Growth of the first of these with the logarithm of a contact's length over its width: Hertz's
 #: ellipses err by 0.15 in the mean, at most by 0.8.
@@ -67,6 +67,9 @@ LEAST_END_AREA_ERROR = 1.1
 #: Least error of a peak near the rim, in its drop to a neighbouring cell of a coarser grid; a
 #: smooth peak drops by much less than the second number.
 LEAST_PEAK_ERROR, SMOOTH_DROP = 0.2, 0.2
+
+#: Relative rounding of the area of a whole period.
+ROUNDING = 1e-9
 
 TINY = float(np.finfo(np.float64).tiny)
 
@@ -123,10 +126,9 @@ def least_peak_bar(kinds: ContactKinds, history: History) -> Array:
 
 def _least_extent_bar(run: RunSetup, axis: int, kinds: ContactKinds, history: History) -> Array:
     """Parts of a cell [m]."""
-    length, breadth = run.grid.cell_size[axis], run.grid.cell_size[1 - axis]
+    length = run.grid.cell_size[axis]
     few = 1 + (FEW_CELLS / np.maximum(history["cells_across"], 1.0)) ** 2
-    long = max(float(np.log(length / breadth)), 0.0)
-    smooth = RIM_CELLS * few + LONG_CELLS * long
+    smooth = RIM_CELLS * few + TIP_CELLS * _tip_curvature(run, history)[axis]
     smooth_or_late = np.maximum(smooth, 2 * _late_cells(run, history))
     parts = np.where(kinds.of_spots, SPOT_RIM_CELLS, smooth_or_late)
     if min(straight_ends(run)) < np.inf:
@@ -135,21 +137,42 @@ def _least_extent_bar(run: RunSetup, axis: int, kinds: ContactKinds, history: Hi
     return np.asarray(parts * length)
 
 
+def _tip_curvature(run: RunSetup, history: History) -> Array:
+    """Logarithm of the cells along x, y over the radius of a slender contact's tip; (2, times).
+
+    The contact counts as an ellipse, whose tip at the end of its half axis a has the radius b²/a.
+    It is smaller along an axis along which the contact is shorter.
+    """
+    extents = np.array([np.nan_to_num(history[name]) for name in EXTENTS])
+    touching = (history["contact_area"] > 0) & (extents > 0).all(axis=0)
+    longest = np.where(touching, extents.max(axis=0), 1.0)
+    breadth = np.where(touching, history["contact_area"] / (np.pi * longest / 2), 1.0)
+    cells = np.array(run.grid.cell_size)[:, None] * longest / 2 / breadth**2
+    return np.asarray(np.where(touching, np.log1p(2 * cells) * (extents / longest) ** 2, 0.0))
+
+
 def _late_cells(run: RunSetup, history: History) -> Array:
     """Least error of the rim of a shrinking contact, in cells."""
-    radius = np.sqrt(history["contact_area"] / (np.pi * run.grid.cell_area))
+    radius = _half_breadth(run, history)
     if not creeps(run.problem.compliance, history["time"]):
         return np.zeros_like(radius)
     grows = np.diff(radius, prepend=0.0) > 0
     last = np.maximum.accumulate(np.where(grows, np.arange(len(radius)), 0))
-    way = radius[last] - radius
-    return np.where(way < LATE_CELLS, np.minimum(LATE_PART * way, MOST_LATE), 0.0)
+    ways = np.stack([radius[last] - radius, np.maximum.accumulate(radius) - radius])
+    late = np.where(ways < LATE_CELLS, np.minimum(LATE_PART * ways, MOST_LATE), 0.0)
+    return np.asarray(late.max(axis=0))
 
 
 def _late_area(run: RunSetup, history: History) -> Array:
     """Least error of the area of a shrinking contact [m²]."""
-    girth = 2 * np.sqrt(np.pi * history["contact_area"] * run.grid.cell_area)
-    return np.asarray(girth * _late_cells(run, history))
+    girth = np.pi * (_cells_along(run, history) / 2 + _half_breadth(run, history))
+    return np.asarray(girth * _late_cells(run, history) * run.grid.cell_area)
+
+
+def _half_breadth(run: RunSetup, history: History) -> Array:
+    """Shorter half axis of the contact as an ellipse, in cells."""
+    cells = history["contact_area"] / run.grid.cell_area
+    return np.asarray(cells / (np.pi / 2 * _cells_along(run, history)))
 
 
 def _least_body_extent_bar(run: RunSetup, axis: int, kinds: ContactKinds) -> Array:
@@ -160,11 +183,11 @@ def _least_body_extent_bar(run: RunSetup, axis: int, kinds: ContactKinds) -> Arr
 
 def _least_rim_area(run: RunSetup, kinds: ContactKinds, history: History) -> Array:
     """Least error of the area where the rim is steep, or curved within long cells [m²]."""
-    across, along = np.maximum(history["cells_across"], 1.0), _cells_along(run, history)
+    across, along = np.maximum(_cells_across(run, history), 1.0), _cells_along(run, history)
     smooth = LEAST_AREA_ERROR / across**2
     steep = np.where(kinds.steep, STEEP_AREA_ERROR / across, 0.0)
-    long = float(np.log(run.grid.cell_size[0] / run.grid.cell_size[1])) ** 2
-    relative = np.maximum(smooth, np.maximum(steep, LONG_CELLS_AREA * long / (along * across)))
+    tip = TIP_AREA * _tip_curvature(run, history).max(axis=0) ** 2 / (along * across)
+    relative = np.maximum(smooth, np.maximum(steep, tip))
     return np.asarray(relative * history["contact_area"])
 
 
@@ -175,6 +198,12 @@ def _least_end_area(run: RunSetup, kinds: ContactKinds, history: History) -> Arr
     uncertain = kinds.at_end & ~kinds.rises.all(axis=0)
     relative = LEAST_END_AREA_ERROR / _cells_along(run, history)
     return np.asarray(np.where(uncertain, relative * history["contact_area"], 0.0))
+
+
+def _cells_across(run: RunSetup, history: History) -> Array:
+    """Cells across the contact, infinite where a whole period is in contact: it has no rim."""
+    covered = history["contact_area"] > (1 - ROUNDING) * run.grid.area
+    return np.where(run.grid.periodic & covered, np.inf, history["cells_across"])
 
 
 def _cells_along(run: RunSetup, history: History) -> Array:
@@ -195,7 +224,7 @@ def _least_moment_bar(run: RunSetup, name: str, history: History) -> Array:
 
 def _least_bulk_bar(run: RunSetup, name: str, kinds: ContactKinds, history: History) -> Array:
     """Usual errors on the cells across the contact, or along it where it reaches the end."""
-    across = history["cells_across"]
+    across = _cells_across(run, history)
     least = LEAST_ERRORS[name] + (LONG_CONTACT * _slenderness(history) if name == "approach" else 0)
     relative = np.where(across > 0, least / np.maximum(across, 1.0) ** 2, 0.0)
     longest = np.fmax.accumulate(_cells_along(run, history))

@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 
 #: Error over the difference from quarters of the steps: 16/15 at second order, 4/3 at first, more
 #: where a law creeps within the first quarter.
-DIVIDED_STEP_FACTOR = 1.25
+DIVIDED_STEP_FACTOR = 1.2
 
 #: Part of an estimated time error of the pressure, above a large one, by which the scalars err at
 #: least: halved steps may change little where all of them are long. The estimate is usually several
