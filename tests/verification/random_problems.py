@@ -1,7 +1,7 @@
 """Small contact problems of every kind, in units from nanometres to kilometres."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -34,9 +34,10 @@ def random_problem(seed):
     load = _load(rng, force, reach, duration)
     shape = (int(rng.integers(32, 65)), int(rng.integers(32, 65)))
     if size is None:
-        # Only how large it is: as coarse as it may be.
+        # Only its size and place: as coarse as it may be.
         wish = {"tolerance": 0.5, "quantities": ["approach"]}
-        size = vc.auto_grid(indenter, material, load, end=float(times[-1]), **wish).size
+        chosen = vc.auto_grid(indenter, material, load, end=float(times[-1]), **wish)
+        return Problem(indenter, material, load, replace(chosen, shape=shape), times)
     return Problem(indenter, material, load, vc.Grid(shape, size), times)
 
 
