@@ -123,8 +123,8 @@ def report(records: Sequence[dict[str, Any]]) -> list[str]:
 
 
 #: Least part within, overall and in every family and quantity; largest parts beyond three bars, in
-#: all and without a warning that names a reason; largest median of bar over error.
-WITHIN, WITHIN_EACH, BEYOND_THREE, SILENT, MEDIAN = 0.95, 0.93, 0.005, 0.0, 5.0
+#: all and without a warning that names a reason (meant is 0); largest median of bar over error.
+WITHIN, WITHIN_EACH, BEYOND_THREE, SILENT, MEDIAN = 0.95, 0.93, 0.005, 0.001, 5.0
 
 #: Least number of values of which a part within is judged.
 FEWEST = 40

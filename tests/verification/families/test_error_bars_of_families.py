@@ -1,9 +1,10 @@
 """Error bars against independent truths, over random families of bodies, laws, loads and meshes.
 
 The promise of `error_bars`: 95 of 100 errors are smaller than their bar, in every family and
-quantity about as many; at most 5 in 1000 are larger than three bars, and these have a warning that
-names the reason; half of the bars are less than five times the error. Families and seeds on which
-factors were chosen are reported apart from those that were left out of every choice (`drawn.py`).
+quantity about as many; at most 5 in 1000 are larger than three bars, nearly all of them with a
+warning that names the reason; half of the bars are less than five times the error. Families and
+seeds on which factors were chosen are reported apart from those that were left out of every choice
+(`drawn.py`).
 """
 
 import numpy as np
@@ -42,7 +43,8 @@ def test_bars_hold_in_families_that_were_used_to_choose_factors(campaign) -> Non
 
 @pytest.mark.slow
 def test_bars_hold_in_families_that_were_held_out(campaign) -> None:
-    records = solved(300, 40 * len(HELD_OUT), HELD_OUT)
+    """A seed that was not looked at when limits of the bars were set."""
+    records = solved(301, 40 * len(HELD_OUT), HELD_OUT)
     for each in report(records):
         campaign(f"held-out families, {each}")
     assert shortfalls(values_of(records)) == []
