@@ -123,3 +123,43 @@ def test_line_that_found_no_room_is_taken_back(tmp_path: Path) -> None:
             assert log.count == 1
         log.append(state(1))
     assert lines_of(path) == [entries(state(0)), entries(state(1))]
+
+
+def test_finished_log_holds_the_errors_of_each_instant(tmp_path: Path) -> None:
+    path = tmp_path / "progress.jsonl"
+    with ProgressLog(path) as log:
+        for row in range(3):
+            log.append(state(row), (row + 1) / 3)
+        bars = {
+            "force": np.array([0.1, np.nan, np.inf]),
+            "approach": np.array([1 / 3, 0.0, 5e-324]),
+        }
+        for _ in range(2):  # a run that is killed at its end finishes again
+            log.finish(bars)
+            lines = lines_of(path)
+            assert [line.pop("force_error") for line in lines] == [0.1, None, "inf"]
+            assert [line.pop("approach_error") for line in lines] == [1 / 3, 0.0, 5e-324]
+            assert [line.pop("part") for line in lines] == [1 / 3, 2 / 3, 1.0]
+            assert [line.pop("complete", False) for line in lines] == [False, False, True]
+            assert lines == [entries(state(row)) for row in range(3)]
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_log_that_cannot_be_finished_keeps_its_lines(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "progress.jsonl"
+    with ProgressLog(path) as log:
+        log.append(state(0))
+        before = path.read_bytes()
+
+        def fail(path: Path) -> None:
+            raise OSError(errno.ENOSPC, "No space left on device")
+
+        monkeypatch.setattr("viscontact.runs.directory.progress_log.flush_to_disk", fail)
+        with pytest.raises(OSError, match="No space"):
+            log.finish()
+        assert path.read_bytes() == before
+        log.append(state(1))
+    assert len(lines_of(path)) == 2
+    assert list(tmp_path.iterdir()) == [path]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import errno
 import io
+import json
 import os
 import shutil
 import stat
@@ -402,3 +403,17 @@ def test_fields_beyond_single_precision_are_stored_in_double(
     with xr.open_dataset(tmp_path / RESULT_NAME) as ds:
         assert ds["pressure"].dtype == np.dtype(kind)
         assert float(ds["pressure"].max()) > 0
+
+
+def test_log_of_a_finished_run_equals_its_result(tmp_path: Path) -> None:
+    record = Recorder(RecordedRun(tmp_path, sphere_run(count=4), "none", errors=True))
+    for _ in record.steps():
+        pass
+    record.finish(record.estimate_errors())
+    lines = [json.loads(line) for line in (tmp_path / PROGRESS_NAME).read_text().splitlines()]
+    with xr.open_dataset(tmp_path / RESULT_NAME) as ds:
+        for name in ("time", "approach", "approach_error", "peak_pressure_error"):
+            logged = np.array([line[name] for line in lines], dtype=np.float64)
+            assert logged.tobytes() == ds[name].values.tobytes()
+    assert [line["part"] for line in lines] == [0.25, 0.5, 0.75, 1.0]
+    assert lines[-1]["complete"]

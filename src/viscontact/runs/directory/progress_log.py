@@ -5,12 +5,17 @@ from __future__ import annotations
 import json
 import math
 import os
-from contextlib import AbstractContextManager
+from collections.abc import Mapping
+from contextlib import AbstractContextManager, nullcontext, suppress
 from itertools import islice
 from pathlib import Path
 from typing import Any, Self
 
-from viscontact.results.variables import SCALARS
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.results.variables import SCALARS, error_name
+from viscontact.runs.directory.atomic_files import MAY_BE_HELD, flush_to_disk, fresh_name
 from viscontact.runs.directory.checkpoint import REMEDY
 from viscontact.state import ContactState, Outcome
 
@@ -22,10 +27,11 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
     r"""A file with a line of JSON for each state.
 
     A line holds the instant, all scalars of the result in SI units by their names there, the
-    outcome by its name, and the warnings that are new at that instant. A value that is not finite,
-    such as the eccentricity without contact, is null. Numbers keep all their bits. A line is
-    written at once: when the process is killed, only the last line may be incomplete. `count` is
-    the number of lines; an existing file is replaced.
+    outcome by its name, the warnings that are new at that instant, and the finished part of the
+    run. A value that is not finite, such as the eccentricity without contact, is null. Numbers keep
+    all their bits. A line is written at once: when the process is killed, only the last line may be
+    incomplete. `finish` adds the errors of the scalars, "inf" for an infinite one, and marks the
+    last line as complete. `count` is the number of lines; an existing file is replaced.
 
     >>> import tempfile
     >>> import viscontact as vc
@@ -72,10 +78,13 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
         log._file.seek(sum(map(len, found)))
         return log
 
-    def append(self, state: ContactState) -> None:
-        """Write the line of the next state; OSError, and no line, if it cannot be written whole."""
-        line = json.dumps(_entries(state), allow_nan=False, ensure_ascii=False) + "\n"
-        encoded = line.encode()
+    def append(self, state: ContactState, part: float | None = None) -> None:
+        """Write the line of the next state, with the finished part of the run [-] if known.
+
+        OSError, and no line, if it cannot be written whole.
+        """
+        entries = _entries(state)
+        encoded = _encoded(entries if part is None else entries | {"part": part})
         begin = self._file.tell()
         self._file.truncate(begin)
         if self._file.write(encoded) != len(encoded):
@@ -90,6 +99,36 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
             self._write_anew()
         self._file.truncate(self._file.tell())  # lines beyond the state that was resumed
         os.fsync(self._file.fileno())
+
+    def finish(self, errors: Mapping[str, NDArray[np.float64]] | None = None) -> None:
+        """Add the errors of scalars over all lines, by their names, and mark the end of the run.
+
+        The file is replaced at once and durably; a program that holds it on Windows keeps it as
+        `flush_to_disk` leaves it.
+        """
+        self.flush_to_disk()
+        fresh = fresh_name(self._path)
+        fresh.unlink(missing_ok=True)
+        try:
+            with self._path.open("rb") as lines, fresh.open("xb") as file:
+                for row, line in enumerate(lines):
+                    entries = json.loads(line) | _errors(errors or {}, row)
+                    end = {"complete": True} if row == self.count - 1 else {}
+                    file.write(_encoded(entries | end))
+            flush_to_disk(fresh)
+            self._replace(fresh)
+        finally:
+            fresh.unlink(missing_ok=True)
+
+    def _replace(self, fresh: Path) -> None:
+        """Replace the file by a closed one, and continue with that."""
+        end = self._file.tell()
+        self._file.close()
+        with suppress(PermissionError) if MAY_BE_HELD else nullcontext():
+            fresh.replace(self._path)
+            end = self._path.stat().st_size
+        self._file = self._path.open("r+b", buffering=0)
+        self._file.seek(end)
 
     def _write_anew(self) -> None:
         self._file.seek(0)
@@ -132,3 +171,16 @@ def _entries(state: ContactState) -> dict[str, Any]:
         entries[name] = (int(number) if whole else number) if math.isfinite(number) else None
     outcome = Outcome(state.outcome).name.lower()
     return {**entries, "outcome": outcome, "warnings": list(state.warnings)}
+
+
+def _errors(errors: Mapping[str, NDArray[np.float64]], row: int) -> dict[str, float | str | None]:
+    """Errors of the scalars at an instant."""
+    values = {error_name(name): float(each[row]) for name, each in errors.items()}
+    return {
+        name: "inf" if math.isinf(value) else None if math.isnan(value) else value
+        for name, value in values.items()
+    }
+
+
+def _encoded(entries: Mapping[str, Any]) -> bytes:
+    return (json.dumps(entries, allow_nan=False, ensure_ascii=False) + "\n").encode()

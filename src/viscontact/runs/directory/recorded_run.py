@@ -138,7 +138,8 @@ def remove_restart_files(directory: Path) -> None:
     state = directory / STATE_NAME
     if is_checkpoint(state):
         state.unlink()
-    for file in (fresh_name(state), *working_files(directory / RESULT_NAME)):
+    fresh = (fresh_name(state), fresh_name(directory / PROGRESS_NAME))
+    for file in (*fresh, *working_files(directory / RESULT_NAME)):
         file.unlink(missing_ok=True)
 
 

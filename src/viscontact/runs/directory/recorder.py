@@ -157,8 +157,8 @@ class Recorder:
         """Publish the complete result, with its errors, and remove the restart state."""
         with self._undisturbed():
             if self._lines is not None:
-                # Without the state a line lost in a power cut could not be written again.
-                self._lines.flush_to_disk()
+                # Before the state is removed: a line lost in a power cut could not be repeated.
+                self._lines.finish(None if bars is None else bars.values)
             self._writer.finish(bars)
             self.shown = self._reached
             self.close()
@@ -186,8 +186,15 @@ class Recorder:
 
     def _write(self, state: ContactState) -> None:
         assert self._lines is not None  # begun
-        self._lines.append(state)
+        self._lines.append(state, self._part(state))
         self._writer.append(state)
+
+    def _part(self, state: ContactState) -> float:
+        """Finished part of the march: of the instants, or of the time where steps are adaptive."""
+        problem = self._recorded.run.problem
+        if problem.adaptive is None:
+            return min(self._march.done / len(problem.instants), 1.0)
+        return min(state.time / problem.end, 1.0) if problem.end > 0 else 0.0
 
     def _begin(self) -> None:
         """Take the directory over for this run, as late as possible: an earlier result stays."""
