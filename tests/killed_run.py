@@ -38,7 +38,10 @@ from viscontact.runs.directory import recorder
 from viscontact.simulation.setup import RunSetup, prepare_run
 
 SOURCES = Path(viscontact.__file__).parent
-WATCHED = (str(SOURCES / "runs" / "directory"), str(SOURCES / "cli" / "run" / "run_directory.py"))
+WATCHED = (
+    str(SOURCES / "runs" / "directory"),
+    str(SOURCES / "runs" / "execution" / "run_directory.py"),
+)
 #: Runs that are killed at a line, of each kind; the lines are spread evenly.
 KILLS = 30
 STEP = 6144  # by which the limit grows [bytes]

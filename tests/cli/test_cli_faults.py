@@ -428,7 +428,7 @@ def test_directory_that_cannot_be_written_to_is_refused(
         if call == "mkdir":
             patched.setattr(Path, "mkdir", refusing)
         elif call == "lock":
-            patched.setattr("viscontact.cli.run.run_directory.locked", locking)
+            patched.setattr("viscontact.runs.execution.run_directory.locked", locking)
         else:
             patched.setattr("viscontact.runs.directory.result_writer.created", refusing)
         assert main(["run", "case.yaml"]) == 2
@@ -446,7 +446,7 @@ def test_finished_run_on_a_disk_that_is_read_only_is_still_finished(
     def refusing(*arguments: Any, **options: Any) -> Any:
         raise OSError(errno.EROFS, "Read-only file system")
 
-    monkeypatch.setattr("viscontact.cli.run.run_directory.locked", refusing)
+    monkeypatch.setattr("viscontact.runs.execution.run_directory.locked", refusing)
     monkeypatch.setattr(Path, "unlink", refusing)
     assert main(["run", "case.yaml", "--resume"]) == 0
 

@@ -28,11 +28,12 @@ from interrupted_runs import (
     whole,
 )
 from viscontact.cli import main
-from viscontact.cli.run import checked_run, execution
+from viscontact.cli.run import execution
 from viscontact.cli.terminal.interruption import watched_interruption
 from viscontact.runs.directory import recorder
 from viscontact.runs.directory.lock import locked
 from viscontact.runs.directory.recorder import Recorder
+from viscontact.runs.execution import checked_run
 from viscontact.simulation import stepper
 
 __all__ = ["folder", "whole"]  # fixtures

@@ -95,7 +95,7 @@ def check(
     """Check a case, and estimate its size, its computing time and its results."""
     from viscontact.cli.results.figures import chosen_width
     from viscontact.cli.run.check import draw_body, print_forecast
-    from viscontact.cli.run.checked_run import prepare
+    from viscontact.runs.execution.checked_run import prepare
 
     if figure is not None and not plot:
         refuse(f"{figure}: a picture goes with --plot, as in: check {case} --plot {figure}")

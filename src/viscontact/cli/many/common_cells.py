@@ -17,10 +17,10 @@ import numpy as np
 
 from viscontact.case import CaseError, read_case
 from viscontact.case.document import read_document
-from viscontact.cli.run.checked_run import prepare
 from viscontact.cli.terminal.messages import CommandError, say
 from viscontact.run_files import CASE_NAME
 from viscontact.runs import resources
+from viscontact.runs.execution.checked_run import prepare
 from viscontact.runs.free_memory import available_memory
 from viscontact.runs.processes.request import RunRequest
 from viscontact.simulation.setup import RunSetup

@@ -11,12 +11,12 @@ from pathlib import Path
 
 from viscontact.cli.many.common_cells import with_common_cells
 from viscontact.cli.many.variations import as_typed, key_of, variations
-from viscontact.cli.run.checked_run import checked_run
-from viscontact.cli.run.run_directory import chosen_directory
 from viscontact.cli.terminal.messages import CommandError, refuse
 from viscontact.run_files import LOCK_NAME
 from viscontact.runs import resources
 from viscontact.runs.directory.lock import DirectoryInUse, locked
+from viscontact.runs.execution.checked_run import checked_run
+from viscontact.runs.execution.run_directory import chosen_directory
 from viscontact.runs.free_memory import available_memory
 from viscontact.runs.processes.job import Job
 from viscontact.runs.processes.request import RunRequest, command, no_option

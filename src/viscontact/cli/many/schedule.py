@@ -11,10 +11,10 @@ from viscontact.cli.many.jobs import ManyRequest, checked_jobs, fitting, resourc
 from viscontact.cli.many.progress import RunsDisplay, shown_runs
 from viscontact.cli.many.table import print_table
 from viscontact.cli.many.variations import as_typed
-from viscontact.cli.run.execution import before_the_first_step, remove_leftovers
 from viscontact.cli.terminal.interruption import Interruption, watched_interruption
 from viscontact.cli.terminal.messages import DONE, INTERRUPTED, STOPPED, refuse, say, stop
 from viscontact.cli.terminal.streams import printing, unwritten
+from viscontact.runs.execution.execution import before_the_first_step, remove_leftovers
 from viscontact.runs.processes.child import Child, Ended
 from viscontact.runs.processes.job import Job, Standing
 

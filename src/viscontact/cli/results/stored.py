@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
@@ -15,9 +15,9 @@ from viscontact.results.recorded_case import case_of
 from viscontact.results.variables import REQUIRED, SCALARS
 from viscontact.run_files import CASE_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.lock import is_locked
+from viscontact.runs.execution.checked_run import progress_made
 from viscontact.runs.processes.request import RunRequest
 from viscontact.state import Outcome
-from viscontact.units.formatting import format_quantity
 
 
 @contextmanager
@@ -59,26 +59,6 @@ def early_end(ds: xr.Dataset) -> str:
         return f"the run is still active, at {made}"
     failed = int(ds["outcome"][-1]) == Outcome.NOT_CONVERGED  # would fail again
     return f"the run stopped at {made}{'' if failed or directory is None else _remedy(directory)}"
-
-
-def progress_made(
-    done: int, reached: float | None, times: Sequence[float], adaptive: object
-) -> str:
-    """Describe the progress of a run, with times in seconds.
-
-    Examples
-    --------
-    >>> progress_made(2, 1.0, [0.0, 1.0, 2.0], adaptive=None)
-    '2 of 3 instants'
-    """
-    if adaptive is None:
-        return f"{done} of {len(times)} instants"
-    if reached is None:
-        return "0 instants"
-    return (
-        f"{done} instants, up to t = {format_quantity(reached, 's')} of "
-        f"{format_quantity(times[-1], 's')}"
-    )
 
 
 def _run_directory(ds: xr.Dataset) -> Path | None:

@@ -1,7 +1,4 @@
-"""Requests to stop: the first lets the current step be finished, the second stops at once.
-
-Ctrl-C, SIGTERM, SIGHUP and Ctrl-Break all count as requests.
-"""
+"""Requests to stop by Ctrl-C, SIGTERM, SIGHUP and Ctrl-Break."""
 
 from __future__ import annotations
 
@@ -17,6 +14,7 @@ from typing import Any
 
 from viscontact.cli.terminal.messages import say
 from viscontact.cli.terminal.streams import discard
+from viscontact.runs.execution.stop_requests import StopRequests
 
 #: Ctrl-C, SIGTERM of batch systems, a closed terminal and Ctrl-Break, where they exist.
 _SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK")
@@ -26,47 +24,15 @@ _SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK")
 _ONE_REQUEST = 2.0
 
 
-class Interruption:
-    """State of the requests to stop.
-
-    `requested`: stop after this step; `seen`: a signal has arrived; `over`: the work is done, and
-    further requests have no effect.
-    """
+class Interruption(StopRequests):
+    """Requests to stop by signals; `seen`: a signal has arrived."""
 
     def __init__(self) -> None:
-        self.requested = False
+        super().__init__()
         self.seen = False
-        self.over = False
-        self._marching = False
-        self._postponed = 0
-        self._pending = False
         self._requested_at = -math.inf
         # A stream that is not a terminal, such as a log file, stays open when the terminal closes.
         self._on_terminal = [name for name in ("stdout", "stderr") if getattr(sys, name).isatty()]
-
-    @contextmanager
-    def marching(self) -> Iterator[None]:
-        """Within the block, the first request lets the step be finished."""
-        self._marching = True
-        try:
-            yield
-        finally:
-            self._marching = False
-
-    @contextmanager
-    def postponed(self) -> Iterator[None]:
-        """Within the block, a request to stop at once waits until its end."""
-        self._postponed += 1
-        try:
-            yield
-        except BaseException:
-            self._pending = False  # the error ends the command in any case
-            raise
-        finally:
-            self._postponed -= 1
-        if self._pending and not self._postponed:
-            self._pending = False
-            raise KeyboardInterrupt
 
     def handle(self, number: int, frame: FrameType | None) -> None:
         """Handle a signal: note the first request, and raise KeyboardInterrupt on the second."""
@@ -79,13 +45,8 @@ class Interruption:
         if again and number != signal.SIGINT:
             return
         self._requested_at = clock.monotonic()
-        if self._marching and not self.requested:
-            self.requested = True
+        if self.request():
             _notice("stopping after this step; once more to stop now")
-        elif self._postponed:
-            self._pending = True
-        else:
-            raise KeyboardInterrupt
 
     def _leave_terminal(self) -> None:
         """Discard further output to a terminal that has been closed."""

@@ -10,12 +10,16 @@ from typing import Any, NoReturn
 from viscontact.case import Case, CaseError
 from viscontact.case.document import read_document
 from viscontact.case.yaml_source import parse
-from viscontact.cli.run.run_directory import is_of_a_run, refuse_no_directory, refuse_occupied
-from viscontact.cli.terminal.messages import refuse
 from viscontact.run_files import CASE_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.differences import Difference, differences
 from viscontact.runs.directory.recorded_run import RecordedRun
 from viscontact.runs.directory.stored_result import StoredRun, stored_run
+from viscontact.runs.ending import refuse
+from viscontact.runs.execution.run_directory import (
+    is_of_a_run,
+    refuse_no_directory,
+    refuse_occupied,
+)
 from viscontact.runs.processes.job import Standing
 from viscontact.runs.processes.request import RunRequest
 from viscontact.units.dimensions import DIMENSIONS

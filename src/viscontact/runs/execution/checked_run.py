@@ -8,15 +8,15 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from viscontact.case import CaseError, read_case
-from viscontact.cli.results.stored import progress_made
-from viscontact.cli.run.resuming import standing
-from viscontact.cli.run.run_directory import chosen_directory
-from viscontact.cli.terminal.messages import refuse, say
 from viscontact.run_files import CASE_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.recorded_run import RecordedRun
+from viscontact.runs.ending import refuse
+from viscontact.runs.execution.resuming import standing
+from viscontact.runs.execution.run_directory import chosen_directory
 from viscontact.runs.preparation import PreparedRun, prepared
 from viscontact.runs.processes.job import Standing
 from viscontact.runs.processes.request import RunRequest
+from viscontact.units.formatting import format_quantity
 
 
 @dataclass(frozen=True)
@@ -30,11 +30,6 @@ class CheckedRun:
     def standing(self) -> Standing:
         """Return whether the run is new, stopped or finished; refuse it in all other cases."""
         return standing(self.request, self.recorded, self.prepared.case)
-
-    def say(self, line: str) -> None:
-        """Print a line on stderr, unless the run is quiet."""
-        if not self.request.quiet:
-            say(line)
 
     def made(self, instants: int, reached: float | None) -> str:
         """Describe the progress of the run, up to the instant reached [s]."""
@@ -57,6 +52,26 @@ def prepare(path: Path, settings: Sequence[str], threads: int = 1) -> PreparedRu
         return prepared(read_case(path, settings), threads)
     except CaseError as error:
         refuse(*error.problems)
+
+
+def progress_made(
+    done: int, reached: float | None, times: Sequence[float], adaptive: object
+) -> str:
+    """Describe the progress of a run, with times in seconds.
+
+    Examples
+    --------
+    >>> progress_made(2, 1.0, [0.0, 1.0, 2.0], adaptive=None)
+    '2 of 3 instants'
+    """
+    if adaptive is None:
+        return f"{done} of {len(times)} instants"
+    if reached is None:
+        return "0 instants"
+    return (
+        f"{done} instants, up to t = {format_quantity(reached, 's')} of "
+        f"{format_quantity(times[-1], 's')}"
+    )
 
 
 def _directory(request: RunRequest) -> Path:

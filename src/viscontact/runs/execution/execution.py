@@ -1,0 +1,213 @@
+"""Execution of a run, from its case file to its run directory."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, ExitStack, closing, contextmanager, suppress
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+from viscontact.errors import ConvergenceError, DomainError
+from viscontact.run_files import RESULT_NAME, STATE_NAME
+from viscontact.runs.directory.lock import DirectoryInUse, locked
+from viscontact.runs.directory.recorded_run import ChangedCaseError, remove_restart_files
+from viscontact.runs.directory.recorder import Recorder, Undisturbed
+from viscontact.runs.ending import refuse, stop
+from viscontact.runs.execution.checked_run import CheckedRun, checked_run
+from viscontact.runs.execution.resuming import refuse_changed
+from viscontact.runs.execution.run_directory import reserved, write_case
+from viscontact.runs.execution.stop_requests import StopRequests
+from viscontact.runs.processes.job import Standing
+from viscontact.runs.processes.request import INTERRUPTED, RunRequest
+from viscontact.simulation.state_generator import Progress
+from viscontact.units.formatting import format_quantity
+
+
+@dataclass(frozen=True)
+class Monitor:
+    """Requests to stop a run, and the outputs of its messages and of its progress."""
+
+    stops: StopRequests
+    say: Callable[[str], None]
+    #: Called with the number of instants, None if the run chooses its steps, and the finished ones.
+    progress: Callable[[int | None, int], AbstractContextManager[Progress]]
+
+
+def execute_run(request: RunRequest, monitor: Monitor) -> tuple[Path, bool]:
+    """Run a case and write its result; return its directory, and False if it was finished before.
+
+    CommandError if the run is refused or ends early; its lines say how to continue.
+    """
+    with before_the_first_step():
+        checked = checked_run(request)
+        # Checked before anything is created, and again when the directory is locked.
+        standing = checked.standing()
+    directory = checked.recorded.directory
+    if standing is not Standing.FINISHED:
+        with reserved(directory):
+            standing = checked.standing()
+            if standing is not Standing.FINISHED:
+                _run(checked, standing, monitor)
+                return directory, True
+    _say_finished(checked, monitor)
+    return directory, False
+
+
+def _run(checked: CheckedRun, standing: Standing, monitor: Monitor) -> None:
+    """Compute the run from its beginning or its last saved step; the directory is locked."""
+    with before_the_first_step():
+        if standing is Standing.NEW:
+            record = _new_record(checked, monitor)
+        else:
+            record = _resumed_record(checked, monitor)
+    with closing(record):
+        _march(checked, record, monitor)
+
+
+def _new_record(checked: CheckedRun, monitor: Monitor) -> Recorder:
+    recorded, postponed = checked.recorded, monitor.stops.postponed
+    if checked.request.resume:
+        monitor.say(f"{recorded.directory}: nothing is saved there yet; starting at the beginning")
+    write = partial(write_case, recorded.directory, checked.prepared.case)
+    try:
+        return _opened_record(postponed, partial(Recorder, recorded, write, postponed))
+    except OSError as error:
+        refuse(f"{recorded.directory}: cannot be written: {error}")
+
+
+def _resumed_record(checked: CheckedRun, monitor: Monitor) -> Recorder:
+    recorded, postponed = checked.recorded, monitor.stops.postponed
+    write = partial(write_case, recorded.directory, checked.prepared.case)
+    try:
+        record = _opened_record(postponed, partial(Recorder.resume, recorded, write, postponed))
+    except ChangedCaseError as error:
+        refuse_changed(recorded.directory, checked.prepared.case, error.changes)
+    except ValueError as error:
+        refuse(str(error))
+    except OSError as error:
+        stop(
+            f"{recorded.directory}: the run cannot be continued: {error}",
+            f"what it keeps is unchanged; after correcting that: {checked.request.resuming}",
+        )
+    made = checked.made(*record.resumed)
+    time = record.resumed.time
+    at = "" if time is None else f", t = {format_quantity(time, 's')}"
+    monitor.say(
+        f"{recorded.directory}: continuing after {made}{'' if ', up to t =' in made else at}"
+    )
+    return record
+
+
+def _opened_record(postponed: Undisturbed, make: Callable[[], Recorder]) -> Recorder:
+    """Open a record completely; on a request to stop in the meantime, close it again."""
+    with ExitStack() as opened:
+        with postponed():
+            record = make()
+            opened.callback(record.close)
+        opened.pop_all()
+    return record
+
+
+def _march(checked: CheckedRun, record: Recorder, monitor: Monitor) -> None:
+    """March and record; the completed steps are kept however it ends."""
+    try:
+        with monitor.stops.marching():
+            is_complete = _complete_march(checked, record, monitor)
+    except (ConvergenceError, DomainError) as error:
+        _publish(record)
+        # A resumed run would stop at the same step.
+        option = " with --overwrite" if record.shown.instants else ""
+        remedy = f"with that changed, run it again{option}"
+        stop(*checked.prepared.case.error(str(error)).problems, _kept(checked, record), remedy)
+    except (OSError, MemoryError) as error:
+        _publish(record)
+        why = f"{checked.recorded.directory}: the run stopped: {str(error) or type(error).__name__}"
+        stop(why, _resumable(checked, record), f"after correcting that: {_remedy(checked, record)}")
+    except KeyboardInterrupt:
+        _publish(record)
+        is_complete = False
+    if not is_complete:
+        kept = _resumable(checked, record)
+        stop("interrupted", kept, f"continue with: {_remedy(checked, record)}", code=INTERRUPTED)
+
+
+def _complete_march(checked: CheckedRun, record: Recorder, monitor: Monitor) -> bool:
+    """March to the end and save everything; False after a request to stop."""
+    recorded = checked.recorded
+    run = recorded.run
+    total = None if run.problem.adaptive else len(run.problem.instants)
+    with monitor.progress(total, record.resumed.instants) as progress:
+        for state in record.steps(progress):
+            is_last = state is not None and state.time >= run.problem.end
+            if monitor.stops.requested and not is_last:
+                record.checkpoint()
+                return False
+    if recorded.errors:
+        monitor.say("estimating errors, from two coarser runs of the same case")
+    record.finish(record.estimate_errors(partial(_stop_if_requested, monitor)))
+    monitor.stops.over = True
+    return True
+
+
+def _stop_if_requested(monitor: Monitor) -> None:
+    """End the estimation of errors on request; it is repeated when the run is resumed."""
+    if monitor.stops.requested:
+        raise KeyboardInterrupt
+
+
+def _publish(record: Recorder) -> None:
+    # The steps since the last checkpoint can be shown, but not resumed from within a step.
+    with suppress(OSError, KeyboardInterrupt):
+        record.publish()
+
+
+def _kept(checked: CheckedRun, record: Recorder) -> str:
+    directory = checked.recorded.directory
+    if _is_gone(checked, record):
+        return f"{directory} no longer exists, and neither does what it kept"
+    if not record.shown.instants:
+        return f"{directory} keeps nothing yet: no instant was finished"
+    return f"{directory} keeps {checked.made(*record.shown)}"
+
+
+def _resumable(checked: CheckedRun, record: Recorder) -> str:
+    saved = record.saved.instants
+    lost = saved < record.shown.instants and not _is_gone(checked, record)
+    return _kept(checked, record) + (f"; a resumed run continues after {saved}" if lost else "")
+
+
+def _remedy(checked: CheckedRun, record: Recorder) -> str:
+    """Command to type next: it resumes the run, or repeats it where no step is saved."""
+    keeps = record.shown.instants and not _is_gone(checked, record)
+    return checked.request.resuming if keeps else checked.request.repeating
+
+
+def _is_gone(checked: CheckedRun, record: Recorder) -> bool:
+    """True if the directory has been removed or moved during the run."""
+    files = (checked.recorded.directory / name for name in (RESULT_NAME, STATE_NAME))
+    return record.shown.instants > 0 and not any(file.exists() for file in files)
+
+
+def _say_finished(checked: CheckedRun, monitor: Monitor) -> None:
+    directory, run = checked.recorded.directory, checked.recorded.run
+    remove_leftovers(directory)
+    monitor.say(
+        f"{directory}: is finished already, up to t = "
+        f"{format_quantity(run.problem.end, 's')}; --overwrite computes it again"
+    )
+
+
+def remove_leftovers(directory: Path) -> None:
+    """Remove temporary files of a finished run whose process was killed at its end."""
+    with suppress(OSError, DirectoryInUse), locked(directory):
+        remove_restart_files(directory)
+
+
+@contextmanager
+def before_the_first_step() -> Iterator[None]:
+    """End with a message on a request to stop, as nothing has been saved yet."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        stop("interrupted before the first step; nothing has been changed", code=INTERRUPTED)

@@ -1,0 +1,62 @@
+"""Requests to stop: the first lets the current step be finished, the second stops at once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+
+class StopRequests:
+    """State of the requests to stop.
+
+    `over`: the work is done, and further requests have no effect.
+    """
+
+    def __init__(self) -> None:
+        self.over = False
+        self._requested = False
+        self._marching = False
+        self._postponed = 0
+        self._pending = False
+
+    @property
+    def requested(self) -> bool:
+        """True after a request to stop after the current step."""
+        return self._requested
+
+    @contextmanager
+    def marching(self) -> Iterator[None]:
+        """Within the block, the first request lets the step be finished."""
+        self._marching = True
+        try:
+            yield
+        finally:
+            self._marching = False
+
+    @contextmanager
+    def postponed(self) -> Iterator[None]:
+        """Within the block, a request to stop at once waits until its end."""
+        self._postponed += 1
+        try:
+            yield
+        except BaseException:
+            self._pending = False  # the error ends the work in any case
+            raise
+        finally:
+            self._postponed -= 1
+        if self._pending and not self._postponed:
+            self._pending = False
+            raise KeyboardInterrupt
+
+    def request(self) -> bool:
+        """Note a request in the main thread; True if it lets the current step be finished.
+
+        KeyboardInterrupt if it is the second one, or nothing is being marched.
+        """
+        if self._marching and not self._requested:
+            self._requested = True
+            return True
+        if not self._postponed:
+            raise KeyboardInterrupt
+        self._pending = True
+        return False
