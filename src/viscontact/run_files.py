@@ -1,4 +1,4 @@
-"""Names of the files in a run directory."""
+"""Names of the files in a run directory, and in the directory of a sweep."""
 
 #: The case as it is run.
 CASE_NAME = "case.yaml"
@@ -10,3 +10,9 @@ PROGRESS_NAME = "progress.jsonl"
 STATE_NAME = "state.npz"
 #: Held by the process that computes the run.
 LOCK_NAME = ".lock"
+#: Outcome and messages of a run that has failed, until it begins again.
+FAILURE_NAME = "failure.json"
+#: In the directory of a sweep: a line per run.
+MANIFEST_NAME = "runs.jsonl"
+#: In the directory of a sweep: asks its active runs to save and end.
+STOP_NAME = ".stop"

@@ -100,7 +100,7 @@ def test_varied_values_have_directories_of_their_own_and_the_rim_stops_only_one(
     assert main(words) == 1
     # those that stop in their first instant leave nothing
     names = [f"zener_force={force}_size=3mm-3mm" for force in ("2N", "4N")]
-    assert sorted(path.name for path in Path("forces").iterdir()) == names
+    assert sorted(path.name for path in Path("forces").iterdir()) == ["runs.jsonl", *names]
     said = capsys.readouterr().err
     assert "--vary grid: the contact reaches the grid's rim" in said
     assert "2 of 4 runs stopped: zener_force=2N_size=1mm-1mm, zener_force=4N_size=1mm-1mm" in said

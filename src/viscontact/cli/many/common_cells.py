@@ -23,6 +23,7 @@ from viscontact.runs import resources
 from viscontact.runs.execution.checked_run import prepare
 from viscontact.runs.free_memory import available_memory
 from viscontact.runs.processes.request import RunRequest
+from viscontact.runs.sweep.manifest import SweepRun
 from viscontact.simulation.setup import RunSetup
 from viscontact.units.formatting import format_quantity
 
@@ -33,27 +34,35 @@ _KEY = "largest_cell"
 MOST_CELLS = 2**16
 
 
-def with_common_cells(requests: Sequence[RunRequest], keys: Sequence[str]) -> list[RunRequest]:
+def with_common_cells(
+    requests: Sequence[RunRequest], keys: Sequence[str], earlier: Sequence[SweepRun] = ()
+) -> list[RunRequest]:
     """Add the common cells to the settings of runs that differ in the values of some keys.
 
     Runs keep their own cells where the keys concern the grid, where the grid or its largest cell
-    is given, or where the common cells would be too many.
+    is given, or where the common cells would be too many. The cells of a sweep that is resumed
+    are those of its earlier runs in the manifest.
     """
     if not keys or any(key.partition(".")[0] == "grid" for key in keys):
         return list(requests)
     sweeps: dict[Path, list[RunRequest]] = {}
     for each in requests:
         sweeps.setdefault(each.case, []).append(each)
-    added = {case: _settings(runs) for case, runs in sweeps.items()}
+    added = {case: _settings(runs, earlier) for case, runs in sweeps.items()}
     return [replace(each, settings=(*each.settings, *added[each.case])) for each in requests]
 
 
-def _settings(requests: Sequence[RunRequest]) -> tuple[str, ...]:
+def _settings(requests: Sequence[RunRequest], earlier: Sequence[SweepRun]) -> tuple[str, ...]:
     """Setting of the common cells of the runs of a case; none if they keep their own."""
     try:
         asked = read_case(requests[0].case, requests[0].settings).automatic_grid
         if len(requests) == 1 or asked is None or asked.largest_cell is not None:
             return ()
+        places = {each.output.name for each in requests if each.output is not None}
+        for run in earlier:
+            if run.directory in places:
+                cell = run.settings.get(f"grid.{_KEY}")
+                return () if cell is None else (f"grid.{_KEY}={cell}",)
         begun = [found for each in requests if each.resume and (found := _begun_with(each))]
         if begun:
             return begun[0].settings

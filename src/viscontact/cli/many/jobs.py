@@ -10,6 +10,7 @@ from os import cpu_count
 from pathlib import Path
 
 from viscontact.cli.many.common_cells import with_common_cells
+from viscontact.cli.many.recorded_sweep import RecordedSweep, recorded_runs, sweep_runs
 from viscontact.cli.many.variations import as_typed, key_of, variations
 from viscontact.cli.terminal.messages import CommandError, refuse
 from viscontact.run_files import LOCK_NAME
@@ -77,13 +78,34 @@ class ManyRequest:
         return parent / "_".join(filter(None, (beside.name, name)))
 
 
-def checked_jobs(request: ManyRequest) -> list[Job]:
-    """Check all runs of a request; the problems of all of them are reported together."""
+@dataclass(frozen=True)
+class CheckedSweep:
+    """Checked runs of one command, and their manifest."""
+
+    jobs: list[Job]
+    recorded: RecordedSweep
+
+
+def checked_sweep(request: ManyRequest) -> CheckedSweep:
+    """Check all runs of a request; nothing is created."""
+    common, requests = request.common, request.runs()
+    keys = [key_of(text) for text in request.varied]
+    earlier = recorded_runs(common.output)
+    runs = with_common_cells(requests, keys, earlier if common.resume else ())
+    jobs = _checked_jobs(request, requests, runs)
+    recorded = RecordedSweep(common.output, sweep_runs(common.output, runs, keys), earlier)
+    if not common.overwrite:
+        recorded.refuse_another(resume=common.resume)
+    return CheckedSweep(jobs, recorded)
+
+
+def _checked_jobs(
+    request: ManyRequest, requests: Sequence[RunRequest], runs: Sequence[RunRequest]
+) -> list[Job]:
+    """Check all runs; the problems of all of them are reported together."""
     jobs: list[Job] = []
     problems: dict[str, list[RunRequest]] = {}
-    requests = request.runs()
-    keys = [key_of(text) for text in request.varied]
-    for each, run in zip(requests, with_common_cells(requests, keys), strict=True):
+    for each, run in zip(requests, runs, strict=True):
         try:
             jobs.append(_checked(run))
         except CommandError as refusal:

@@ -7,7 +7,7 @@ from collections import deque
 from collections.abc import Sequence
 from contextlib import suppress
 
-from viscontact.cli.many.jobs import ManyRequest, checked_jobs, fitting, resource_warnings
+from viscontact.cli.many.jobs import ManyRequest, checked_sweep, fitting, resource_warnings
 from viscontact.cli.many.progress import RunsDisplay, shown_runs
 from viscontact.cli.many.table import print_table
 from viscontact.cli.many.variations import as_typed
@@ -29,12 +29,14 @@ def execute_many(request: ManyRequest) -> None:
     quiet = request.common.quiet
     with watched_interruption() as interruption:
         with before_the_first_step():
-            jobs = checked_jobs(request)
+            sweep = checked_sweep(request)
+            jobs = sweep.jobs
             left = [job for job in jobs if job.standing is not Standing.FINISHED]
             at_once = min(request.jobs, fitting(left), max(1, len(left)))
             if not quiet:
                 for line in resource_warnings(left, request.jobs, at_once, request.common.threads):
                     say(line)
+            sweep.recorded.write()
         with shown_runs(left, quiet=quiet) as shown:
             ended = _Schedule(left, at_once, interruption, shown).run()
     _end(request, jobs, ended)

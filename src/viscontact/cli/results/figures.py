@@ -15,6 +15,7 @@ import xarray as xr
 from viscontact.cli.results.stored import early_end, opened
 from viscontact.cli.terminal.messages import refuse, say
 from viscontact.cli.terminal.progress import frames_shown
+from viscontact.run_files import MANIFEST_NAME
 from viscontact.units.formatting import format_quantity
 from viscontact.units.parsing import parse_quantity
 
@@ -62,6 +63,8 @@ def draw_comparison(
 ) -> Path:
     """Draw a figure of several runs."""
     plot = plot_package()
+    # All that a sweep's directory holds, as DIR/*, are its runs and their manifest.
+    directories = [each for each in directories if each.name != MANIFEST_NAME]
     draw_it = _named(figure, plot.COMPARISONS)
     instants, chosen = _instants(times), _chosen(options or {}, figure, draw_it)
     if len(directories) < 2:

@@ -1,0 +1,1 @@
+"""Sweeps, many runs of one command: their designs, manifest, states and joint result."""

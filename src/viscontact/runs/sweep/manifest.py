@@ -1,0 +1,136 @@
+"""Manifest of a sweep: the runs of one command, a line of JSON each."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import asdict, dataclass
+from pathlib import Path, PurePath
+from typing import Any
+
+from viscontact.run_files import MANIFEST_NAME
+from viscontact.runs.directory.atomic_files import replacing
+
+#: Kinds of designs: combinations, pairs, rows of a table, random samples, or several case files.
+DESIGNS = ("grid", "zip", "table", "sample", "cases")
+
+#: Longest line of a manifest [characters].
+_LONGEST_LINE = 10_000_000
+
+
+@dataclass(frozen=True)
+class SweepRun:
+    """One run of a sweep: its number, directory and settings.
+
+    Paths are relative to the directory of the sweep, with forward slashes.
+    """
+
+    run: int  # number, from 0, in the order of the manifest
+    name: str
+    directory: str
+    settings: Mapping[str, str]  # all values in place of those of the case, by dotted key
+    varied: tuple[str, ...]  # keys of the settings that differ between the runs of a case
+    case: str  # path of the case file
+    design: str  # one of `DESIGNS`
+
+    @property
+    def assignments(self) -> tuple[str, ...]:
+        """Settings as ``--set`` takes them.
+
+        >>> SweepRun(0, "", "a", {"load.force": "5 kN"}, (), "a.yaml", "grid").assignments
+        ('load.force=5 kN',)
+        """
+        return tuple(f"{key}={value}" for key, value in self.settings.items())
+
+
+def write_manifest(directory: Path, runs: Iterable[SweepRun]) -> Path:
+    """Write the manifest of a sweep atomically, and return its path; the directory is made."""
+    directory.mkdir(parents=True, exist_ok=True)
+    path = directory / MANIFEST_NAME
+    with replacing(path) as file:
+        for each in runs:
+            text = json.dumps(asdict(each), ensure_ascii=False)
+            # A name that is not UTF-8 is escaped as JSON does it.
+            file.write(text.encode("utf-8", "backslashreplace") + b"\n")
+    return path
+
+
+def read_manifest(path: Path) -> Iterator[SweepRun]:
+    """Yield the runs of a manifest, in constant memory.
+
+    ValueError names the line that is damaged; OSError if the file cannot be read.
+    """
+    with path.open(encoding="utf-8") as lines:
+        number = 0
+        try:
+            while line := lines.readline(_LONGEST_LINE):
+                number += 1
+                yield _read(line, number)
+        except UnicodeDecodeError:
+            raise ValueError(f"{path}: is not UTF-8 text, as a manifest is") from None
+        except ValueError as error:
+            raise ValueError(f"{path}:{number}: {error}") from None
+    if number == 0:
+        raise ValueError(f"{path}: holds no runs; remove it, and repeat the command of the sweep")
+
+
+def _read(line: str, number: int) -> SweepRun:
+    try:
+        found = json.loads(line)
+    except ValueError:
+        raise ValueError(
+            f"is not a line of JSON: {line[:40]!r}; remove the file, and repeat the command that "
+            "began the sweep with --resume"
+        ) from None
+    except RecursionError:
+        raise ValueError("is nested too deeply for a line of a manifest") from None
+    if not isinstance(found, dict):
+        raise ValueError(f"must be an object of JSON, as {{...}}, got {line[:40]!r}")
+    run = SweepRun(
+        _entry(found, "run", int),
+        _entry(found, "name", str),
+        _entry(found, "directory", str),
+        _texts(found),
+        _names(found),
+        _entry(found, "case", str),
+        _entry(found, "design", str),
+    )
+    if run.run != number - 1 or isinstance(found["run"], bool):
+        raise ValueError(f"run: must be {number - 1}, the number of its line, got {found['run']}")
+    if run.design not in DESIGNS:
+        raise ValueError(f"design: must be {', '.join(DESIGNS)}, got {run.design!r}")
+    _require_inside(run.directory)
+    return run
+
+
+def _entry(found: dict[str, Any], name: str, kind: type) -> Any:
+    value = found.get(name)
+    if not isinstance(value, kind):
+        what = {int: "a whole number", str: "text", dict: "an object", list: "a list"}[kind]
+        got = repr(value)[:40] if name in found else "nothing"
+        raise ValueError(f"{name}: must be {what}, got {got}")
+    return value
+
+
+def _texts(found: dict[str, Any]) -> dict[str, str]:
+    settings: dict[str, str] = _entry(found, "settings", dict)
+    for key, value in settings.items():
+        if not isinstance(value, str):
+            raise ValueError(f"settings: {key} must be text with its unit, got {value!r}")
+    return settings
+
+
+def _names(found: dict[str, Any]) -> tuple[str, ...]:
+    names = _entry(found, "varied", list)
+    for name in names:
+        if not isinstance(name, str) or name not in found["settings"]:
+            raise ValueError(f"varied: {name!r} is none of the keys of the settings")
+    return tuple(names)
+
+
+def _require_inside(directory: str) -> None:
+    path = PurePath(directory)
+    if not path.parts or path.is_absolute() or ".." in path.parts:
+        raise ValueError(
+            f"directory: must be the name of a directory in that of the sweep, got {directory!r}"
+        )
