@@ -44,6 +44,7 @@ COMPUTES = ("simulation", "accuracy", "runs")
 OTHERS = {
     "numpy": "errors", "scipy": "errors", "ducc0": "fourier",
     "xarray": "results", "netCDF4": "results", "filelock": "results",
+    "psutil": "runs", "threadpoolctl": "runs",
     "pydantic": "case", "pydantic_core": "case", "ruamel": "materials",
     "SurfaceTopography": "surfaces",
     "matplotlib": "plot", "mpl_toolkits": "plot", "PIL": "plot", "imageio_ffmpeg": "plot",

@@ -16,7 +16,7 @@ from viscontact.meshing.contact_place import locate_contact
 from viscontact.meshing.elastic_estimate import ContactEstimate, estimate_period
 from viscontact.problem.problem import Problem
 from viscontact.runs.expected_warnings import predicted_warnings
-from viscontact.runs.free_memory import available_memory
+from viscontact.runs.machine.memory import available_memory
 from viscontact.runs.resources import run_memory
 from viscontact.simulation.setup import RunSetup
 

@@ -10,23 +10,21 @@ import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
 from typing import Any
 
 import xarray as xr
 
 from viscontact.grid import Grid
 from viscontact.materials.material import Material
-from viscontact.runs.free_memory import available_memory
+from viscontact.runs.machine.cores import usable_cores
+from viscontact.runs.machine.memory import available_memory
+from viscontact.runs.machine.threads import limit_threads
 from viscontact.runs.resources import PROGRAM, fitting, least_memory
 from viscontact.runs.single import simulate
 from viscontact.units.numbers import whole
 
 #: Specification of a run: arguments of `simulate` by name, or a function that returns a result.
 Recipe = Mapping[str, Any] | Callable[[], xr.Dataset]
-
-#: Libraries that start a thread per core in each process, unless the environment limits them.
-_LIBRARIES = ("OPENBLAS", "MKL", "OMP", "BLIS")
 
 
 def simulate_many(
@@ -41,8 +39,9 @@ def simulate_many(
         returns a result. They are sent to other processes and must be picklable: a function of a
         module or a `functools.partial` of one, not a ``lambda``.
     workers : int, optional
-        Number of parallel processes; by default the number of cores, or fewer if the runs do not
-        fit into the free memory. Each computes on one thread unless the run sets ``threads``.
+        Number of parallel processes; by default the number of cores that this process may use
+        (its binding, control group and SLURM job), or fewer if the runs do not fit into the free
+        memory. Each computes on one thread unless the run sets ``threads``.
     return_exceptions : bool, optional
         Return the exception of a failed run in place of its result, and keep the other results.
 
@@ -90,8 +89,7 @@ def simulate_many(
     spawn = multiprocessing.get_context("spawn")  # a fork would copy threads' locks
     with ProcessPoolExecutor(count, mp_context=spawn, initializer=_begin_worker) as pool:
         try:
-            with _single_threaded():
-                futures = [pool.submit(_outcome, recipe) for recipe in recipes]
+            futures = [pool.submit(_outcome, recipe) for recipe in recipes]
             return list(_in_order(futures, return_exceptions))
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)
@@ -102,7 +100,7 @@ def simulate_many(
 
 def _checked(workers: int | None) -> int:
     if workers is None:
-        return os.cpu_count() or 1
+        return usable_cores()
     return whole("workers", workers, 1)
 
 
@@ -130,22 +128,10 @@ def _least_memory(recipe: Recipe) -> float:
     return PROGRAM
 
 
-@contextmanager
-def _single_threaded() -> Iterator[None]:
-    """Limit numerical libraries to one thread in the processes that are started meanwhile."""
-    names = [f"{library}_NUM_THREADS" for library in _LIBRARIES]
-    unset = [name for name in names if name not in os.environ]
-    os.environ.update(dict.fromkeys(unset, "1"))
-    try:
-        yield
-    finally:
-        for name in unset:
-            os.environ.pop(name, None)
-
-
 def _begin_worker() -> None:
     # Ctrl-C reaches every process at the terminal; the first one ends the others.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    limit_threads()
     threading.Thread(target=_end_with_parent, daemon=True).start()
 
 

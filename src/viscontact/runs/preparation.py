@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from viscontact.case import Case
 from viscontact.grid import Grid
 from viscontact.runs.forecast import Forecast, forecast
-from viscontact.runs.free_memory import available_memory
+from viscontact.runs.machine.memory import available_memory
 from viscontact.runs.resources import least_memory, needed_memory
 from viscontact.simulation.setup import RunSetup, prepare_run
 from viscontact.units.formatting import format_number

@@ -21,7 +21,7 @@ from viscontact.cli.terminal.messages import CommandError, say
 from viscontact.run_files import CASE_NAME
 from viscontact.runs import resources
 from viscontact.runs.execution.checked_run import prepare
-from viscontact.runs.free_memory import available_memory
+from viscontact.runs.machine.memory import available_memory
 from viscontact.runs.processes.request import RunRequest
 from viscontact.runs.sweep.manifest import SweepRun
 from viscontact.simulation.setup import RunSetup

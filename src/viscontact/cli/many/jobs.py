@@ -6,7 +6,6 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from os import cpu_count
 from pathlib import Path
 
 from viscontact.cli.many.common_cells import with_common_cells
@@ -18,7 +17,8 @@ from viscontact.runs import resources
 from viscontact.runs.directory.lock import DirectoryInUse, locked
 from viscontact.runs.execution.checked_run import checked_run
 from viscontact.runs.execution.run_directory import chosen_directory
-from viscontact.runs.free_memory import available_memory
+from viscontact.runs.machine.cores import usable_cores
+from viscontact.runs.machine.memory import available_memory
 from viscontact.runs.processes.job import Job
 from viscontact.runs.processes.request import RunRequest, command, no_option
 from viscontact.units.formatting import format_number
@@ -140,15 +140,6 @@ def resource_warnings(jobs: Sequence[Job], wanted: int, at_once: int, threads: i
             "another"
         )
     return lines
-
-
-def usable_cores() -> int:
-    """Return how many cores this process may use."""
-    with suppress(AttributeError):  # not on every system
-        from os import sched_getaffinity
-
-        return len(sched_getaffinity(0))
-    return cpu_count() or 1
 
 
 def _checked(request: RunRequest) -> Job:

@@ -13,7 +13,7 @@ from viscontact.case import Case, CaseError, Parts, read_case_text, read_parts
 from viscontact.case.document import document_of
 from viscontact.runs.check_report import expectations, needs, verdict, warnings_of
 from viscontact.runs.forecast import Forecast
-from viscontact.runs.free_memory import available_memory
+from viscontact.runs.machine.memory import available_memory
 from viscontact.runs.preparation import PreparedRun, predicted, prepared
 from viscontact.runs.resources import run_memory
 from viscontact.web.cases.coarse import coarse_settings, without_cells

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from os import cpu_count
-
-from viscontact.runs.free_memory import available_memory
+from viscontact.runs.machine.cores import usable_cores
+from viscontact.runs.machine.memory import available_memory
 from viscontact.web.runs.run import ManagedRun
 from viscontact.web.workspace.folder import Folder, RunEntry
 from viscontact.web.workspace.problems import RequestError
@@ -15,7 +14,7 @@ _LEAST_AT_ONCE = 2
 
 def usual_at_once() -> int:
     """Return the default number of runs at the same time."""
-    return max(_LEAST_AT_ONCE, (cpu_count() or 1) - 1)
+    return max(_LEAST_AT_ONCE, usable_cores() - 1)
 
 
 class RunQueue:
