@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import shlex
@@ -98,9 +99,18 @@ def test_varied_values_have_directories_of_their_own_and_the_rim_stops_only_one(
 ) -> None:
     words = [*command("## Parameter variation"), "--vary", "grid.size=[3mm,3mm],[1 mm, 1 mm]", "-q"]
     assert main(words) == 1
-    # those that stop in their first instant leave nothing
     names = [f"zener_force={force}_size=3mm-3mm" for force in ("2N", "4N")]
-    assert sorted(path.name for path in Path("forces").iterdir()) == ["runs.jsonl", *names]
+    # those that stop in their first instant leave only the reason
+    failed = [Path("forces", name.replace("3mm-3mm", "1mm-1mm")) for name in names]
+    assert set(Path("forces").iterdir()) == {
+        *(Path("forces", each) for each in ("runs.jsonl", *names)),
+        *failed,
+    }
+    for directory in failed:
+        assert [path.name for path in directory.iterdir()] == ["failure.json"]
+        failure = json.loads((directory / "failure.json").read_text(encoding="utf-8"))
+        assert (failure["outcome"], failure["code"]) == ("stopped", 1)
+        assert "the contact reaches the grid's rim" in failure["message"][0]
     said = capsys.readouterr().err
     assert "--vary grid: the contact reaches the grid's rim" in said
     assert "2 of 4 runs stopped: zener_force=2N_size=1mm-1mm, zener_force=4N_size=1mm-1mm" in said
@@ -270,13 +280,13 @@ def test_simulations_that_do_not_fit_into_memory_wait_for_one_another(
 ) -> None:
     asked: list[int] = []
 
-    def pool(count: int, **_: object) -> None:
+    def pool(count: int) -> None:
         asked.append(count)
         raise InterruptedError
 
     # of an elastic body: 0.22 GB, and 64 numbers of 8 bytes a cell
     sizes = {n: {"material": RUBBER, "grid": vc.Grid((n, n), (1.0, 1.0))} for n in (100, 2000)}
-    monkeypatch.setattr(many, "ProcessPoolExecutor", pool)
+    monkeypatch.setattr(many, "LocalWorkers", pool)
     monkeypatch.setattr(many, "available_memory", lambda: free)
     with warnings.catch_warnings(record=True) as warned, pytest.raises(InterruptedError):
         vc.simulate_many([sizes[n] for n in (100, 2000, 100, 2000)], workers=4)

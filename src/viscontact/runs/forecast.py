@@ -72,7 +72,7 @@ def forecast(run: RunSetup, *, errors: bool = False) -> Forecast:
     return Forecast(
         memory=run_memory(run),
         available=available_memory(),
-        seconds=_seconds(run, errors=errors),
+        seconds=run_seconds(run, errors=errors),
         estimate=estimate,
         compliance=named,
         cells_along=along,
@@ -98,7 +98,8 @@ def _representative_compliance(problem: Problem, time: float) -> tuple[float, st
     return float(compliance(time)), "creep as at that instant"
 
 
-def _seconds(run: RunSetup, *, errors: bool) -> float:
+def run_seconds(run: RunSetup, *, errors: bool) -> float:
+    """Run time on this machine, within a factor of two or three [s]; `errors` as in `forecast`."""
     steps, each = run.problem.step_count, _convolution_time(run.grid)
     marches = [(steps, each)]
     if errors:

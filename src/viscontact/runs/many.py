@@ -2,33 +2,42 @@
 
 from __future__ import annotations
 
-import multiprocessing
-import os
-import signal
-import threading
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from concurrent.futures import Future, ProcessPoolExecutor
-from concurrent.futures.process import BrokenProcessPool
+from concurrent.futures import BrokenExecutor, Executor, Future
+from contextlib import suppress
+from queue import Empty, SimpleQueue
 from typing import Any
 
 import xarray as xr
 
 from viscontact.grid import Grid
 from viscontact.materials.material import Material
+from viscontact.runs.executors.local import LocalWorkers
 from viscontact.runs.machine.cores import usable_cores
 from viscontact.runs.machine.memory import available_memory
-from viscontact.runs.machine.threads import limit_threads
 from viscontact.runs.resources import PROGRAM, fitting, least_memory
 from viscontact.runs.single import simulate
 from viscontact.units.numbers import whole
+
+#: Called with the number of a run, from 0, that has ended, and the numbers of ended and all runs.
+Progress = Callable[[int, int, int], None]
+
+#: Longest time in which an interruption is not noticed on Windows [s].
+_PAUSE = 0.5
 
 #: Specification of a run: arguments of `simulate` by name, or a function that returns a result.
 Recipe = Mapping[str, Any] | Callable[[], xr.Dataset]
 
 
 def simulate_many(
-    runs: Iterable[Recipe], *, workers: int | None = None, return_exceptions: bool = False
+    runs: Iterable[Recipe],
+    *,
+    executor: Executor | None = None,
+    client: Any = None,
+    workers: int | None = None,
+    progress: Progress | None = None,
+    return_exceptions: bool = False,
 ) -> list[Any]:
     """Simulate independent runs in several processes, and return their results in order.
 
@@ -38,6 +47,12 @@ def simulate_many(
         Arguments of `simulate` by name for each run, or a function without arguments that
         returns a result. They are sent to other processes and must be picklable: a function of a
         module or a `functools.partial` of one, not a ``lambda``.
+    executor : concurrent.futures.Executor, optional
+        Executor of the runs, as of PEP 3148: a `ProcessPoolExecutor`, loky, `MPIPoolExecutor` of
+        mpi4py.futures, and others. By default warm processes of this machine, of which one that
+        is killed is replaced and its run repeated once.
+    client : distributed.Client, optional
+        Client of a Dask cluster, in place of an executor.
     workers : int, optional
         Number of parallel processes; by default the number of cores that this process may use
         (its binding, control group and SLURM job), or fewer if the runs do not fit into the free
@@ -84,18 +99,22 @@ def simulate_many(
     4.0
     """
     recipes = list(runs)
+    if executor is not None and client is not None:
+        raise ValueError("executor and client are both given; give one of them")
+    if client is not None:
+        executor = client.get_executor(pure=False)
+    if executor is not None:
+        return _results(recipes, executor, progress, return_exceptions)
     count = _affordable(recipes, min(_checked(workers), max(1, len(recipes))))
-    before = set(multiprocessing.active_children())
-    spawn = multiprocessing.get_context("spawn")  # a fork would copy threads' locks
-    with ProcessPoolExecutor(count, mp_context=spawn, initializer=_begin_worker) as pool:
-        try:
-            futures = [pool.submit(_outcome, recipe) for recipe in recipes]
-            return list(_in_order(futures, return_exceptions))
-        except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)
-            for process in set(multiprocessing.active_children()) - before:
-                process.terminate()
-            raise
+    pool = LocalWorkers(count)
+    try:
+        found = _results(recipes, pool, progress, return_exceptions)
+    except BaseException:
+        pool.kill()
+        raise
+    finally:
+        pool.shutdown()
+    return found
 
 
 def _checked(workers: int | None) -> int:
@@ -128,21 +147,6 @@ def _least_memory(recipe: Recipe) -> float:
     return PROGRAM
 
 
-def _begin_worker() -> None:
-    # Ctrl-C reaches every process at the terminal; the first one ends the others.
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    limit_threads()
-    threading.Thread(target=_end_with_parent, daemon=True).start()
-
-
-def _end_with_parent() -> None:
-    # A worker holds both ends of the pipe that it reads runs from, so it would not notice that its
-    # parent has been killed.
-    if (parent := multiprocessing.parent_process()) is not None:
-        parent.join()
-        os._exit(1)
-
-
 def _outcome(recipe: Recipe) -> tuple[xr.Dataset, list[tuple[str, type[Warning]]]]:
     """Result and warnings of a run."""
     with warnings.catch_warnings(record=True) as caught:
@@ -151,23 +155,55 @@ def _outcome(recipe: Recipe) -> tuple[xr.Dataset, list[tuple[str, type[Warning]]
     return ds, [(str(each.message), each.category) for each in caught]
 
 
-def _in_order(futures: list[Future[Any]], return_exceptions: bool) -> Iterator[Any]:
-    for number, future in enumerate(futures, start=1):
-        which = f"run {number} of {len(futures)}"
-        error = future.exception()
-        if isinstance(error, BrokenProcessPool):
-            raise RuntimeError(
-                f"{which}: its process ended without an answer. In a script, call simulate_many "
-                'behind `if __name__ == "__main__":`; else it was killed, as happens when memory '
-                "runs out: then use fewer workers"
-            ) from error
-        if error is not None:
-            error.add_note(f"in {which} of simulate_many")
-            if not return_exceptions:
-                raise error
-            yield error
-            continue
-        ds, warned = future.result()
-        for text, category in warned:
-            warnings.warn(f"{which}: {text}", category, stacklevel=4)
-        yield ds
+def _results(
+    recipes: list[Recipe], executor: Executor, progress: Progress | None, return_exceptions: bool
+) -> list[Any]:
+    """Results of the runs in their order; the first failure in this order is raised."""
+    futures = [executor.submit(_outcome, recipe) for recipe in recipes]
+    found: list[Any] = []
+    try:
+        for _ in _ended(futures, progress):
+            while len(found) < len(futures) and futures[len(found)].done():
+                found.append(_result(futures, len(found), return_exceptions))
+    except BaseException:
+        for future in futures:
+            future.cancel()
+        raise
+    return found
+
+
+def _ended(futures: list[Future[Any]], progress: Progress | None) -> Iterator[int]:
+    """Yield the numbers of the runs as they end, and report each."""
+    finished: SimpleQueue[Future[Any]] = SimpleQueue()
+    numbers = {future: number for number, future in enumerate(futures)}
+    for future in futures:
+        future.add_done_callback(finished.put)
+    done = 0
+    while done < len(futures):
+        with suppress(Empty):
+            number = numbers[finished.get(timeout=_PAUSE)]
+            done += 1
+            if progress is not None:
+                progress(number, done, len(futures))
+            yield number
+
+
+def _result(futures: list[Future[Any]], number: int, return_exceptions: bool) -> Any:
+    """Result of a run, with its warnings, or its exception."""
+    which = f"run {number + 1} of {len(futures)}"
+    error = futures[number].exception()
+    if isinstance(error, BrokenExecutor):
+        raise RuntimeError(
+            f"{which}: its process ended without an answer. In a script, call simulate_many "
+            'behind `if __name__ == "__main__":`; else it was killed, as happens when memory '
+            "runs out: then use fewer workers"
+        ) from error
+    if error is not None:
+        error.add_note(f"in {which} of simulate_many")
+        if not return_exceptions:
+            raise error
+        return error
+    ds, warned = futures[number].result()
+    for text, category in warned:
+        warnings.warn(f"{which}: {text}", category, stacklevel=4)
+    return ds

@@ -69,8 +69,8 @@ def run(
         with watched_interruption() as interruption:
             # An import that is interrupted may end in any error: the request waits for its end.
             with interruption.postponed():
+                from viscontact.cli.many.execution import execute_many
                 from viscontact.cli.many.jobs import ManyRequest
-                from viscontact.cli.many.schedule import execute_many
                 from viscontact.cli.run.execution import execute
             if len(cases) == 1 and not varied:
                 execute(common)

@@ -145,19 +145,8 @@ def resource_warnings(jobs: Sequence[Job], wanted: int, at_once: int, threads: i
 def _checked(request: RunRequest) -> Job:
     checked = checked_run(request)
     standing = checked.standing()
-    directory, run = checked.recorded.directory, checked.recorded.run
-    _refuse_in_use(directory)
-    cells = run.grid.shape[0] * run.grid.shape[1]
-    return Job(
-        request,
-        directory,
-        directory.name,
-        standing,
-        len(run.problem.instants) if run.problem.adaptive is None else None,
-        run.problem.end,
-        cells * (1.0 + run.problem.step_count),
-        resources.run_memory(run),
-    )
+    _refuse_in_use(checked.recorded.directory)
+    return checked.job(standing)
 
 
 def _refuse_in_use(directory: Path) -> None:

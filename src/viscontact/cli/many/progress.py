@@ -18,38 +18,46 @@ from rich.progress import (
 )
 
 from viscontact.cli.terminal.messages import say
-from viscontact.runs.processes.child import Child, Ended
+from viscontact.runs.executors.driver import Active
+from viscontact.runs.processes.child import Ended
 from viscontact.runs.processes.job import Job
 from viscontact.units.formatting import format_quantity
 
 #: A plain line is printed after this part of all the work, or after this time [s].
 _LINE_PART, _LINE_SECONDS = 0.1, 30.0
 
+#: Most runs with a bar of their own.
+_MOST_BARS = 16
+
 
 class RunsDisplay:
     """Progress of several runs; this base class displays nothing."""
 
     def __init__(self, jobs: Sequence[Job]) -> None:
-        self._work = {job.directory: job.work for job in jobs}
-        self._parts = dict.fromkeys(self._work, 0.0)
+        self._whole = sum(job.work for job in jobs)
+        self._done = 0.0  # work, in the same unit
+        self._parts = {job.directory: 0.0 for job in jobs}
         self._count = len(jobs)
         self._ended = 0
 
-    def update(self, active: Sequence[Child]) -> None:
-        """Display the progress of the active runs."""
-        for child in active:
-            self._parts[child.job.directory] = child.course.part
+    def update(self, active: Sequence[Active]) -> None:
+        """Display the progress of some of the active runs."""
+        for each in active:
+            self._note(each.job, each.course.part)
 
     def end(self, ended: Ended) -> None:
         """Display that a run has ended."""
         self._ended += 1
-        self._parts[ended.job.directory] = 1.0
+        self._note(ended.job, 1.0)
+
+    def _note(self, job: Job, part: float) -> None:
+        self._done += job.work * (part - self._parts[job.directory])
+        self._parts[job.directory] = part
 
     @property
     def _part(self) -> float:
         """Completed part of all the work, 0 to 1."""
-        done = sum(self._parts[place] * work for place, work in self._work.items())
-        return done / sum(self._work.values())
+        return min(self._done / self._whole, 1.0)
 
     @property
     def _runs(self) -> str:
@@ -65,7 +73,7 @@ class _Lines(RunsDisplay):
         self._before: float | None = None
         self._next = 0.0
 
-    def update(self, active: Sequence[Child]) -> None:
+    def update(self, active: Sequence[Active]) -> None:
         super().update(active)
         part, now = self._part, clock.perf_counter()
         if self._before is None:  # work of earlier processes is left out of the estimate
@@ -91,15 +99,15 @@ class _Bars(RunsDisplay):
         self._all = bars.add_task("all", total=1.0, details=self._runs)
         self._tasks: dict[str, TaskID] = {}
 
-    def update(self, active: Sequence[Child]) -> None:
+    def update(self, active: Sequence[Active]) -> None:
         super().update(active)
-        for child in active:
-            name = child.job.name
+        for each in active:
+            name = each.job.name
             if name not in self._tasks:
+                if not each.course.instants or len(self._tasks) >= _MOST_BARS:
+                    continue
                 self._tasks[name] = self._bars.add_task(name, total=1.0, details="")
-            self._bars.update(
-                self._tasks[name], completed=child.course.part, details=_details(child)
-            )
+            self._bars.update(self._tasks[name], completed=each.course.part, details=_details(each))
         self._bars.update(self._all, completed=self._part, details=self._runs)
 
     def end(self, ended: Ended) -> None:
@@ -138,7 +146,7 @@ def _bars() -> Progress:
     )
 
 
-def _details(child: Child) -> str:
-    course, job = child.course, child.job
+def _details(run: Active) -> str:
+    course, job = run.course, run.job
     of = "" if job.instants is None else f" of {job.instants}"
     return f"{course.instants}{of} instants, t = {format_quantity(course.time, 's')}"

@@ -14,8 +14,9 @@ from viscontact.runs.ending import refuse
 from viscontact.runs.execution.resuming import standing
 from viscontact.runs.execution.run_directory import chosen_directory
 from viscontact.runs.preparation import PreparedRun, prepared
-from viscontact.runs.processes.job import Standing
+from viscontact.runs.processes.job import Job, Standing
 from viscontact.runs.processes.request import RunRequest
+from viscontact.runs.resources import run_memory
 from viscontact.units.formatting import format_quantity
 
 
@@ -30,6 +31,21 @@ class CheckedRun:
     def standing(self) -> Standing:
         """Return whether the run is new, stopped or finished; refuse it in all other cases."""
         return standing(self.request, self.recorded, self.prepared.case)
+
+    def job(self, standing: Standing) -> Job:
+        """Return the run as one of several."""
+        directory, run = self.recorded.directory, self.recorded.run
+        cells = run.grid.shape[0] * run.grid.shape[1]
+        return Job(
+            self.request,
+            directory,
+            directory.name,
+            standing,
+            len(run.problem.instants) if run.problem.adaptive is None else None,
+            run.problem.end,
+            cells * (1.0 + run.problem.step_count),
+            run_memory(run),
+        )
 
     def made(self, instants: int, reached: float | None) -> str:
         """Describe the progress of the run, up to the instant reached [s]."""

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from viscontact.errors import ConvergenceError, DomainError
 from viscontact.run_files import RESULT_NAME, STATE_NAME
+from viscontact.runs.directory.failure import remove_failure
 from viscontact.runs.directory.lock import DirectoryInUse, locked
 from viscontact.runs.directory.recorded_run import ChangedCaseError, remove_restart_files
 from viscontact.runs.directory.recorder import Recorder, Undisturbed
@@ -41,6 +42,12 @@ def execute_run(request: RunRequest, monitor: Monitor) -> tuple[Path, bool]:
     """
     with before_the_first_step():
         checked = checked_run(request)
+    return execute_checked(checked, monitor)
+
+
+def execute_checked(checked: CheckedRun, monitor: Monitor) -> tuple[Path, bool]:
+    """Run a checked case, as `execute_run`."""
+    with before_the_first_step():
         # Checked before anything is created, and again when the directory is locked.
         standing = checked.standing()
     directory = checked.recorded.directory
@@ -48,6 +55,7 @@ def execute_run(request: RunRequest, monitor: Monitor) -> tuple[Path, bool]:
         with reserved(directory):
             standing = checked.standing()
             if standing is not Standing.FINISHED:
+                remove_failure(directory)
                 _run(checked, standing, monitor)
                 return directory, True
     _say_finished(checked, monitor)
@@ -202,6 +210,7 @@ def remove_leftovers(directory: Path) -> None:
     """Remove temporary files of a finished run whose process was killed at its end."""
     with suppress(OSError, DirectoryInUse), locked(directory):
         remove_restart_files(directory)
+        remove_failure(directory)
 
 
 @contextmanager

@@ -1,9 +1,7 @@
-"""Scheduler of several runs: started, displayed and stopped together."""
+"""Execution of several runs at the command line."""
 
 from __future__ import annotations
 
-import time as clock
-from collections import deque
 from collections.abc import Sequence
 from contextlib import suppress
 
@@ -15,11 +13,10 @@ from viscontact.cli.terminal.interruption import Interruption, watched_interrupt
 from viscontact.cli.terminal.messages import DONE, INTERRUPTED, STOPPED, refuse, say, stop
 from viscontact.cli.terminal.streams import printing, unwritten
 from viscontact.runs.execution.execution import before_the_first_step, remove_leftovers
-from viscontact.runs.processes.child import Child, Ended
+from viscontact.runs.executors.driver import drive
+from viscontact.runs.executors.local import LocalTasks, LocalWorkers
+from viscontact.runs.processes.child import Ended
 from viscontact.runs.processes.job import Job, Standing
-
-#: Time between two checks of the runs [s].
-PAUSE = 0.05
 
 
 def execute_many(request: ManyRequest) -> None:
@@ -38,64 +35,19 @@ def execute_many(request: ManyRequest) -> None:
                     say(line)
             sweep.recorded.write()
         with shown_runs(left, quiet=quiet) as shown:
-            ended = _Schedule(left, at_once, interruption, shown).run()
+            ended = _computed(left, at_once, interruption, shown)
     _end(request, jobs, ended)
 
 
-class _Schedule:
-    """Waiting, active and ended runs of one command."""
-
-    def __init__(
-        self, jobs: Sequence[Job], at_once: int, interruption: Interruption, shown: RunsDisplay
-    ) -> None:
-        self._waiting = deque(jobs)
-        self._active: list[Child] = []
-        self._ended: list[Ended] = []
-        self._at_once, self._interruption, self._shown = at_once, interruption, shown
-
-    def run(self) -> list[Ended]:
-        """Run all jobs, or stop them as soon as it is requested."""
-        try:
-            with self._interruption.marching():
-                while self._active or (self._waiting and not self._interruption.requested):
-                    self._poll()
-                    if self._interruption.requested:
-                        self._stop()
-        except KeyboardInterrupt:
-            pass  # the second request; the processes have received it as well
-        finally:
-            self._stop()
-            with suppress(KeyboardInterrupt), self._interruption.postponed():
-                self._ended.extend(child.wait() for child in self._active)
-        return self._ended
-
-    def _poll(self) -> None:
-        while self._waiting and len(self._active) < self._at_once:
-            with self._interruption.postponed():
-                self._start(self._waiting.popleft())
-        clock.sleep(PAUSE)
-        for child in list(self._active):
-            child.course.look()
-            with self._interruption.postponed():
-                if (ended := child.ended()) is not None:
-                    self._active.remove(child)
-                    self._ended.append(ended)
-                    self._shown.end(ended)
-        self._shown.update(self._active)
-
-    def _start(self, job: Job) -> None:
-        try:
-            self._active.append(Child(job))
-        except OSError as error:
-            why = f"{job.directory}: the run cannot be started: {error}"
-            self._ended.append(Ended(job, "stopped", STOPPED, (why,)))
-            self._shown.end(self._ended[-1])
-
-    def _stop(self) -> None:
-        """Start no further run, and let the active ones finish their steps and save."""
-        self._waiting.clear()
-        for child in self._active:
-            child.ask_to_stop()
+def _computed(
+    jobs: Sequence[Job], at_once: int, interruption: Interruption, shown: RunsDisplay
+) -> list[Ended]:
+    workers = LocalWorkers(at_once)
+    try:
+        return drive(jobs, LocalTasks(workers, at_once), interruption, shown)
+    finally:
+        with suppress(KeyboardInterrupt), interruption.postponed():
+            workers.shutdown()
 
 
 def _end(request: ManyRequest, jobs: Sequence[Job], ended: Sequence[Ended]) -> None:

@@ -1,0 +1,179 @@
+"""Task: a recorded run as words and numbers, which any process that sees its disk can perform."""
+
+from __future__ import annotations
+
+import threading
+import time as clock
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from viscontact.runs.directory.failure import write_failure
+from viscontact.runs.directory.lock import is_locked
+from viscontact.runs.ending import CommandError
+from viscontact.runs.execution.checked_run import CheckedRun, checked_run
+from viscontact.runs.execution.execution import Monitor, execute_checked
+from viscontact.runs.execution.stop_requests import StopRequests
+from viscontact.runs.forecast import run_seconds
+from viscontact.runs.processes.child import Child
+from viscontact.runs.processes.job import Standing
+from viscontact.runs.processes.request import DONE, INTERRUPTED, REFUSED, STOPPED, RunRequest
+from viscontact.simulation.state_generator import Progress
+from viscontact.state import ContactState
+
+#: Longest predicted duration of a run that is computed in the process of its task [s].
+LONGEST_WARM = 10.0
+#: Time between two looks at a process or a lock, and at a file that requests to stop [s].
+PAUSE, STOP_PAUSE = 0.1, 0.5
+#: Attempts of a run whose process is killed.
+ATTEMPTS = 2
+
+#: netCDF-4 may be used by one thread at a time.
+_ONE_AT_A_TIME = threading.Lock()
+
+#: Marks the directory of a run whose task has begun, until it ends.
+_ATTEMPT_NAME = ".attempt"
+
+
+@dataclass(frozen=True)
+class Task:
+    """A run in its directory.
+
+    What an earlier task with the same `token` has left there, because its process was killed, is
+    resumed. A file `stop` asks the run to finish its step, save and end.
+    """
+
+    request: RunRequest
+    directory: Path
+    token: str
+    stop: Path | None = None
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """End of a run: one word, exit code, and lines of its error output."""
+
+    word: str  # "done", "refused", "stopped", "killed", "interrupted" or "not begun"
+    code: int  # 0 done, 1 stopped, 130 interrupted, also before it began
+    said: tuple[str, ...] = ()
+
+
+class FileRequests(StopRequests):
+    """Request to stop by a file, which any process that sees its disk can make."""
+
+    def __init__(self, path: Path | None) -> None:
+        super().__init__()
+        self._path, self._looked_at = path, -STOP_PAUSE
+
+    @property
+    def requested(self) -> bool:
+        """True once the file is there; it is looked for at intervals."""
+        now = clock.monotonic()
+        if self._path is not None and not self._requested and now - self._looked_at >= STOP_PAUSE:
+            self._looked_at = now
+            self._requested = self._path.exists()
+        return self._requested
+
+
+def perform(task: Task, stops: StopRequests | None = None) -> Outcome:
+    """Compute a run in its directory, or what is left of it; a failure is written there.
+
+    Short runs are computed in this process, one at a time; others are processes of their own.
+    """
+    stops = FileRequests(task.stop) if stops is None else stops
+    while is_locked(task.directory) and not stops.requested:
+        clock.sleep(PAUSE)  # the process of an earlier attempt, or of the run itself, is saving
+    if stops.requested:
+        return Outcome("not begun", INTERRUPTED)
+    outcome = _attempted(task, stops)
+    if outcome.code == STOPPED:
+        write_failure(task.directory, outcome.word, outcome.code, outcome.said)
+    if outcome.code != INTERRUPTED:
+        with suppress(OSError):
+            (task.directory / _ATTEMPT_NAME).unlink(missing_ok=True)
+    return outcome
+
+
+def _attempted(task: Task, stops: StopRequests) -> Outcome:
+    """Resume an earlier attempt of this task, or begin."""
+    request, mark = task.request, task.directory / _ATTEMPT_NAME
+    if request.resume:
+        return _computed(request, task.directory, stops)
+    try:
+        if mark.is_file() and mark.read_text(encoding="utf-8") == task.token:
+            resumed = replace(request, resume=True, overwrite=False)
+            outcome = _computed(resumed, task.directory, stops)
+            # Killed before it had replaced an earlier run, it left nothing to resume.
+            return (
+                outcome if outcome.word != "refused" else _computed(request, task.directory, stops)
+            )
+        task.directory.mkdir(parents=True, exist_ok=True)
+        mark.write_text(task.token, encoding="utf-8")
+    except (OSError, ValueError) as error:
+        why = getattr(error, "strerror", None) or error
+        return Outcome("refused", STOPPED, (f"{task.directory}: cannot be written: {why}",))
+    return _computed(request, task.directory, stops)
+
+
+def _computed(request: RunRequest, directory: Path, stops: StopRequests) -> Outcome:
+    try:
+        with _ONE_AT_A_TIME:
+            checked = checked_run(replace(request, output=directory, quiet=True))
+            if run_seconds(checked.recorded.run, errors=checked.recorded.errors) <= LONGEST_WARM:
+                execute_checked(checked, Monitor(stops, _ignore, _no_progress))
+                return Outcome("done", DONE)
+        return _in_process(checked, stops)
+    except CommandError as end:
+        return _ended(end)
+    except KeyboardInterrupt:
+        return Outcome("interrupted", INTERRUPTED)
+    except MemoryError:
+        return Outcome("stopped", STOPPED, (f"{directory}: there is too little memory",))
+    except Exception as error:
+        why = f"{directory}: unexpected {type(error).__name__}: {error}"
+        return Outcome("stopped", STOPPED, (why, "this is a fault of viscontact; report it"))
+
+
+def _ended(end: CommandError) -> Outcome:
+    if end.code == INTERRUPTED:
+        return Outcome("interrupted", INTERRUPTED)
+    # Not the exit code of a refusal: other runs of the command have begun.
+    return Outcome("refused" if end.code == REFUSED else "stopped", STOPPED, end.lines)
+
+
+def _in_process(checked: CheckedRun, stops: StopRequests) -> Outcome:
+    """Compute a run in a process of its own, which is resumed once if it is killed."""
+    job = checked.job(Standing.NEW)
+    for _ in range(ATTEMPTS):
+        ended = _waited_for(Child(job), stops)
+        if ended.word != "killed":
+            break
+        job = replace(job, request=replace(job.request, resume=True, overwrite=False))
+    return ended
+
+
+def _waited_for(child: Child, stops: StopRequests) -> Outcome:
+    with stops.marching():
+        ended = None
+        while ended is None:
+            try:
+                if stops.requested:
+                    child.ask_to_stop()
+                clock.sleep(PAUSE)
+                ended = child.ended()
+            except KeyboardInterrupt:
+                child.ask_to_stop()
+    return Outcome(ended.outcome, ended.code, ended.said)
+
+
+def _ignore(line: str) -> None:
+    """Print nothing."""
+
+
+@contextmanager
+def _no_progress(total: int | None, done: int) -> Iterator[Progress]:
+    def report(state: ContactState, done: int, total: int) -> None:
+        """Show nothing."""
+
+    yield report
