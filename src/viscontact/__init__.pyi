@@ -77,6 +77,7 @@ from .results.netcdf import save as save
 from .results.stresses import section_stresses as section_stresses
 from .runs.many import simulate_many as simulate_many
 from .runs.single import simulate as simulate
+from .runs.sweep.open_many import open_many as open_many
 from .simulation.automatic_grid import auto_grid as auto_grid
 from .simulation.state_generator import march as march
 from .state import ContactState as ContactState

@@ -14,6 +14,7 @@ from viscontact.cli.commands.materials import material
 from viscontact.cli.commands.running import check, run
 from viscontact.cli.commands.serving import serve
 from viscontact.cli.commands.showing import export, report, show, verify
+from viscontact.cli.commands.sweeps import collect, status
 
 app = typer.Typer(
     name="viscontact",
@@ -30,10 +31,12 @@ _COMMANDS = (
     (example, "viscontact example roller-dogbone -o my.yaml"),
     (check, "viscontact check my.yaml"),
     (run, "viscontact run my.yaml --set load.force=20kN --set output.fields=all -o heavier"),
+    (status, "viscontact status forces --watch"),
     (show, "viscontact show heavier"),
     (plot, 'viscontact plot heavier pressure-map --time "0 s" --time "1000 s" -o map.pdf'),
     (compare, "viscontact compare centred halfway end --figure history -o runs.png"),
     (export, "viscontact export heavier -o heavier.csv"),
+    (collect, "viscontact collect forces -o forces.nc"),
     (schema, "viscontact schema > viscontact.schema.json"),
     (fit, "viscontact fit dma.csv --poisson-ratio 0.38 -o fit.png --yaml pmma.yaml"),
     (material, "viscontact material pmma-paper -o pmma.png"),

@@ -6,6 +6,7 @@ import difflib
 import functools
 import math
 import re
+from contextlib import suppress
 from dataclasses import dataclass
 from decimal import Decimal
 from typing import Any
@@ -87,6 +88,32 @@ def parse_quantity(text: str, dimension: str) -> float:
     if not math.isfinite(value):
         raise ValueError(f"{quoted(text)} is not a finite number; write e.g. {wanted.example!r}")
     return value
+
+
+def parse_any_quantity(text: str) -> tuple[float, str]:
+    """Parse a quantity of any dimension of `DIMENSIONS`, or a ratio, to its SI number and unit.
+
+    ValueError for any other text. A temperature in degrees is an absolute one.
+
+    >>> parse_any_quantity("10 kN"), parse_any_quantity("0.3"), parse_any_quantity("1 %")
+    ((10000.0, 'N'), (0.3, '1'), (0.01, '1'))
+    """
+    match = _QUANTITY.fullmatch(text.strip())
+    if match is None:
+        raise ValueError(f"cannot read {quoted(text)} as a number with a unit")
+    scale, unit = _any_scale(match["unit"])
+    return scale.si(match["number"]), unit
+
+
+@functools.lru_cache(maxsize=64)
+def _any_scale(unit: str) -> tuple[Scale, str]:
+    """Conversion of a unit of any known dimension to SI, and the SI unit."""
+    if unit in ("", "%"):
+        return Scale(0.01 if unit else 1.0), "1"
+    for name, dimension in DIMENSIONS.items():
+        with suppress(ValueError):
+            return _scale(unit, unit, name), dimension.unit
+    raise ValueError(f"{quoted(unit)} is no unit of {', '.join(DIMENSIONS)}")
 
 
 def parse_unit(text: str, dimension: str) -> float:

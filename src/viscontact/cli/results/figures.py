@@ -14,7 +14,7 @@ import xarray as xr
 
 from viscontact.cli.results.stored import early_end, opened
 from viscontact.cli.terminal.messages import refuse, say
-from viscontact.cli.terminal.progress import frames_shown
+from viscontact.cli.terminal.progress import counted
 from viscontact.run_files import MANIFEST_NAME
 from viscontact.units.formatting import format_quantity
 from viscontact.units.parsing import parse_quantity
@@ -199,7 +199,7 @@ def save_animation(plot: Any, file: Path, ds: xr.Dataset, **options: Any) -> Non
                 f"{film.instants.size} frames show {stored} stored instants; for smooth motion run "
                 "again with --set output.fields=all"
             )
-        with frames_shown(film.instants.size) as progress:
+        with counted("frame") as progress:
             plot.save_film(film, file, progress)
     except (ValueError, OSError) as error:
         refuse(f"{file}: {error}")

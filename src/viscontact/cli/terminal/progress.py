@@ -41,18 +41,18 @@ def shown_progress(total: int | None, done: int = 0, *, quiet: bool) -> Iterator
 
 
 @contextmanager
-def frames_shown(total: int) -> Iterator[Callable[[int, int], None]]:
-    """Display on a terminal how many frames of an animation are drawn."""
-    if not sys.stderr.isatty():
+def counted(unit: str, *, quiet: bool = False) -> Iterator[Callable[[int, int], None]]:
+    """Display on a terminal how many frames, runs or other units of some work are done."""
+    if quiet or not sys.stderr.isatty():
         yield lambda done, total: None
         return
     bar = Progress(
-        *(TextColumn("frame"), MofNCompleteColumn(), BarColumn(bar_width=16)),
+        *(TextColumn(unit), MofNCompleteColumn(), BarColumn(bar_width=16)),
         *(TimeRemainingColumn(), TextColumn("left")),
         console=Console(stderr=True),
         transient=True,
     )
-    task = bar.add_task("", total=total)
+    task = bar.add_task("", total=None)
     bar.start()
     try:
         yield lambda done, total: bar.update(task, completed=done, total=total)

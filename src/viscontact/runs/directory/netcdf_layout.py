@@ -164,6 +164,21 @@ def read_scalars(file: netCDF4.Dataset) -> dict[str, NDArray[np.float64]]:
     return {name: np.asarray(file.variables[name][:], dtype=np.float64) for name in names}
 
 
+def described_fields(file: netCDF4.Dataset) -> dict[str, Any] | None:
+    """Describe the fields of a result as plain data; None without fields.
+
+    Results with equal descriptions store fields at the same instants [s] on the same grid: cells
+    along an axis, with the first and the last centre [m].
+    """
+    if not (names := [name for name in FIELDS | LINES if name in file.variables]):
+        return None
+    axis = str(file.variables[names[0]].dimensions[0])
+    centres = {name: file.variables[name][:] for name in ("x", "y")}
+    grid = {name: [len(at), float(at[0]), float(at[-1])] for name, at in centres.items()}
+    instants = file.variables[axis][:].tolist() if axis != "time" else None
+    return {"names": names, "axis": axis, "instants": instants, **grid}
+
+
 def write_errors(file: netCDF4.Dataset, values: Mapping[str, NDArray[np.float64]]) -> None:
     """Write the errors of the scalars, for all rows, by the names of the scalars."""
     for name, errors in values.items():

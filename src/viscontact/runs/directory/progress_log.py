@@ -100,11 +100,15 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
         self._file.truncate(self._file.tell())  # lines beyond the state that was resumed
         os.fsync(self._file.fileno())
 
-    def finish(self, errors: Mapping[str, NDArray[np.float64]] | None = None) -> None:
+    def finish(
+        self,
+        errors: Mapping[str, NDArray[np.float64]] | None = None,
+        fields: Mapping[str, Any] | None = None,
+    ) -> None:
         """Add the errors of scalars over all lines, by their names, and mark the end of the run.
 
-        The file is replaced at once and durably; a program that holds it on Windows keeps it as
-        `flush_to_disk` leaves it.
+        The last line gets `fields`, the description of the fields that the result stores. The file
+        is replaced at once and durably; one that a program holds on Windows remains without both.
         """
         self.flush_to_disk()
         fresh = fresh_name(self._path)
@@ -113,8 +117,9 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
             with self._path.open("rb") as lines, fresh.open("xb") as file:
                 for row, line in enumerate(lines):
                     entries = json.loads(line) | _errors(errors or {}, row)
-                    end = {"complete": True} if row == self.count - 1 else {}
-                    file.write(_encoded(entries | end))
+                    if row == self.count - 1:
+                        entries |= {"complete": True, "fields": fields and dict(fields)}
+                    file.write(_encoded(entries))
             flush_to_disk(fresh)
             self._replace(fresh)
         finally:

@@ -158,7 +158,8 @@ class Recorder:
         with self._undisturbed():
             if self._lines is not None:
                 # Before the state is removed: a line lost in a power cut could not be repeated.
-                self._lines.finish(None if bars is None else bars.values)
+                errors = None if bars is None else bars.values
+                self._lines.finish(errors, self._writer.described_fields())
             self._writer.finish(bars)
             self.shown = self._reached
             self.close()

@@ -24,6 +24,7 @@ from viscontact.runs.directory.netcdf_layout import (
     Layout,
     copy_rows,
     created,
+    described_fields,
     opened,
     read_scalars,
     write_errors,
@@ -171,6 +172,12 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
         with self._writing():
             self._write_waiting()
             return read_scalars(self._file())
+
+    def described_fields(self) -> dict[str, Any] | None:
+        """Return the description of the stored fields; None without fields."""
+        with self._writing():
+            self._write_waiting()
+            return described_fields(self._file())
 
     def finish(self, bars: ErrorBars | None = None) -> None:
         """Publish the complete result, with the errors of its scalars, and close it."""

@@ -1,0 +1,75 @@
+"""Status of a sweep as lines, printed once or renewed until all runs have ended."""
+
+from __future__ import annotations
+
+import sys
+import time as clock
+from collections.abc import Iterator
+from pathlib import Path
+from textwrap import shorten
+
+from viscontact.cli.terminal.messages import STOPPED, refuse, stop
+from viscontact.runs.sweep.states import State
+from viscontact.runs.sweep.status import LISTED, SweepStatus, sweep_status
+from viscontact.units.formatting import format_quantity
+
+#: Time between two looks [s], and as a multiple of the time that a look takes.
+_PAUSE, _SHARE = 2.0, 10.0
+#: Longest message in the list of runs [characters].
+_MESSAGE = 200
+
+
+def print_status(directory: Path, *, watch: bool) -> None:
+    """Print the status of a sweep; exit code 1 if a run has failed."""
+    status = _watched(directory) if watch else _look(directory)
+    if not watch:
+        print("\n".join(status_lines(directory, status)))
+    if status.counts[State.FAILED]:
+        stop(code=STOPPED)
+
+
+def status_lines(directory: Path, status: SweepStatus) -> Iterator[str]:
+    """Yield the number of runs in each state, the progress, and the runs that need attention."""
+    counts = [f"{count} {state.value}" for state, count in status.counts.items() if count]
+    runs = "1 run" if status.total == 1 else f"{status.total} runs"
+    yield f"{directory}: {runs}: {', '.join(reversed(counts))}"
+    if not status.has_ended:
+        left = "" if status.left is None else f", about {format_quantity(status.left, 's', 2)} left"
+        yield f"{status.part:.0%} done{left}"
+    for state, listed in status.listed.items():
+        for each in listed:
+            said = shorten(each.state.message, _MESSAGE, placeholder=" ...")
+            part = "" if state is State.FAILED else f"{each.part:.0%}"
+            yield "  ".join(filter(None, (f"  {state.value:8}{each.name}", part, said)))
+        if (more := status.counts[state] - LISTED) > 0:
+            yield f"  {state.value:8}... and {more} more"
+
+
+def _look(directory: Path) -> SweepStatus:
+    try:
+        return sweep_status(directory)
+    except (OSError, ValueError) as error:
+        refuse(str(error))
+
+
+def _watched(directory: Path) -> SweepStatus:
+    """Renew the lines on a terminal until all runs have ended; elsewhere, print each change."""
+    from rich.console import Console
+    from rich.live import Live
+    from rich.text import Text
+
+    is_terminal = sys.stdout.isatty()
+    said = ""
+    with Live(console=Console(), auto_refresh=False, transient=False) as live:
+        while True:
+            began = clock.monotonic()
+            status = _look(directory)
+            text = "\n".join(status_lines(directory, status))
+            if is_terminal:
+                live.update(Text(text), refresh=True)
+            elif text != said:
+                print(text, flush=True)
+            said = text
+            if status.has_ended:
+                return status
+            clock.sleep(max(_PAUSE, _SHARE * (clock.monotonic() - began)))

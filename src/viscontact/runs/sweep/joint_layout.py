@@ -1,0 +1,208 @@
+"""Layout of the joint result of a sweep: dimensions, coordinates, instants and states."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from viscontact import __version__
+from viscontact.results.variables import (
+    COORDINATES,
+    ERRORS,
+    OUTCOME_FLAGS,
+    scalar_attributes,
+)
+from viscontact.run_files import MANIFEST_NAME
+from viscontact.runs.sweep.axes import SweepAxes, sweep_axes
+from viscontact.runs.sweep.manifest import SweepRun, read_manifest
+from viscontact.runs.sweep.run_scalars import COLUMNS, RunOutline, run_outline, run_scalars
+from viscontact.runs.sweep.states import RunState, State, run_state
+
+Floats = NDArray[np.float64]
+
+#: Called with the numbers of finished and of all runs.
+Progress = Callable[[int, int], None]
+
+#: Dimension of the instants of runs with different times.
+STEP = "step"
+#: Memory for scalars that are read at once [bytes].
+_BLOCK = 2**24
+
+
+@dataclass(frozen=True, eq=False)
+class JointLayout:
+    """Layout of the joint result of a sweep; runs count in the order of the manifest."""
+
+    directory: Path
+    runs: list[SweepRun]
+    axes: SweepAxes
+    states: list[RunState]
+    times: Floats | None  # common instants of all finished runs [s]; None if they differ
+    steps: int  # largest number of instants of a run
+    columns: tuple[str, ...]  # names of the scalars and their errors that any run states
+    fields: Mapping[str, Any] | None  # description of the fields that all finished runs share
+    has_fields: bool  # True if any run has fields
+
+    @property
+    def time_dim(self) -> str:
+        """Dimension of the instants."""
+        return STEP if self.times is None else "time"
+
+    @property
+    def done(self) -> list[int]:
+        """Numbers of the finished runs."""
+        return [n for n, each in enumerate(self.states) if each.state is State.DONE]
+
+    @property
+    def scalar_dims(self) -> tuple[str, ...]:
+        """Dimensions of a scalar."""
+        return (*self.axes.dims, self.time_dim)
+
+    @property
+    def scalar_shape(self) -> tuple[int, ...]:
+        """Sizes along `scalar_dims`."""
+        return (*self.axes.shape, self.steps)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Variables over the instants: the times where these differ, and `columns`."""
+        return self.columns if self.times is not None else ("time", *self.columns)
+
+    @property
+    def beside(self) -> list[str]:
+        """Coordinates of a scalar that are no dimensions."""
+        found = [name for name in self.axes.coords if name not in self.axes.dims]
+        return [*found, "time"] if self.times is None else found
+
+    def place(self, run: int) -> Path:
+        """Directory of a run."""
+        return self.directory / self.runs[run].directory
+
+    def attributes(self, name: str) -> dict[str, Any]:
+        """Attributes of a scalar, of its error, or of the time."""
+        if name == "time":
+            return COORDINATES["time"].attributes
+        if name in ERRORS:
+            return ERRORS[name].attributes
+        found = scalar_attributes(name, errors=any(each in ERRORS for each in self.columns))
+        if name == "outcome":  # a float here, NaN without a result
+            found |= OUTCOME_FLAGS
+            found["flag_values"] = np.asarray(found["flag_values"], dtype=np.float64)
+        return found
+
+    def frame(self) -> xr.Dataset:
+        """Joint result without scalars and fields: coordinates, states and messages."""
+        dims, shape = self.axes.dims, self.axes.shape
+        about = {
+            "state": ([each.state.value for each in self.states], "state of the run"),
+            "message": ([each.message for each in self.states], "reason why the run has no result"),
+        }
+        texts = {
+            name: (dims, np.array(values, dtype=np.str_).reshape(shape), {"long_name": title})
+            for name, (values, title) in about.items()
+        }
+        frame = xr.Dataset(texts, self.axes.coords, self._about)
+        if self.times is not None:
+            frame = frame.assign_coords(time=("time", self.times, self.attributes("time")))
+        return frame
+
+    @property
+    def _about(self) -> dict[str, str]:
+        about = {"Conventions": "CF-1.11", "source": f"viscontact {__version__}"}
+        if self.has_fields and self.fields is None:
+            about["fields"] = "on different grids: open_many(directory, tree=True) returns them"
+        return about
+
+    def blocks(self, block: int = _BLOCK) -> Iterator[tuple[slice, Floats]]:
+        """Yield consecutive runs and the values of `names`, NaN without a result.
+
+        Their shape is (runs, names, steps).
+        """
+        chosen = [COLUMNS.index(name) for name in self.names]
+        size = max(1, block // (8 * len(COLUMNS) * max(1, self.steps)))
+        for first in range(0, len(self.runs), size):
+            last = min(first + size, len(self.runs))
+            values = np.full((last - first, len(chosen), self.steps), np.nan)
+            for run in range(first, last):
+                if self.states[run].state is State.DONE:
+                    table = run_scalars(self.place(run))[: self.steps]
+                    values[run - first, :, : len(table)] = table[:, chosen].T
+            yield slice(first, last), values
+
+
+def joint_layout(directory: str | Path, progress: Progress | None = None) -> JointLayout:
+    """Read the layout of the joint result of a sweep; `progress` is called with (done, total).
+
+    A finished run whose files cannot be read counts as failed. FileNotFoundError without a
+    manifest, ValueError if it is damaged.
+    """
+    folder = Path(directory)
+    manifest = folder / MANIFEST_NAME
+    if not manifest.is_file():
+        raise FileNotFoundError(f"no manifest {MANIFEST_NAME} of a sweep in {directory}")
+    runs = list(read_manifest(manifest))
+    shared, states = _Shared(), []
+    for run in runs:
+        state, outline = _outlined(folder / run.directory)
+        states.append(state)
+        if outline is not None:
+            shared.add(outline)
+        if progress is not None:
+            progress(run.run + 1, len(runs))
+    columns = tuple(name for name in COLUMNS[1:] if name in shared.columns)
+    times = shared.times if shared.times is not None or shared.steps else np.empty(0)
+    fields = shared.fields
+    if fields is not None and times is None and fields["axis"] == "time":
+        fields = {**fields, "axis": STEP}
+    return JointLayout(
+        folder,
+        runs,
+        sweep_axes(runs),
+        states,
+        times,
+        shared.steps,
+        columns,
+        fields,
+        shared.has_fields,
+    )
+
+
+def _outlined(directory: Path) -> tuple[RunState, RunOutline | None]:
+    state = run_state(directory)
+    if state.state is not State.DONE:
+        return state, None
+    try:
+        return state, run_outline(directory)
+    except (OSError, RuntimeError, ValueError, LookupError, TypeError) as error:
+        return RunState(State.FAILED, f"its result cannot be read: {error}"), None
+
+
+class _Shared:
+    """Instants, scalars and fields that runs share, found one run after the other."""
+
+    def __init__(self) -> None:
+        self.steps = 0
+        self.columns: set[str] = set()
+        self.times: Floats | None = None
+        self.fields: Mapping[str, Any] | None = None
+        self.has_fields = False
+        self._is_first = True
+
+    def add(self, outline: RunOutline) -> None:
+        """Take a run into account."""
+        if self._is_first:
+            self.times, self.fields = outline.times, outline.fields
+        elif self.times is not None and not np.array_equal(self.times, outline.times):
+            self.times = None
+        if self.fields != outline.fields:
+            self.fields = None
+        self.has_fields |= outline.fields is not None
+        self.steps = max(self.steps, outline.times.size)
+        self.columns |= outline.columns
+        self._is_first = False

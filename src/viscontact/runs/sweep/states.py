@@ -1,0 +1,86 @@
+"""States of runs, read from the names of the files in their directories."""
+
+from __future__ import annotations
+
+import json
+import os
+from contextlib import suppress
+from dataclasses import dataclass
+from enum import Enum
+from pathlib import Path
+from typing import Any
+
+from viscontact.run_files import FAILURE_NAME, PROGRESS_NAME, RESULT_NAME, STATE_NAME
+from viscontact.runs.directory.lock import is_locked
+from viscontact.runs.processes.request import INTERRUPTED
+
+#: Part of a progress log that holds its last line [bytes].
+_LAST_LINE = 2**16
+
+
+class State(Enum):
+    """State of a run in its directory."""
+
+    WAITING = "waiting"
+    RUNNING = "running"
+    STOPPED = "stopped"
+    FAILED = "failed"
+    DONE = "done"
+
+
+@dataclass(frozen=True)
+class RunState:
+    """State of a run, and why it has failed or stopped; empty where that is not recorded."""
+
+    state: State
+    message: str = ""
+
+
+def run_state(directory: Path) -> RunState:
+    """Read the state of a run from its directory, which may be missing.
+
+    A run with a result but without restart data is done. A failure is that of the last attempt; it
+    is stopped, not failed, if it was interrupted on request.
+
+    >>> run_state(Path("no such directory")).state
+    <State.WAITING: 'waiting'>
+    """
+    try:
+        names = {each.name for each in os.scandir(directory)}
+    except OSError:
+        return RunState(State.WAITING)
+    if RESULT_NAME in names and not names & {STATE_NAME, FAILURE_NAME}:
+        return RunState(State.DONE)
+    if is_locked(directory):
+        return RunState(State.RUNNING)
+    if FAILURE_NAME in names:
+        return _failure(directory / FAILURE_NAME)
+    return RunState(State.STOPPED if STATE_NAME in names else State.WAITING)
+
+
+def _failure(path: Path) -> RunState:
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"))
+        said = found["message"]
+        message = said if isinstance(said, str) else "; ".join(map(str, said))
+        stopped = found.get("code") == INTERRUPTED
+    except (OSError, ValueError, LookupError, TypeError, AttributeError, RecursionError):
+        return RunState(State.FAILED, f"{path} cannot be read")
+    return RunState(State.STOPPED if stopped else State.FAILED, " ".join(message.split()))
+
+
+def last_line(directory: Path) -> dict[str, Any]:
+    """Return the last complete line of the progress log of a run; empty without one."""
+    with suppress(OSError, ValueError, RecursionError):
+        with (directory / PROGRESS_NAME).open("rb") as file:
+            file.seek(max(0, file.seek(0, os.SEEK_END) - _LAST_LINE))
+            lines = file.read().rpartition(b"\n")[0]
+        found = json.loads(lines.rpartition(b"\n")[2])
+        return found if isinstance(found, dict) else {}
+    return {}
+
+
+def finished_part(directory: Path) -> float:
+    """Return the finished part of the march of a run, 0 to 1."""
+    part = last_line(directory).get("part")
+    return min(max(float(part), 0.0), 1.0) if isinstance(part, int | float) else 0.0
