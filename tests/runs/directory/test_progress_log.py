@@ -135,12 +135,13 @@ def test_finished_log_holds_the_errors_of_each_instant(tmp_path: Path) -> None:
             "approach": np.array([1 / 3, 0.0, 5e-324]),
         }
         for _ in range(2):  # a run that is killed at its end finishes again
-            log.finish(bars)
+            log.finish(bars, {"axis": "time"})
             lines = lines_of(path)
             assert [line.pop("force_error") for line in lines] == [0.1, None, "inf"]
             assert [line.pop("approach_error") for line in lines] == [1 / 3, 0.0, 5e-324]
             assert [line.pop("part") for line in lines] == [1 / 3, 2 / 3, 1.0]
             assert [line.pop("complete", False) for line in lines] == [False, False, True]
+            assert lines[-1].pop("fields") == {"axis": "time"}
             assert lines == [entries(state(row)) for row in range(3)]
     assert list(tmp_path.iterdir()) == [path]
 
