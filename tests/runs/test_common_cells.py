@@ -14,7 +14,8 @@ from viscontact.case.document import read_document
 from viscontact.cli import main
 from viscontact.cli.many import common_cells
 from viscontact.cli.many.common_cells import with_common_cells
-from viscontact.cli.many.jobs import ManyRequest
+from viscontact.cli.many.design_options import DesignOptions
+from viscontact.cli.many.request import ManyRequest
 from viscontact.runs.processes.request import RunRequest
 from viscontact.units.formatting import format_quantity
 
@@ -38,8 +39,8 @@ def roller(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def sweep(case: Path, *, text: str, resume: bool = False) -> list[RunRequest]:
     """The runs of a `--vary`, with what they share."""
     common = RunRequest(case, Path("all"), resume=resume)
-    requests = ManyRequest((case,), common, (text,)).runs()
-    return with_common_cells(requests, [text.partition("=")[0]])
+    planned = ManyRequest((case,), common, DesignOptions((text,))).planned()
+    return with_common_cells(planned, "--vary")
 
 
 def added(runs: list[RunRequest]) -> set[tuple[str, ...]]:
@@ -122,8 +123,9 @@ def test_runs_of_other_cases_do_not_count(roller: Path, line: str) -> None:
     roller.write_text(ROLLER + line, encoding="utf-8")
     Path("short.yaml").write_text(ROLLER.replace("8 mm", "3 mm"), encoding="utf-8")
     common = RunRequest(roller, Path("all"))
-    both = ManyRequest((roller, Path("short.yaml")), common, ("load.force=75N,200N",)).runs()
-    runs = with_common_cells(both, ["load.force"])
+    options = DesignOptions(("load.force=75N,200N",))
+    both = ManyRequest((roller, Path("short.yaml")), common, options).planned()
+    runs = with_common_cells(both, "--vary")
     assert runs[:2] == sweep(roller, text="load.force=75N,200N")
     assert runs[2:] == sweep(Path("short.yaml"), text="load.force=75N,200N")
     assert len(added(runs)) == 2

@@ -23,7 +23,7 @@ import viscontact as vc
 from interrupted_runs import BODIES
 from viscontact.cli import main
 from viscontact.cli.many import jobs
-from viscontact.cli.many.variations import variations
+from viscontact.cli.many.design_options import DesignOptions
 from viscontact.results.formatting import format_percent
 from viscontact.results.stated_errors import largest_error
 from viscontact.runs import many
@@ -162,11 +162,12 @@ def test_what_cannot_be_varied_is_refused_in_one_line(
 def test_names_of_variations_may_stand_in_any_path() -> None:
     values = ("1e-3 / MPa", '"x, y"', "-5 µm", "5%", "C:\\x")
     texts = [*(f"a.b={value}" for value in values), "a[2].b=../.."]
-    names = [each.name for text in texts for each in variations([text])]
+    case = Path("a.yaml")
+    names = [DesignOptions((text,)).design(case).name(0) for text in texts]
     assert names == ["b=1e-3-MPa", "b=x-y", "b=-5µm", "b=5%", "b=C-x", "b="]
     # two keys that end in the same are distinguished by all of their names
-    both = variations(["load.force=1 N", "other.force=2 N"])[0].name
-    assert both == "load.force=1N_other.force=2N"
+    both = DesignOptions(("load.force=1 N", "other.force=2 N")).design(case)
+    assert both.name(0) == "load.force=1N_other.force=2N"
 
 
 def test_runs_that_do_not_fit_into_memory_wait_for_one_another(

@@ -116,6 +116,20 @@ def _any_scale(unit: str) -> tuple[Scale, str]:
     raise ValueError(f"{quoted(unit)} is no unit of {', '.join(DIMENSIONS)}")
 
 
+def split_quantity(text: str) -> tuple[str, str]:
+    """Return the number and the unit of a quantity as texts; the unit is empty for a plain number.
+
+    ValueError if there is no decimal number in front. The unit is not checked.
+
+    >>> split_quantity("5.545e-4 / MPa"), split_quantity("0.3")
+    (('5.545e-4', '/ MPa'), ('0.3', ''))
+    """
+    match = _QUANTITY.fullmatch(text.strip())
+    if match is None or match["unit"].startswith(","):
+        raise ValueError(f"{quoted(text)} is not a number with a unit; write e.g. '5.5 kN'")
+    return match["number"], match["unit"]
+
+
 def parse_unit(text: str, dimension: str) -> float:
     """Return the factor of a unit such as ``"kN"`` to the SI unit of a key of `DIMENSIONS`.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
@@ -11,6 +12,14 @@ from viscontact.cli.commands.drawing import Width
 from viscontact.cli.terminal.interruption import watched_interruption
 from viscontact.cli.terminal.messages import INTERRUPTED, refuse, stop
 from viscontact.runs.processes.request import RunRequest
+
+
+class Method(StrEnum):
+    """Kinds of random points."""
+
+    SOBOL = "sobol"
+    LATIN_HYPERCUBE = "latin-hypercube"
+
 
 CaseFiles = Annotated[
     list[Path], typer.Argument(metavar="CASE.yaml...", help="Case file, or several.")
@@ -39,6 +48,40 @@ Varied = Annotated[
         "combination.",
     ),
 ]
+Zipped = Annotated[
+    bool, typer.Option("--zip", help="Pair the values of several --vary, in place of combinations.")
+]
+PlanTable = Annotated[
+    Path | None,
+    typer.Option(
+        "--table",
+        metavar="FILE.csv",
+        help="One run for each row; the headings are keys with units, e.g. 'load.force [N]'.",
+    ),
+]
+Sample = Annotated[
+    int | None,
+    typer.Option(
+        "--sample", min=1, metavar="N", help="N runs at points that fill the ranges evenly."
+    ),
+]
+Ranges = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--range",
+        metavar="KEY=LOW:HIGH[:log]",
+        help="Range of a key for --sample, e.g. load.force='5 kN:20 kN:log'; if repeated, a range "
+        "for each key.",
+    ),
+]
+Seed = Annotated[
+    int | None,
+    typer.Option("--seed", min=0, metavar="S", help="Seed of --sample; 0 if not given."),
+]
+SamplingMethod = Annotated[
+    Method | None,
+    typer.Option("--method", help="Points of --sample: a scrambled Sobol sequence if not given."),
+]
 Threads = Annotated[int, typer.Option(min=1, help="Number of threads of a Fourier transform.")]
 
 
@@ -53,6 +96,12 @@ def run(
     ] = False,
     settings: Settings = None,
     varied: Varied = None,
+    zipped: Zipped = False,
+    table: PlanTable = None,
+    sample: Sample = None,
+    ranges: Ranges = None,
+    seed: Seed = None,
+    method: SamplingMethod = None,
     jobs: Annotated[
         int,
         typer.Option("-j", "--jobs", min=1, metavar="N", help="Number of runs at the same time."),
@@ -69,13 +118,23 @@ def run(
         with watched_interruption() as interruption:
             # An import that is interrupted may end in any error: the request waits for its end.
             with interruption.postponed():
+                from viscontact.cli.many.design_options import DesignOptions
                 from viscontact.cli.many.execution import execute_many
-                from viscontact.cli.many.jobs import ManyRequest
+                from viscontact.cli.many.request import ManyRequest
                 from viscontact.cli.run.execution import execute
-            if len(cases) == 1 and not varied:
+            options = DesignOptions(
+                tuple(varied or ()),
+                zipped,
+                table,
+                sample,
+                tuple(ranges or ()),
+                seed,
+                None if method is None else method.value,
+            )
+            if len(cases) == 1 and options == DesignOptions():
                 execute(common)
             else:
-                execute_many(ManyRequest(tuple(cases), common, tuple(varied or ()), jobs))
+                execute_many(ManyRequest(tuple(cases), common, options, jobs))
     except KeyboardInterrupt:
         stop("interrupted", code=INTERRUPTED)
 

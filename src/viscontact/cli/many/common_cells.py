@@ -17,12 +17,14 @@ import numpy as np
 
 from viscontact.case import CaseError, read_case
 from viscontact.case.document import read_document
+from viscontact.cli.many.request import PlannedRun
 from viscontact.cli.terminal.messages import CommandError, say
 from viscontact.run_files import CASE_NAME
 from viscontact.runs import resources
 from viscontact.runs.execution.checked_run import prepare
 from viscontact.runs.machine.memory import available_memory
 from viscontact.runs.processes.request import RunRequest
+from viscontact.runs.sweep.extremes import extreme_rows
 from viscontact.runs.sweep.manifest import SweepRun
 from viscontact.simulation.setup import RunSetup
 from viscontact.units.formatting import format_quantity
@@ -35,7 +37,7 @@ MOST_CELLS = 2**16
 
 
 def with_common_cells(
-    requests: Sequence[RunRequest], keys: Sequence[str], earlier: Sequence[SweepRun] = ()
+    planned: Sequence[PlannedRun], option: str, earlier: Sequence[SweepRun] = ()
 ) -> list[RunRequest]:
     """Add the common cells to the settings of runs that differ in the values of some keys.
 
@@ -43,17 +45,21 @@ def with_common_cells(
     is given, or where the common cells would be too many. The cells of a sweep that is resumed
     are those of its earlier runs in the manifest.
     """
-    if not keys or any(key.partition(".")[0] == "grid" for key in keys):
-        return list(requests)
-    sweeps: dict[Path, list[RunRequest]] = {}
-    for each in requests:
-        sweeps.setdefault(each.case, []).append(each)
-    added = {case: _settings(runs, earlier) for case, runs in sweeps.items()}
+    sweeps: dict[Path, list[PlannedRun]] = {}
+    for each in planned:
+        sweeps.setdefault(each.request.case, []).append(each)
+    added = {case: _settings(runs, option, earlier) for case, runs in sweeps.items()}
+    requests = (each.request for each in planned)
     return [replace(each, settings=(*each.settings, *added[each.case])) for each in requests]
 
 
-def _settings(requests: Sequence[RunRequest], earlier: Sequence[SweepRun]) -> tuple[str, ...]:
+def _settings(
+    planned: Sequence[PlannedRun], option: str, earlier: Sequence[SweepRun]
+) -> tuple[str, ...]:
     """Setting of the common cells of the runs of a case; none if they keep their own."""
+    design, requests = planned[0].design, [each.request for each in planned]
+    if not design.keys or any(key.partition(".")[0] == "grid" for key in design.keys):
+        return ()
     try:
         asked = read_case(requests[0].case, requests[0].settings).automatic_grid
         if len(requests) == 1 or asked is None or asked.largest_cell is not None:
@@ -66,7 +72,7 @@ def _settings(requests: Sequence[RunRequest], earlier: Sequence[SweepRun]) -> tu
         begun = [found for each in requests if each.resume and (found := _begun_with(each))]
         if begun:
             return begun[0].settings
-        return _chosen(requests)
+        return _chosen([requests[row] for row in extreme_rows(design)], option)
     except (CaseError, CommandError):
         return ()  # reported when the runs are checked
 
@@ -88,7 +94,7 @@ def _begun_with(request: RunRequest) -> _Begun | None:
     return _Begun(_setting(*cell) if isinstance(cell, list) else ())
 
 
-def _chosen(requests: Sequence[RunRequest]) -> tuple[str, ...]:
+def _chosen(requests: Sequence[RunRequest], option: str) -> tuple[str, ...]:
     """The smallest cells that any of the runs chooses, as a setting."""
     runs = [prepare(each.case, each.settings, each.threads).run for each in requests]
     dx, dy = np.min([run.grid.cell_size for run in runs], axis=0).tolist()
@@ -96,10 +102,11 @@ def _chosen(requests: Sequence[RunRequest]) -> tuple[str, ...]:
     affordable = all(_is_affordable(run, (dx, dy)) for run in runs)
     if not requests[0].quiet:
         say(
-            f"--vary: common cells of {shown} in all runs of {requests[0].case}"
+            f"{option}: common cells of {shown} in all runs of {requests[0].case}"
             if affordable
-            else f"--vary: each run of {requests[0].case} has cells of its own, as common cells of "
-            f"{shown} would be too many; mesh-dependent values of different runs cannot be compared"
+            else f"{option}: each run of {requests[0].case} has cells of its own, as common cells "
+            f"of {shown} would be too many; mesh-dependent values of different runs cannot be "
+            "compared"
         )
     return _setting(*(f"{1e6 * length:.9g} um" for length in (dx, dy))) if affordable else ()
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from contextlib import suppress
 
-from viscontact.cli.many.jobs import ManyRequest, checked_sweep, fitting, resource_warnings
+from viscontact.cli.many.jobs import CheckedSweep, checked_sweep, fitting, resource_warnings
 from viscontact.cli.many.progress import RunsDisplay, shown_runs
+from viscontact.cli.many.request import ManyRequest
 from viscontact.cli.many.table import print_table
-from viscontact.cli.many.variations import as_typed
 from viscontact.cli.terminal.interruption import Interruption, watched_interruption
 from viscontact.cli.terminal.messages import DONE, INTERRUPTED, STOPPED, refuse, say, stop
 from viscontact.cli.terminal.streams import printing, unwritten
@@ -36,7 +36,7 @@ def execute_many(request: ManyRequest) -> None:
             sweep.recorded.write()
         with shown_runs(left, quiet=quiet) as shown:
             ended = _computed(left, at_once, interruption, shown)
-    _end(request, jobs, ended)
+    _end(request, sweep, ended)
 
 
 def _computed(
@@ -50,15 +50,16 @@ def _computed(
             workers.shutdown()
 
 
-def _end(request: ManyRequest, jobs: Sequence[Job], ended: Sequence[Ended]) -> None:
+def _end(request: ManyRequest, sweep: CheckedSweep, ended: Sequence[Ended]) -> None:
     """Print how all runs ended, and end with the worst of their exit codes."""
+    jobs = sweep.jobs
     by_place = {each.job.directory: each for each in ended}
     runs = [by_place.get(job.directory) or _not_marched(job) for job in jobs]
     if not request.common.quiet:
         _print_table(runs)
     for each in runs:
         for line in each.said if each.code else ():
-            say(as_typed(line, request.varied))
+            say(request.options.as_typed(line, sweep.keys))
     stopped = [each.job.name for each in runs if each.code == STOPPED]
     lines = [f"{len(stopped)} of {len(runs)} runs stopped: {', '.join(stopped)}"] if stopped else []
     if any(each.code == INTERRUPTED for each in runs):

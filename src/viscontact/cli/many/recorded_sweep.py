@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from viscontact.cli.many.request import PlannedRun
 from viscontact.cli.terminal.messages import refuse
 from viscontact.run_files import MANIFEST_NAME
 from viscontact.runs.processes.request import RunRequest
@@ -70,20 +71,21 @@ def recorded_runs(directory: Path | None) -> list[SweepRun]:
 
 
 def sweep_runs(
-    directory: Path | None, requests: Sequence[RunRequest], varied: Sequence[str]
+    directory: Path | None, planned: Sequence[PlannedRun], requests: Sequence[RunRequest]
 ) -> list[SweepRun]:
-    """Lines of the manifest of requests, whose run directories lie in the one of the sweep."""
+    """Lines of the manifest of planned runs, with their requests."""
     if directory is None:
         return []
     place = directory.resolve()
     paths = {each.case: _relative(each.case, place) for each in requests}
-    design, found = "grid" if varied else "cases", []
-    for number, each in enumerate(requests):
+    found = []
+    for number, (plan, each) in enumerate(zip(planned, requests, strict=True)):
         own = directory.name if each.output is None else each.output.name
-        name = own if len(paths) > 1 else own.removeprefix(f"{each.case.stem}_")
+        name = (plan.design.name(plan.row) if len(paths) == 1 else "") or own
         pairs = (text.partition("=") for text in each.settings)
         settings = {key.strip(): value.strip() for key, _, value in pairs}
-        found.append(SweepRun(number, name, own, settings, tuple(varied), paths[each.case], design))
+        keys, kind = plan.design.keys, plan.design.kind
+        found.append(SweepRun(number, name, own, settings, keys, paths[each.case], kind))
     return found
 
 

@@ -55,7 +55,7 @@ class CheckedRun:
 
 def checked_run(request: RunRequest) -> CheckedRun:
     """Read and check the case of a run, and choose its directory; nothing is created."""
-    directory = _directory(request)
+    directory = directory_of(request)
     found = prepare(request.case, request.settings, request.threads)
     case = found.case
     recorded = RecordedRun(directory, found.run, case.fields, case.title, case.errors)
@@ -90,8 +90,8 @@ def progress_made(
     )
 
 
-def _directory(request: RunRequest) -> Path:
-    """Directory of the run, as a path that netCDF opens unchanged."""
+def directory_of(request: RunRequest) -> Path:
+    """Return the directory of a run, as a path that netCDF opens unchanged."""
     case, beside = request.case, request.case.parent
     is_runs_own = any((beside / name).is_file() for name in (RESULT_NAME, STATE_NAME))
     if request.output is None and case.name == CASE_NAME and is_runs_own:

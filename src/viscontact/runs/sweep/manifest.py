@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import asdict, dataclass
-from pathlib import Path, PurePath
+from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from viscontact.run_files import MANIFEST_NAME
@@ -49,7 +50,8 @@ def write_manifest(directory: Path, runs: Iterable[SweepRun]) -> Path:
     path = directory / MANIFEST_NAME
     with replacing(path) as file:
         for each in runs:
-            text = json.dumps(asdict(each), ensure_ascii=False)
+            found = {**vars(each), "settings": dict(each.settings)}
+            text = json.dumps(found, ensure_ascii=False)
             # A name that is not UTF-8 is escaped as JSON does it.
             file.write(text.encode("utf-8", "backslashreplace") + b"\n")
     return path
@@ -129,8 +131,9 @@ def _names(found: dict[str, Any]) -> tuple[str, ...]:
 
 
 def _require_inside(directory: str) -> None:
-    path = PurePath(directory)
-    if not path.parts or path.is_absolute() or ".." in path.parts:
+    # Not by pathlib, which keeps the names of all directories.
+    first, *others = re.split(r"[/\\]", directory)
+    if not first or ":" in first or ".." in (first, *others):
         raise ValueError(
             f"directory: must be the name of a directory in that of the sweep, got {directory!r}"
         )

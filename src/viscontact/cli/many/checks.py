@@ -1,0 +1,196 @@
+"""Checks of the runs of one command, before the first of them begins.
+
+Up to 1000 runs, all cases are read. Automatic grids, which can take a second each, are chosen for
+all of up to 100 runs, and beyond for those with extreme values of the varied keys, whose sizes
+stand for the others. Beyond 1000 runs, only these are checked, and the others as they begin.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import replace
+from pathlib import Path
+
+from viscontact.case import Case, CaseError, read_case
+from viscontact.cli.many.request import ManyRequest, PlannedRun
+from viscontact.cli.terminal.messages import CommandError, refuse
+from viscontact.grid import Grid
+from viscontact.run_files import CASE_NAME, LOCK_NAME, RESULT_NAME, STATE_NAME
+from viscontact.runs.directory.lock import DirectoryInUse, locked
+from viscontact.runs.execution.checked_run import checked_run, directory_of
+from viscontact.runs.execution.run_directory import refuse_no_directory, refuse_occupied
+from viscontact.runs.processes.job import Job, Standing
+from viscontact.runs.processes.request import RunRequest
+from viscontact.runs.sweep.extremes import extreme_rows
+
+#: Largest number of runs whose cases are all read.
+MOST_READ = 1000
+#: Largest number of problems that are printed, and of places that are named in one.
+_MOST_PROBLEMS, _MOST_PLACES = 50, 5
+
+
+def checked_jobs(
+    request: ManyRequest, planned: Sequence[PlannedRun], runs: Sequence[RunRequest]
+) -> list[Job]:
+    """Check the runs of a command; the problems of all of them are reported together."""
+    jobs: dict[int, Job] = {}
+    problems: dict[str, list[PlannedRun]] = {}
+    first = _to_prepare(planned)
+    for number in (*sorted(first), *(n for n in range(len(runs)) if n not in first)):
+        try:
+            if number in first:
+                jobs[number] = _prepared_job(runs[number])
+            elif not problems or len(runs) <= MOST_READ:
+                jobs[number] = _job(runs[number], [jobs[n] for n in first if n in jobs], len(runs))
+        except CommandError as refusal:
+            keys = planned[number].design.keys
+            for line in refusal.lines:
+                typed = request.options.as_typed(line, keys)
+                problems.setdefault(typed, []).append(planned[number])
+    if problems:
+        refuse(*_problems(problems, planned))
+    found = [jobs[number] for number in range(len(runs))]
+    _refuse_shared_directories(found)
+    return _named(found)
+
+
+def _to_prepare(planned: Sequence[PlannedRun]) -> set[int]:
+    """Numbers of the runs whose grids are chosen beforehand."""
+    designs: dict[Path, list[int]] = {}
+    for number, each in enumerate(planned):
+        designs.setdefault(each.request.case, []).append(number)
+    found = set()
+    for numbers in designs.values():
+        rows = set(extreme_rows(planned[numbers[0]].design))
+        found |= {number for number in numbers if planned[number].row in rows}
+    return found
+
+
+def _prepared_job(request: RunRequest) -> Job:
+    checked = checked_run(request)
+    standing = checked.standing()
+    _refuse_in_use(checked.recorded.directory)
+    return checked.job(standing)
+
+
+def _job(request: RunRequest, prepared: Sequence[Job], count: int) -> Job:
+    """Job of a run whose grid is not chosen beforehand, with the sizes of a prepared one."""
+    alike = [job for job in prepared if job.request.case == request.case] or prepared
+    if not alike:  # all of them are refused
+        return _prepared_job(request)
+    size = max(alike, key=lambda job: job.memory)
+    directory = directory_of(request)
+    if count > MOST_READ:
+        standing = _standing_by_names(request, directory)
+    else:
+        case = _read(request)
+        if isinstance(case.grid, Grid):  # its choice costs nothing
+            return _prepared_job(request)
+        standing = _standing(request, directory, case)
+    return replace(
+        size, request=request, directory=directory, name=directory.name, standing=standing
+    )
+
+
+def _read(request: RunRequest) -> Case:
+    try:
+        return read_case(request.case, request.settings)
+    except CaseError as error:
+        refuse(*error.problems)
+
+
+def _standing(request: RunRequest, directory: Path, case: Case) -> Standing:
+    """State of a run whose case is read; a run of another case is refused."""
+    refuse_no_directory(directory)
+    _refuse_in_use(directory)
+    if not request.resume:
+        refuse_occupied(directory, case, overwrite=request.overwrite)
+        return Standing.NEW
+    found = _standing_by_names(request, directory)
+    with suppress(OSError, UnicodeDecodeError):
+        if found is Standing.NEW or (directory / CASE_NAME).read_text("utf-8") == case.text:
+            return found
+    return checked_run(request).standing()  # compared in detail
+
+
+def _standing_by_names(request: RunRequest, directory: Path) -> Standing:
+    """State of a run by its files, checked when the run begins."""
+    if not request.resume:
+        return Standing.NEW
+    if (directory / STATE_NAME).exists():
+        return Standing.STOPPED
+    with suppress(OSError):
+        written = (directory / CASE_NAME).stat().st_mtime_ns
+        if (directory / RESULT_NAME).exists() and written >= request.case.stat().st_mtime_ns:
+            return Standing.FINISHED
+    return Standing.NEW
+
+
+def _refuse_in_use(directory: Path) -> None:
+    if not (directory / LOCK_NAME).exists():
+        return
+    try:
+        with suppress(OSError), locked(directory):
+            pass
+    except DirectoryInUse as error:
+        refuse(str(error))
+
+
+def _problems(problems: dict[str, list[PlannedRun]], planned: Sequence[PlannedRun]) -> list[str]:
+    """Lines of the problems, each with its runs unless all runs of the case have it."""
+    number = Counter(each.request.case for each in planned)
+    common = set.intersection(*(set(each.request.settings) for each in planned))
+    lines: dict[str, list[str]] = {}
+    for line, concerned in problems.items():
+        cases = {each.request.case for each in concerned}
+        is_of_all = len(concerned) == sum(number[case] for case in cases)
+        lines.setdefault(_subject(line, concerned), []).append(
+            line if is_of_all else f"{line}{_attribution(line, concerned, common)}"
+        )
+    shown = [
+        first + (f" [and {len(others)} more values]" if others else "")
+        for first, *others in lines.values()
+    ]
+    more = len(shown) - _MOST_PROBLEMS
+    return shown[:_MOST_PROBLEMS] + ([f"and {more} more problems"] if more > 0 else [])
+
+
+def _subject(line: str, concerned: Sequence[PlannedRun]) -> str:
+    """Problem without its value, where each run of a sample has another value."""
+    if concerned[0].design.kind == "sample" and line.startswith("--range "):
+        return line.partition(": ")[0]
+    return line
+
+
+def _attribution(line: str, concerned: Sequence[PlannedRun], common: set[str]) -> str:
+    """Runs that have a problem: their lines in a table, their numbers, or their values."""
+    places = [each.place for each in concerned if each.place]
+    if not places:
+        varied = [[t for t in each.request.settings if t not in common] for each in concerned]
+        if len(varied) == 1 and all(t.partition("=")[2].strip() in line for t in varied[0]):
+            return ""
+        places = [f"with {', '.join(texts)}" for texts in varied]
+    more = len(places) - _MOST_PLACES
+    named = "; ".join(dict.fromkeys(places[:_MOST_PLACES]))
+    return f" [{named}{f' and {more} more' if more > 0 else ''}]"
+
+
+def _refuse_shared_directories(jobs: Sequence[Job]) -> None:
+    # On a file system that ignores the case of letters, MPa and mPa are the same name.
+    parents = {job.directory.parent: str(job.directory.parent.resolve()) for job in jobs}
+    places = [f"{parents[job.directory.parent]}/{job.directory.name}".casefold() for job in jobs]
+    for place, count in Counter(places).items():
+        if count > 1:
+            job = jobs[places.index(place)]
+            refuse(
+                f"{job.directory}: {count} of the runs would go there; give each case file a name "
+                "of its own, and each value once"
+            )
+
+
+def _named(jobs: list[Job]) -> list[Job]:
+    """Name runs after their directories, with the whole path where names are equal."""
+    count = Counter(job.name for job in jobs)
+    return [job if count[job.name] == 1 else replace(job, name=str(job.directory)) for job in jobs]

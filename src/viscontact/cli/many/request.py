@@ -1,0 +1,90 @@
+"""Request for the runs of one command: cases, varied keys and directories."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from viscontact.cli.many.design_options import DesignOptions
+from viscontact.cli.terminal.messages import refuse
+from viscontact.runs.execution.run_directory import chosen_directory
+from viscontact.runs.processes.request import RunRequest, command, no_option
+from viscontact.runs.sweep.designs import Design
+
+
+@dataclass(frozen=True)
+class PlannedRun:
+    """One of several runs: its request, the design of its case, and its row there."""
+
+    request: RunRequest
+    design: Design
+    row: int
+
+    @property
+    def place(self) -> str:
+        """Line of the table that describes it; its number among those of a sample, else empty."""
+        if self.design.lines:
+            return f"line {self.design.lines[self.row]}"
+        return f"run {self.row}" if self.design.kind == "sample" else ""
+
+
+@dataclass(frozen=True)
+class ManyRequest:
+    """Arguments of ``viscontact run`` with several cases or varied values.
+
+    The case of `common` is ignored; its output is the directory of the run directories.
+    """
+
+    cases: tuple[Path, ...]
+    common: RunRequest
+    options: DesignOptions = field(default_factory=DesignOptions)
+    jobs: int = 1
+
+    def planned(self) -> list[PlannedRun]:
+        """Return each combination of a case and a row of its design."""
+        if self.common.output is None and self.options.option != "--vary":
+            refuse(f"{self.options.option}: name a directory for the runs, with -o DIR")
+        found = []
+        for case in self.cases:
+            design = self.options.design(case, self.common.settings)
+            for row in range(len(design.rows)):
+                settings = (*self.common.settings, *design.settings(row))
+                output = self._output(case, design.name(row))
+                request = replace(self.common, case=case, output=output, settings=settings)
+                found.append(PlannedRun(request, design, row))
+        return found
+
+    def runs(self) -> list[RunRequest]:
+        """Return the requests of all runs."""
+        return [each.request for each in self.planned()]
+
+    @property
+    def resuming(self) -> str:
+        """Command that resumes all of them, quoted for a shell.
+
+        Examples
+        --------
+        >>> common = RunRequest(Path("a.yaml"), output=Path("all"))
+        >>> ManyRequest((Path("a.yaml"), Path("b.yaml")), common, jobs=2).resuming
+        'viscontact run a.yaml b.yaml -o all -j 2 --resume'
+        """
+        return command(*self._words(), "--resume")
+
+    def _words(self) -> Iterator[str]:
+        yield from (no_option(case) for case in self.cases)
+        _, *options = replace(self.common, resume=False, overwrite=False).words()
+        yield from options
+        yield from self.options.words()
+        if self.jobs != 1:
+            yield from ("-j", str(self.jobs))
+
+    def _output(self, case: Path, name: str) -> Path | None:
+        """Directory of a run: CASE/, CASE_KEY=VALUE/ or CASE_NUMBER/."""
+        if self.common.output is None and not name:
+            return None
+        if not case.stem:
+            refuse(f"{case}: there is no name in it for a directory; give the file another one")
+        beside = chosen_directory(case, None)
+        parent = beside.parent if self.common.output is None else self.common.output
+        return parent / "_".join(filter(None, (beside.name, name)))

@@ -1,0 +1,107 @@
+"""Table of runs: a CSV file whose headings are keys of the case, with a row for each run."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from dataclasses import dataclass
+from pathlib import Path
+
+from viscontact.runs.sweep.designs import Design
+from viscontact.tables import Row, decimal_number, looks_like_number, read_rows
+
+# "load.force [N]" or "load.force (kN)"; brackets with a number at the key are an entry of a list.
+_HEADING = re.compile(
+    r"(?P<key>[^\s\[\]()]+(?:\[\d+\][^\s\[\]()]*)*)"
+    r"(?:\s*(?:\[(?P<square>[^\[\]]*)\]|\((?P<round>.*)\)))?"
+)
+_NO_UNIT = ("", "-", "–", "—", "1", "none")
+_SPREADSHEETS = (".xlsx", ".xls", ".xlsm", ".ods")
+
+
+@dataclass(frozen=True)
+class _Column:
+    """Key of a column, and the unit in its heading; empty if the cells have their own."""
+
+    heading: str
+    key: str
+    unit: str
+
+
+def read_design(path: Path) -> Design:
+    r"""Read a table of runs; ValueError names its line and column.
+
+    A cell below a heading with a unit is a number; any other cell is a value as ``--set`` takes it.
+
+    >>> import tempfile
+    >>> file = Path(tempfile.mkdtemp(), "plan.csv")
+    >>> _ = file.write_text("load.force [kN];material.law\n0,5;zener\n2;maxwell\n")
+    >>> design = read_design(file)
+    >>> design.settings(0), design.lines
+    (('load.force=0.5 kN', 'material.law=zener'), (2, 3))
+    """
+    if path.suffix.lower() in _SPREADSHEETS:
+        raise ValueError(
+            f"{path}: tables of a spreadsheet cannot be read; save the sheet as CSV, one row a run"
+        )
+    header, *rows = read_rows(path)
+    columns = _columns(path, header)
+    if not rows:
+        raise ValueError(f"{path}: has a header and no rows; write a row for each run")
+    numbers = [cell for row in rows for cell in row.cells if looks_like_number(cell)]
+    mark = "," if any("," in cell for cell in numbers) else "."
+    return Design(
+        "table",
+        tuple(column.key for column in columns),
+        tuple(_values(path, row, columns, mark) for row in rows),
+        tuple(row.line for row in rows),
+    )
+
+
+def _columns(path: Path, header: Row) -> list[_Column]:
+    cells = list(header.cells)
+    while cells and not cells[-1]:  # spreadsheets export empty columns at the end
+        cells.pop()
+    columns = [_column(f"{path}:{header.line}", place, cell) for place, cell in enumerate(cells, 1)]
+    for key, count in Counter(column.key for column in columns).items():
+        if count > 1:
+            raise ValueError(f"{path}:{header.line}: {count} columns are {key}; leave one of them")
+    return columns
+
+
+def _column(where: str, place: int, cell: str) -> _Column:
+    example = "as 'load.force [N]'"
+    if looks_like_number(cell):
+        raise ValueError(
+            f"{where}: there is no header, but {cell!r} in column {place}; the first row names the "
+            f"keys and units, {example}"
+        )
+    found = _HEADING.fullmatch(cell)
+    if found is None:
+        shown = repr(cell[:60]) if cell else "is empty,"
+        raise ValueError(
+            f"{where}: column {place}: the heading {shown} names no key; write a key and, in "
+            f"brackets, a unit, {example}"
+        )
+    unit = (found["square"] or found["round"] or "").strip()
+    return _Column(cell, found["key"], "" if unit in _NO_UNIT else unit)
+
+
+def _values(path: Path, row: Row, columns: list[_Column], mark: str) -> tuple[str, ...]:
+    if len(row.cells) < len(columns) or any(row.cells[len(columns) :]):
+        raise ValueError(
+            f"{path}:{row.line}: has {len(row.cells)} cells, the header {len(columns)}; write a "
+            "cell with commas in quotes, and decimal commas with semicolons between the cells"
+        )
+    cells = zip(row.cells, columns, strict=False)
+    return tuple(_value(f"{path}:{row.line}", cell, column, mark) for cell, column in cells)
+
+
+def _value(where: str, cell: str, column: _Column, mark: str) -> str:
+    try:
+        if cell and not column.unit and not looks_like_number(cell):
+            return cell
+        number = decimal_number(cell, mark)
+    except ValueError as error:
+        raise ValueError(f"{where}: column {column.heading!r}: {error}") from None
+    return f"{number} {column.unit}" if column.unit else number

@@ -1,0 +1,77 @@
+"""Designs of a sweep: the values of the varied keys in each run."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import product
+
+
+@dataclass(frozen=True)
+class Design:
+    """Values of the varied keys, as ``--set`` takes them: a row for each run.
+
+    Rows of a table have their lines in the file.
+    """
+
+    kind: str  # grid, zip, table, sample, or cases without varied keys
+    keys: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    lines: tuple[int, ...] = ()
+
+    def settings(self, row: int) -> tuple[str, ...]:
+        """Settings of a row, as KEY=VALUE."""
+        return tuple(f"{key}={value}" for key, value in zip(self.keys, self.rows[row], strict=True))
+
+    def name(self, row: int) -> str:
+        """Name of a row for its directory: its values, or its number if values may be any."""
+        if self.kind in ("table", "sample"):
+            return f"{row:04d}"
+        short = _short_names(self.keys)
+        values = zip(short, self.rows[row], strict=True)
+        return "_".join(f"{_safe(key)}={_safe(value)}" for key, value in values)
+
+
+#: Design of cases of which no key is varied.
+NOTHING_VARIED = Design("cases", (), ((),))
+
+
+def grid_design(values: Mapping[str, Sequence[str]]) -> Design:
+    """All combinations of the values of some keys; those of the last key change fastest.
+
+    >>> found = grid_design({"load.force": ["5 kN", "10 kN"], "grid.shape": ["[32, 32]"]})
+    >>> found.settings(1), found.name(1)
+    (('load.force=10 kN', 'grid.shape=[32, 32]'), 'force=10kN_shape=32-32')
+    """
+    return Design("grid", tuple(values), tuple(product(*values.values())))
+
+
+def paired_design(values: Mapping[str, Sequence[str]]) -> Design:
+    """The first values of all keys, the second ones, and so on.
+
+    >>> paired_design({"load.force": ["5 kN", "10 kN"], "time.end": ["1 s", "2 s"]}).rows
+    (('5 kN', '1 s'), ('10 kN', '2 s'))
+    """
+    count = {key: len(given) for key, given in values.items()}
+    if len(set(count.values())) > 1:
+        numbers = ", ".join(f"{number} of {key}" for key, number in count.items())
+        raise ValueError(
+            f"pairs need equal numbers of values, got {numbers}; leave --zip out for all "
+            "combinations"
+        )
+    return Design("zip", tuple(values), tuple(zip(*values.values(), strict=True)))
+
+
+def _short_names(keys: Sequence[str]) -> list[str]:
+    """Last part of each key, or the whole key where that is ambiguous."""
+    last = [key.rpartition(".")[2] for key in keys]
+    count = Counter(last)
+    return [name if count[name] == 1 else key for key, name in zip(keys, last, strict=True)]
+
+
+def _safe(text: str) -> str:
+    """Text with only those characters that directory names may have on any system."""
+    words = re.sub(r"[^\w.+%-]+", "-", re.sub(r"\s+", "", text))
+    return words.strip("-.") if text.strip()[:1] != "-" else "-" + words.strip("-.")
