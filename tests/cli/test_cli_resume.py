@@ -30,7 +30,7 @@ from interrupted_runs import (
 from viscontact.cli import main
 from viscontact.cli.run import execution
 from viscontact.cli.terminal.interruption import watched_interruption
-from viscontact.runs.directory import recorder
+from viscontact.runs.directory import recorded_run, recorder
 from viscontact.runs.directory.lock import locked
 from viscontact.runs.directory.recorder import Recorder
 from viscontact.runs.execution import checked_run
@@ -314,11 +314,11 @@ def test_second_request_within_a_checkpoint_waits_for_its_end(
 ) -> None:
     save, whole_ones = recorder.save_checkpoint, []
 
-    def saving(path: Path, checkpoint: Any) -> None:
+    def saving(path: Path, checkpoint: Any, *check: Any) -> None:
         if len(whole_ones) == 4:
             signal.raise_signal(signal.SIGINT)
             signal.raise_signal(signal.SIGINT)
-        save(path, checkpoint)
+        save(path, checkpoint, *check)
         whole_ones.append(checkpoint.lines)
 
     with monkeypatch.context() as patched:
@@ -348,14 +348,14 @@ def test_request_before_the_first_step_changes_nothing(
 def test_request_while_the_run_is_opened_leaves_nothing(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    opening = recorder.ResultWriter
+    opening = recorded_run.ResultWriter
 
     def asked(*arguments: Any) -> Any:
         writer = opening(*arguments)
         signal.raise_signal(signal.SIGINT)
         return writer
 
-    monkeypatch.setattr(recorder, "ResultWriter", asked)
+    monkeypatch.setattr(recorded_run, "ResultWriter", asked)
     assert main(["run", "case.yaml"]) == 130
     assert [path.name for path in folder.iterdir()] == ["case.yaml"]
 
@@ -365,12 +365,12 @@ def test_fault_that_comes_while_a_request_waits_is_reported(
 ) -> None:
     save, saved = recorder.save_checkpoint, []
 
-    def failing(path: Path, checkpoint: Any) -> None:
+    def failing(path: Path, checkpoint: Any, *check: Any) -> None:
         if len(saved) == 4:
             signal.raise_signal(signal.SIGINT)
             signal.raise_signal(signal.SIGINT)
             raise OSError("no room")
-        save(path, checkpoint)
+        save(path, checkpoint, *check)
         saved.append(checkpoint.lines)
 
     monkeypatch.setattr(recorder, "PAUSE", 0.0)

@@ -57,7 +57,7 @@ def serve(
 ) -> None:
     """Serve the page until `is_to_stop()`, and until the active runs have saved."""
     path.mkdir(parents=True, exist_ok=True)
-    with locked(path), closing(listener):
+    with locked(path) as check, closing(listener):
         calculator = Calculator(Folder(path), at_once or usual_at_once())
         config = uvicorn.Config(
             new_app(calculator),
@@ -68,7 +68,12 @@ def serve(
             ws="none",
             timeout_graceful_shutdown=_LAST_ANSWERS,
         )
-        _run(uvicorn.Server(config), listener, calculator, is_to_stop, on_start)
+
+        def is_over() -> bool:
+            check()  # LockLost, once another server has taken the folder over
+            return is_to_stop()
+
+        _run(uvicorn.Server(config), listener, calculator, is_over, on_start)
 
 
 def _run(

@@ -155,17 +155,18 @@ while mine < 100:
 
 
 @pytest.mark.skipif(os.name == "nt", reason="flock is POSIX")
-@pytest.mark.parametrize("number", [errno.ENOLCK, errno.ENOSYS, errno.ENOTSUP])
-def test_file_system_without_locks_is_named_as_the_reason(
-    number: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+def test_file_system_without_locks_and_hard_links_is_named_as_the_reason(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def refuse(*_: object) -> None:
-        raise OSError(number, os.strerror(number))
+        raise OSError(errno.ENOTSUP, os.strerror(errno.ENOTSUP))
 
     monkeypatch.setattr("fcntl.flock", refuse)
+    monkeypatch.setattr("os.link", refuse)
     with pytest.raises(OSError, match=r"cannot be locked .*local disk") as said, locked(tmp_path):
         pass
-    assert os.strerror(number) in str(said.value)
+    assert os.strerror(errno.ENOTSUP) in str(said.value)
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_directory_that_is_missing_cannot_be_locked(tmp_path: Path) -> None:

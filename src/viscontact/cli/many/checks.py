@@ -17,8 +17,8 @@ from viscontact.case import Case, CaseError, read_case
 from viscontact.cli.many.request import ManyRequest, PlannedRun
 from viscontact.cli.terminal.messages import CommandError, refuse
 from viscontact.grid import Grid
-from viscontact.run_files import CASE_NAME, LOCK_NAME, RESULT_NAME, STATE_NAME
-from viscontact.runs.directory.lock import DirectoryInUse, locked
+from viscontact.run_files import CASE_NAME, RESULT_NAME, STATE_NAME
+from viscontact.runs.directory.lock import in_use
 from viscontact.runs.execution.checked_run import checked_run, directory_of
 from viscontact.runs.execution.run_directory import refuse_no_directory, refuse_occupied
 from viscontact.runs.processes.job import Job, Standing
@@ -129,13 +129,8 @@ def _standing_by_names(request: RunRequest, directory: Path) -> Standing:
 
 
 def _refuse_in_use(directory: Path) -> None:
-    if not (directory / LOCK_NAME).exists():
-        return
-    try:
-        with suppress(OSError), locked(directory):
-            pass
-    except DirectoryInUse as error:
-        refuse(str(error))
+    if message := in_use(directory):
+        refuse(message)
 
 
 def _problems(problems: dict[str, list[PlannedRun]], planned: Sequence[PlannedRun]) -> list[str]:

@@ -9,6 +9,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import BinaryIO
 
+from viscontact.runs.directory.lock_check import LockCheck, never_lost
+
 #: Windows does not replace a file that a program has open.
 MAY_BE_HELD = os.name == "nt"
 
@@ -40,27 +42,31 @@ def flush_directory(directory: Path) -> None:
         os.close(descriptor)
 
 
-def put_in_place(fresh: Path, path: Path) -> None:
+def put_in_place(fresh: Path, path: Path, check: LockCheck = never_lost) -> None:
     """Replace a file by a closed one on the same file system, atomically and durably.
 
-    PermissionError on Windows, while a program has the old file open.
+    PermissionError on Windows, while a program has the old file open; LockLost, and no
+    replacement, if the check of the directory's lock raises that.
     """
     flush_to_disk(fresh)
+    check()
     fresh.replace(path)
     flush_directory(path.parent)
 
 
 @contextmanager
-def replacing(path: Path) -> Iterator[BinaryIO]:
+def replacing(path: Path, check: LockCheck = never_lost) -> Iterator[BinaryIO]:
     """Open a new hidden file, which replaces another one at the end of a block without failure."""
     fresh = fresh_name(path)
+    check()
     # Not written through: it may be a link.
     fresh.unlink(missing_ok=True)
     try:
         with fresh.open("xb") as file:
             yield file
-        put_in_place(fresh, path)
+        put_in_place(fresh, path, check)
     except BaseException:
+        check()  # else a file of this name is another run's, as may be the cause
         fresh.unlink(missing_ok=True)
         raise
 

@@ -8,6 +8,7 @@ from typing import Any
 
 from viscontact import __version__
 from viscontact.runs.directory.atomic_files import replacing
+from viscontact.runs.directory.lock_check import LockCheck, never_lost
 from viscontact.runs.directory.npz_archive import outline_of, read_plain, write_plain
 from viscontact.time_integration.restart_data import RestartData
 
@@ -32,9 +33,9 @@ class Checkpoint:
     layout: int = LAYOUT  # of the restart data
 
 
-def save_checkpoint(path: Path, checkpoint: Checkpoint) -> None:
+def save_checkpoint(path: Path, checkpoint: Checkpoint, check: LockCheck = never_lost) -> None:
     """Save a checkpoint in place of the previous one, which stays if that fails with an OSError."""
-    with replacing(path) as file:
+    with replacing(path, check) as file:
         # Not `asdict`, which would copy every array.
         write_plain(file, vars(checkpoint))
 

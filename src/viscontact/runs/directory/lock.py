@@ -1,16 +1,20 @@
-"""File lock of a run directory, against a second run."""
+"""Lock of a run directory, against a second run."""
 
 from __future__ import annotations
 
 import os
 import platform
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
 from filelock import FileLock, Timeout
 
 from viscontact.run_files import LOCK_NAME
+from viscontact.runs.directory.lease import Lease, LeaseHeld
+from viscontact.runs.directory.lease_file import DURATION, current_lease, seems_renewed
+from viscontact.runs.directory.lock_check import LockCheck, never_lost
+from viscontact.runs.directory.lock_probe import has_locks
 
 
 class DirectoryInUse(RuntimeError):  # noqa: N818 - a state of the directory, no fault
@@ -18,15 +22,19 @@ class DirectoryInUse(RuntimeError):  # noqa: N818 - a state of the directory, no
 
 
 @contextmanager
-def locked(directory: str | Path) -> Iterator[None]:
-    """Lock an existing directory against other runs during a block, without waiting.
+def locked(directory: str | Path, lease_duration: float = DURATION) -> Iterator[LockCheck]:
+    """Lock an existing directory against other runs during a block; yield the check of the lock.
 
-    The lock is the operating system's: it ends with its process, however that ends, and a file
-    ``.lock`` that is left over locks nothing. DirectoryInUse if another run, of this or another
-    process, has locked it; OSError if it may not be written to, or its file system has no locks.
+    The lock is the operating system's where a probe shows that it excludes all others: it ends
+    with its process, however that ends, and a file ``.lock`` that is left over locks nothing. On
+    other file systems it is a `Lease` of some duration [s], which another run takes over when its
+    holder has not renewed it for that time; the check then raises LockLost, so call it immediately
+    before each write. DirectoryInUse if another run, of this or another process, has locked the
+    directory; OSError if it may not be written to.
 
     >>> import tempfile
-    >>> with tempfile.TemporaryDirectory() as folder, locked(folder):
+    >>> with tempfile.TemporaryDirectory() as folder, locked(folder) as check:
+    ...     check()
     ...     try:
     ...         with locked(folder):
     ...             pass
@@ -34,22 +42,57 @@ def locked(directory: str | Path) -> Iterator[None]:
     ...         "in use by another run" in str(error)
     True
     """
-    path = Path(directory) / LOCK_NAME
+    place = Path(directory)
+    with ExitStack() as held:
+        try:
+            place.stat()  # else the lock would make it
+            if _is_leased(place) or not has_locks(place):
+                check = held.enter_context(Lease(place, lease_duration)).check
+            else:
+                held.enter_context(_file_locked(place))
+                check = never_lost
+        except (Timeout, LeaseHeld):
+            raise _in_use_error(place) from None
+        except OSError as error:
+            raise OSError(
+                f"{directory} cannot be locked against other runs ({error.strerror or error}); "
+                "choose a directory on a local disk that you may write to, with -o DIR"
+            ) from error
+        yield check
+
+
+def in_use(directory: Path) -> str:
+    """Message that another run has locked the directory; empty if none has. Never waits.
+
+    A lease of another machine counts by the time of its file. So two clocks that differ by more
+    than its duration make the message wrong; `locked` compares no clocks.
+    """
+    if not (directory / LOCK_NAME).exists():
+        return ""
+    try:
+        if _is_leased(directory):
+            lease = current_lease(directory)
+            return str(_in_use_error(directory)) if lease and seems_renewed(lease) else ""
+        with _file_locked(directory):
+            return ""
+    except Timeout:
+        return str(_in_use_error(directory))
+    except OSError:
+        return ""
+
+
+def is_locked(directory: Path) -> bool:
+    """True if another run has locked the directory."""
+    return bool(in_use(directory))
+
+
+@contextmanager
+def _file_locked(directory: Path) -> Iterator[None]:
+    """Lock the file of a directory by the operating system; Timeout if another has locked it."""
+    path = directory / LOCK_NAME
     # A lock by mere existence of a file would outlast its process.
     lock = FileLock(path, blocking=False, fallback_to_soft=False, on_acquired=_leave_name)
-    try:
-        Path(directory).stat()  # else the lock would make it
-        lock.acquire()
-    except Timeout:
-        raise DirectoryInUse(
-            f"{directory} is in use by another run{_owner(path)}; wait until it is over, or choose "
-            "another directory with -o DIR"
-        ) from None
-    except OSError as error:
-        raise OSError(
-            f"{directory} cannot be locked against other runs ({error.strerror or error}); "
-            "choose a directory on a local disk that you may write to, with -o DIR"
-        ) from error
+    lock.acquire()
     try:
         yield
     finally:
@@ -59,16 +102,18 @@ def locked(directory: str | Path) -> Iterator[None]:
         lock.release()
 
 
-def is_locked(directory: Path) -> bool:
-    """True if another run has locked the directory."""
-    if not (directory / LOCK_NAME).exists():
-        return False
-    try:
-        with suppress(OSError), locked(directory):
-            return False
-    except DirectoryInUse:
-        return True
-    return False
+def _is_leased(directory: Path) -> bool:
+    """True if there is a lease, also where the file system has locks: it may be a copy."""
+    # Windows, where nothing is leased, lets no process read a locked file.
+    lease = None if os.name == "nt" else current_lease(directory)
+    return lease is not None and lease.is_lease
+
+
+def _in_use_error(directory: Path) -> DirectoryInUse:
+    return DirectoryInUse(
+        f"{directory} is in use by another run{_owner(directory / LOCK_NAME)}; wait until it is "
+        "over, or choose another directory with -o DIR"
+    )
 
 
 def _leave_name(descriptor: int) -> None:
@@ -82,7 +127,7 @@ def _owner(path: Path) -> str:
     """Return the process that holds the lock, in brackets; empty if it is not known."""
     try:
         with path.open(encoding="utf-8") as file:
-            said = file.read(200).strip()
+            said = file.readline(200).strip()
     except (OSError, ValueError):  # Windows refuses to read a locked file
         return ""
     number, _, host = said.partition(" on ")

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from viscontact.results.variables import SCALARS, error_name
 from viscontact.runs.directory.atomic_files import MAY_BE_HELD, flush_to_disk, fresh_name
 from viscontact.runs.directory.checkpoint import REMEDY
+from viscontact.runs.directory.lock_check import LockCheck, never_lost
 from viscontact.state import ContactState, Outcome
 
 #: Longest first line of a progress log [bytes].
@@ -47,13 +48,15 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
     (2.0, 'converged', None, [])
     """
 
-    def __init__(self, path: str | Path) -> None:
+    def __init__(self, path: str | Path, check: LockCheck = never_lost) -> None:
         self.count = 0
-        self._path = Path(path)
+        self._path, self._check = Path(path), check
         self._file = self._path.open("w+b", buffering=0)
 
     @classmethod
-    def resume(cls, path: Path, lines: int, reached: float | None) -> Self:
+    def resume(
+        cls, path: Path, lines: int, reached: float | None, check: LockCheck = never_lost
+    ) -> Self:
         """Continue a log after some of its lines, the last of them of a given instant [s].
 
         Lines beyond these are cut off by the next `append` or `flush_to_disk`, so that the file
@@ -73,7 +76,7 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
         if len(found) < lines or (times[-1] if times else None) != reached:
             raise ValueError(f"{path} is not the course of this run so far; {REMEDY}")
         log = cls.__new__(cls)
-        log.count, log._path = lines, path
+        log.count, log._path, log._check = lines, path, check
         log._file = path.open("r+b", buffering=0)
         log._file.seek(sum(map(len, found)))
         return log
@@ -86,6 +89,7 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
         entries = _entries(state)
         encoded = _encoded(entries if part is None else entries | {"part": part})
         begin = self._file.tell()
+        self._check()
         self._file.truncate(begin)
         if self._file.write(encoded) != len(encoded):
             self._file.truncate(begin)
@@ -95,6 +99,7 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
 
     def flush_to_disk(self) -> None:
         """Wait until all lines are on the disk; a file that has been removed is written again."""
+        self._check()
         if not os.path.lexists(self._path):
             self._write_anew()
         self._file.truncate(self._file.tell())  # lines beyond the state that was resumed
@@ -121,6 +126,7 @@ class ProgressLog(AbstractContextManager["ProgressLog"]):
                         entries |= {"complete": True, "fields": fields and dict(fields)}
                     file.write(_encoded(entries))
             flush_to_disk(fresh)
+            self._check()
             self._replace(fresh)
         finally:
             fresh.unlink(missing_ok=True)

@@ -20,6 +20,7 @@ from viscontact.runs.directory.checkpoint import (
     load_checkpoint,
 )
 from viscontact.runs.directory.differences import Difference, differences
+from viscontact.runs.directory.lock_check import LockCheck, never_lost
 from viscontact.runs.directory.netcdf_layout import Contents
 from viscontact.runs.directory.progress_log import ProgressLog
 from viscontact.runs.directory.result_writer import ResultWriter, working_files
@@ -46,6 +47,7 @@ class RecordedRun:
     fields: str | Sequence[float]  # "all", "none" or the instants of kept fields [s]
     title: str = ""  # of the result
     errors: bool = False  # True if errors of the scalars are estimated after the march
+    check: LockCheck = never_lost  # of the lock of the directory, before each write
 
     @property
     def case(self) -> dict[str, Any]:
@@ -120,17 +122,23 @@ class RecordedRun:
             raise ValueError(f"{error}; {REMEDY}") from error
         if is_other:
             raise ValueError(f"{path} belongs to another run than {STATE_NAME}; {REMEDY}")
-        return ResultWriter.resume(path, self.contents, saved.result)
+        return ResultWriter.resume(path, self.contents, saved.result, self.check)
+
+    def new_writer(self) -> ResultWriter:
+        """Return the writer of a new result."""
+        return ResultWriter(self.result_path, self.contents, self.check)
 
     def new_log(self) -> ProgressLog:
         """Return a new progress log; a link in its place is replaced, not written through."""
         path = self.directory / PROGRESS_NAME
+        self.check()
         path.unlink(missing_ok=True)
-        return ProgressLog(path)
+        return ProgressLog(path, self.check)
 
     def resumed_log(self, saved: Checkpoint) -> ProgressLog:
         """Return the progress log with the lines of a checkpoint, or raise a ValueError."""
-        return ProgressLog.resume(self.directory / PROGRESS_NAME, saved.lines, saved.reached)
+        path = self.directory / PROGRESS_NAME
+        return ProgressLog.resume(path, saved.lines, saved.reached, self.check)
 
 
 def remove_restart_files(directory: Path) -> None:

@@ -38,7 +38,8 @@ class Recorder:
     first step, then once a second or less often, so that checkpoints take at most a twentieth of
     the time. A process that is killed loses the steps since the last checkpoint; the march is
     deterministic, so that a resumed run computes the same bits again. An OSError of any method
-    leaves the previous checkpoint and result, from which the run can be resumed.
+    leaves the previous checkpoint and result, from which the run can be resumed. The lock of the
+    directory is checked immediately before each write; its LockLost ends the run without one.
     """
 
     saved: Reached  # at the last checkpoint, from which `resume` continues
@@ -53,7 +54,7 @@ class Recorder:
         undisturbed: Undisturbed = nullcontext,
     ) -> None:
         self._set_up(recorded, March(recorded.run), on_begin, undisturbed)
-        self._writer = ResultWriter(recorded.result_path, recorded.contents)
+        self._writer = recorded.new_writer()
 
     @classmethod
     def resume(
@@ -73,12 +74,13 @@ class Recorder:
         record._set_up(recorded, recorded.resumed_march(saved), on_begin, undisturbed)
         if not saved.march:
             # Before the first step the directory may still hold the files of an earlier run.
-            record._writer = ResultWriter(recorded.result_path, recorded.contents)
+            record._writer = recorded.new_writer()
             return record
         with ExitStack() as opened:
             record._lines = opened.enter_context(recorded.resumed_log(saved))
             record._writer = opened.enter_context(recorded.resumed_writer(saved))
             if on_begin is not None:
+                recorded.check()
                 on_begin()
             opened.pop_all()
         record._instants, record._time = int(saved.result["rows"]), saved.reached
@@ -163,6 +165,7 @@ class Recorder:
             self._writer.finish(bars)
             self.shown = self._reached
             self.close()
+            self._recorded.check()
             remove_restart_files(self._recorded.directory)
 
     def close(self) -> None:
@@ -202,6 +205,7 @@ class Recorder:
         # From here on this run can be resumed, and no earlier one.
         self._save(begun=False)
         if self._on_begin is not None:
+            self._recorded.check()
             self._on_begin()
         self._lines = self._recorded.new_log()
 
@@ -210,7 +214,8 @@ class Recorder:
         lines = 0 if self._lines is None else self._lines.count
         march = self._march.restart_data() if begun else {}
         state = (lines, self._time, self._writer.position, march, recorded.run.transforms)
-        save_checkpoint(recorded.directory / STATE_NAME, Checkpoint(recorded.case, *state))
+        checkpoint = Checkpoint(recorded.case, *state)
+        save_checkpoint(recorded.directory / STATE_NAME, checkpoint, recorded.check)
         self.saved = self._reached
 
     def _publish(self) -> bool:

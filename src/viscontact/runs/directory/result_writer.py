@@ -18,6 +18,7 @@ from viscontact.accuracy.error_bars import ErrorBars
 from viscontact.grid import Grid
 from viscontact.results.enlarged_grid import enlargement
 from viscontact.runs.directory.atomic_files import MAY_BE_HELD, put_in_place
+from viscontact.runs.directory.lock_check import LockCheck, never_lost
 from viscontact.runs.directory.netcdf_layout import (
     Contents,
     Extent,
@@ -39,8 +40,9 @@ WAITING = 4096
 #: Number and distance [s] of the attempts to replace a result that another program holds open.
 TRIES, PAUSE = 40, 0.25
 _COUNTS = {"rows": 0, "field_rows": 0, "wall_time": 0.0}
-#: Position of a writer before its first row.
-START: Mapping[str, Any] = {**_COUNTS, "warnings": (), "cells": None, "enlarged": ()}
+#: Position of a writer in plain data, and that before its first row.
+Position = Mapping[str, Any]
+START: Position = {**_COUNTS, "warnings": (), "cells": None, "enlarged": ()}
 
 
 def working_files(path: Path) -> tuple[Path, Path]:
@@ -61,6 +63,7 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
     incomplete that is open for writing when its process is killed, and locks it against readers.
     An OSError of any method leaves the result as it was published last, and an existing file
     remains until the first `publish`. A state on a larger grid gives the file a new layout.
+    `check` is called before each write; its LockLost leaves all files to the other run.
 
     To the given global attributes are added `warnings` and `grid_enlarged`, a line each;
     `wall_time` [s], summed over resumptions; `complete`, 1 once the run is finished.
@@ -82,21 +85,23 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
 
     _layout: Layout
 
-    def __init__(self, path: str | Path, contents: Contents) -> None:
-        self._set_up(Path(path), contents, START)
+    def __init__(self, path: str | Path, contents: Contents, check: LockCheck = never_lost) -> None:
+        self._set_up(Path(path), contents, START, check)
         self._layout = contents.layout(contents.grid)
         with self._writing():
             self._create()
 
     @classmethod
-    def resume(cls, path: str | Path, contents: Contents, position: Mapping[str, Any]) -> Self:
+    def resume(
+        cls, path: str | Path, contents: Contents, position: Position, check: LockCheck = never_lost
+    ) -> Self:
         """Continue a result from the `position` of an earlier process when it published.
 
         Rows that the result has beyond that are dropped at the next publication. ValueError if
         the result cannot be read, is of another run, or has fewer rows than that.
         """
         writer = cls.__new__(cls)
-        writer._set_up(Path(path), contents, position)
+        writer._set_up(Path(path), contents, position, check)
         # The result may be ahead of the position, on a larger grid.
         writer._layout = contents.layout(stored_grid(Path(path), writer.grid))
         check_result(writer._path, writer._layout, writer._done)
@@ -104,9 +109,8 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
             writer._create(writer._path, writer._layout)
         return writer
 
-    def _set_up(self, path: Path, contents: Contents, position: Mapping[str, Any]) -> None:
-        self._path, self._contents = path, contents
-        self._working, self._smaller = working_files(path)
+    def _set_up(self, path: Path, contents: Contents, position: Position, check: LockCheck) -> None:
+        self._path, self._contents, self._check = path, contents, check
         self._open: netCDF4.Dataset | None = None
         self._done = Extent(position["rows"], position["field_rows"])
         self._published: Extent | None = None
@@ -202,8 +206,9 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
         # On a full disk the rows that HDF5 still holds cannot be written.
         with suppress(OSError, RuntimeError):
             self._close()
-        for file in (self._working, self._smaller):
-            with suppress(OSError):
+        for file in working_files(self._path):
+            with suppress(OSError):  # LockLost: the file is the other run's
+                self._check()
                 file.unlink(missing_ok=True)
 
     def __exit__(self, *_: object) -> None:
@@ -230,11 +235,13 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
             self._write_waiting()
             self._close()
             self._layout = replace(layout, grid=grid)
-            self._working.replace(self._smaller)
+            _, before = working_files(self._path)
+            self._working.replace(before)
             self._open = larger = created(self._working, self._layout, self._attributes)
-            with opened(self._smaller, "r") as smaller:
+            with opened(before, "r") as smaller:
                 copy_rows(smaller, larger, layout, grid, self._done)
-            self._smaller.unlink()
+            self._check()
+            before.unlink()
 
     def _publish(self) -> bool:
         with self._writing():
@@ -246,13 +253,19 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
                     file.setncattr(name, value)
             self._close()
             try:
-                put_in_place(self._working, self._path)
+                put_in_place(self._working, self._path, self._check)
                 self._published = self._done
             except PermissionError:
                 if not MAY_BE_HELD:
                     raise
                 self._open = opened(self._working, "a")
         return self._open is None
+
+    @property
+    def _working(self) -> Path:
+        """Path of the working file, to be used at once."""
+        self._check()
+        return working_files(self._path)[0]
 
     @property
     def _attributes(self) -> dict[str, Any]:
@@ -286,9 +299,14 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
         """Refuse to write after a failure: a torn working file must not be published."""
         if self._failed:
             raise OSError(f"{self._path} could not be written before; resume the run from it")
+        self._check()
         self._failed = True
         try:
             yield
-        except RuntimeError as error:  # what netCDF says where the disk is full
+        except (OSError, RuntimeError) as error:
+            self._check()  # else the files are another run's, which may be the cause
+            if isinstance(error, OSError):
+                raise
+            # What netCDF says where the disk is full.
             raise OSError(f"{self._path} cannot be written ({error}); is the disk full?") from error
         self._failed = False

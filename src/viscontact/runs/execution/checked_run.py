@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from viscontact.case import CaseError, read_case
 from viscontact.run_files import CASE_NAME, RESULT_NAME, STATE_NAME
+from viscontact.runs.directory.lock_check import LockCheck
 from viscontact.runs.directory.recorded_run import RecordedRun
 from viscontact.runs.ending import refuse
 from viscontact.runs.execution.resuming import standing
@@ -27,6 +28,10 @@ class CheckedRun:
     request: RunRequest
     prepared: PreparedRun
     recorded: RecordedRun
+
+    def with_lock(self, check: LockCheck) -> CheckedRun:
+        """Return the run with the check of its directory's lock."""
+        return replace(self, recorded=replace(self.recorded, check=check))
 
     def standing(self) -> Standing:
         """Return whether the run is new, stopped or finished; refuse it in all other cases."""

@@ -12,6 +12,7 @@ from viscontact.errors import ConvergenceError, DomainError
 from viscontact.run_files import RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.failure import remove_failure
 from viscontact.runs.directory.lock import DirectoryInUse, locked
+from viscontact.runs.directory.lock_check import LockLost
 from viscontact.runs.directory.recorded_run import ChangedCaseError, remove_restart_files
 from viscontact.runs.directory.recorder import Recorder, Undisturbed
 from viscontact.runs.ending import refuse, stop
@@ -52,11 +53,11 @@ def execute_checked(checked: CheckedRun, monitor: Monitor) -> tuple[Path, bool]:
         standing = checked.standing()
     directory = checked.recorded.directory
     if standing is not Standing.FINISHED:
-        with reserved(directory):
+        with reserved(directory) as check:
             standing = checked.standing()
             if standing is not Standing.FINISHED:
                 remove_failure(directory)
-                _run(checked, standing, monitor)
+                _run(checked.with_lock(check), standing, monitor)
                 return directory, True
     _say_finished(checked, monitor)
     return directory, False
@@ -128,6 +129,8 @@ def _march(checked: CheckedRun, record: Recorder, monitor: Monitor) -> None:
         option = " with --overwrite" if record.shown.instants else ""
         remedy = f"with that changed, run it again{option}"
         stop(*checked.prepared.case.error(str(error)).problems, _kept(checked, record), remedy)
+    except LockLost as error:
+        stop(f"{error}; that run continues, and this one has stopped before its next write")
     except (OSError, MemoryError) as error:
         _publish(record)
         why = f"{checked.recorded.directory}: the run stopped: {str(error) or type(error).__name__}"

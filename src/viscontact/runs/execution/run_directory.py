@@ -16,6 +16,7 @@ from viscontact.run_files import CASE_NAME, PROGRESS_NAME, RESULT_NAME, STATE_NA
 from viscontact.runs.directory.atomic_files import replacing
 from viscontact.runs.directory.checkpoint import is_checkpoint
 from viscontact.runs.directory.lock import DirectoryInUse, locked
+from viscontact.runs.directory.lock_check import LockCheck
 from viscontact.runs.directory.progress_log import is_course
 from viscontact.runs.directory.stored_result import stored_run
 from viscontact.runs.ending import refuse
@@ -84,8 +85,8 @@ def write_case(directory: Path, case: Case) -> None:
 
 
 @contextmanager
-def reserved(directory: Path) -> Iterator[None]:
-    """Make the directory, and lock it for the duration of the block."""
+def reserved(directory: Path) -> Iterator[LockCheck]:
+    """Make the directory, and lock it during the block; yield the check of the lock."""
     is_new = not directory.exists()
     try:
         directory.mkdir(parents=True, exist_ok=True)
@@ -94,10 +95,10 @@ def reserved(directory: Path) -> Iterator[None]:
     try:
         with ExitStack() as held:
             try:
-                held.enter_context(locked(directory))
+                check = held.enter_context(locked(directory))
             except (DirectoryInUse, OSError) as error:
                 refuse(str(error))
-            yield
+            yield check
     finally:
         if is_new:
             # Removed only if it is empty.

@@ -87,6 +87,8 @@ def perform(task: Task, stops: StopRequests | None = None) -> Outcome:
     if stops.requested:
         return Outcome("not begun", INTERRUPTED)
     outcome = _attempted(task, stops)
+    if outcome.code != DONE and is_locked(task.directory):
+        return outcome  # another run has taken the directory over, and writes there now
     if outcome.code == STOPPED:
         write_failure(task.directory, outcome.word, outcome.code, outcome.said)
     if outcome.code != INTERRUPTED:

@@ -1,0 +1,68 @@
+"""Probe of the locks of a file system."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from tempfile import NamedTemporaryFile
+
+import psutil
+
+try:
+    import fcntl
+except ImportError:  # Windows
+    fcntl = None  # type: ignore[assignment]
+
+#: File systems that one machine alone can write to, so that its locks exclude all others.
+LOCAL = frozenset({
+    "apfs", "bcachefs", "btrfs", "exfat", "ext2", "ext3", "ext4", "f2fs", "fuseblk", "hfs", "jfs",
+    "msdos", "nilfs2", "ntfs", "ntfs3", "overlay", "ramfs", "reiserfs", "tmpfs", "ufs", "vfat",
+    "xfs", "zfs",
+})  # fmt: skip
+
+
+def has_locks(directory: Path) -> bool:
+    """True if locks of files exclude every process that can reach a directory.
+
+    On a file system of several machines (NFS, Lustre, GPFS, SMB, FUSE and all unknown ones) locks
+    may hold within one machine only, which no probe on that machine can see. On other file systems
+    the locks are tried. OSError if the directory may not be written to.
+    """
+    if fcntl is None:  # locks of Windows are enforced by the server, too
+        return True
+    return file_system(directory) in LOCAL and _excludes(directory)
+
+
+def file_system(directory: Path) -> str:
+    """Kind of the file system of a directory; empty if the system does not report it.
+
+    >>> file_system(Path("nowhere").absolute() / "at all") == file_system(Path.cwd())
+    True
+    """
+    place = directory.resolve()
+    # Of several mounts at the same place the last one is visible.
+    found, longest = "", -1
+    for mounted in psutil.disk_partitions(all=True):
+        depth = len(Path(mounted.mountpoint).parts)
+        if depth >= longest and place.is_relative_to(mounted.mountpoint):
+            found, longest = mounted.fstype.lower(), depth
+    return found
+
+
+def _excludes(directory: Path) -> bool:
+    """True if a lock of a file in a directory excludes another opener of the file."""
+    with NamedTemporaryFile(dir=directory, prefix=".lock.") as file:
+        second = os.open(file.name, os.O_RDWR)
+        try:
+            return _locks(file.fileno()) and not _locks(second)
+        finally:
+            os.close(second)
+
+
+def _locks(descriptor: int) -> bool:
+    """True if an open file can be locked."""
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        return False
+    return True
