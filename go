@@ -110,6 +110,7 @@ BENCHMARKS = {
     "peers": "peers/compare.py",
     "memory": "memory.py",
     "long-runs": "long_runs.py",
+    "many-runs": "many_runs.py",
     "start-up": "start_up.py",
     "storing": "storing.py",
 }

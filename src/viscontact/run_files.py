@@ -10,6 +10,8 @@ PROGRESS_NAME = "progress.jsonl"
 STATE_NAME = "state.npz"
 #: Held by the process that computes the run.
 LOCK_NAME = ".lock"
+#: Command whose task computes the run, until the task ends.
+ATTEMPT_NAME = ".attempt"
 #: Outcome and messages of a run that has failed, until it begins again.
 FAILURE_NAME = "failure.json"
 #: In the directory of a sweep: a line per run.

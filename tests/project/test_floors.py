@@ -50,6 +50,7 @@ OTHERS = {
     "matplotlib": "plot", "mpl_toolkits": "plot", "PIL": "plot", "imageio_ffmpeg": "plot",
     "contourpy": "plot", "plotly": "plot",
     "typer": "cli", "click": "cli", "rich": "cli",
+    "distributed": "cli",
     "fastapi": "web", "starlette": "web", "uvicorn": "web",
 }  # fmt: skip
 # The only file that may import it.

@@ -71,7 +71,7 @@ def _to_prepare(planned: Sequence[PlannedRun]) -> set[int]:
 def _prepared_job(request: RunRequest) -> Job:
     checked = checked_run(request)
     standing = checked.standing()
-    _refuse_in_use(checked.recorded.directory)
+    _refuse_in_use(request, checked.recorded.directory)
     return checked.job(standing)
 
 
@@ -104,7 +104,7 @@ def _read(request: RunRequest) -> Case:
 def _standing(request: RunRequest, directory: Path, case: Case) -> Standing:
     """State of a run whose case is read; a run of another case is refused."""
     refuse_no_directory(directory)
-    _refuse_in_use(directory)
+    _refuse_in_use(request, directory)
     if not request.resume:
         refuse_occupied(directory, case, overwrite=request.overwrite)
         return Standing.NEW
@@ -128,8 +128,9 @@ def _standing_by_names(request: RunRequest, directory: Path) -> Standing:
     return Standing.NEW
 
 
-def _refuse_in_use(directory: Path) -> None:
-    if message := in_use(directory):
+def _refuse_in_use(request: RunRequest, directory: Path) -> None:
+    # A worker of the command that is resumed may still save; the run waits for its end.
+    if not request.resume and (message := in_use(directory)):
         refuse(message)
 
 

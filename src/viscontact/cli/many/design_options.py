@@ -33,8 +33,8 @@ class DesignOptions:
     method: Method | None = None
 
     @property
-    def given(self) -> bool:
-        """True if any option is given."""
+    def vary(self) -> bool:
+        """True if any key is varied."""
         return self != DesignOptions()
 
     @property

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from contextlib import suppress
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager, suppress
 
+from viscontact.cli.many.cluster import cluster_tasks
 from viscontact.cli.many.jobs import CheckedSweep, checked_sweep, fitting, resource_warnings
-from viscontact.cli.many.progress import RunsDisplay, shown_runs
+from viscontact.cli.many.progress import shown_runs
 from viscontact.cli.many.request import ManyRequest
 from viscontact.cli.many.table import print_table
 from viscontact.cli.terminal.interruption import Interruption, watched_interruption
 from viscontact.cli.terminal.messages import DONE, INTERRUPTED, STOPPED, refuse, say, stop
 from viscontact.cli.terminal.streams import printing, unwritten
 from viscontact.runs.execution.execution import before_the_first_step, remove_leftovers
-from viscontact.runs.executors.driver import drive
+from viscontact.runs.executors.driver import Workers, drive
 from viscontact.runs.executors.local import LocalTasks, LocalWorkers
 from viscontact.runs.processes.child import Ended
 from viscontact.runs.processes.job import Job, Standing
@@ -24,30 +25,38 @@ def execute_many(request: ManyRequest) -> None:
     if request.common.overwrite and request.common.resume:
         refuse("--resume continues runs and --overwrite starts them again: give one of them")
     quiet = request.common.quiet
-    with watched_interruption() as interruption:
+    with watched_interruption() as interruption, ExitStack() as opened:
         with before_the_first_step():
             sweep = checked_sweep(request)
             jobs = sweep.jobs
             left = [job for job in jobs if job.standing is not Standing.FINISHED]
-            at_once = min(request.jobs, fitting(left), max(1, len(left)))
-            if not quiet:
-                for line in resource_warnings(left, request.jobs, at_once, request.common.threads):
-                    say(line)
+            workers = opened.enter_context(_workers(request, left, interruption))
             sweep.recorded.write()
         with shown_runs(left, quiet=quiet) as shown:
-            ended = _computed(left, at_once, interruption, shown)
+            ended = drive(left, workers, interruption, shown)
     _end(request, sweep, ended)
 
 
-def _computed(
-    jobs: Sequence[Job], at_once: int, interruption: Interruption, shown: RunsDisplay
-) -> list[Ended]:
-    workers = LocalWorkers(at_once)
+@contextmanager
+def _workers(
+    request: ManyRequest, jobs: Sequence[Job], interruption: Interruption
+) -> Iterator[Workers]:
+    """Workers of this machine, or those of a scheduler."""
+    quiet, at_once = request.common.quiet, min(request.jobs, fitting(jobs), max(1, len(jobs)))
+    if not quiet and request.scheduler in ("", "local"):
+        for line in resource_warnings(jobs, request.jobs, at_once, request.common.threads):
+            say(line)
+    if request.scheduler:
+        place = request.common.output or request.cases[0].parent
+        with cluster_tasks(request.scheduler, at_once, place, jobs, quiet=quiet) as tasks:
+            yield tasks
+        return
+    local = LocalWorkers(at_once)
     try:
-        return drive(jobs, LocalTasks(workers, at_once), interruption, shown)
+        yield LocalTasks(local, at_once)
     finally:
         with suppress(KeyboardInterrupt), interruption.postponed():
-            workers.shutdown()
+            local.shutdown()
 
 
 def _end(request: ManyRequest, sweep: CheckedSweep, ended: Sequence[Ended]) -> None:

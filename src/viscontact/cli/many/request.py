@@ -40,6 +40,7 @@ class ManyRequest:
     common: RunRequest
     options: DesignOptions = field(default_factory=DesignOptions)
     jobs: int = 1
+    scheduler: str = ""  # of a cluster: address, file, or local
 
     def planned(self) -> list[PlannedRun]:
         """Return each combination of a case and a row of its design."""
@@ -78,6 +79,8 @@ class ManyRequest:
         yield from self.options.words()
         if self.jobs != 1:
             yield from ("-j", str(self.jobs))
+        if self.scheduler:
+            yield from ("--scheduler", self.scheduler)
 
     def _output(self, case: Path, name: str) -> Path | None:
         """Directory of a run: CASE/, CASE_KEY=VALUE/ or CASE_NUMBER/."""

@@ -57,8 +57,8 @@ class Workers(Protocol):
     def ask_to_stop(self) -> None:
         """Request that all tasks finish their step, save and end; then at once."""
 
-    def killed(self, error: BaseException) -> str:
-        """Reason why a task has ended without an outcome."""
+    def failure(self, error: BaseException) -> tuple[str, str]:
+        """One word and the reason for a task that has ended without an outcome."""
 
 
 def drive(
@@ -139,14 +139,19 @@ class _Driver:
                 self._active[future] = self._active.pop(future)
 
     def _outcome(self, active: Active) -> Ended:
-        error = None if active.future.cancelled() else active.future.exception()
-        if active.future.cancelled():
-            return Ended(active.job, "interrupted", INTERRUPTED)
-        if error is None:
-            outcome = active.future.result()
-            return Ended(active.job, outcome.word, outcome.code, outcome.said)
-        job, word = active.job, "stopped" if isinstance(error, OSError) else "killed"
-        why = f"{job.directory}: {self._workers.killed(error)}"
+        future, job = active.future, active.job
+        if future.cancelled():
+            if self._requests:
+                return Ended(job, "interrupted", INTERRUPTED)
+            while self._waiting:  # nothing more can be submitted
+                self._end(Ended(self._waiting.popleft(), "not begun", STOPPED))
+            why = f"{job.directory}: the connection to its worker was lost; continue with --resume"
+            return Ended(job, "lost", STOPPED, (why,))
+        if (error := future.exception()) is None:
+            outcome = future.result()
+            return Ended(job, outcome.word, outcome.code, outcome.said)
+        word, reason = self._workers.failure(error)
+        why = f"{job.directory}: {reason}"
         write_failure(job.directory, word, STOPPED, (why,))
         return Ended(job, word, STOPPED, (why,))
 

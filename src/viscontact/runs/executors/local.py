@@ -6,11 +6,12 @@ import multiprocessing
 import signal
 import threading
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from functools import partial
+from multiprocessing import resource_tracker
 from typing import Any
 
 from viscontact.runs.executors.task import ATTEMPTS, Outcome, Task
@@ -131,7 +132,7 @@ class _Worker:
         if self._process is not None:
             return self._pool.submit(run)
         before = set(multiprocessing.active_children())
-        with _signals_blocked():
+        with signals_blocked():  # until it handles them
             started = self._pool.submit(run)
         self._process = next(iter(set(multiprocessing.active_children()) - before), None)
         self._receiver.close()
@@ -155,11 +156,12 @@ class _Worker:
 
 
 @contextmanager
-def _signals_blocked() -> Iterator[None]:
-    """Let processes that are started meanwhile begin with blocked signals, which they unblock."""
+def signals_blocked(numbers: Iterable[int] = GROUP_SIGNALS) -> Iterator[None]:
+    """Let processes and threads that are started meanwhile begin with blocked signals."""
     with ExitStack() as restored:
         if hasattr(signal, "pthread_sigmask"):
-            before = signal.pthread_sigmask(signal.SIG_BLOCK, GROUP_SIGNALS)
+            resource_tracker.ensure_running()  # it would unblock signals when it starts
+            before = signal.pthread_sigmask(signal.SIG_BLOCK, numbers)
             restored.callback(signal.pthread_sigmask, signal.SIG_SETMASK, before)
         yield
 
@@ -184,11 +186,11 @@ class LocalTasks:
         """Request that all tasks finish their step, save and end; then at once."""
         self.workers.ask_to_stop()
 
-    def killed(self, error: BaseException) -> str:
-        """Reason why a task has ended without an outcome."""
+    def failure(self, error: BaseException) -> tuple[str, str]:
+        """One word and the reason for a task that has ended without an outcome."""
         if isinstance(error, BrokenExecutor):
-            return (
+            return "killed", (
                 f"the process of the run was killed {ATTEMPTS} times, as happens when memory runs "
                 "out; continue with --resume, and with fewer runs at a time"
             )
-        return f"the run cannot be started: {error}"
+        return "stopped", f"the run cannot be started: {error}"

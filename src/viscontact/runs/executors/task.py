@@ -9,6 +9,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from viscontact.run_files import ATTEMPT_NAME
 from viscontact.runs.directory.failure import write_failure
 from viscontact.runs.directory.lock import is_locked
 from viscontact.runs.ending import CommandError
@@ -31,9 +32,6 @@ ATTEMPTS = 2
 
 #: netCDF-4 may be used by one thread at a time.
 _ONE_AT_A_TIME = threading.Lock()
-
-#: Marks the directory of a run whose task has begun, until it ends.
-_ATTEMPT_NAME = ".attempt"
 
 
 @dataclass(frozen=True)
@@ -89,17 +87,18 @@ def perform(task: Task, stops: StopRequests | None = None) -> Outcome:
     outcome = _attempted(task, stops)
     if outcome.code != DONE and is_locked(task.directory):
         return outcome  # another run has taken the directory over, and writes there now
+    if is_locked(task.directory):
+        return outcome  # another run has taken it over: its files are left alone
     if outcome.code == STOPPED:
         write_failure(task.directory, outcome.word, outcome.code, outcome.said)
-    if outcome.code != INTERRUPTED:
-        with suppress(OSError):
-            (task.directory / _ATTEMPT_NAME).unlink(missing_ok=True)
+    with suppress(OSError):
+        (task.directory / ATTEMPT_NAME).unlink(missing_ok=True)
     return outcome
 
 
 def _attempted(task: Task, stops: StopRequests) -> Outcome:
     """Resume an earlier attempt of this task, or begin."""
-    request, mark = task.request, task.directory / _ATTEMPT_NAME
+    request, mark = task.request, task.directory / ATTEMPT_NAME
     if request.resume:
         return _computed(request, task.directory, stops)
     try:

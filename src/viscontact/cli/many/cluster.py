@@ -1,0 +1,84 @@
+"""Cluster of `--scheduler`: its connection, and the memory of its workers."""
+
+from __future__ import annotations
+
+import signal
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from viscontact.cli.terminal.messages import refuse, say
+from viscontact.runs.processes.job import Job
+from viscontact.units.formatting import format_number
+
+if TYPE_CHECKING:
+    from viscontact.runs.executors.remote import RemoteTasks
+
+#: Largest time for the connection to a scheduler [s].
+_PATIENCE = 30
+
+
+@contextmanager
+def cluster_tasks(
+    scheduler: str, count: int, directory: Path, jobs: Sequence[Job], *, quiet: bool
+) -> Iterator[RemoteTasks]:
+    """Connect to a scheduler by its address or its file; `local` starts workers here."""
+    from viscontact.runs.executors.dask import dask_executor
+    from viscontact.runs.executors.remote import RemoteTasks
+
+    with ExitStack() as opened:
+        client = opened.enter_context(_client(scheduler, count))
+        if scheduler != "local":
+            if not quiet and not client.scheduler_info()["workers"]:
+                say(f"--scheduler {scheduler}: waiting for its first worker")
+            client.wait_for_workers(1)
+            _check_memory(client, scheduler, jobs, quiet=quiet)
+        yield opened.enter_context(RemoteTasks(dask_executor(client), directory))
+
+
+@contextmanager
+def _client(scheduler: str, count: int) -> Iterator[Any]:
+    try:
+        distributed: Any = import_module("distributed")
+    except ImportError:
+        refuse("--scheduler needs Dask: install it with: pip install 'viscontact[cluster]'")
+    from viscontact.runs.executors.local import signals_blocked
+
+    with ExitStack() as opened:
+        try:
+            if scheduler == "local":
+                # Without a limit of memory: the runs at once were chosen to fit.
+                options = {"threads_per_worker": 1, "memory_limit": 0, "dashboard_address": None}
+                # Ctrl-C reaches them at the terminal, too; this process tells them.
+                with signals_blocked([signal.SIGINT]):
+                    cluster = distributed.LocalCluster(n_workers=count, **options)
+                client = distributed.Client(opened.enter_context(cluster))
+            elif Path(scheduler).is_file():
+                client = distributed.Client(scheduler_file=scheduler, timeout=_PATIENCE)
+            else:
+                client = distributed.Client(scheduler, timeout=_PATIENCE)
+        except (OSError, TimeoutError, ValueError) as error:
+            refuse(
+                f"--scheduler {scheduler}: is neither `local` nor a scheduler file, and no "
+                f"scheduler answers there: {error}"
+            )
+        yield opened.enter_context(client)
+
+
+def _check_memory(client: Any, scheduler: str, jobs: Sequence[Job], *, quiet: bool) -> None:
+    """Refuse runs that need more memory than any worker declares; say so if none declares any."""
+    from viscontact.runs.executors.dask import RESOURCE, declared_memory
+
+    largest, needed = max(declared_memory(client)), max((job.memory for job in jobs), default=0.0)
+    if not largest and not quiet:
+        say(
+            f"--scheduler {scheduler}: its workers declare no memory, so that several runs on one "
+            f'may need too much; start them with --resources "{RESOURCE}=16e9" (in bytes)'
+        )
+    if largest and needed > largest:
+        refuse(
+            f"--scheduler {scheduler}: a run needs about {format_number(needed / 1e9, 3)} GB of "
+            f"memory, its workers declare {format_number(largest / 1e9, 3)} GB at most"
+        )
