@@ -12,7 +12,12 @@ from filelock import FileLock, Timeout
 
 from viscontact.run_files import LOCK_NAME
 from viscontact.runs.directory.lease import Lease, LeaseHeld
-from viscontact.runs.directory.lease_file import DURATION, current_lease, seems_renewed
+from viscontact.runs.directory.lease_file import (
+    DURATION,
+    current_lease,
+    is_gone,
+    seems_renewed,
+)
 from viscontact.runs.directory.lock_check import LockCheck, never_lost
 from viscontact.runs.directory.lock_probe import has_locks
 
@@ -79,6 +84,17 @@ def in_use(directory: Path) -> str:
         return str(_in_use_error(directory))
     except OSError:
         return ""
+
+
+def awaited_lease(directory: Path) -> str:
+    """Message about a lease that `locked` has to watch; empty if there is none."""
+    lease = current_lease(directory) if _is_leased(directory) else None
+    if lease is None or is_gone(lease):
+        return ""
+    return (
+        f"{directory} is leased to another run{_owner(directory / LOCK_NAME)}; it is taken over if "
+        f"that does not renew its lease within {lease.duration:g} s"
+    )
 
 
 def is_locked(directory: Path) -> bool:

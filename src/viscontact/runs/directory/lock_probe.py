@@ -39,13 +39,12 @@ def file_system(directory: Path) -> str:
     >>> file_system(Path("nowhere").absolute() / "at all") == file_system(Path.cwd())
     True
     """
-    place = directory.resolve()
-    # Of several mounts at the same place the last one is visible.
-    found, longest = "", -1
+    place, found, longest = f"{directory.resolve()}{os.sep}", "", 0
     for mounted in psutil.disk_partitions(all=True):
-        depth = len(Path(mounted.mountpoint).parts)
-        if depth >= longest and place.is_relative_to(mounted.mountpoint):
-            found, longest = mounted.fstype.lower(), depth
+        mount = mounted.mountpoint.rstrip(os.sep) + os.sep
+        # Of several mounts at the same place the last one is visible.
+        if len(mount) >= longest and place.startswith(mount):
+            found, longest = mounted.fstype.lower(), len(mount)
     return found
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from viscontact.errors import ConvergenceError, DomainError
 from viscontact.run_files import RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.failure import remove_failure
-from viscontact.runs.directory.lock import DirectoryInUse, locked
+from viscontact.runs.directory.lock import DirectoryInUse, awaited_lease, locked
 from viscontact.runs.directory.lock_check import LockLost
 from viscontact.runs.directory.recorded_run import ChangedCaseError, remove_restart_files
 from viscontact.runs.directory.recorder import Recorder, Undisturbed
@@ -53,6 +53,8 @@ def execute_checked(checked: CheckedRun, monitor: Monitor) -> tuple[Path, bool]:
         standing = checked.standing()
     directory = checked.recorded.directory
     if standing is not Standing.FINISHED:
+        if message := awaited_lease(directory):
+            monitor.say(message)
         with reserved(directory) as check:
             standing = checked.standing()
             if standing is not Standing.FINISHED:
