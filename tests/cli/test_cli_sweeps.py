@@ -196,3 +196,51 @@ def test_command_with_varied_values_makes_a_sweep(
     growth = (ds.approach[1] / ds.approach[0]).values
     np.testing.assert_allclose(growth, 2 ** (2 / 3), rtol=0.03)  # 40 cells
     assert (ds.approach[:, 0, -1] > ds.approach[:, 1, -1]).all()  # the softer spring
+
+
+def test_sweep_stands_for_its_runs_in_a_comparison(
+    sweep: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    compared: list[list[str]] = []
+
+    def draw(runs: dict[str, xr.Dataset], **options: object) -> object:
+        compared.append(list(runs))
+        return vc.plot.compare_histories(runs)
+
+    monkeypatch.setitem(vc.plot.COMPARISONS, "history", draw)
+    names = ["force=2N", "force=3N", "force=4N"]
+    assert main(["compare", "sweep", "-o", "a.png"]) == 0
+    assert (
+        main(["compare", *(f"sweep/{name}" for name in ("runs.jsonl", *names)), "-o", "b.png"]) == 0
+    )
+    (Path(sweep) / "force=3N" / STATE_NAME).touch()
+    assert main(["compare", "sweep", "-o", "c.png"]) == 0
+    assert compared == [names, names, ["force=2N", "force=4N"]]
+    assert capsys.readouterr().err == "sweep: 1 of 3 runs are not done and left out\n"
+    monkeypatch.setattr("viscontact.cli.results.compared_runs.MOST", 1)
+    assert main(["compare", "sweep"]) == 2
+    assert "has 2 finished runs, of which a figure shows 1 at most" in capsys.readouterr().err
+
+
+def test_report_and_response_of_a_sweep(sweep: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["report", "sweep"]) == 0
+    assert main(["plot", "sweep", "response"]) == 0
+    assert lines(capsys) == ["sweep/report.html", "sweep/response.png"]
+    assert "<h1>sweep</h1>" in Path("sweep/report.html").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("words", [["show"], ["export"], ["plot", "history"]])
+def test_sweep_in_place_of_a_run_is_refused(
+    sweep: Path, words: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([words[0], "sweep", *words[1:]]) == 2
+    assert "is a sweep; name one of its runs" in capsys.readouterr().err
+
+
+def test_response_of_a_single_run_is_refused(
+    sweep: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["plot", "sweep/force=2N", "response"]) == 2
+    assert "response is a figure of a sweep" in capsys.readouterr().err
+    assert main(["plot", "sweep", "response", "--time", "1 s"]) == 2
+    assert "--time: does not apply" in capsys.readouterr().err

@@ -1,4 +1,4 @@
-"""Figures of a run, of several runs, and of a creep law.
+"""Figures of a run, of several runs, of a sweep, and of a creep law.
 
 Every figure takes a result, as ``simulate`` or ``open_results`` returned it, and gives a
 `matplotlib.figure.Figure`; `FIGURES` and `COMPARISONS` list them by the names of the command
@@ -39,6 +39,7 @@ from viscontact.plot.pressure.pressure_radial import pressure_radial
 from viscontact.plot.pressure.pressure_surface import compare_pressure_surfaces, pressure_surface
 from viscontact.plot.pressure.stress_section import stress_section
 from viscontact.plot.result_plots import ResultPlots
+from viscontact.plot.sweeps.response import response
 
 FIGURES: dict[str, Callable[..., Figure]] = {
     "pressure-map": pressure_map,
@@ -110,6 +111,7 @@ __all__ = [
     "pressure_radial",
     "pressure_surface",
     "require_suffix",
+    "response",
     "save_figure",
     "save_film",
     "stress_section",

@@ -9,8 +9,9 @@ except ModuleNotFoundError as error:
     ) from error
 
 from viscontact.report.page import report_page, write_report
+from viscontact.report.sweep_page import sweep_page, write_sweep_report
 
 #: Of whose scripts a page holds a copy.
 PLOTLY_VERSION: str = plotly.__version__
 
-__all__ = ["PLOTLY_VERSION", "report_page", "write_report"]
+__all__ = ["PLOTLY_VERSION", "report_page", "sweep_page", "write_report", "write_sweep_report"]

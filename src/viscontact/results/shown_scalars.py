@@ -11,7 +11,7 @@ from viscontact.results.variables import SCALARS, Place, shown_in
 LONG = 3.0
 
 #: Scalars that are shown of such contacts only.
-_OF_LONG_CONTACTS = ("peak_line_load",)
+OF_LONG_CONTACTS = ("peak_line_load",)
 
 
 def is_long(ds: xr.Dataset) -> bool:
@@ -31,7 +31,7 @@ def is_long(ds: xr.Dataset) -> bool:
 
 def is_shown(ds: xr.Dataset, name: str) -> bool:
     """Test for a scalar that a result has and that is of use for it."""
-    return name in ds and (name not in _OF_LONG_CONTACTS or is_long(ds))
+    return name in ds and (name not in OF_LONG_CONTACTS or is_long(ds))
 
 
 def shown_scalars(ds: xr.Dataset, place: Place) -> list[str]:

@@ -56,7 +56,7 @@ def plot(
             metavar="FIGURE",
             help="pressure-map, pressure-3d, pressure-profile, pressure-radial, line-load, "
             "surface-3d, contact-outline, contact-area, history, hysteresis, exact, creep, "
-            "stress-section, von-mises, indenter, or animation.",
+            "stress-section, von-mises, indenter, or animation; of a sweep: response.",
         ),
     ],
     times: Instants = None,
@@ -80,7 +80,7 @@ def plot(
 
 def compare(
     directories: Annotated[
-        list[Path], typer.Argument(metavar="DIR...", help="Runs, or their .nc files.")
+        list[Path], typer.Argument(metavar="DIR...", help="Runs, their .nc files, or a sweep.")
     ],
     figure: Annotated[
         str,

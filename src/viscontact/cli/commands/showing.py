@@ -8,7 +8,7 @@ from typing import Annotated, Any
 import typer
 
 from viscontact.cli.terminal.messages import refuse, say
-from viscontact.run_files import RESULT_NAME
+from viscontact.run_files import MANIFEST_NAME, RESULT_NAME
 
 RunDirectory = Annotated[
     Path, typer.Argument(metavar="DIR", help="Run directory, or its .nc file.")
@@ -56,8 +56,9 @@ def report(
         ),
     ] = None,
 ) -> None:
-    """Write a report on a run as one HTML page."""
+    """Write a report on a run, or on all runs of a sweep, as one HTML page."""
     from viscontact.cli.results.stored import early_end, opened
+    from viscontact.cli.results.sweep_report import write_page
 
     if output is not None and output.suffix.lower() not in (".html", ".htm"):
         refuse(f"{output}: a report is an HTML page; name it so, e.g. -o {output.stem}.html")
@@ -66,6 +67,10 @@ def report(
     page = output or (directory.with_suffix(".html") if is_file else directory / "report.html")
     if output is not None and not page.parent.is_dir():
         refuse(f"{page}: there is no directory {page.parent}")
+    if (directory / MANIFEST_NAME).is_file():
+        write_page(package, directory, page)
+        print(page)
+        return
     with opened(directory) as ds:
         if ended := early_end(ds):
             say(ended)

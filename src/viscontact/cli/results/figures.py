@@ -12,15 +12,18 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from viscontact.cli.results.compared_runs import compared_runs
 from viscontact.cli.results.stored import early_end, opened
 from viscontact.cli.terminal.messages import refuse, say
 from viscontact.cli.terminal.progress import counted
-from viscontact.run_files import MANIFEST_NAME
+from viscontact.runs.sweep.open_many import open_many
 from viscontact.units.formatting import format_quantity
 from viscontact.units.parsing import parse_quantity
 
 #: Name of the animation, which is written differently.
 ANIMATION = "animation"
+#: Name of the figure of a sweep.
+RESPONSE = "response"
 #: Figures of the fields at single instants; the others take times as a span.
 _OF_INSTANTS = (
     *("pressure-map", "pressure-profile", "pressure-radial", "contact-outline"),
@@ -37,12 +40,15 @@ def draw(
 ) -> Path:
     """Draw a figure of one run."""
     plot = plot_package()
-    draw_it = _named(figure, {**plot.FIGURES, ANIMATION: plot.animation})
+    draw_it = _named(figure, {**plot.FIGURES, ANIMATION: plot.animation, RESPONSE: plot.response})
     instants, chosen = _instants(times), _chosen(options or {}, figure, draw_it)
     folder = directory if directory.is_dir() else directory.parent
     moves = figure == ANIMATION
     file = output or folder / f"{figure}{'.gif' if moves else '.png'}"
     _require_suffix(plot, file, plot.FILM_SUFFIXES if moves else plot.FIGURE_SUFFIXES)
+    if figure == RESPONSE:
+        save(plot, file, draw_it, _sweep(directory, instants), **chosen)
+        return file
     with opened(directory) as ds:
         if figure != "creep":  # the law is known beyond the run
             _refuse_outside(instants, ds, directory)
@@ -54,6 +60,16 @@ def draw(
     return file
 
 
+def _sweep(directory: Path, instants: list[float] | None) -> xr.Dataset:
+    """Joint result of a sweep for its figure, which takes no instants."""
+    if instants:
+        refuse(f"--time: does not apply to the figure {RESPONSE}")
+    try:
+        return open_many(directory)
+    except (OSError, ValueError) as error:
+        refuse(f"{directory}: {RESPONSE} is a figure of a sweep: {error}")
+
+
 def draw_comparison(
     directories: Sequence[Path],
     figure: str,
@@ -63,8 +79,7 @@ def draw_comparison(
 ) -> Path:
     """Draw a figure of several runs."""
     plot = plot_package()
-    # All that a sweep's directory holds, as DIR/*, are its runs and their manifest.
-    directories = [each for each in directories if each.name != MANIFEST_NAME]
+    directories = compared_runs(directories)
     draw_it = _named(figure, plot.COMPARISONS)
     instants, chosen = _instants(times), _chosen(options or {}, figure, draw_it)
     if len(directories) < 2:

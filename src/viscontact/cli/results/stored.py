@@ -13,7 +13,7 @@ from viscontact.cli.terminal.messages import refuse
 from viscontact.results.netcdf import open_results
 from viscontact.results.recorded_case import case_of
 from viscontact.results.variables import REQUIRED, SCALARS
-from viscontact.run_files import CASE_NAME, RESULT_NAME, STATE_NAME
+from viscontact.run_files import CASE_NAME, MANIFEST_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.lock import is_locked
 from viscontact.runs.execution.checked_run import progress_made
 from viscontact.runs.processes.request import RunRequest
@@ -26,6 +26,11 @@ def opened(path: Path) -> Iterator[xr.Dataset]:
     try:
         ds = open_results(path)
     except FileNotFoundError:
+        if (path / MANIFEST_NAME).is_file():
+            refuse(
+                f"{path}: is a sweep; name one of its runs, {path}/NAME, or write all of them to a "
+                f"table with: viscontact collect {path} -o FILE.csv"
+            )
         refuse(f"{path}: no result there; `viscontact run CASE.yaml -o {path}` makes one")
     except (OSError, ValueError) as error:
         refuse(_unreadable(path, error))

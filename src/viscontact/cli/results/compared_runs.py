@@ -1,0 +1,46 @@
+"""Runs of a comparison, of which a sweep's directory names all."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from viscontact.cli.terminal.messages import refuse, say
+from viscontact.run_files import MANIFEST_NAME
+from viscontact.runs.sweep.manifest import read_manifest
+from viscontact.runs.sweep.states import State, run_state
+
+#: Most runs of a sweep in a figure.
+MOST = 24
+
+
+def compared_runs(paths: Sequence[Path]) -> list[Path]:
+    """Return the directories of runs; those of a sweep in the order of its manifest."""
+    return [run for path in paths for run in _runs(path)]
+
+
+def _runs(path: Path) -> Iterator[Path]:
+    if path.name == MANIFEST_NAME:
+        return  # the shell names it in DIR/*, together with the runs
+    if not (path / MANIFEST_NAME).is_file():
+        yield path
+        return
+    found = _finished(path)
+    if len(found) > MOST:
+        refuse(
+            f"{path}: has {len(found)} finished runs, of which a figure shows {MOST} at most; name "
+            f"some of them, or draw all with: viscontact plot {path} response"
+        )
+    yield from found
+
+
+def _finished(sweep: Path) -> list[Path]:
+    """Directories of the finished runs of a sweep; the others are left out with a note."""
+    try:
+        places = [sweep / run.directory for run in read_manifest(sweep / MANIFEST_NAME)]
+    except (ValueError, OSError) as error:
+        refuse(str(error))
+    found = [place for place in places if run_state(place).state is State.DONE]
+    if len(found) < len(places):
+        say(f"{sweep}: {len(places) - len(found)} of {len(places)} runs are not done and left out")
+    return found

@@ -1,0 +1,17 @@
+"""Report on all runs of a sweep."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from viscontact.cli.terminal.messages import refuse
+from viscontact.runs.sweep.open_many import open_many
+
+
+def write_page(package: Any, directory: Path, page: Path) -> None:
+    """Write the page of a sweep by the package of reports, or refuse it with a message."""
+    try:
+        package.write_sweep_report(open_many(directory), page, title=directory.resolve().name)
+    except (ValueError, OSError) as error:
+        refuse(f"{page}: {error}")

@@ -1,0 +1,147 @@
+"""Runs of a sweep as one page of HTML: states, response, and a table of the runs."""
+
+from __future__ import annotations
+
+import base64
+from collections import Counter
+from collections.abc import Iterator
+from importlib.resources import files
+from pathlib import Path
+from string import Template
+from xml.etree.ElementTree import Element
+
+import numpy as np
+import xarray as xr
+
+from viscontact import __version__
+from viscontact.notebook.html import element, written
+from viscontact.plot.layout.saving import as_svg
+from viscontact.plot.sweeps.response import response
+from viscontact.results.formatting import format_with_error_in
+from viscontact.results.largest_values import (
+    compared_scalars,
+    key_label,
+    largest_values,
+    run_dims,
+    varied_keys,
+)
+from viscontact.results.stated_errors import WHY_MESH_DEPENDENT
+from viscontact.results.variables import SCALARS
+from viscontact.units.formatting import format_compact, readable_unit
+
+#: Most rows of the table, and most runs with a message.
+MOST_ROWS, MOST_REASONS = 1000, 10
+
+
+def write_sweep_report(ds: xr.Dataset, path: str | Path, *, title: str) -> None:
+    """Write the runs of a sweep, from `open_many`, as one page of HTML.
+
+    OSError if the file cannot be written.
+    """
+    Path(path).write_text(sweep_page(ds, title=title), encoding="utf-8")
+
+
+def sweep_page(ds: xr.Dataset, *, title: str) -> str:
+    """Return the runs of a sweep as one page of HTML that needs nothing from outside.
+
+    It has the number of runs in each state, a figure of the chief scalars over the varied keys, and
+    a row for each run.
+    """
+    folder = files("viscontact.report")
+    template = Template((folder / "sweep.html").read_text(encoding="utf-8"))
+    return template.substitute(
+        generator=f"viscontact {__version__}",
+        title=written(element("title", title)),
+        style=(folder / "page.css").read_text(encoding="utf-8"),
+        body="\n".join(map(written, _body(ds, title))),
+    )
+
+
+def _body(ds: xr.Dataset, title: str) -> Iterator[Element]:
+    yield element("header", element("h1", title), _states(ds), _reasons(ds))
+    if (ds["state"] == "done").any():
+        yield element("section", element("h2", "Response"), *_figure(ds))
+    yield element("section", element("h2", "Runs"), *_table(ds))
+    yield element("p", f"Made by viscontact {__version__}.", class_="faint")
+
+
+def _states(ds: xr.Dataset) -> Element:
+    """Number of all runs, and of those in each state."""
+    counts = Counter(ds["state"].values.ravel().tolist())
+    facts = {"runs": counts.total(), **dict(counts.most_common())}
+    tiles = (
+        element("div", element("dt", name), element("dd", str(count)))
+        for name, count in facts.items()
+    )
+    return element("dl", *tiles, class_="facts")
+
+
+def _figure(ds: xr.Dataset) -> Iterator[Element]:
+    try:
+        drawing = base64.b64encode(as_svg(response(ds))).decode()
+    except ValueError:
+        yield element("p", "The finished runs do not differ in their chief values.", class_="faint")
+        return
+    image = element("img", src=f"data:image/svg+xml;base64,{drawing}", alt="Response over the keys")
+    said = "Largest values over time; bars are their errors. "
+    if any(np.isposinf(largest_values(ds, name)[1]).any() for name in compared_scalars(ds)):
+        said += f"Hollow: the value depends on the mesh ({WHY_MESH_DEPENDENT})."
+    yield element("figure", element("div", image, class_="scroll"), element("figcaption", said))
+
+
+def _reasons(ds: xr.Dataset) -> Element | None:
+    """List of the runs with a message; None without any."""
+    states, messages, names = (ds[name].values.ravel() for name in ("state", "message", "name"))
+    numbers = np.flatnonzero(messages != "")
+    if not numbers.size:
+        return None
+    said = [f"{names[run]} ({states[run]}): {messages[run]}" for run in numbers[:MOST_REASONS]]
+    if (more := numbers.size - MOST_REASONS) > 0:
+        said.append(f"... and {more} more")
+    return element("div", element("ul", *(element("li", text) for text in said)), class_="warnings")
+
+
+def _table(ds: xr.Dataset) -> Iterator[Element]:
+    columns = [*_key_columns(ds), *_scalar_columns(ds)]
+    states, runs = ds["state"].values.ravel(), ds["run"].values.ravel()
+    rows = [
+        element(
+            "tr",
+            element("th", str(runs[run])),
+            element("td", str(states[run])),
+            *(element("td", texts[run], class_="number") for _, texts in columns),
+        )
+        for run in range(min(states.size, MOST_ROWS))
+    ]
+    heads = (element("th", heading, class_="number") for heading, _ in columns)
+    head = element("tr", element("th", "run"), element("th", "state"), *heads)
+    table = element("table", element("thead", head), element("tbody", *rows))
+    yield element("div", table, class_="scroll")
+    more = "" if states.size <= MOST_ROWS else f"The first {MOST_ROWS} of {states.size} runs. "
+    collect = element("code", "viscontact collect")
+    legend = f"{more}Largest values over time, with their errors. "
+    yield element("p", legend, collect, " writes all numbers to one file.", class_="faint")
+
+
+def _key_columns(ds: xr.Dataset) -> Iterator[tuple[str, list[str]]]:
+    """Heading and cells of each varied key."""
+    for key in varied_keys(ds):
+        values = xr.broadcast(ds[key], ds["state"])[0].transpose(*run_dims(ds)).values.ravel()
+        if not np.issubdtype(values.dtype, np.number):
+            yield key_label(ds, key), [str(value) for value in values]
+            continue
+        unit = readable_unit(ds[key].attrs.get("units", "1"), values)
+        texts = [format_compact(value, 4) if np.isfinite(value) else "" for value in unit(values)]
+        yield unit.label(key_label(ds, key)), texts
+
+
+def _scalar_columns(ds: xr.Dataset) -> Iterator[tuple[str, list[str]]]:
+    """Heading and cells of each chief scalar."""
+    for name in compared_scalars(ds):
+        values, errors = (each.values.ravel() for each in largest_values(ds, name))
+        unit = readable_unit(SCALARS[name].units, values)
+        texts = [
+            "" if np.isnan(value) else format_with_error_in(unit, float(value), float(error))
+            for value, error in zip(values, errors, strict=True)
+        ]
+        yield unit.label(SCALARS[name].label), texts

@@ -1,0 +1,110 @@
+"""The figure of a sweep: the largest values of its runs over the varied keys."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+import viscontact as vc
+from synthetic_sweeps import hertz_sweep, listed
+from viscontact.plot import response
+from viscontact.results.largest_values import compared_scalars, largest_values, varied_keys
+
+FORCES = ([1e3, 2e3, 8e3], "N")
+RADII = ([0.02, 0.01], "m")
+
+
+def panel(figure: Figure, label: str) -> Axes:
+    [found] = [axes for axes in figure.axes if axes.get_ylabel().startswith(label)]
+    return found
+
+
+def test_curves_are_the_largest_values_over_time() -> None:
+    axes = panel(response(hertz_sweep(load__force=FORCES, indenter__radius=RADII)), "Approach")
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("force [kN]", "Approach [mm]")
+    curves = [line for line in axes.lines if line.get_linestyle() == "-"]
+    for radius, line in zip(RADII[0], curves, strict=True):
+        np.testing.assert_allclose(line.get_xdata(), [1, 2, 8])
+        expected = 1e-3 * (np.array(FORCES[0]) ** 2 / radius) ** (1 / 3)
+        np.testing.assert_allclose(line.get_ydata(), expected)
+    labels = [text.get_text() for text in axes.figure.legends[0].get_texts()]
+    assert labels == ["radius 20 mm", "10 mm"]
+
+
+def test_bars_are_the_errors() -> None:
+    axes = panel(response(hertz_sweep(load__force=FORCES)), "Approach")
+    [bars] = axes.collections
+    heights = [float(np.ptp(path.vertices[:, 1])) for path in bars.get_paths()]
+    np.testing.assert_allclose(heights, 0.2 * axes.lines[0].get_ydata())
+
+
+def test_varied_force_and_equal_values_have_no_panel() -> None:
+    ds = hertz_sweep(load__force=FORCES)
+    assert compared_scalars(ds) == ["approach", "contact_area", "peak_pressure"]
+    ds["contact_area"][:] = 1e-6
+    assert compared_scalars(ds) == ["approach", "peak_pressure"]
+    assert compared_scalars(hertz_sweep(indenter__radius=RADII))[0] == "approach"
+
+
+def test_large_grid_of_numbers_is_a_map() -> None:
+    forces, radii = np.linspace(1e3, 9e3, 5), np.geomspace(0.05, 0.01, 6)
+    ds = hertz_sweep(load__force=(forces, "N"), indenter__radius=(radii, "m"))
+    ds["approach"][0, 0] = np.nan  # without a result
+    figure = response(ds)
+    [axes] = [each for each in figure.axes if each.get_ylabel().startswith("force")][:1]
+    assert axes.get_xlabel() == "radius [mm]"
+    x, y = axes.lines[0].get_data()
+    assert len(x) == 29
+    assert (50.0, 1.0) not in set(zip(np.round(x, 9), np.round(y, 9), strict=True))
+    assert "Approach [mm]" in {each.get_ylabel() for each in figure.axes}
+
+
+def test_texts_are_drawn_as_points() -> None:
+    ds = hertz_sweep(material=(["pmma", "nylon"], "1"), load__force=FORCES)
+    axes = panel(response(ds.transpose("material", ...)), "Approach")
+    assert axes.get_xlabel() == "force [kN]"
+    only = ds.isel({"load.force": [0]})
+    only["approach"][1] = 2 * only["approach"][0]
+    axes = panel(response(only.squeeze("load.force", drop=True)), "Approach")
+    assert [tick.get_text() for tick in axes.get_xticklabels()] == ["pmma", "nylon"]
+    assert axes.lines[0].get_linestyle() == "None"
+
+
+def test_listed_runs_have_a_column_of_points_for_each_key() -> None:
+    ds = listed(hertz_sweep(load__force=FORCES, indenter__radius=RADII))
+    assert varied_keys(ds) == ["load.force", "indenter.radius"]
+    figure = response(ds)
+    assert [axes.get_xlabel() for axes in figure.axes[-2:]] == ["force [kN]", "radius [mm]"]
+    over_radius = figure.axes[1].lines[0]
+    np.testing.assert_allclose(over_radius.get_xdata(), [20, 10] * 3)
+    np.testing.assert_allclose(over_radius.get_ydata(), 1e3 * ds.approach[:, 1])
+
+
+def test_value_that_depends_on_the_mesh_is_hollow() -> None:
+    ds = hertz_sweep(load__force=FORCES)
+    ds["peak_pressure_error"][1] = np.inf
+    marks = panel(response(ds), "Peak").lines[1]
+    assert marks.get_xdata().tolist() == [2.0]
+    assert marks.get_color() == "white"
+
+
+def test_largest_value_ignores_instants_without_one() -> None:
+    ds = hertz_sweep(load__force=FORCES)
+    ds["approach"][0, 1] = np.nan
+    ds["approach"][1] = np.nan
+    values, errors = largest_values(ds, "approach")
+    np.testing.assert_array_equal(np.isnan(values), [False, True, False])
+    assert float(values[0]) == float(ds.approach[0, 0])
+    assert float(errors[0]) == float(ds.approach_error[0, 0])
+
+
+def test_sweep_without_a_difference_is_refused() -> None:
+    with pytest.raises(ValueError, match="no key is varied"):
+        response(hertz_sweep(load__force=([1.0], "N")))
+    ds = hertz_sweep(load__force=FORCES).isel(time=[0])
+    for name in ("approach", "contact_area", "peak_pressure"):
+        ds[name][:] = np.nan
+    with pytest.raises(ValueError, match="no scalar differs"):
+        vc.plot.response(ds)

@@ -1,0 +1,59 @@
+"""The page of a sweep: its states, its response, and a row for each run."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+
+from synthetic_sweeps import hertz_sweep
+from viscontact.report import sweep_page, write_sweep_report
+from viscontact.report.sweep_page import MOST_ROWS
+
+FORCES = ([1e3, 8e3, 2e3], "N")
+MARKUP = "</title><script>alert(1)</script>"
+
+
+def cells(page: str) -> list[list[str]]:
+    rows = re.findall(r"<tr>(.*?)</tr>", page, flags=re.DOTALL)
+    return [re.findall(r"<t[hd][^>]*>(.*?)</t[hd]>", row) for row in rows]
+
+
+def test_page_has_a_row_for_each_run(tmp_path: Path) -> None:
+    write_sweep_report(hertz_sweep(load__force=FORCES), tmp_path / "a.html", title="forces")
+    page = (tmp_path / "a.html").read_text(encoding="utf-8")
+    head, *rows = cells(page)
+    assert head[:4] == ["run", "state", "force [kN]", "Approach [µm]"]
+    assert [row[:3] for row in rows] == [["0", "done", "1"], ["1", "done", "8"], ["2", "done", "2"]]
+    # 1000**(2/3) and 8000**(2/3)
+    assert [row[3] for row in rows[:2]] == ["100 ± 10", "400 ± 40"]
+    assert page.count("<img") == 1
+    assert "<script" not in page
+
+
+def test_runs_without_a_result_are_listed_with_their_message() -> None:
+    ds = hertz_sweep(load__force=FORCES)
+    ds["state"] = "load.force", ["done", "failed", "done"]
+    ds["message"] = "load.force", ["", f"grid: the rim {MARKUP}", ""]
+    for name in ("approach", "contact_area", "peak_pressure", "force"):
+        ds[name][1] = np.nan
+    page = sweep_page(ds, title=MARKUP)
+    assert "run 1 (failed): grid: the rim" in page
+    assert cells(page)[2] == ["1", "failed", "8", "", "", ""]
+    assert "<script" not in page
+
+
+def test_page_without_any_result_has_no_figure() -> None:
+    ds = hertz_sweep(load__force=FORCES)[["state", "message"]]
+    ds["state"][:] = "fail"
+    page = sweep_page(ds, title="none")
+    assert "<img" not in page
+    assert len(cells(page)) == 4
+
+
+def test_page_of_many_runs_has_the_first_rows() -> None:
+    forces = np.linspace(1e3, 2e3, MOST_ROWS + 5)
+    page = sweep_page(hertz_sweep(load__force=(forces, "N")), title="many")
+    assert len(cells(page)) == 1 + MOST_ROWS
+    assert f"The first {MOST_ROWS} of {MOST_ROWS + 5} runs" in page
