@@ -18,7 +18,15 @@ import viscontact as vc
 from swept_runs import sweep_of
 from viscontact.cli import main
 from viscontact.run_files import FAILURE_NAME, STATE_NAME
+from viscontact.runs.directory.lock import locked
 
+SCANNED = """\
+indenter: {shape: height-map, file: a.npy, spacing: [0.05 mm, 0.05 mm], height_unit: m, level: none}
+material: {law: elastic, shear_modulus: 400 MPa, poisson_ratio: 0.3}
+load: {kind: step, force: 20 N}
+time: {end: 1 s, steps: 1}
+grid: {shape: [36, 36], size: [1.8 mm, 1.8 mm]}
+"""
 FORCES = ["2 N", "3 N", "4 N"]
 
 
@@ -55,6 +63,9 @@ def test_status_of_a_sweep_in_all_states(sweep: Path, capsys: pytest.CaptureFixt
         "67% done",
         "  stopped force=3N  100%",
     ]
+    with locked(Path(sweep) / "force=3N"):
+        assert main(["status", "sweep"]) == 0
+    assert lines(capsys)[-1] == "  running force=3N  estimating errors"
     fail(Path(sweep) / "force=2N", "grid: the contact reaches the rim")
     assert main(["status", "sweep/runs.jsonl"]) == 1
     assert lines(capsys)[-1] == "  failed  force=2N  grid: the contact reaches the rim"
@@ -244,3 +255,40 @@ def test_response_of_a_single_run_is_refused(
     assert "response is a figure of a sweep" in capsys.readouterr().err
     assert main(["plot", "sweep", "response", "--time", "1 s"]) == 2
     assert "--time: does not apply" in capsys.readouterr().err
+
+
+def test_run_that_fails_is_listed_and_the_others_are_collected(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["example", "sphere-zener", "-o", "ball.yaml"]) == 0
+    coarse = [word for text in ("grid.shape=[32, 32]", "time.steps=2") for word in ("--set", text)]
+    command = ["run", "ball.yaml", *coarse, "--vary", "load.force=2N,400N,4N", "-o", "all", "-q"]
+    assert main(command) == 1
+    capsys.readouterr()
+    assert main(["status", "all"]) == 1
+    counts, listed = lines(capsys)
+    assert counts == "all: 3 runs: 2 done, 1 failed"
+    assert listed.startswith("  failed  force=400N  ")
+    assert "the contact reaches the grid's rim" in listed
+    ds = vc.open_many("all")
+    assert ds.state.values.tolist() == ["done", "failed", "done"]
+    assert "the contact reaches the grid's rim" in ds.message.values[1]
+    assert np.isnan(ds.approach).all("time").values.tolist() == [False, True, False]
+
+
+def test_surfaces_of_a_folder_are_texts_along_a_dimension(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("scans").mkdir()
+    x = np.linspace(-1e-3, 1e-3, 41)
+    for name, radius in (("a", 8e-3), ("b", 4e-3)):
+        np.save(f"scans/{name}.npy", -(x[:, None] ** 2 + x**2) / (2 * radius))
+    Path("ball.yaml").write_text(SCANNED, encoding="utf-8")
+    assert main(["run", "ball.yaml", "--vary", "indenter.file=scans/*.npy", "-o", "all", "-q"]) == 0
+    ds = vc.open_many("all")
+    assert ds["indenter.file"].values.tolist() == ["scans/a.npy", "scans/b.npy"]
+    # Hertz: the approach of a ball grows as its radius to the power of -1/3.
+    growth = float(ds.approach[1, 0] / ds.approach[0, 0])
+    assert growth == pytest.approx(2 ** (1 / 3), rel=0.03)

@@ -8,8 +8,10 @@ import signal
 import subprocess
 import sys
 import threading
+import time as clock
 from collections.abc import Iterator
-from contextlib import contextmanager
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 import pytest
@@ -173,3 +175,18 @@ def test_directory_that_is_missing_cannot_be_locked(tmp_path: Path) -> None:
     with pytest.raises(OSError, match="cannot be locked"), locked(tmp_path / "none"):
         pass
     assert list(tmp_path.iterdir()) == []
+
+
+def test_lock_waits_for_one_that_is_held_for_an_instant(tmp_path: Path) -> None:
+    def lock() -> None:
+        with locked(tmp_path):
+            pass
+
+    with ThreadPoolExecutor(1) as pool, ExitStack() as held:
+        # As the status of a sweep holds it, to see whether a run is active.
+        held.enter_context(locked(tmp_path))
+        waiting = pool.submit(lock)
+        clock.sleep(0.02)
+        assert not waiting.done()
+        held.close()
+        waiting.result()

@@ -10,11 +10,13 @@ from textwrap import shorten
 
 from viscontact.cli.terminal.messages import STOPPED, refuse, stop
 from viscontact.runs.sweep.states import State
-from viscontact.runs.sweep.status import LISTED, SweepStatus, sweep_status
+from viscontact.runs.sweep.status import LISTED, ListedRun, SweepStatus, sweep_status
 from viscontact.units.formatting import format_quantity
 
 #: Time between two looks [s], and as a multiple of the time that a look takes.
 _PAUSE, _SHARE = 2.0, 10.0
+#: Largest part that is printed before all runs have ended.
+_NEARLY = 0.99
 #: Longest message in the list of runs [characters].
 _MESSAGE = 200
 
@@ -34,15 +36,27 @@ def status_lines(directory: Path, status: SweepStatus) -> Iterator[str]:
     runs = "1 run" if status.total == 1 else f"{status.total} runs"
     yield f"{directory}: {runs}: {', '.join(reversed(counts))}"
     if not status.has_ended:
-        left = "" if status.left is None else f", about {format_quantity(status.left, 's', 2)} left"
-        yield f"{status.part:.0%} done{left}"
+        # A run whose errors are estimated is not done yet.
+        yield f"{min(status.part, _NEARLY):.0%} done{_time_left(status)}"
     for state, listed in status.listed.items():
         for each in listed:
             said = shorten(each.state.message, _MESSAGE, placeholder=" ...")
-            part = "" if state is State.FAILED else f"{each.part:.0%}"
-            yield "  ".join(filter(None, (f"  {state.value:8}{each.name}", part, said)))
+            yield "  ".join(filter(None, (f"  {state.value:8}{each.name}", _part(each), said)))
         if (more := status.counts[state] - LISTED) > 0:
             yield f"  {state.value:8}... and {more} more"
+
+
+def _time_left(status: SweepStatus) -> str:
+    left = status.left or 0.0
+    return f", about {format_quantity(left, 's', 2)} left" if left >= 1.0 else ""
+
+
+def _part(run: ListedRun) -> str:
+    """Finished part of a run that has not ended."""
+    if run.state.state is State.FAILED:
+        return ""
+    estimating = run.state.state is State.RUNNING and run.part == 1
+    return "estimating errors" if estimating else f"{run.part:.0%}"
 
 
 def _look(directory: Path) -> SweepStatus:

@@ -21,6 +21,9 @@ from viscontact.runs.directory.lease_file import (
 from viscontact.runs.directory.lock_check import LockCheck, never_lost
 from viscontact.runs.directory.lock_probe import has_locks
 
+#: Time that `locked` waits for a lock, which `in_use` takes for an instant, and between tries [s].
+_PATIENCE, _POLL = 0.1, 0.005
+
 
 class DirectoryInUse(RuntimeError):  # noqa: N818 - a state of the directory, no fault
     """Another run writes into the directory."""
@@ -54,7 +57,7 @@ def locked(directory: str | Path, lease_duration: float = DURATION) -> Iterator[
             if _is_leased(place) or not has_locks(place):
                 check = held.enter_context(Lease(place, lease_duration)).check
             else:
-                held.enter_context(_file_locked(place))
+                held.enter_context(_file_locked(place, _PATIENCE))
                 check = never_lost
         except (Timeout, LeaseHeld):
             raise _in_use_error(place) from None
@@ -103,12 +106,15 @@ def is_locked(directory: Path) -> bool:
 
 
 @contextmanager
-def _file_locked(directory: Path) -> Iterator[None]:
-    """Lock the file of a directory by the operating system; Timeout if another has locked it."""
+def _file_locked(directory: Path, patience: float = 0.0) -> Iterator[None]:
+    """Lock the file of a directory by the operating system.
+
+    Timeout if another has locked it for so long [s].
+    """
     path = directory / LOCK_NAME
     # A lock by mere existence of a file would outlast its process.
     lock = FileLock(path, blocking=False, fallback_to_soft=False, on_acquired=_leave_name)
-    lock.acquire()
+    lock.acquire(timeout=patience, poll_interval=_POLL, blocking=patience > 0)
     try:
         yield
     finally:
