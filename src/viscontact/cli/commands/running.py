@@ -82,6 +82,23 @@ SamplingMethod = Annotated[
     Method | None,
     typer.Option("--method", help="Points of --sample: a scrambled Sobol sequence if not given."),
 ]
+Array = Annotated[
+    Path | None,
+    typer.Option(
+        "--array",
+        metavar="FILE.sbatch",
+        help="Start nothing, but write a job array for SLURM (FILE.sbatch) or PBS (FILE.pbs); -j "
+        "limits its tasks at the same time.",
+    ),
+]
+TaskNumber = Annotated[
+    int | None,
+    typer.Option(
+        "--task",
+        metavar="N",
+        help="Compute run N, from 0, of a manifest: run --task N DIR/runs.jsonl.",
+    ),
+]
 Threads = Annotated[int, typer.Option(min=1, help="Number of threads of a Fourier transform.")]
 
 
@@ -102,6 +119,8 @@ def run(
     ranges: Ranges = None,
     seed: Seed = None,
     method: SamplingMethod = None,
+    array: Array = None,
+    task: TaskNumber = None,
     jobs: Annotated[
         int,
         typer.Option("-j", "--jobs", min=1, metavar="N", help="Number of runs at the same time."),
@@ -129,7 +148,9 @@ def run(
             with interruption.postponed():
                 from viscontact.cli.many.design_options import DesignOptions
                 from viscontact.cli.many.execution import execute_many
+                from viscontact.cli.many.job_array import write_array
                 from viscontact.cli.many.request import ManyRequest
+                from viscontact.cli.many.single_task import execute_task
                 from viscontact.cli.run.execution import execute
             options = DesignOptions(
                 tuple(varied or ()),
@@ -140,10 +161,17 @@ def run(
                 seed,
                 None if method is None else method.value,
             )
-            if len(cases) == 1 and options == DesignOptions() and not scheduler:
+            request = ManyRequest(tuple(cases), common, options, jobs, scheduler)
+            if task is not None:
+                execute_task(request, array, task)
+            elif array is not None:
+                write_array(request, array)
+            elif manifests := [each for each in cases if each.suffix == ".jsonl"]:
+                refuse(f"{manifests[0]}: is a manifest of runs; compute one of them with --task N")
+            elif len(cases) == 1 and not (options.given or scheduler):
                 execute(common)
             else:
-                execute_many(ManyRequest(tuple(cases), common, options, jobs, scheduler))
+                execute_many(request)
     except KeyboardInterrupt:
         stop("interrupted", code=INTERRUPTED)
 

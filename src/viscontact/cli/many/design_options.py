@@ -33,8 +33,8 @@ class DesignOptions:
     method: Method | None = None
 
     @property
-    def vary(self) -> bool:
-        """True if any key is varied."""
+    def given(self) -> bool:
+        """True if any option is given."""
         return self != DesignOptions()
 
     @property

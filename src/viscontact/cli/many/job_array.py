@@ -1,0 +1,89 @@
+"""Script of a job array for the runs of one command, which are not started here."""
+
+from __future__ import annotations
+
+import shlex
+import shutil
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+from viscontact.cli.many.jobs import checked_sweep
+from viscontact.cli.many.request import ManyRequest
+from viscontact.cli.terminal.messages import refuse, say
+from viscontact.cli.terminal.streams import printing
+from viscontact.run_files import MANIFEST_NAME
+from viscontact.runs.directory.atomic_files import replacing
+from viscontact.runs.execution.checked_run import checked_run
+from viscontact.runs.execution.execution import before_the_first_step
+from viscontact.runs.forecast import run_seconds
+from viscontact.runs.processes.job import Job, Standing
+from viscontact.runs.sweep.job_array import JobArray, pbs_script, slurm_script
+
+#: Suffixes of scripts: their text, and the command that submits them.
+_SYSTEMS = {
+    ".sbatch": (slurm_script, "sbatch"),
+    ".slurm": (slurm_script, "sbatch"),
+    ".pbs": (pbs_script, "qsub"),
+}
+
+
+def write_array(request: ManyRequest, script: Path) -> None:
+    """Write the manifest and the script of a job array, and print the command that submits it."""
+    if script.suffix not in _SYSTEMS:
+        refuse(f"--array {script}: name it FILE.sbatch for SLURM or FILE.pbs for PBS")
+    text_of, submit = _SYSTEMS[script.suffix]
+    directory = request.common.output
+    if directory is None:
+        refuse("--array: name a directory for the runs, with -o DIR")
+    if request.scheduler:
+        refuse("--array and --scheduler: give one of them")
+    if request.common.overwrite:
+        refuse("--array and --overwrite: its tasks would not resume; choose another -o DIR")
+    with before_the_first_step():
+        sweep = checked_sweep(request)
+        left = [n for n, job in enumerate(sweep.jobs) if job.standing is not Standing.FINISHED]
+        if not left:
+            say(f"{directory}: all {len(sweep.jobs)} runs are finished")
+            return
+        array = JobArray(
+            manifest=directory.resolve() / MANIFEST_NAME,
+            runs=len(sweep.jobs),
+            left=left,
+            memory=max(job.memory for job in sweep.jobs),
+            seconds=_longest([sweep.jobs[number] for number in left]),
+            logs=script.parent.resolve() / f"{script.stem}-logs",
+            threads=request.common.threads,
+            at_once=request.jobs if request.jobs > 1 else None,
+            program=_program(),
+        )
+        text = text_of(array)
+        if script.exists() and script.read_text(encoding="utf-8", errors="replace") != text:
+            refuse(f"{script}: exists already; submit it, remove it, or choose another name")
+        sweep.recorded.write()
+        _write(script, text, array.logs)
+    with printing():
+        print(f"{submit} {shlex.quote(str(script))}")
+
+
+def _longest(jobs: list[Job]) -> float:
+    """Predicted duration of the longest run [s]."""
+    longest = max(jobs, key=lambda job: job.work)
+    checked = checked_run(replace(longest.request, output=longest.directory))
+    return run_seconds(checked.recorded.run, errors=checked.recorded.errors)
+
+
+def _program() -> str:
+    """Command that starts this program in a job."""
+    if shutil.which("viscontact"):
+        return "viscontact"
+    return f"{shlex.quote(sys.executable)} -m viscontact"
+
+
+def _write(script: Path, text: str, logs: Path) -> None:
+    try:
+        logs.mkdir(parents=True, exist_ok=True)  # without it, tasks do not start
+        with replacing(script) as file:
+            file.write(text.encode())
+    except OSError as error:
+        refuse(f"{script}: cannot be written: {error}")

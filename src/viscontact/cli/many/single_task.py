@@ -1,0 +1,72 @@
+"""One run of a manifest, for job arrays and workflow systems."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from viscontact.cli.many.request import ManyRequest
+from viscontact.cli.run.execution import execute
+from viscontact.cli.terminal.messages import REFUSED, STOPPED, CommandError, refuse
+from viscontact.run_files import MANIFEST_NAME, RESULT_NAME
+from viscontact.runs.directory.failure import write_failure
+from viscontact.runs.directory.lock import is_locked
+from viscontact.runs.processes.request import RunRequest
+from viscontact.runs.sweep.manifest import SweepRun, read_manifest
+
+
+def execute_task(asked: ManyRequest, array: Path | None, number: int) -> None:
+    """Compute the run of a manifest that has a number, or what is left of it.
+
+    The manifest is in the place of a case file. A failure is written to the run's directory.
+    """
+    common = asked.common
+    if common.overwrite and common.resume:
+        refuse("--resume continues a run and --overwrite starts it again: give one of them")
+    is_plain = asked == ManyRequest(asked.cases, asked.common) and array is None
+    if len(asked.cases) > 1 or not is_plain or common.settings or common.output is not None:
+        refuse(
+            f"--task {number}: takes the manifest of a sweep, which names the case, the settings "
+            f"and the directory of the run: viscontact run --task {number} DIR/{MANIFEST_NAME}"
+        )
+    (manifest,) = asked.cases
+    path = manifest / MANIFEST_NAME if manifest.is_dir() else manifest
+    request = _request(path, _numbered(path, number), common)
+    directory = request.output or Path()
+    try:
+        execute(request)
+    except CommandError as end:
+        is_new = end.code == REFUSED and not (directory / RESULT_NAME).exists()
+        if (is_new or end.code == STOPPED) and not is_locked(directory):
+            write_failure(directory, "refused" if is_new else "stopped", STOPPED, end.lines)
+        raise
+
+
+def _request(path: Path, run: SweepRun, common: RunRequest) -> RunRequest:
+    return RunRequest(
+        Path(os.path.normpath(path.parent / run.case)),
+        path.parent / run.directory,
+        common.overwrite,
+        not common.overwrite,
+        run.assignments,
+        common.threads,
+        common.quiet,
+    )
+
+
+def _numbered(path: Path, number: int) -> SweepRun:
+    """Run of a manifest with a number."""
+    found, last = None, -1
+    try:
+        for run in read_manifest(path):
+            last = run.run
+            if last == number:
+                found = run
+                break
+    except FileNotFoundError:
+        refuse(f"{path}: no such file; --task needs the manifest of a sweep, DIR/{MANIFEST_NAME}")
+    except (ValueError, OSError) as error:
+        refuse(str(error))
+    if found is None:
+        refuse(f"--task {number}: {path} has the runs 0 to {last}")
+    return found

@@ -1,0 +1,196 @@
+"""`run --array` and `run --task`: the runs of a sweep as the tasks of a batch system."""
+
+from __future__ import annotations
+
+import json
+import os
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import xarray as xr
+
+from viscontact.cli import main
+from viscontact.run_files import FAILURE_NAME, MANIFEST_NAME, RESULT_NAME
+from viscontact.runs.directory.lock import locked
+from viscontact.runs.sweep import job_array
+from viscontact.runs.sweep.job_array import JobArray, pbs_script, slurm_script
+
+CASE = """\
+indenter: {shape: sphere, radius: 10 mm}
+material: {law: zener, shear_modulus: 1 MPa, delayed_modulus: 1 MPa, viscosity: 1 MPa s,
+  poisson_ratio: 0.5}
+load: {kind: step, force: 0.5 N}
+time: {end: 1 s, steps: 3}
+grid: {shape: [24, 24], size: [5 mm, 5 mm]}
+output: {errors: false}
+"""
+WORDS = ["run", "my ball.yaml", "--vary", "load.force=0.2 N,0.4 N,9 N", "-q"]
+# Runs the tasks of an array one after another, as `sbatch` and `qsub` submit them.
+BATCH = """\
+import os, re, subprocess, sys
+text = open(sys.argv[1], encoding="utf-8").read()
+tasks = re.search(r"^#(?:SBATCH --array=|PBS -J )([0-9,-]+)", text, re.MULTILINE)[1]
+for part in tasks.split(","):
+    first, _, last = part.partition("-")
+    for number in range(int(first), int(last or first) + 1):
+        index = {"SLURM_ARRAY_TASK_ID": str(number), "PBS_ARRAY_INDEX": str(number)}
+        subprocess.run(["bash", sys.argv[1]], env=os.environ | index)
+"""
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A working directory with a space in its name, and programs that submit job arrays."""
+    here, programs = tmp_path / "my runs", tmp_path / "bin"
+    here.mkdir()
+    programs.mkdir()
+    (here / "my ball.yaml").write_text(CASE, encoding="utf-8")
+    (programs / "batch.py").write_text(BATCH, encoding="utf-8")
+    python = shlex.quote(sys.executable)
+    batch = shlex.quote(str(programs / "batch.py"))
+    for name, text in {
+        "sbatch": f'{python} {batch} "$@"',
+        "qsub": f'{python} {batch} "$@"',
+        "viscontact": f'exec {python} -m viscontact "$@"',
+    }.items():
+        program = programs / name
+        program.write_text(f"#!/bin/bash\n{text}\n", encoding="utf-8")
+        program.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{programs}{os.pathsep}{os.environ['PATH']}")
+    monkeypatch.chdir(here)
+    return here
+
+
+def contents(directory: str) -> dict[str, bytes]:
+    with xr.open_dataset(Path(directory) / RESULT_NAME) as ds:
+        return {str(name): ds[name].values.tobytes() for name in ds.variables}
+
+
+def array(count: int, **others: object) -> JobArray:
+    given = {"manifest": Path("/s/out/runs.jsonl"), "left": range(count), "memory": 3e8}
+    return JobArray(runs=count, **{**given, "seconds": 400.0, "logs": Path("/s/logs"), **others})  # type: ignore[arg-type]
+
+
+@pytest.mark.skipif(os.name == "nt", reason="batch systems run on Unix")
+@pytest.mark.parametrize(
+    "script", ["all of it.sbatch", pytest.param("all.pbs", marks=pytest.mark.slow)]
+)
+def test_a_job_array_ends_in_the_bits_of_the_sweep_computed_here(
+    folder: Path, script: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([*WORDS, "-o", "here"]) == 1  # 9 N reach the border of the grid
+    assert main([*WORDS, "-o", "out", "--array", script, "-j", "2"]) == 0
+    submit = capsys.readouterr().out.strip()
+    assert submit == f"{'qsub' if script.endswith('pbs') else 'sbatch'} {shlex.quote(script)}"
+    assert [path.name for path in Path("out").iterdir()] == [MANIFEST_NAME]  # nothing has begun
+    assert "-2%2\n" in Path(script).read_text(encoding="utf-8")
+    subprocess.run(submit, shell=True, check=True, capture_output=True)
+    for force in ("0.2N", "0.4N"):
+        name = f"my ball_force={force}"
+        assert contents(f"out/{name}") == contents(f"here/{name}")
+    failure, here = (
+        json.loads((Path(place) / "my ball_force=9N" / FAILURE_NAME).read_text(encoding="utf-8"))
+        for place in ("out", "here")
+    )
+    assert failure["outcome"] == here["outcome"] == "stopped"
+    assert failure["message"][0].endswith(here["message"][0])  # the path may be a whole one
+    # What is left of it, as another array.
+    words = [*WORDS, "-o", "out", "--resume", "-j", "2", "--array"]
+    assert main([*words, script]) == (0 if script.endswith("pbs") else 2)  # it is the same for PBS
+    assert main([*words, "left.sbatch"]) == 0
+    assert "#SBATCH --array=2%2\n" in Path("left.sbatch").read_text(encoding="utf-8")
+
+
+def test_a_task_resumes_its_run_and_leaves_a_finished_one_alone(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([*WORDS, "-o", "out", "--array", "a.sbatch"]) == 0
+    task = ["run", "--task", "1", "out/runs.jsonl"]
+    Path("out/my ball_force=0.4N").mkdir()
+    with locked(Path("out/my ball_force=0.4N")):
+        assert main(task) == 2
+    assert "another run" in capsys.readouterr().err
+    assert not Path("out/my ball_force=0.4N", FAILURE_NAME).exists()
+    assert main([*task, "-q"]) == 0
+    result = Path("out/my ball_force=0.4N", RESULT_NAME)
+    before = result.stat().st_mtime_ns
+    assert main([*task, "--resume"]) == 0
+    assert "is finished already" in capsys.readouterr().err
+    assert main(["run", "out", "--task", "1"]) == 0  # the directory of the sweep
+    assert result.stat().st_mtime_ns == before
+    assert main([*task, "--overwrite", "-q"]) == 0
+    assert result.stat().st_mtime_ns != before
+    # A refused run is listed as failed, unless it has a result.
+    text = CASE.replace("viscosity: 1 MPa s", "viscosity: 1 kg")
+    Path("my ball.yaml").write_text(text, encoding="utf-8")
+    for number, is_failed in ((0, True), (1, False)):
+        assert main(["run", "--task", str(number), "out"]) == 2
+        place = Path("out", f"my ball_force=0.{2 + 2 * number}N", FAILURE_NAME)
+        assert place.exists() is is_failed
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--task", "3", "out/runs.jsonl"], "--task 3: out/runs.jsonl has the runs 0 to 2"),
+        (["--task", "-1", "out/runs.jsonl"], "--task -1: out/runs.jsonl has the runs 0 to 2"),
+        (["--task", "0", "none.jsonl"], "none.jsonl: no such file; --task needs the manifest"),
+        (["--task", "0", "my ball.yaml"], "my ball.yaml:1: is not a line of JSON"),
+        (["--task", "0", "out", "out"], "--task 0: takes the manifest of a sweep, which names"),
+        (["--task", "0", "out", "-o", "x"], "--task 0: takes the manifest of a sweep, which"),
+        (["--task", "0", "out", "--set", "a=1"], "--task 0: takes the manifest of a sweep"),
+        (["--task", "0", "out", "--vary", "a=1"], "--task 0: takes the manifest of a sweep"),
+        (["--task", "0", "out", "--array", "a.pbs"], "--task 0: takes the manifest of a sweep"),
+        (["--task", "0", "out", "--scheduler", "local"], "--task 0: takes the manifest of a sweep"),
+        ([*WORDS[1:], "-o", "new", "--array", "b.pbs", "--scheduler", "local"], "give one of them"),
+        (["--task", "0", "out", "--resume", "--overwrite"], "give one of them"),
+        (["out/runs.jsonl"], "out/runs.jsonl: is a manifest of runs; compute one of them with"),
+        ([*WORDS[1:], "--array", "a.sbatch"], "--array: name a directory for the runs, with -o"),
+        ([*WORDS[1:], "-o", "new", "--array", "a.txt"], "--array a.txt: name it FILE.sbatch"),
+        ([*WORDS[1:], "-o", "out", "--overwrite", "--array", "b.pbs"], "choose another -o DIR"),
+        ([*WORDS[1:], "-o", "new", "--array", "a.sbatch"], "a.sbatch: exists already; submit it"),
+    ],
+)
+def test_what_is_no_task_or_array_is_refused_in_one_line(
+    folder: Path, capsys: pytest.CaptureFixture[str], words: list[str], said: str
+) -> None:
+    assert main([*WORDS, "-o", "out", "--array", "a.sbatch"]) == 0
+    capsys.readouterr()
+    assert main(["run", *words]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert said.replace("/", os.sep) in line
+    assert not Path("new").exists()
+
+
+def test_scripts_request_what_the_runs_need() -> None:
+    text = slurm_script(array(10, threads=4))
+    assert "#SBATCH --array=0-9\n" in text
+    assert "#SBATCH --cpus-per-task=4\n" in text
+    assert "#SBATCH --mem=500M\n" in text  # 1.5 * 300 MB, in steps of 100 MB
+    assert "#SBATCH --time=00:20:00\n" in text  # 3 * 400 s
+    assert "exec viscontact run --task $SLURM_ARRAY_TASK_ID /s/out/runs.jsonl --threads 4" in text
+    assert "#SBATCH --time=00:10:00\n" in slurm_script(array(10, seconds=1.0))
+    assert "#SBATCH --time=30:00:00\n" in slurm_script(array(10, seconds=36e3))
+    assert "#PBS -l select=1:ncpus=1:mem=500mb\n" in pbs_script(array(10))
+    assert "#PBS -J" not in pbs_script(array(1))
+    assert "#PBS -J 0-9%3\n" in pbs_script(array(10, left=[4], at_once=3))
+
+
+@pytest.mark.skipif(os.name == "nt", reason="batch systems run on Unix")
+@pytest.mark.parametrize("count", [3, 9, 10, 11])
+def test_tasks_of_a_long_array_compute_each_run_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, count: int
+) -> None:
+    monkeypatch.setattr(job_array, "MOST_TASKS", 4)
+    program = f"echo >> {shlex.quote(str(tmp_path / 'ran'))}"
+    for text in (slurm_script(array(count, program=program)), pbs_script(array(count))):
+        assert "-3\n" in text or count == 9 or "-2\n" in text
+    script = tmp_path / "a.sbatch"
+    script.write_text(slurm_script(array(count, program=program)), encoding="utf-8")
+    (tmp_path / "batch.py").write_text(BATCH, encoding="utf-8")
+    subprocess.run([sys.executable, tmp_path / "batch.py", script], check=True)
+    ran = (tmp_path / "ran").read_text(encoding="utf-8").splitlines()
+    assert [int(line.split()[2]) for line in ran] == list(range(count))
