@@ -78,6 +78,8 @@ from .results.stresses import section_stresses as section_stresses
 from .runs.many import simulate_many as simulate_many
 from .runs.single import simulate as simulate
 from .runs.sweep.open_many import open_many as open_many
+from .runs.sweep.varied_runs import VariedRun as VariedRun
+from .runs.sweep.varied_runs import vary as vary
 from .simulation.automatic_grid import auto_grid as auto_grid
 from .simulation.state_generator import march as march
 from .state import ContactState as ContactState

@@ -30,7 +30,8 @@ def checked_sweep(request: ManyRequest) -> CheckedSweep:
     """Check all runs of a request; nothing is created."""
     common, planned = request.common, request.planned()
     earlier = recorded_runs(common.output)
-    runs = with_common_cells(planned, request.options.option, earlier if common.resume else ())
+    option, kept = request.options.option, earlier if common.resume else ()
+    runs = with_common_cells(planned, option, common.settings, kept)
     jobs = checked_jobs(request, planned, runs)
     recorded = RecordedSweep(common.output, sweep_runs(common.output, planned, runs), earlier)
     if not common.overwrite:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -12,6 +11,7 @@ from viscontact.cli.terminal.messages import refuse
 from viscontact.run_files import MANIFEST_NAME
 from viscontact.runs.processes.request import RunRequest
 from viscontact.runs.sweep.manifest import SweepRun, read_manifest, write_manifest
+from viscontact.runs.sweep.varied_runs import case_name
 
 
 @dataclass(frozen=True)
@@ -77,7 +77,7 @@ def sweep_runs(
     if directory is None:
         return []
     place = directory.resolve()
-    paths = {each.case: _relative(each.case, place) for each in requests}
+    paths = {each.case: case_name(each.case, place) for each in requests}
     found = []
     for number, (plan, each) in enumerate(zip(planned, requests, strict=True)):
         own = directory.name if each.output is None else each.output.name
@@ -87,16 +87,6 @@ def sweep_runs(
         keys, kind = plan.design.keys, plan.design.kind
         found.append(SweepRun(number, name, own, settings, keys, paths[each.case], kind))
     return found
-
-
-def _relative(case: Path, place: Path) -> str:
-    """Path of a case file from the directory of the sweep."""
-    # The file itself may be a link: the files that the case names lie next to the link.
-    whole = case.parent.resolve() / case.name
-    try:
-        return Path(os.path.relpath(whole, place)).as_posix()
-    except ValueError:  # on another drive
-        return whole.as_posix()
 
 
 def _change(earlier: SweepRun, now: SweepRun | None) -> str | None:

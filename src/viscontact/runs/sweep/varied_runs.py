@@ -1,0 +1,217 @@
+"""Runs of a case with varied values, from Python."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+import xarray as xr
+
+from viscontact.case import CaseError, read_case
+from viscontact.runs.ending import CommandError
+from viscontact.runs.single import simulate
+from viscontact.runs.sweep.common_cells import common_cells, keeps_own_cells
+from viscontact.runs.sweep.design_table import read_design
+from viscontact.runs.sweep.designs import Design, grid_design, paired_design
+from viscontact.runs.sweep.extremes import extreme_rows
+from viscontact.runs.sweep.manifest import SweepRun
+from viscontact.runs.sweep.sampling import Method, read_range, sample_design
+
+#: Values of the varied keys, or the path of a table of runs.
+Values = Mapping[str, Sequence[Any]] | str | PathLike[str]
+
+
+@dataclass(frozen=True)
+class VariedRun:
+    """Run of a case file with settings; a call without arguments computes its result."""
+
+    case: Path  # absolute
+    settings: Mapping[str, str]  # all values in place of those of the case, by dotted key
+    varied: tuple[str, ...]  # keys of the settings that differ between the runs
+    name: str
+    directory: str  # name of its run directory
+    design: str
+
+    @property
+    def assignments(self) -> tuple[str, ...]:
+        """Settings, as KEY=VALUE."""
+        return tuple(f"{key}={value}" for key, value in self.settings.items())
+
+    def __call__(self) -> xr.Dataset:
+        """Simulate the run."""
+        case = read_case(self.case, self.assignments)
+        fields: Any = case.fields
+        return simulate(
+            case.indenter,
+            case.material,
+            case.load,
+            case.grid,
+            case.times,
+            indenter_material=case.indenter_material,
+            tolerance=case.tolerance,
+            fields=fields,
+            errors=case.errors,
+        )
+
+
+def vary(
+    case: str | PathLike[str],
+    values: Values,
+    *,
+    design: Literal["grid", "zip", "sample"] = "grid",
+    runs: int | None = None,
+    seed: int = 0,
+    method: Method = "sobol",
+    settings: Mapping[str, Any] | None = None,
+) -> list[VariedRun]:
+    """Vary values of a case file: the runs for `simulate_many`, as of ``viscontact run``.
+
+    Parameters
+    ----------
+    case : path-like
+        Case file, YAML or TOML.
+    values : mapping or path-like
+        Values of each dotted key, such as ``{"load.force": ["5 kN", "10 kN"]}``: texts with
+        units, numbers for keys without unit, or paths of files; entries of lists are numbered
+        from 1. For a sample, two bounds, and ``"log"`` for a logarithmic scale:
+        ``("1 N", "1 kN", "log")``. Or the path of a CSV file with a run in each row, whose
+        headings are keys with units.
+    design : {"grid", "zip", "sample"}, optional
+        All combinations of the values; pairs, the first values of all keys, then the second
+        ones; or points that fill the ranges evenly.
+    runs : int, optional
+        Number of runs of a sample.
+    seed : int, optional
+        Seed of a sample. The same seed gives the same runs, and more of them begin with these.
+    method : {"sobol", "latin-hypercube"}, optional
+        Points of a sample: a scrambled Sobol sequence (Sobol' 1967, Matousek 1998), or a latin
+        hypercube (McKay, Beckman and Conover 1979).
+    settings : mapping, optional
+        Values of other keys, the same in all runs.
+
+    Returns
+    -------
+    list of VariedRun
+        The runs; automatic grids have common cells, as on the command line. Each can be called
+        without arguments, and has the attributes ``name`` and ``settings``.
+
+    Raises
+    ------
+    ValueError
+        If a key or a value is refused (as `CaseError`, with all problems), numbers of values
+        differ in pairs, or the table cannot be read. Of more than 100 runs, only those with
+        extreme values are checked, the others when they are computed.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> file = Path(tempfile.mkdtemp(), "ball.yaml")
+    >>> _ = file.write_text(
+    ...     "{indenter: {shape: sphere, radius: 5 mm}, "
+    ...     "material: {law: elastic, shear_modulus: 1 MPa, poisson_ratio: 0.5}, "
+    ...     "load: {kind: step, force: 1 N}, time: {end: 1 s, steps: 1}, "
+    ...     "grid: {shape: [32, 32], size: [2.4 mm, 2.4 mm]}}"
+    ... )
+    >>> one, eight = vary(file, {"load.force": ["0.1 N", "0.8 N"]})
+    >>> one.name
+    'force=0.1N'
+    >>> round(float(eight().approach[-1] / one().approach[-1]), 1)  # Hertz: 8**(2/3)
+    4.0
+    """
+    path = Path(case)
+    chosen = _design(values, design, runs, seed, method)
+    fixed = tuple(f"{key}={_text(value)}" for key, value in (settings or {}).items())
+    added = (*fixed, *_checked_cells(path, chosen, fixed))
+    whole = path.parent.resolve() / path.name
+    return [
+        VariedRun(
+            whole,
+            dict(text.split("=", 1) for text in (*added, *chosen.settings(row))),
+            chosen.keys,
+            chosen.name(row),
+            f"{path.stem}_{chosen.name(row)}",
+            chosen.kind,
+        )
+        for row in range(len(chosen.rows))
+    ]
+
+
+def sweep_runs(directory: Path, runs: Iterable[VariedRun]) -> list[SweepRun]:
+    """Lines of the manifest of runs below the directory of a sweep."""
+    return [
+        SweepRun(
+            number,
+            run.name,
+            run.directory,
+            run.settings,
+            run.varied,
+            case_name(run.case, directory.resolve()),
+            run.design,
+        )
+        for number, run in enumerate(runs)
+    ]
+
+
+def case_name(case: Path, place: Path) -> str:
+    """Path of a case file from the directory of a sweep, which is absolute."""
+    # The file itself may be a link: the files that the case names lie next to the link.
+    whole = case.parent.resolve() / case.name
+    try:
+        return Path(os.path.relpath(whole, place)).as_posix()
+    except ValueError:  # on another drive
+        return whole.as_posix()
+
+
+def _design(values: Values, design: str, runs: int | None, seed: int, method: Method) -> Design:
+    if not isinstance(values, Mapping):
+        return read_design(Path(values))
+    texts = {key: _texts(key, given) for key, given in values.items()}
+    if not texts:
+        raise ValueError("values: name a key, as {'load.force': ['5 kN', '10 kN']}")
+    if design == "sample":
+        if runs is None:
+            raise ValueError("runs: must be the number of runs of the sample, e.g. runs=64")
+        ranges = [read_range(f"{key}={':'.join(bounds)}") for key, bounds in texts.items()]
+        return sample_design(ranges, runs, seed, method)
+    if design not in ("grid", "zip"):
+        raise ValueError(f"design: must be 'grid', 'zip' or 'sample', got {design!r}")
+    return grid_design(texts) if design == "grid" else paired_design(texts)
+
+
+def _texts(key: str, given: Sequence[Any]) -> list[str]:
+    if isinstance(given, str) or not (isinstance(given, Sequence | np.ndarray) and len(given)):
+        raise ValueError(f"values: {key}: must be a list of values, got {given!r}")
+    return [_text(value) for value in given]
+
+
+def _text(value: Any) -> str:
+    """Value as text of YAML."""
+    if isinstance(value, str):
+        return value
+    if isinstance(value, PathLike):  # in a case, relative to its folder
+        return json.dumps(str(Path(value).resolve()), ensure_ascii=False)
+    return json.dumps(value.item() if isinstance(value, np.generic) else value)
+
+
+def _checked_cells(case: Path, design: Design, settings: Sequence[str]) -> tuple[str, ...]:
+    """Setting of the common cells of checked runs; none if they keep their own."""
+    try:
+        if not keeps_own_cells(case, design, settings):
+            return common_cells(case, design, settings).settings
+        for row in extreme_rows(design):
+            read_case(case, (*settings, *design.settings(row)))
+    except CommandError as error:
+        raise CaseError(*map(_without_option, error.lines)) from None
+    except CaseError as error:
+        raise CaseError(*map(_without_option, error.problems)) from None
+    return ()
+
+
+def _without_option(problem: str) -> str:
+    return problem.removeprefix("--set ")
