@@ -3,31 +3,29 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from concurrent.futures import BrokenExecutor, Executor, Future
-from contextlib import suppress
+from contextlib import contextmanager, suppress
+from pathlib import Path
 from queue import Empty, SimpleQueue
 from typing import Any
 
 import xarray as xr
 
-from viscontact.grid import Grid
-from viscontact.materials.material import Material
-from viscontact.runs.executors.local import LocalWorkers
+from viscontact.runs.executors.dask import dask_executor
+from viscontact.runs.executors.driver import Workers
+from viscontact.runs.executors.local import LocalTasks, LocalWorkers
+from viscontact.runs.executors.remote import RemoteTasks
 from viscontact.runs.machine.cores import usable_cores
 from viscontact.runs.machine.memory import available_memory
-from viscontact.runs.resources import PROGRAM, fitting, least_memory
+from viscontact.runs.recorded_many import Progress, Recipe, known_memory, record_many
+from viscontact.runs.resources import fitting
 from viscontact.runs.single import simulate
+from viscontact.runs.sweep.open_many import open_many
 from viscontact.units.numbers import whole
-
-#: Called with the number of a run, from 0, that has ended, and the numbers of ended and all runs.
-Progress = Callable[[int, int, int], None]
 
 #: Longest time in which an interruption is not noticed on Windows [s].
 _PAUSE = 0.5
-
-#: Specification of a run: arguments of `simulate` by name, or a function that returns a result.
-Recipe = Mapping[str, Any] | Callable[[], xr.Dataset]
 
 
 def simulate_many(
@@ -35,10 +33,11 @@ def simulate_many(
     *,
     executor: Executor | None = None,
     client: Any = None,
+    directory: str | Path | None = None,
     workers: int | None = None,
     progress: Progress | None = None,
     return_exceptions: bool = False,
-) -> list[Any]:
+) -> list[Any] | xr.Dataset:
     """Simulate independent runs in several processes, and return their results in order.
 
     Parameters
@@ -52,18 +51,25 @@ def simulate_many(
         mpi4py.futures, and others. By default warm processes of this machine, of which one that
         is killed is replaced and its run repeated once.
     client : distributed.Client, optional
-        Client of a Dask cluster, in place of an executor.
+        Client of a Dask cluster, in place of an executor. Workers that declare the resource MEMORY
+        compute as many runs at a time as fit into it.
+    directory : path-like, optional
+        Record the runs there, each in a directory of its own, with a manifest ``runs.jsonl``. Then
+        results stay on this disk, which all workers must see. The same call again computes only
+        what is left. The runs are mappings or those of `vary`.
     workers : int, optional
         Number of parallel processes; by default the number of cores that this process may use
         (its binding, control group and SLURM job), or fewer if the runs do not fit into the free
         memory. Each computes on one thread unless the run sets ``threads``.
     return_exceptions : bool, optional
         Return the exception of a failed run in place of its result, and keep the other results.
+        With `directory` a failed run is NaN in the dataset, with its message.
 
     Returns
     -------
-    list of xarray.Dataset
-        One result for each run, in their order, bit-identical to that of `simulate`.
+    list of xarray.Dataset, or xarray.Dataset
+        One result for each run, in their order, bit-identical to that of `simulate`. With
+        `directory` the dataset of `open_many`.
 
     Raises
     ------
@@ -71,7 +77,10 @@ def simulate_many(
         The exception of the first run that fails, with a note that names the run. All other runs
         are stopped, as by Ctrl-C.
     RuntimeError
-        If a process could not start, or was killed, for example because memory ran out.
+        If a process could not start, or was killed, for example because memory ran out; with
+        `directory` if any run has failed, after the end of all others.
+    KeyboardInterrupt
+        With `directory`, after the runs at work have saved.
 
     Warns
     -----
@@ -101,6 +110,11 @@ def simulate_many(
     recipes = list(runs)
     if executor is not None and client is not None:
         raise ValueError("executor and client are both given; give one of them")
+    if directory is not None:
+        place, shown = Path(directory), progress or _no_progress
+        with _tasks(recipes, place, executor, client, workers) as tasks:
+            record_many(recipes, place, tasks, shown, return_exceptions=return_exceptions)
+        return open_many(place)
     if client is not None:
         executor = client.get_executor(pure=False)
     if executor is not None:
@@ -117,6 +131,25 @@ def simulate_many(
     return found
 
 
+@contextmanager
+def _tasks(
+    recipes: list[Recipe], directory: Path, executor: Executor | None, client: Any, workers: Any
+) -> Iterator[Workers]:
+    """Workers of runs that are recorded."""
+    if executor is not None or client is not None:
+        chosen = dask_executor(client) if executor is None else lambda memory: executor
+        with RemoteTasks(chosen, directory) as remote:
+            yield remote
+        return
+    count = _affordable(recipes, min(_checked(workers), max(1, len(recipes))))
+    with LocalWorkers(count) as pool:
+        yield LocalTasks(pool, count)
+
+
+def _no_progress(run: int, done: int, total: int) -> None:
+    """Show nothing."""
+
+
 def _checked(workers: int | None) -> int:
     if workers is None:
         return usable_cores()
@@ -125,7 +158,7 @@ def _checked(workers: int | None) -> int:
 
 def _affordable(recipes: list[Recipe], wanted: int) -> int:
     """Number of parallel runs that fit into the free memory, as far as is known."""
-    needs, available = sorted(map(_least_memory, recipes))[-wanted:], available_memory()
+    needs, available = sorted(map(known_memory, recipes))[-wanted:], available_memory()
     count = max(1, fitting(needs, available))
     if count < len(needs):
         warnings.warn(
@@ -136,15 +169,6 @@ def _affordable(recipes: list[Recipe], wanted: int) -> int:
         )
         return count
     return wanted
-
-
-def _least_memory(recipe: Recipe) -> float:
-    given = {} if callable(recipe) else recipe
-    grid, bodies = given.get("grid"), (given.get("material"), given.get("indenter_material"))
-    compliances = [body.contact_compliance() for body in bodies if isinstance(body, Material)]
-    if isinstance(grid, Grid) and compliances:
-        return least_memory(grid, sum(compliances[1:], start=compliances[0]))
-    return PROGRAM
 
 
 def _outcome(recipe: Recipe) -> tuple[xr.Dataset, list[tuple[str, type[Warning]]]]:

@@ -12,11 +12,13 @@ from pathlib import Path
 
 import pytest
 
+import viscontact as vc
 from runs.executors.test_local import CASE, contents, lines
+from runs.executors.test_recorded_many import runs
 from viscontact.cli import main
 from viscontact.run_files import PROGRESS_NAME, RESULT_NAME, STATE_NAME
 
-pytest.importorskip("distributed")
+distributed = pytest.importorskip("distributed")
 pytestmark = [
     pytest.mark.slow,  # a scheduler, workers and commands as processes of their own
     pytest.mark.skipif(os.name == "nt", reason="without SIGKILL"),
@@ -115,6 +117,41 @@ def same_bits(sweep: Path, whole: Path) -> bool:
     names = sorted(each.name for each in whole.glob("case_*"))
     assert len(names) == len(FORCES)
     return all(contents(sweep / name) == contents(whole / name) for name in names)
+
+
+@pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
+def test_client_computes_nine_of_ten_runs_within_the_memory_that_its_workers_declare(
+    tmp_path: Path,
+) -> None:
+    forces = [0.05 + 0.01 * n for n in range(10)]
+    forces[6] = 50.0  # its contact comes to the rim
+    options = {"n_workers": 2, "threads_per_worker": 2, "dashboard_address": "127.0.0.1:0"}
+    with (
+        distributed.LocalCluster(resources={"MEMORY": 4e8}, **options) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        ds = vc.simulate_many(
+            runs(*forces), client=client, directory=tmp_path / "sweep", return_exceptions=True
+        )
+        executor = client.get_executor(pure=False)
+        began = clock.perf_counter()
+        assert sum(executor.map(abs, range(1000))) == 499500
+        assert clock.perf_counter() - began < 20
+        found = vc.simulate_many(runs(0.05), client=client)
+    assert ds.state.values.tolist() == ["done"] * 6 + ["failed"] + ["done"] * 3
+    assert found[0].approach.values.tobytes() == ds.approach[0].values.tobytes()
+
+
+def test_scheduler_that_does_not_answer_and_missing_dask_are_refused(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("viscontact.cli.many.cluster._PATIENCE", 1)
+    assert main([*SWEEP, "--scheduler", "tcp://127.0.0.1:9", "-o", "sweep"]) == 2
+    assert "no scheduler answers there" in capsys.readouterr().err
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    assert main([*SWEEP, "--scheduler", "local", "-o", "sweep"]) == 2
+    assert "pip install 'viscontact[cluster]'" in capsys.readouterr().err
+    assert not (folder / "sweep").exists()
 
 
 def test_killed_workers_are_replaced_and_the_sweep_ends_in_the_same_bits(

@@ -99,6 +99,14 @@ def test_killed_worker_is_replaced_and_its_call_repeated_once(tmp_path: Path) ->
     assert len(list(twice.iterdir())) == 2
 
 
+def test_a_thousand_empty_calls_take_seconds() -> None:
+    with LocalWorkers(2) as workers:
+        workers.submit(abs, -1).result()
+        began = clock.perf_counter()
+        assert sum(each.result() for each in [workers.submit(abs, -1) for _ in range(1000)]) == 1000
+        assert clock.perf_counter() - began < 10
+
+
 @pytest.mark.skipif(os.name == "nt", reason="without SIGKILL")
 def test_runs_whose_workers_are_killed_at_random_end_in_the_bits_of_runs_alone(case: Path) -> None:
     chance, over = random.Random(20261123), threading.Event()

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 #: Largest time for the connection to a scheduler [s].
 _PATIENCE = 30
+#: Place of Dask's status page, on this machine only.
+_ANY_PORT = "127.0.0.1:0"
 
 
 @contextmanager
@@ -50,10 +52,14 @@ def _client(scheduler: str, count: int) -> Iterator[Any]:
         try:
             if scheduler == "local":
                 # Without a limit of memory: the runs at once were chosen to fit.
-                options = {"threads_per_worker": 1, "memory_limit": 0, "dashboard_address": None}
+                options: dict[str, Any] = {
+                    "threads_per_worker": 1,
+                    "memory_limit": 0,
+                    "dashboard_address": _ANY_PORT,
+                }
                 # Ctrl-C reaches them at the terminal, too; this process tells them.
                 with signals_blocked([signal.SIGINT]):
-                    cluster = distributed.LocalCluster(n_workers=count, **options)
+                    cluster = distributed.LocalCluster(**options)
                 client = distributed.Client(opened.enter_context(cluster))
             elif Path(scheduler).is_file():
                 client = distributed.Client(scheduler_file=scheduler, timeout=_PATIENCE)

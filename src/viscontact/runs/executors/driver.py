@@ -5,7 +5,7 @@ from __future__ import annotations
 import time as clock
 import uuid
 from collections import deque
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from contextlib import suppress
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ from typing import Protocol
 
 from viscontact.runs.directory.failure import write_failure
 from viscontact.runs.execution.stop_requests import StopRequests
-from viscontact.runs.executors.task import Outcome, Task
+from viscontact.runs.executors.task import Outcome, RecordedTask, Task
 from viscontact.runs.processes.child import Ended
 from viscontact.runs.processes.job import Job
 from viscontact.runs.processes.progress import Course
@@ -51,7 +51,7 @@ class Workers(Protocol):
     def most(self) -> int:
         """Largest number of tasks that are submitted at the same time."""
 
-    def submit(self, task: Task, memory: float) -> Future[Outcome]:
+    def submit(self, task: RecordedTask, memory: float) -> Future[Outcome]:
         """Submit a task, whose memory is given in bytes."""
 
     def ask_to_stop(self) -> None:
@@ -61,24 +61,43 @@ class Workers(Protocol):
         """One word and the reason for a task that has ended without an outcome."""
 
 
+#: Task of a job; the second argument identifies the command.
+MakeTask = Callable[[Job, str], RecordedTask]
+
+
+def case_task(job: Job, token: str) -> Task:
+    """Task of the case of a job."""
+    return Task(job.request, job.directory, token)
+
+
 def drive(
-    jobs: Sequence[Job], workers: Workers, stops: StopRequests, display: Display
+    jobs: Sequence[Job],
+    workers: Workers,
+    stops: StopRequests,
+    display: Display,
+    task_of: MakeTask = case_task,
 ) -> list[Ended]:
     """Compute all runs, or those that had begun when a stop was requested; return their ends."""
-    return _Driver(jobs, workers, stops, display).run()
+    return _Driver(jobs, workers, stops, display, task_of).run()
 
 
 class _Driver:
     """Waiting, submitted and ended runs."""
 
     def __init__(
-        self, jobs: Sequence[Job], workers: Workers, stops: StopRequests, display: Display
+        self,
+        jobs: Sequence[Job],
+        workers: Workers,
+        stops: StopRequests,
+        display: Display,
+        task_of: MakeTask,
     ) -> None:
         self._waiting, self._token = deque(jobs), uuid.uuid4().hex
         self._active: dict[Future[Outcome], Active] = {}
         self._finished: SimpleQueue[Future[Outcome]] = SimpleQueue()
         self._ended: list[Ended] = []
         self._workers, self._stops, self._display = workers, stops, display
+        self._task_of = task_of
         self._requests = 0
         self._looked = 0.0
 
@@ -103,7 +122,7 @@ class _Driver:
             self._look()
 
     def _submit(self, job: Job) -> None:
-        task = Task(job.request, job.directory, self._token)
+        task = self._task_of(job, self._token)
         course = Course(job)
         try:
             future = self._workers.submit(task, job.memory)

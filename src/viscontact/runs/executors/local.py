@@ -14,7 +14,7 @@ from functools import partial
 from multiprocessing import resource_tracker
 from typing import Any
 
-from viscontact.runs.executors.task import ATTEMPTS, Outcome, Task
+from viscontact.runs.executors.task import ATTEMPTS, Outcome, RecordedTask
 from viscontact.runs.executors.worker import GROUP_SIGNALS, begin_worker, perform_in_worker
 
 #: A fork would copy threads' locks.
@@ -178,7 +178,7 @@ class LocalTasks:
         """As many tasks as workers, and one more that need not wait for its submission."""
         return self.count + 1
 
-    def submit(self, task: Task, memory: float) -> Future[Outcome]:
+    def submit(self, task: RecordedTask, memory: float) -> Future[Outcome]:
         """Submit a task."""
         return self.workers.submit(perform_in_worker, task)
 

@@ -6,13 +6,12 @@ import os
 from collections.abc import Callable
 from concurrent.futures import BrokenExecutor, Executor, Future
 from contextlib import suppress
-from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import Self
 
 from viscontact.run_files import STOP_NAME
-from viscontact.runs.executors.task import Outcome, Task, perform
+from viscontact.runs.executors.task import Outcome, RecordedTask, perform
 from viscontact.runs.machine.threads import limit_threads
 
 #: Largest number of tasks that are submitted at the same time.
@@ -45,11 +44,9 @@ class RemoteTasks:
         """Largest number of tasks that are submitted at the same time."""
         return _MOST
 
-    def submit(self, task: Task, memory: float) -> Future[Outcome]:
+    def submit(self, task: RecordedTask, memory: float) -> Future[Outcome]:
         """Submit a task with absolute paths."""
-        case, directory = task.request.case.absolute(), task.directory.absolute()
-        request = replace(task.request, case=case, output=directory)
-        whole = replace(task, request=request, directory=directory, stop=self._stop)
+        whole = task.elsewhere(self._stop)
         future = self._executor(memory).submit(perform_elsewhere, whole, os.getpid())
         self._futures.add(future)
         future.add_done_callback(self._forget)
@@ -78,7 +75,7 @@ class RemoteTasks:
         return "stopped", f"the run could not be computed: {type(error).__name__}: {said}"
 
 
-def perform_elsewhere(task: Task, submitter: int) -> Outcome:
+def perform_elsewhere(task: RecordedTask, submitter: int) -> Outcome:
     """Perform a task in a process that other work may share, unless it is the submitting one."""
     if os.getpid() == submitter:
         with limit_threads():

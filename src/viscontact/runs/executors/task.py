@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Protocol, Self
 
 from viscontact.run_files import ATTEMPT_NAME
 from viscontact.runs.directory.failure import write_failure
@@ -31,7 +32,7 @@ PAUSE, STOP_PAUSE = 0.1, 0.5
 ATTEMPTS = 2
 
 #: netCDF-4 may be used by one thread at a time.
-_ONE_AT_A_TIME = threading.Lock()
+ONE_AT_A_TIME = threading.Lock()
 
 
 @dataclass(frozen=True)
@@ -46,6 +47,16 @@ class Task:
     directory: Path
     token: str
     stop: Path | None = None
+
+    def compute(self, stops: StopRequests) -> Outcome:
+        """Compute the run, or what is left of it."""
+        return _attempted(self, stops)
+
+    def elsewhere(self, stop: Path) -> Self:
+        """Return the task with absolute paths, which the file may stop."""
+        directory = self.directory.absolute()
+        request = replace(self.request, case=self.request.case.absolute(), output=directory)
+        return replace(self, request=request, directory=directory, stop=stop)
 
 
 @dataclass(frozen=True)
@@ -74,7 +85,25 @@ class FileRequests(StopRequests):
         return self._requested
 
 
-def perform(task: Task, stops: StopRequests | None = None) -> Outcome:
+class RecordedTask(Protocol):
+    """Task that computes a run in its directory."""
+
+    @property
+    def directory(self) -> Path:
+        """Directory of the run."""
+
+    @property
+    def stop(self) -> Path | None:
+        """File that asks the run to save and end."""
+
+    def compute(self, stops: StopRequests) -> Outcome:
+        """Compute the run, or what is left of it."""
+
+    def elsewhere(self, stop: Path) -> Self:
+        """Return the task with absolute paths, which the file may stop."""
+
+
+def perform(task: RecordedTask, stops: StopRequests | None = None) -> Outcome:
     """Compute a run in its directory, or what is left of it; a failure is written there.
 
     Short runs are computed in this process, one at a time; others are processes of their own.
@@ -84,7 +113,7 @@ def perform(task: Task, stops: StopRequests | None = None) -> Outcome:
         clock.sleep(PAUSE)  # the process of an earlier attempt, or of the run itself, is saving
     if stops.requested:
         return Outcome("not begun", INTERRUPTED)
-    outcome = _attempted(task, stops)
+    outcome = task.compute(stops)
     if outcome.code != DONE and is_locked(task.directory):
         return outcome  # another run has taken the directory over, and writes there now
     if is_locked(task.directory):
@@ -119,7 +148,7 @@ def _attempted(task: Task, stops: StopRequests) -> Outcome:
 
 def _computed(request: RunRequest, directory: Path, stops: StopRequests) -> Outcome:
     try:
-        with _ONE_AT_A_TIME:
+        with ONE_AT_A_TIME:
             checked = checked_run(replace(request, output=directory, quiet=True))
             if run_seconds(checked.recorded.run, errors=checked.recorded.errors) <= LONGEST_WARM:
                 execute_checked(checked, Monitor(stops, _ignore, _no_progress))

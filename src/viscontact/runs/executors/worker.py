@@ -10,7 +10,7 @@ from multiprocessing.connection import Connection
 from types import FrameType
 
 from viscontact.runs.execution.stop_requests import StopRequests
-from viscontact.runs.executors.task import Outcome, Task, perform
+from viscontact.runs.executors.task import Outcome, RecordedTask, perform
 from viscontact.runs.machine.threads import limit_threads
 
 #: Signals that a terminal or a batch system sends to all its processes.
@@ -81,7 +81,7 @@ def _listen(parent: Connection) -> None:
         os._exit(1)
 
 
-def perform_in_worker(task: Task) -> Outcome:
+def perform_in_worker(task: RecordedTask) -> Outcome:
     """Perform a task, which the parent process may stop."""
     _REQUESTS.begin()
     try:

@@ -1,0 +1,138 @@
+"""Independent runs from Python that are recorded in directories."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, Protocol, runtime_checkable
+
+import xarray as xr
+
+from viscontact.grid import Grid
+from viscontact.materials.material import Material
+from viscontact.run_files import MANIFEST_NAME
+from viscontact.runs.execution.stop_requests import StopRequests
+from viscontact.runs.executors.driver import Active, Workers, drive
+from viscontact.runs.executors.simulation_task import SimulationTask
+from viscontact.runs.executors.task import RecordedTask, Task
+from viscontact.runs.processes.child import Ended
+from viscontact.runs.processes.job import Job, Standing
+from viscontact.runs.processes.request import INTERRUPTED, STOPPED, RunRequest
+from viscontact.runs.resources import PROGRAM, least_memory
+from viscontact.runs.sweep.manifest import SweepRun, read_manifest, write_manifest
+
+#: Specification of a run: arguments of `simulate` by name, or a function that returns a result.
+Recipe = Mapping[str, Any] | Callable[[], xr.Dataset]
+
+#: Called with the number of a run, from 0, that has ended, and the numbers of ended and all runs.
+Progress = Callable[[int, int, int], None]
+
+#: Most failed runs whose messages are raised.
+_MOST_NAMED = 5
+
+
+@runtime_checkable
+class CaseRecipe(Protocol):
+    """Run of a case with settings, as of `vary`."""
+
+    case: Path
+    settings: Mapping[str, str]
+    varied: tuple[str, ...]
+    name: str
+    directory: str
+    design: str
+
+
+def known_memory(recipe: Recipe) -> float:
+    """Memory of a run, as far as it is known before it is set up [bytes]."""
+    given = recipe if isinstance(recipe, Mapping) else {}
+    grid, bodies = given.get("grid"), (given.get("material"), given.get("indenter_material"))
+    compliances = [body.contact_compliance() for body in bodies if isinstance(body, Material)]
+    if isinstance(grid, Grid) and compliances:
+        return least_memory(grid, sum(compliances[1:], start=compliances[0]))
+    return PROGRAM
+
+
+def record_many(
+    recipes: Sequence[Recipe],
+    directory: Path,
+    workers: Workers,
+    progress: Progress,
+    *,
+    return_exceptions: bool,
+) -> None:
+    """Compute runs in directories within one, or what is left of them.
+
+    ValueError if a run cannot be recorded, or the directory holds other runs; RuntimeError after
+    the end of all runs if any has failed, unless `return_exceptions`.
+    """
+    runs = [_sweep_run(number, recipe, directory) for number, recipe in enumerate(recipes)]
+    _write_once(directory, runs)
+    jobs = [_job(run, recipe, directory) for run, recipe in zip(runs, recipes, strict=True)]
+    given = {job.directory: recipe for job, recipe in zip(jobs, recipes, strict=True)}
+
+    def task_of(job: Job, token: str) -> RecordedTask:
+        recipe = given[job.directory]
+        if isinstance(recipe, CaseRecipe):
+            return Task(job.request, job.directory, token)
+        assert isinstance(recipe, Mapping)  # checked above
+        return SimulationTask(recipe, job.directory)
+
+    display = _Reports([job.directory for job in jobs], progress)
+    ended = drive(jobs, workers, StopRequests(), display, task_of)
+    if len(ended) < len(jobs) or any(each.code == INTERRUPTED for each in ended):
+        raise KeyboardInterrupt
+    failed = [each for each in ended if each.code == STOPPED]
+    if failed and not return_exceptions:
+        lines = [f"{each.job.name}: {'; '.join(each.said)}" for each in failed[:_MOST_NAMED]]
+        raise RuntimeError("\n".join((f"{len(failed)} of {len(jobs)} runs failed", *lines)))
+
+
+def _sweep_run(number: int, recipe: Recipe, directory: Path) -> SweepRun:
+    """Line of the manifest of a run."""
+    if isinstance(recipe, CaseRecipe):
+        case = os.path.relpath(recipe.case.absolute(), directory.absolute())
+        given = (dict(recipe.settings), recipe.varied, case, recipe.design)
+        return SweepRun(number, recipe.name, recipe.directory, *given)
+    if isinstance(recipe, Mapping):
+        return SweepRun(number, f"run{number}", f"run{number}", {}, (), "", "cases")
+    raise ValueError(
+        f"runs[{number}]: a run in a directory is given by the arguments of simulate or by vary, "
+        f"got {recipe!r}"
+    )
+
+
+def _write_once(directory: Path, runs: list[SweepRun]) -> None:
+    """Write the manifest; ValueError if there is one of other runs."""
+    path = directory / MANIFEST_NAME
+    if not path.exists():
+        write_manifest(directory, runs)
+    elif list(read_manifest(path)) != runs:
+        raise ValueError(
+            f"{directory}: holds other runs, those of its {MANIFEST_NAME}; choose another directory"
+        )
+
+
+def _job(run: SweepRun, recipe: Recipe, directory: Path) -> Job:
+    place = directory / run.directory
+    case = recipe.case if isinstance(recipe, CaseRecipe) else Path(run.directory)
+    request = RunRequest(case, place, resume=True, settings=run.assignments)
+    memory = known_memory(recipe)
+    return Job(request, place, run.name, Standing.STOPPED, None, 0.0, 1.0, memory)
+
+
+class _Reports:
+    """Display that reports the end of each run."""
+
+    def __init__(self, places: Sequence[Path], progress: Progress) -> None:
+        self._numbers = {place: number for number, place in enumerate(places)}
+        self._progress, self._ended = progress, 0
+
+    def update(self, active: Sequence[Active]) -> None:
+        """Show nothing during the runs."""
+
+    def end(self, ended: Ended) -> None:
+        """Report the end of a run."""
+        self._ended += 1
+        self._progress(self._numbers[ended.job.directory], self._ended, len(self._numbers))

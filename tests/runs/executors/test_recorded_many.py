@@ -1,0 +1,180 @@
+"""`simulate_many` with executors of all kinds, and with a directory that keeps the runs."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable
+from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
+from dataclasses import dataclass
+from multiprocessing import get_context
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import viscontact as vc
+from interrupted_runs import CASE
+from viscontact.cli import main
+from viscontact.run_files import FAILURE_NAME, RESULT_NAME
+
+RUBBER = vc.Material(vc.Zener(1e6, 1e6, 1e6), poisson_ratio=0.5)
+SMALL = vc.Grid((24, 24), (3e-3, 3e-3))
+
+
+def runs(*forces: float) -> list[dict[str, Any]]:
+    given = {"indenter": vc.Sphere(0.01), "material": RUBBER, "grid": SMALL, "errors": False}
+    times, fields = vc.uniform_times(1.0, 4), [1.0]
+    return [{**given, "load": vc.step(force), "times": times, "fields": fields} for force in forces]
+
+
+def loky_executor() -> Executor:
+    return pytest.importorskip("loky").ProcessPoolExecutor(1)
+
+
+def processes() -> Executor:
+    return ProcessPoolExecutor(1, mp_context=get_context("spawn"))
+
+
+@pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
+@pytest.mark.parametrize(
+    "executor",
+    [
+        lambda: ThreadPoolExecutor(2),
+        pytest.param(processes, marks=pytest.mark.slow),
+        pytest.param(loky_executor, marks=pytest.mark.slow),
+    ],
+    ids=["threads", "processes", "loky"],
+)
+def test_any_executor_computes_the_bits_of_simulate(
+    executor: Callable[[], Executor], tmp_path: Path
+) -> None:
+    given = runs(0.05, 0.1, 0.15)
+    reported: list[tuple[int, int, int]] = []
+    with executor() as pool:
+        found = vc.simulate_many(
+            given, executor=pool, progress=lambda *numbers: reported.append(numbers)
+        )
+        joint = vc.simulate_many(given, executor=pool, directory=tmp_path / "sweep")
+    assert [done for _, done, _ in reported] == [1, 2, 3]
+    assert {run for run, _, _ in reported} == {0, 1, 2}
+    for number, run in enumerate(given):
+        alone = vc.simulate(**run)
+        assert found[number].pressure.values.tobytes() == alone.pressure.values.tobytes()
+        with vc.open_results(tmp_path / "sweep" / f"run{number}") as ds:
+            assert ds.approach.values.tobytes() == alone.approach.values.tobytes()
+            # fields are stored as floats of four bytes
+            np.testing.assert_allclose(ds.pressure, alone.pressure, rtol=1e-7)
+        np.testing.assert_array_equal(joint.approach[number], alone.approach)
+    assert joint.state.values.tolist() == ["done"] * 3
+    assert not (tmp_path / "sweep" / ".stop").exists()
+
+
+def test_recorded_runs_are_not_repeated_and_a_failed_one_is_not_a_number(tmp_path: Path) -> None:
+    given = runs(0.05, 0.1, 50.0)  # the contact of the last comes to the rim
+    sweep = tmp_path / "sweep"
+    with ThreadPoolExecutor(1) as pool:
+        with pytest.raises(RuntimeError, match=r"1 of 3 runs failed\nrun2: .*rim"):
+            vc.simulate_many(given, executor=pool, directory=sweep)
+        failure = json.loads((sweep / "run2" / FAILURE_NAME).read_text(encoding="utf-8"))
+        assert (failure["outcome"], failure["code"]) == ("stopped", 1)
+        before = [(sweep / f"run{n}" / RESULT_NAME).stat().st_mtime_ns for n in range(2)]
+        ds = vc.simulate_many(given, executor=pool, directory=sweep, return_exceptions=True)
+        assert before == [(sweep / f"run{n}" / RESULT_NAME).stat().st_mtime_ns for n in range(2)]
+        assert ds.state.values.tolist() == ["done", "done", "failed"]
+        assert "rim" in str(ds.message[2].values)
+        assert np.isnan(ds.approach[2]).all()
+        assert np.isfinite(ds.approach[:2]).all()
+        with pytest.raises(ValueError, match="holds other runs"):
+            vc.simulate_many(given[:2], executor=pool, directory=sweep)
+        with pytest.raises(RuntimeError, match=r"run0: .* holds the result of another run"):
+            vc.simulate_many(runs(0.06, 0.1, 50.0), executor=pool, directory=sweep)
+
+
+def test_functions_cannot_be_recorded_and_two_executors_are_refused(tmp_path: Path) -> None:
+    with ThreadPoolExecutor(1) as pool:
+        with pytest.raises(ValueError, match=r"runs\[0\]: a run in a directory"):
+            vc.simulate_many([dict], executor=pool, directory=tmp_path / "sweep")
+        with pytest.raises(ValueError, match="executor and client are both given"):
+            vc.simulate_many([], executor=pool, client=object())
+    assert list(tmp_path.iterdir()) == []
+
+
+@dataclass(frozen=True)
+class OfCase:
+    """A run of a case, as vary makes it."""
+
+    case: Path
+    settings: dict[str, str]
+    varied: tuple[str, ...]
+    name: str
+    directory: str
+    design: str = "grid"
+
+    def __call__(self) -> Any:
+        raise AssertionError
+
+
+def test_runs_of_a_case_are_recorded_as_at_the_command_line(tmp_path: Path) -> None:
+    case = tmp_path / "case.yaml"
+    case.write_text(CASE, encoding="utf-8")
+    given = [
+        OfCase(case, {"load.force": f"{f} N"}, ("load.force",), f"force={f}N", f"case_force={f}N")
+        for f in (2, 4)
+    ]
+    with ThreadPoolExecutor(1) as pool:
+        ds = vc.simulate_many(given, executor=pool, directory=tmp_path / "api")
+    assert ds["load.force"].values.tolist() == [2.0, 4.0]
+    assert main(["run", str(case), "--vary", "load.force=2 N,4 N", "-o", f"{tmp_path}/cli"]) == 0
+    at_command = vc.open_many(tmp_path / "cli")
+    for name in ("approach", "peak_pressure_error", "pressure"):
+        assert ds[name].values.tobytes() == at_command[name].values.tobytes()
+    names = {path.name for path in (tmp_path / "api" / "case_force=2N").iterdir()}
+    assert names == {"case.yaml", "progress.jsonl", "result.nc"}
+
+
+MPI = """\
+import sys, time
+import viscontact as vc
+from mpi4py.futures import MPIPoolExecutor
+
+if __name__ == "__main__":
+    rubber = vc.Material(vc.Zener(1e6, 1e6, 1e6), poisson_ratio=0.5)
+    given = {"indenter": vc.Sphere(0.01), "material": rubber, "errors": False, "fields": "none",
+             "grid": vc.Grid((24, 24), (3e-3, 3e-3)), "times": vc.uniform_times(1.0, 4)}
+    forces = [0.05 + 0.01 * n for n in range(10)]
+    forces[6] = 50.0
+    runs = [{**given, "load": vc.step(force)} for force in forces]
+    with MPIPoolExecutor() as executor:
+        ds = vc.simulate_many(runs, executor=executor, directory="sweep", return_exceptions=True)
+        began = time.perf_counter()
+        assert sum(executor.map(abs, range(1000))) == 499500
+        print(" ".join(ds.state.values.tolist()))
+        print(time.perf_counter() - began)
+"""
+
+
+@pytest.mark.slow  # processes that import everything
+def test_mpi_computes_nine_of_ten_runs_and_a_thousand_empty_tasks_in_seconds(
+    tmp_path: Path,
+) -> None:
+    pytest.importorskip("mpi4py", exc_type=ImportError)
+    command = shutil.which("mpiexec", path=f"{Path(sys.executable).parent}{os.pathsep}{os.defpath}")
+    if command is None:
+        pytest.skip("without mpiexec, which the package mpich brings on Linux")
+    (tmp_path / "mpi.py").write_text(MPI, encoding="utf-8")
+    words = [command, "-n", "2", sys.executable, "-m", "mpi4py.futures", "mpi.py"]
+    done = subprocess.run(
+        words, capture_output=True, text=True, cwd=tmp_path, timeout=120, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    states, seconds = done.stdout.splitlines()
+    assert states.split() == ["done"] * 6 + ["failed"] + ["done"] * 3
+    assert float(seconds) < 10
+    alone = vc.simulate(**{**runs(0.14)[0], "fields": "none"})
+    with vc.open_results(tmp_path / "sweep" / "run9") as ds:
+        assert ds.approach.values.tobytes() == alone.approach.values.tobytes()
