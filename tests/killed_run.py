@@ -45,6 +45,8 @@ WATCHED = (
 #: Runs that are killed at a line, of each kind; the lines are spread evenly.
 KILLS = 30
 STEP = 6144  # by which the limit grows [bytes]
+#: Entries of the progress that a run adds when it ends.
+AT_THE_END = {*ERRORS, "complete", "fields"}
 
 
 def differing(result: Path, whole: xr.Dataset) -> list[str]:
@@ -96,10 +98,12 @@ FINISHED = ("case.yaml", "progress.jsonl", "result.nc")
 
 
 def lines_of(directory: Path) -> list[str]:
-    """The complete lines of a run's progress."""
+    """The complete lines of a run's progress, without what its end adds to them."""
     path = directory / "progress.jsonl"
     written = path.read_text(encoding="utf-8") if path.exists() else ""
-    return written.splitlines()[: written.count("\n")]
+    found = map(json.loads, written.splitlines()[: written.count("\n")])
+    kept = [{name: line[name] for name in line if name not in AT_THE_END} for line in found]
+    return [json.dumps(line, ensure_ascii=False) for line in kept]
 
 
 def resumed_after(said: str) -> int | None:
