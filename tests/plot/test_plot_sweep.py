@@ -58,7 +58,7 @@ def test_large_grid_of_numbers_is_a_map() -> None:
     x, y = axes.lines[0].get_data()
     assert len(x) == 29
     assert (50.0, 1.0) not in set(zip(np.round(x, 9), np.round(y, 9), strict=True))
-    assert "Approach [mm]" in {each.get_ylabel() for each in figure.axes}
+    assert axes.get_title(loc="left") == "Approach [mm]"
 
 
 def test_texts_are_drawn_as_points() -> None:
@@ -108,3 +108,16 @@ def test_sweep_without_a_difference_is_refused() -> None:
         ds[name][:] = np.nan
     with pytest.raises(ValueError, match="no scalar differs"):
         vc.plot.response(ds)
+
+
+def test_values_at_equal_ratios_have_a_logarithmic_axis_with_plain_numbers() -> None:
+    figure = response(hertz_sweep(indenter__radius=([0.004, 0.012, 0.04], "m")))
+    axes = panel(figure, "Approach")
+    assert axes.get_xscale() == "log"
+    figure.draw_without_rendering()
+    low, high = axes.get_xlim()
+    texts = [t.get_text() for t in axes.get_xticklabels() if low <= t.get_position()[0] <= high]
+    assert texts == ["5", "10", "20"]
+    assert (
+        panel(response(hertz_sweep(load__force=([1, 5, 10], "N"))), "App").get_xscale() == "linear"
+    )

@@ -8,7 +8,9 @@ from itertools import pairwise
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from numpy.typing import NDArray
 
 from viscontact.plot.layout import style
@@ -29,8 +31,8 @@ Floats = NDArray[np.float64]
 _LEAST_MAP, _MOST_CURVES = 5, 8
 #: Number of points in a curve from which they are smaller.
 _MANY = 200
-#: Ratio of the largest to the least value from which an axis is logarithmic.
-_DECADES = 30.0
+#: Least ratio of the largest to the least value on a logarithmic axis.
+_DECADE = 9.0
 #: Most keys and contours that are drawn.
 _MOST_KEYS, _CONTOURS = 4, 12
 
@@ -134,10 +136,9 @@ class _Axis:
         if not _is_number(ds, key):
             texts = tuple(dict.fromkeys(map(str, values.ravel())))
             return cls(key_label(ds, key), ReadableUnit("", 1.0), texts, is_log=False)
-        known = values[np.isfinite(values)]
-        is_log = bool(known.min() > 0 and known.max() > _DECADES * known.min())
+        known = np.unique(values[np.isfinite(values)])
         unit = readable_unit(ds[key].attrs.get("units", "1"), known)
-        return cls(key_label(ds, key), unit, (), is_log)
+        return cls(key_label(ds, key), unit, (), _suits_logarithm(known))
 
     def at(self, values: NDArray[np.generic]) -> Floats:
         """Places of values on the axis."""
@@ -145,11 +146,19 @@ class _Axis:
             return np.array([self.texts.index(str(value)) for value in values], dtype=np.float64)
         return self.unit(values)
 
+    def place_ticks(self, axis: Axis) -> None:
+        """Place plain numbers at the ticks of a logarithmic axis."""
+        if self.is_log:
+            axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+            axis.set_major_formatter(FuncFormatter(lambda value, _: format_compact(value)))
+            axis.set_minor_formatter(NullFormatter())
+
     def label(self, axes: Axes) -> None:
         """Label the horizontal axis, and choose its scale."""
         axes.set_xlabel(self.unit.label(self.name))
         if self.is_log:
             axes.set_xscale("log")
+        self.place_ticks(axes.xaxis)
         if self.texts:
             axes.set_xticks(range(len(self.texts)), self.texts, rotation=30, ha="right")
 
@@ -229,7 +238,6 @@ def _draw_map(axes: Axes, ds: xr.Dataset, name: str, key: str, by: str) -> None:
     drawn = axes.contourf(x, y, values, _CONTOURS, cmap="viridis")
     bar = style.figure_of(axes).colorbar(drawn, ax=axes)
     bar.ax.tick_params(labelsize=style.TICK_SIZE)
-    bar.set_label(found.unit.label(SCALARS[name].label), size=style.LABEL_SIZE, color=style.INK)
     has_result = ~np.ma.getmaskarray(values)
     points_x, points_y = np.meshgrid(x, y)
     axes.plot(points_x[has_result], points_y[has_result], ".", color="white", markersize=2.0)
@@ -237,6 +245,8 @@ def _draw_map(axes: Axes, ds: xr.Dataset, name: str, key: str, by: str) -> None:
     axes.set_ylabel(up.unit.label(up.name))
     if up.is_log:
         axes.set_yscale("log")
+    up.place_ticks(axes.yaxis)
+    style.add_heading(axes, found.unit.label(SCALARS[name].label))
 
 
 def _increasing(places: Floats) -> tuple[Floats, NDArray[np.intp]]:
@@ -251,6 +261,14 @@ def _add_key(figure: Figure, panels: list[Axes], key: str) -> None:
     if labels:
         labels = [f"{key} {labels[0]}", *labels[1:]]
         style.add_legend_below(figure, handles, labels, columns=4)
+
+
+def _suits_logarithm(values: Floats) -> bool:
+    """Test for increasing values over a decade or so whose ratios vary less than their steps."""
+    if values[0] <= 0 or values[-1] < _DECADE * values[0]:
+        return False
+    steps, ratios = np.diff(values), np.diff(np.log(values))
+    return bool(ratios.std() / ratios.mean() < steps.std() / steps.mean())
 
 
 def _is_number(ds: xr.Dataset, key: str) -> bool:
