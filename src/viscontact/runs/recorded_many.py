@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, Protocol, runtime_checkable
+from typing import Any
 
 import xarray as xr
 
@@ -21,6 +20,7 @@ from viscontact.runs.processes.job import Job, Standing
 from viscontact.runs.processes.request import INTERRUPTED, STOPPED, RunRequest
 from viscontact.runs.resources import PROGRAM, least_memory
 from viscontact.runs.sweep.manifest import SweepRun, read_manifest, write_manifest
+from viscontact.runs.sweep.varied_runs import VariedRun, case_name
 
 #: Specification of a run: arguments of `simulate` by name, or a function that returns a result.
 Recipe = Mapping[str, Any] | Callable[[], xr.Dataset]
@@ -30,18 +30,6 @@ Progress = Callable[[int, int, int], None]
 
 #: Most failed runs whose messages are raised.
 _MOST_NAMED = 5
-
-
-@runtime_checkable
-class CaseRecipe(Protocol):
-    """Run of a case with settings, as of `vary`."""
-
-    case: Path
-    settings: Mapping[str, str]
-    varied: tuple[str, ...]
-    name: str
-    directory: str
-    design: str
 
 
 def known_memory(recipe: Recipe) -> float:
@@ -74,7 +62,7 @@ def record_many(
 
     def task_of(job: Job, token: str) -> RecordedTask:
         recipe = given[job.directory]
-        if isinstance(recipe, CaseRecipe):
+        if isinstance(recipe, VariedRun):
             return Task(job.request, job.directory, token)
         assert isinstance(recipe, Mapping)  # checked above
         return SimulationTask(recipe, job.directory)
@@ -91,8 +79,8 @@ def record_many(
 
 def _sweep_run(number: int, recipe: Recipe, directory: Path) -> SweepRun:
     """Line of the manifest of a run."""
-    if isinstance(recipe, CaseRecipe):
-        case = os.path.relpath(recipe.case.absolute(), directory.absolute())
+    if isinstance(recipe, VariedRun):
+        case = case_name(recipe.case, directory.resolve())
         given = (dict(recipe.settings), recipe.varied, case, recipe.design)
         return SweepRun(number, recipe.name, recipe.directory, *given)
     if isinstance(recipe, Mapping):
@@ -116,7 +104,7 @@ def _write_once(directory: Path, runs: list[SweepRun]) -> None:
 
 def _job(run: SweepRun, recipe: Recipe, directory: Path) -> Job:
     place = directory / run.directory
-    case = recipe.case if isinstance(recipe, CaseRecipe) else Path(run.directory)
+    case = recipe.case if isinstance(recipe, VariedRun) else Path(run.directory)
     request = RunRequest(case, place, resume=True, settings=run.assignments)
     memory = known_memory(recipe)
     return Job(request, place, run.name, Standing.STOPPED, None, 0.0, 1.0, memory)

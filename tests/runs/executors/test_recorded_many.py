@@ -9,7 +9,6 @@ import subprocess
 import sys
 from collections.abc import Callable
 from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
-from dataclasses import dataclass
 from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
@@ -104,28 +103,10 @@ def test_functions_cannot_be_recorded_and_two_executors_are_refused(tmp_path: Pa
     assert list(tmp_path.iterdir()) == []
 
 
-@dataclass(frozen=True)
-class OfCase:
-    """A run of a case, as vary makes it."""
-
-    case: Path
-    settings: dict[str, str]
-    varied: tuple[str, ...]
-    name: str
-    directory: str
-    design: str = "grid"
-
-    def __call__(self) -> Any:
-        raise AssertionError
-
-
 def test_runs_of_a_case_are_recorded_as_at_the_command_line(tmp_path: Path) -> None:
     case = tmp_path / "case.yaml"
     case.write_text(CASE, encoding="utf-8")
-    given = [
-        OfCase(case, {"load.force": f"{f} N"}, ("load.force",), f"force={f}N", f"case_force={f}N")
-        for f in (2, 4)
-    ]
+    given = vc.vary(case, {"load.force": ["2 N", "4 N"]})
     with ThreadPoolExecutor(1) as pool:
         ds = vc.simulate_many(given, executor=pool, directory=tmp_path / "api")
     assert ds["load.force"].values.tolist() == [2.0, 4.0]

@@ -162,6 +162,8 @@ def run(
                 None if method is None else method.value,
             )
             request = ManyRequest(tuple(cases), common, options, jobs, scheduler)
+            if scheduler and (task is not None or array is not None):
+                refuse("--scheduler computes the runs; --array and --task do not go with it")
             if task is not None:
                 execute_task(request, array, task)
             elif array is not None:
