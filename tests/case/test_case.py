@@ -495,3 +495,17 @@ def test_every_data_file_of_a_case_is_parsed_once(
         monkeypatch.setattr(module, "read_table", counting)
     read_case(written(tmp_path, text))
     assert sorted(parsed) == ["creep.csv", "load.csv"]
+
+
+def test_readings_of_one_file_do_not_share_their_values(tmp_path: Path) -> None:
+    path = written(tmp_path, ROLLER)
+    first = read_case(path, ["load.force=3 N"])
+    first.document.data["load"]["force"] = "4 N"
+    first.document.lines.clear()
+    second = read_case(path)
+    assert second.document.data["load"]["force"] != "4 N"
+    assert second.document.lines
+    assert second.text == path.read_text(encoding="utf-8")
+    assert "force: 3 N" in first.text
+    path.write_text(ROLLER.replace("title: Crowned", "title: Other"), encoding="utf-8")
+    assert read_case(path).title.startswith("Other")

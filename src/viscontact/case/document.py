@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import difflib
+from collections.abc import Mapping
+from copy import deepcopy
 from dataclasses import dataclass, field
+from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -19,19 +22,27 @@ _LARGEST_FILE = 1_000_000
 class Document:
     """Content of a case file before it is validated.
 
-    `overridden` are keys given by ``--set``; a `confined` case may name files in its folder only.
+    The `data` contain the values given by ``--set``, which are not in the `source` text; a
+    `confined` case may name files in its folder only.
     """
 
     path: Path
-    text: str
+    source: str
     data: dict[str, Any]
     lines: dict[KeyPath, int]
-    overridden: frozenset[KeyPath] = field(default_factory=frozenset)
+    overrides: Mapping[KeyPath, Any] = field(default_factory=dict)
     confined: bool = False
+
+    @cached_property
+    def text(self) -> str:
+        """YAML text with the values given by ``--set``, written when it is needed."""
+        if not self.overrides:
+            return self.source
+        return yaml_source.with_overrides(self.source, dict(self.overrides))
 
     def place(self, key: KeyPath) -> str:
         """Return the place of a key: ``case.yaml:6:``, or ``--set`` if it was given there."""
-        if any(key and _same_branch(key, path) for path in self.overridden):
+        if any(key and _same_branch(key, path) for path in self.overrides):
             return "--set"
         for length in range(len(key), 0, -1):
             if key[:length] in self.lines:
@@ -62,9 +73,8 @@ def document_of(text: str, path: Path, *, confined: bool = False) -> Document:
     if not text.strip():
         raise CaseError(f"{path}: the file is empty; `viscontact example` shows complete ones")
     is_toml = path.suffix.lower() == ".toml"
-    source = toml_source if is_toml else yaml_source
     try:
-        data, lines = source.parse(text)
+        data, lines = deepcopy(_parsed(text, is_toml))
     except SourceError as problem:
         place = f"{path}:{problem.line}" if problem.line else str(path)
         raise CaseError(f"{place}: {problem}") from problem
@@ -75,6 +85,12 @@ def document_of(text: str, path: Path, *, confined: bool = False) -> Document:
         )
     written = yaml_source.write(data) if is_toml else text
     return Document(path, written, data, lines, confined=confined)
+
+
+@lru_cache(maxsize=8)
+def _parsed(text: str, is_toml: bool) -> tuple[Any, dict[KeyPath, int]]:
+    """Data and lines of a text, kept as the runs of a sweep read the same case."""
+    return toml_source.parse(text) if is_toml else yaml_source.parse(text)
 
 
 def _too_large(path: Path) -> CaseError:

@@ -24,8 +24,7 @@ def override(document: Document, settings: Iterable[str]) -> Document:
     problems = [why for path, value in values.items() if (why := _put(data, path, value))]
     if problems:
         raise CaseError(*problems)
-    text = yaml_source.with_overrides(document.text, values)
-    return replace(document, data=data, text=text, overridden=frozenset(values))
+    return replace(document, data=data, overrides=values)
 
 
 def _setting(text: str) -> tuple[KeyPath, Any]:

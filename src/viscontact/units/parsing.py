@@ -178,10 +178,14 @@ def _split(text: str, wanted: Dimension) -> tuple[str, str]:
 
 
 def _factor(unit: str, text: str, wanted: Dimension) -> float:
-    parsed = _parsed_unit(unit, text, wanted)
-    factor, base = _in_base_units(parsed)
-    wanted_base = _in_base_units(_registry().parse_units(wanted.unit))[1]
-    if base != wanted_base:
+    try:
+        factor, base = _conversion(unit)
+    except Exception as error:  # pint raises many kinds, of its tokenizer and parser too
+        raise ValueError(
+            f"cannot read {quoted(text)} as {wanted.name}: unknown unit {quoted(unit)}"
+            f"{_nearest_unit(unit)}; write e.g. {wanted.example!r}"
+        ) from error
+    if base != _si_base(wanted.unit):
         raise ValueError(
             f"cannot read {quoted(text)} as {wanted.name} (got {_dimension_name(base)}); "
             f"write e.g. {wanted.example!r}"
@@ -189,19 +193,15 @@ def _factor(unit: str, text: str, wanted: Dimension) -> float:
     return factor
 
 
-def _parsed_unit(unit: str, text: str, wanted: Dimension) -> Any:
+@functools.lru_cache(maxsize=256)
+def _conversion(unit: str) -> tuple[float, str]:
+    """Factor of a unit to SI base units, and these."""
     plain = re.sub(r"[·×]", "*", unit)
     if plain.startswith("/"):
         plain = "1" + plain
-    try:
-        if len(unit) > 60 or not _UNIT.fullmatch(unit):
-            raise ValueError("characters that do not occur in units")
-        return _registry().parse_units(plain)
-    except Exception as error:  # pint raises many kinds, of its tokenizer and parser too
-        raise ValueError(
-            f"cannot read {quoted(text)} as {wanted.name}: unknown unit {quoted(unit)}"
-            f"{_nearest_unit(unit)}; write e.g. {wanted.example!r}"
-        ) from error
+    if len(unit) > 60 or not _UNIT.fullmatch(unit):
+        raise ValueError("characters that do not occur in units")
+    return _in_base_units(_registry().parse_units(plain))
 
 
 def _nearest_unit(unit: str) -> str:
