@@ -121,3 +121,10 @@ def test_values_at_equal_ratios_have_a_logarithmic_axis_with_plain_numbers() -> 
     assert (
         panel(response(hertz_sweep(load__force=([1, 5, 10], "N"))), "App").get_xscale() == "linear"
     )
+
+
+def test_key_with_a_single_value_is_no_axis() -> None:
+    ds = hertz_sweep(material=(["pmma"], "1"), load__force=FORCES, indenter__radius=([0.01], "m"))
+    axes = panel(response(ds), "Approach")
+    assert axes.get_xlabel() == "force [kN]"
+    np.testing.assert_allclose(axes.lines[0].get_ydata(), 1e3 * ds.approach[0, :, 0, 1])

@@ -74,6 +74,8 @@ def response(results: xr.Dataset, *, width: Width | None = None) -> Figure:
         what = "scalar differs between the finished runs" if keys else "key is varied"
         raise ValueError(f"response: no {what}; give a sweep of two finished runs or more")
     across = page_width(width, style.TWO_COLUMNS)
+    single = [dim for dim in run_dims(results) if results.sizes[dim] == 1]
+    results = results.squeeze(single, drop=True)
     dims = run_dims(results)
     if not set(keys) <= set(dims) or len(keys) > 2:
         return _points(results, scalars, keys[:_MOST_KEYS], across)

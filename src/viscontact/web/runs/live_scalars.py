@@ -38,10 +38,14 @@ def grown(directory: Path, after: int) -> dict[str, Any]:
 
 
 def _lines(path: Path, after: int) -> tuple[int, bytes]:
-    """Complete lines from a position; from the beginning where the file has become shorter."""
+    """Complete lines from a position; from the beginning where the file has been replaced."""
     with suppress(OSError), path.open("rb") as file:
         size = file.seek(0, 2)
-        begun = after if 0 <= after <= size else 0
+        begun = after if 0 < after <= size else 0
+        # In another file, shorter or with longer lines, no line begins at that position.
+        file.seek(max(begun - 1, 0))
+        if begun and file.read(1) != b"\n":
+            begun = 0
         file.seek(begun)
         whole, newline, _ = file.read(_MOST).rpartition(b"\n")
         return begun, whole + newline
