@@ -12,6 +12,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from pydantic import ValidationError
 
 import viscontact as vc
@@ -19,6 +21,7 @@ from viscontact.case import CaseError, case_schema, read_case
 from viscontact.case.loads import load_table
 from viscontact.case.materials import measured_laws
 from viscontact.case.time_grid_output import Cells
+from viscontact.case.yaml_source import _QUANTITY, parse, parse_value
 from viscontact.units.parsing import parse_quantity
 
 ROLLER = """\
@@ -509,3 +512,8 @@ def test_readings_of_one_file_do_not_share_their_values(tmp_path: Path) -> None:
     assert "force: 3 N" in first.text
     path.write_text(ROLLER.replace("title: Crowned", "title: Other"), encoding="utf-8")
     assert read_case(path).title.startswith("Other")
+
+
+@given(st.from_regex(_QUANTITY, fullmatch=True))
+def test_quantities_are_the_texts_that_yaml_reads(text: str) -> None:
+    assert parse_value(text) == parse(text)[0] == text.strip()

@@ -25,6 +25,8 @@ _MOST_BRACKETS = 200
 _MOST_MERGED, _LONGEST_TAG = 50, 1000
 # Limit on aliases times values, a bound of the number of copied keys.
 _MOST_COPIED = 100_000
+# Number and unit, which YAML reads as a text.
+_QUANTITY = re.compile(r"[+-]?\d+\.?\d*(?:[eE][+-]?\d+)? [A-Za-zµμΩ°%/][\wµμΩ°%/*^ ()-]*")
 # Possible places of aliases, those in texts and comments included.
 _ALIAS = re.compile(r"(?:^|[\s,:\[{])\*[^\s*]")
 
@@ -49,7 +51,9 @@ def parse_value(text: str) -> Any:
     >>> parse_value("[64, 1e3]")
     [64, 1000.0]
     """
-    return parse(text)[0]
+    plain = text.strip()
+    # A parser for each of thousands of quantities takes longer than all other checks of a case.
+    return plain if _QUANTITY.fullmatch(plain) else parse(text)[0]
 
 
 def with_overrides(text: str, values: dict[KeyPath, Any]) -> str:

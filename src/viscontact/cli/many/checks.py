@@ -1,8 +1,8 @@
 """Checks of the runs of one command, before the first of them begins.
 
-Up to 1000 runs, all cases are read. Automatic grids, which can take a second each, are chosen for
-all of up to 100 runs, and beyond for those with extreme values of the varied keys, whose sizes
-stand for the others. Beyond 1000 runs, only these are checked, and the others as they begin.
+Up to 1000 runs, all cases are read. Up to 100 runs are prepared, which can take a second each with
+automatic grids; of more runs, those with extreme values of the varied keys, whose sizes stand for
+the others. Beyond 1000 runs, only these are checked, and the others as they begin.
 """
 
 from __future__ import annotations
@@ -16,7 +16,6 @@ from pathlib import Path
 from viscontact.case import Case, CaseError, read_case
 from viscontact.cli.many.request import ManyRequest, PlannedRun
 from viscontact.cli.terminal.messages import CommandError, refuse
-from viscontact.grid import Grid
 from viscontact.run_files import CASE_NAME, RESULT_NAME, STATE_NAME
 from viscontact.runs.directory.lock import in_use
 from viscontact.runs.execution.checked_run import checked_run, directory_of
@@ -85,10 +84,7 @@ def _job(request: RunRequest, prepared: Sequence[Job], count: int) -> Job:
     if count > MOST_READ:
         standing = _standing_by_names(request, directory)
     else:
-        case = _read(request)
-        if isinstance(case.grid, Grid):  # its choice costs nothing
-            return _prepared_job(request)
-        standing = _standing(request, directory, case)
+        standing = _standing(request, directory, _read(request))
     return replace(
         size, request=request, directory=directory, name=directory.name, standing=standing
     )
