@@ -8,7 +8,7 @@ from concurrent.futures import BrokenExecutor, Executor, Future
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from queue import Empty, SimpleQueue
-from typing import Any
+from typing import Any, overload
 
 import xarray as xr
 
@@ -28,6 +28,28 @@ from viscontact.units.numbers import whole
 _PAUSE = 0.5
 
 
+@overload
+def simulate_many(
+    runs: Iterable[Recipe],
+    *,
+    executor: Executor | None = None,
+    client: Any = None,
+    directory: None = None,
+    workers: int | None = None,
+    progress: Progress | None = None,
+    return_exceptions: bool = False,
+) -> list[Any]: ...
+@overload
+def simulate_many(
+    runs: Iterable[Recipe],
+    *,
+    executor: Executor | None = None,
+    client: Any = None,
+    directory: str | Path,
+    workers: int | None = None,
+    progress: Progress | None = None,
+    return_exceptions: bool = False,
+) -> xr.Dataset: ...
 def simulate_many(
     runs: Iterable[Recipe],
     *,
