@@ -234,7 +234,7 @@ from viscontact.runs.directory.lock import DirectoryInUse
 count, mine = Path(sys.argv[1]) / "count", 0
 while mine < 30:
     try:
-        with leased(Path(sys.argv[1]), 0.3) as check:
+        with leased(Path(sys.argv[1]), 1.0) as check:
             check()
             count.write_text(str(int(count.read_text()) + 1))
             mine += 1
