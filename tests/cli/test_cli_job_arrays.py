@@ -144,8 +144,8 @@ def test_a_task_resumes_its_run_and_leaves_a_finished_one_alone(
         (["--task", "0", "out", "--set", "a=1"], "--task 0: takes the manifest of a sweep"),
         (["--task", "0", "out", "--vary", "a=1"], "--task 0: takes the manifest of a sweep"),
         (["--task", "0", "out", "--array", "a.pbs"], "--task 0: takes the manifest of a sweep"),
-        (["--task", "0", "out", "--scheduler", "local"], "--task 0: takes the manifest of a sweep"),
-        ([*WORDS[1:], "-o", "new", "--array", "b.pbs", "--scheduler", "local"], "give one of them"),
+        (["--task", "0", "out", "--scheduler", "local"], "--array and --task do not go with it"),
+        ([*WORDS[1:], "--array", "b.pbs", "--scheduler", "local"], "--scheduler computes the runs"),
         (["--task", "0", "out", "--resume", "--overwrite"], "give one of them"),
         (["out/runs.jsonl"], "out/runs.jsonl: is a manifest of runs; compute one of them with"),
         ([*WORDS[1:], "--array", "a.sbatch"], "--array: name a directory for the runs, with -o"),
@@ -169,6 +169,8 @@ def test_scripts_request_what_the_runs_need() -> None:
     text = slurm_script(array(10, threads=4))
     assert "#SBATCH --array=0-9\n" in text
     assert "#SBATCH --cpus-per-task=4\n" in text
+    assert "#SBATCH --job-name=viscontact-out\n" in text
+    assert "#PBS -N viscontact-my-r\n" in pbs_script(array(2, manifest=Path("/my runs/runs.jsonl")))
     assert "#SBATCH --mem=500M\n" in text  # 1.5 * 300 MB, in steps of 100 MB
     assert "#SBATCH --time=00:20:00\n" in text  # 3 * 400 s
     assert "exec viscontact run --task $SLURM_ARRAY_TASK_ID /s/out/runs.jsonl --threads 4" in text

@@ -36,8 +36,6 @@ def write_array(request: ManyRequest, script: Path) -> None:
     directory = request.common.output
     if directory is None:
         refuse("--array: name a directory for the runs, with -o DIR")
-    if request.scheduler:
-        refuse("--array and --scheduler: give one of them")
     if request.common.overwrite:
         refuse("--array and --overwrite: its tasks would not resume; choose another -o DIR")
     with before_the_first_step():

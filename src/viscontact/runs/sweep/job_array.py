@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import shlex
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -33,6 +34,11 @@ class JobArray:
     threads: int = 1
     at_once: int | None = None  # most tasks at the same time
     program: str = "viscontact"
+
+    @property
+    def name(self) -> str:
+        """Name of the array, of letters that all systems take."""
+        return re.sub(r"[^A-Za-z0-9]+", "-", f"viscontact-{self.manifest.parent.name}").strip("-")
 
     @property
     def runs_per_task(self) -> int:
@@ -84,7 +90,7 @@ def slurm_script(array: JobArray) -> str:
     logs = str(array.logs).replace("%", "%%")
     return (
         "#!/bin/bash\n"
-        f"#SBATCH --job-name={array.manifest.parent.name or 'viscontact'}\n"
+        f"#SBATCH --job-name={array.name}\n"
         f"#SBATCH --array={array.tasks}{limit}\n"
         f"#SBATCH --cpus-per-task={array.threads}\n"
         f"#SBATCH --mem={array.megabytes}M\n"
@@ -104,7 +110,7 @@ def pbs_script(array: JobArray) -> str:
     size = f"ncpus={array.threads}:mem={array.megabytes}mb"
     return (
         "#!/bin/bash\n"
-        f"#PBS -N {(array.manifest.parent.name or 'viscontact')[:15]}\n"
+        f"#PBS -N {array.name[:15]}\n"
         + (f"#PBS -J {whole.tasks}{limit}\n" if whole.runs > 1 else "")
         + f"#PBS -l select=1:{size}\n"
         f"#PBS -l walltime={array.wall_time}\n"
