@@ -910,6 +910,11 @@ OPTIONS = {
     "compare": ("DIR", "--figure", "--output", "-o"),
     **{"schema": (), "demo": ()},
     "example": ("-o",),
+    "run ...": (
+        *("--vary", "--zip", "--table", "--sample", "--range", "--seed", "-j"),
+        *("--scheduler", "--array", "--task"),
+    ),
+    **{"status": ("DIR", "--watch"), "collect": ("DIR", "-o")},
     # promised, not built yet
     **{"report": ("DIR", "-o"), "material": (), "verify": ("--fast", "-o")},
 }
@@ -929,7 +934,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
 
 @pytest.mark.parametrize("command", OPTIONS)
 def test_command_has_its_options(command: str, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main([command, "--help"]) == 0
+    assert main([command.split()[0], "--help"]) == 0
     said = capsys.readouterr().out
     for option in OPTIONS[command]:
         assert option in said
@@ -994,3 +999,26 @@ def test_exit_codes(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["run", "ball.yaml", "-q", "--overwrite"]) == 0
     assert main(["run", "ball.yaml", "--resume"]) == 0
     assert capsys.readouterr().err.count("\n") == 1
+
+
+def test_sweep_has_a_manifest_and_a_dataset(folder: Path) -> None:
+    assert main(["run", "ball.yaml", "-q", "--vary", "load.force=80mN,0.1N", "-o", "all"]) == 0
+    lines = [json.loads(line) for line in Path("all/runs.jsonl").read_text().splitlines()]
+    assert [line["run"] for line in lines] == [0, 1]
+    assert set(lines[0]) >= {"run", "name", "directory", "settings"}
+    assert all(Path("all", line["directory"], "result.nc").is_file() for line in lines)
+    ds = vc.open_many("all")
+    assert ds.approach.dims == ("load.force", "time")
+    assert (ds["load.force"].values.tolist(), ds["load.force"].attrs["units"]) == ([0.08, 0.1], "N")
+    assert main(["status", "all"]) == main(["collect", "all", "-o", "all.nc"]) == 0
+    assert main(["report", "all"]) == 0
+
+
+def test_functions_for_many_runs_have_their_arguments() -> None:
+    names = {"executor", "client", "directory", "workers", "progress", "return_exceptions"}
+    assert set(inspect.signature(vc.simulate_many).parameters) >= {"runs", *names}
+    assert next(iter(inspect.signature(vc.open_many).parameters)) == "directory"
+    case = {"load.force": ["1 N", "2 N"]}
+    with tempfile.TemporaryDirectory() as place:
+        (Path(place) / "ball.yaml").write_text(json.dumps(CASE), encoding="utf-8")
+        assert len(list(vc.vary(Path(place) / "ball.yaml", case))) == 2

@@ -241,6 +241,14 @@ def test_results_of_earlier_versions_are_read_from_their_file(copied: Path, grid
     xr.testing.assert_identical(vc.open_many(copied), vc.open_many(grid))
 
 
+@pytest.mark.parametrize("damage", [b"5\n", b'{"time": 1.0, "for\n', b"[]\n", b"\xff\n"])
+def test_damaged_log_does_not_hide_the_result(copied: Path, grid: Path, damage: bytes) -> None:
+    path = places(copied)[1] / PROGRESS_NAME
+    lines = path.read_bytes().splitlines(keepends=True)
+    path.write_bytes(b"".join([lines[0], damage, *lines[2:]]))
+    xr.testing.assert_identical(vc.open_many(copied), vc.open_many(grid))
+
+
 def test_directory_without_a_manifest_is_refused(tmp_path: Path) -> None:
     with pytest.raises(FileNotFoundError, match=r"runs\.jsonl"):
         vc.open_many(tmp_path)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -34,13 +35,14 @@ class RunOutline:
 def run_outline(directory: Path) -> RunOutline:
     """Read the outline of a finished run; OSError or ValueError if it cannot be read."""
     end = last_line(directory)
-    if not end.get("complete"):
-        with opened(directory / RESULT_NAME, "r") as file:
-            times = np.asarray(file.variables["time"][:], dtype=np.float64)
-            return RunOutline(times, frozenset(_stored(file)), described_fields(file))
-    with (directory / PROGRESS_NAME).open("rb") as lines:
-        times = np.array([_time(line) for line in lines])
-    return RunOutline(times, frozenset(set(COLUMNS) & set(end)), end.get("fields"))
+    with suppress(OSError, ValueError, LookupError, TypeError):  # then the result is the source
+        if end.get("complete"):
+            with (directory / PROGRESS_NAME).open("rb") as lines:
+                times = np.array([_time(line) for line in lines])
+            return RunOutline(times, frozenset(set(COLUMNS) & set(end)), end.get("fields"))
+    with opened(directory / RESULT_NAME, "r") as file:
+        times = np.asarray(file.variables["time"][:], dtype=np.float64)
+        return RunOutline(times, frozenset(_stored(file)), described_fields(file))
 
 
 def run_scalars(directory: Path) -> NDArray[np.float64]:
@@ -48,13 +50,16 @@ def run_scalars(directory: Path) -> NDArray[np.float64]:
 
     NaN where the result does not state a scalar. OSError or ValueError if it cannot be read.
     """
-    if not last_line(directory).get("complete"):
-        return _of_result(directory / RESULT_NAME)
-    with (directory / PROGRESS_NAME).open("rb") as lines:
-        return np.array([_row(json.loads(line)) for line in lines], dtype=np.float64)
+    with suppress(OSError, ValueError, LookupError, TypeError, AttributeError):
+        if last_line(directory).get("complete"):
+            with (directory / PROGRESS_NAME).open("rb") as lines:
+                return np.array([_row(json.loads(line)) for line in lines], dtype=np.float64)
+    return _of_result(directory / RESULT_NAME)
 
 
 def _time(line: bytes) -> float:
+    if not line.endswith(b"}\n"):
+        raise ValueError("the line is not complete")
     # The time comes first; to parse the whole line takes thirty times as long.
     name, _, rest = line[:64].partition(b": ")
     number = rest.partition(b",")[0]
