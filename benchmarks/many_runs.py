@@ -80,11 +80,14 @@ def main() -> None:
     with TemporaryDirectory() as folder:
         case = Path(folder, "case.yaml")
         case.write_text(CASE, encoding="utf-8")
-        one, cpu = in_one_process(case, Path(folder, "one"), given.runs)
-        print(f"one warm process   {one:8.2f} s, {cpu:8.2f} s of CPU", flush=True)
-        many, cpu = by_workers(case, Path(folder, "many"), given.runs, given.workers)
-        print(f"{given.workers} workers          {many:8.2f} s, {cpu:8.2f} s of CPU")
-        print(f"ratio to 1/{given.workers} of it  {many * given.workers / one:8.2f}")
+        one, one_cpu = in_one_process(case, Path(folder, "one"), given.runs)
+        print(f"one warm process   {one:8.2f} s, {one_cpu:8.2f} s of CPU", flush=True)
+        many, many_cpu = by_workers(case, Path(folder, "many"), given.runs, given.workers)
+        print(f"{given.workers} workers          {many:8.2f} s, {many_cpu:8.2f} s of CPU")
+        ratio = many * given.workers / one
+        print(
+            f"ratio to 1/{given.workers} of it  {ratio:8.2f}, {many_cpu / one_cpu:8.2f} by CPU time"
+        )
     print(f"{given.runs} empty calls   {empty_calls(given.runs, given.workers):8.2f} s")
 
 
