@@ -77,7 +77,7 @@ def test_run_says_whose_lease_it_watches_before_it_takes_that_over(
     first, second, *_ = capsys.readouterr().err.splitlines()
     assert first == (
         "case is leased to another run (process 4711 on node7); it is taken over if that does not "
-        "renew its lease within 0.5 s"
+        "renew its lease within 500 ms"
     )
     assert second.startswith("case: continuing after 4 of 11 instants")
     assert same_bits("case", whole)

@@ -25,6 +25,7 @@ from viscontact.runs.directory.lease_file import (
     successor,
 )
 from viscontact.runs.directory.lock_check import LockLost
+from viscontact.units.formatting import format_quantity
 
 #: Renewals within the duration, and part of it without renewal after which the lease has lapsed:
 #: what its holder writes after a check has the other part of the duration to be finished.
@@ -100,7 +101,7 @@ class Lease(AbstractContextManager["Lease"]):
     def _lost(self, owner: str) -> LockLost:
         return LockLost(
             f"{self._directory} was taken over by another run{owner}, after this one had not "
-            f"renewed its lease for {self._duration:g} s"
+            f"renewed its lease for {format_quantity(self._duration, 's')}"
         )
 
     def _renew(self) -> None:

@@ -20,6 +20,7 @@ from viscontact.runs.directory.lease_file import (
 )
 from viscontact.runs.directory.lock_check import LockCheck, never_lost
 from viscontact.runs.directory.lock_probe import has_locks
+from viscontact.units.formatting import format_quantity
 
 #: Time that `locked` waits for a lock, which `in_use` takes for an instant, and between tries [s].
 _PATIENCE, _POLL = 0.1, 0.005
@@ -96,7 +97,7 @@ def awaited_lease(directory: Path) -> str:
         return ""
     return (
         f"{directory} is leased to another run{_owner(directory / LOCK_NAME)}; it is taken over if "
-        f"that does not renew its lease within {lease.duration:g} s"
+        f"that does not renew its lease within {format_quantity(lease.duration, 's')}"
     )
 
 
