@@ -33,12 +33,12 @@ def open_many(directory: str | Path, *, tree: bool = False) -> xr.Dataset | xr.D
     xarray.Dataset or xarray.DataTree
         Scalars of all runs with their errors, in SI units. The varied keys are dimensions if the
         runs are all combinations of their values; otherwise the dimension is ``run``, along which
-        the keys are coordinates. Coordinates are numbers in SI with the attribute ``units``, or text.
-        Runs with common instants share the dimension ``time``. Others have the dimension ``step``
-        and the coordinate ``time`` over both, filled up with NaN; nothing is interpolated. The
-        variables ``state`` (waiting, running, stopped, failed or done) and ``message`` belong to each
-        run; scalars and fields are NaN unless it is done. Fields are included if all finished runs
-        store them at the same instants on the same grid.
+        the keys are coordinates. Coordinates are numbers in SI with the attribute ``units``, or
+        text. Runs with common instants share the dimension ``time``. Others have the dimension
+        ``step`` and the coordinate ``time`` over both, filled up with NaN; nothing is
+        interpolated. The variables ``state`` (waiting, running, stopped, failed or done) and
+        ``message`` belong to each run; scalars and fields are NaN unless it is done. Fields are
+        included if all finished runs store them at the same instants on the same grid.
 
     Raises
     ------
