@@ -238,8 +238,8 @@ def test_ci_ends_with_the_readme_test_command() -> None:
 
 
 def test_the_extras_are_those_promised() -> None:
-    promised = {"plot", "fast", "surfaces", "fit", "web", "all", "test", "docs", "dev"}
-    assert set(PROJECT["optional-dependencies"]) == promised
+    users = {"plot", "fast", "surfaces", "fit", "web", "cluster", "all"}
+    assert set(PROJECT["optional-dependencies"]) == users | {"test", "docs", "dev"}
 
 
 def test_the_version_is_the_same_everywhere() -> None:

@@ -42,7 +42,7 @@ class LocalWorkers(Executor):
         self._idle: list[_Worker] = []
         self._busy: list[_Worker] = []
         self._waiting: deque[_Call] = deque()
-        self._closed = False
+        self._closed = self._asked = False
         self._lock = threading.RLock()
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
@@ -57,6 +57,7 @@ class LocalWorkers(Executor):
     def ask_to_stop(self) -> None:
         """Request that tasks finish their step, save and end; at once with the second request."""
         with self._lock:
+            self._asked = True
             for worker in (*self._idle, *self._busy):
                 worker.ask_to_stop()
 
@@ -96,6 +97,8 @@ class LocalWorkers(Executor):
         except OSError as error:
             call.future.set_exception(error)
             return
+        if self._asked and call.attempts > 1:  # this worker replaces one that was asked
+            worker.ask_to_stop()
         self._busy.append(worker)
         running.add_done_callback(partial(self._end, worker, call))
 
