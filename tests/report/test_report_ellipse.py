@@ -198,5 +198,5 @@ def test_coarser_runs_are_reported_if_there_were_any(errors: bool) -> None:
     )
     assert float(ds.time_error.max()) > 0  # estimated in the run itself
     said = accuracy_of(ds)["Coarser runs"]
-    assert said.startswith("two coarser runs" if errors else "none: ")
+    assert said.startswith("coarser runs" if errors else "none: ")
     assert said in report_page(ds)

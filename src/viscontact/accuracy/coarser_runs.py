@@ -22,16 +22,20 @@ from viscontact.simulation.setup import RunSetup, plan_history
 from viscontact.state import ContactState
 from viscontact.time_integration.fixed_steps import plan_steps, step_ends
 
-#: Cell sizes of the coarser runs, in cells of the run, and whether their numbers of cells keep the
-#: parity of the run's: otherwise an edge may lie where a cell's centre was.
-CELL_RATIOS = ((1.5, False), (2.4, True))
+#: Cell sizes of the coarser runs, in cells of the run.
+CELL_RATIOS = (1.5, 2.4)
+
+#: Number of steps below which a third run estimates their errors, however small the estimated
+#: time errors are: the first step behind a kink of the load has none.
+FEW_STEPS = 16
 
 #: Least number of steps of the run, and step sizes of its coarser runs, in steps of the run.
-STEP_RATIOS = ((16, (2, 4)), (7, (2, 2)), (0, (1, 1)))
+STEP_RATIOS = ((FEW_STEPS, (2, 4)), (7, (2, 2)), (0, (1, 1)))
 
-#: Estimated time error of the pressure up to which both coarser runs together show what the steps
-#: add. Errors of cells and of steps of opposite sign may cancel in their differences, so above it
-#: both have the same steps.
+#: Mean number of steps between two times of the run from which coarser runs have all these times.
+STEPS_BETWEEN = 2
+
+#: Estimated time error of the pressure up to which the two coarser runs show what the steps add.
 SMALL_TIME_ERROR = 3e-3
 
 #: Peak pressure, over the largest one, from which the error of a step at whose beginning there was
@@ -91,18 +95,20 @@ def plan_coarser_runs(run: RunSetup, history: History) -> Iterator[CoarserRun]:
     times, load = history["time"], run.problem.load
     own = step_ends(plan_steps(times, load))
     creeping = creeps(run.problem.compliance, times)
-    divides = creeping and not _has_small_time_error(history)
-    step_ratios = _step_ratios(len(own), divides=divides)
+    divides = creeping and (len(own) < FEW_STEPS or not _has_small_time_error(history))
+    step_ratios = _step_ratios(len(own))
     across = float(history["cells_across"].max(initial=0.0))
-    spacings = _spacings(across, symmetric=_is_symmetric(run))
-    levels = list(zip(spacings, step_ratios, strict=True))
-    for spacing, step_ratio in reversed(levels):
-        yield _coarser_run(run, *spacing, step_ratio, fewer_times(times, load.stops, step_ratio))
+    spacings = _spacings(across, parities=_parities(run))
+    # Steps between two times become longer without leaving any of these out.
+    leaves_out = len(own) < STEPS_BETWEEN * len(times)
+    kept = (fewer_times(times, load.stops, by) if leaves_out else times for by in step_ratios)
+    levels = list(zip(spacings, step_ratios, kept, strict=True))
+    for spacing, step_ratio, left in reversed(levels):
+        yield _coarser_run(run, *spacing, step_ratio, left)
     if divides:
-        spacing, step_ratio = levels[-1]
-        kept = fewer_times(times, load.stops, step_ratio)
-        parts = parts_of_shared_steps(own, step_ends(plan_steps(kept, load, step_ratio)))
-        divided = _coarser_run(run, *spacing, step_ratio, np.union1d(kept, parts))
+        spacing, step_ratio, left = levels[-1]
+        parts = parts_of_shared_steps(own, step_ends(plan_steps(left, load, step_ratio)))
+        divided = _coarser_run(run, *spacing, step_ratio, np.union1d(left, parts))
         yield replace(divided, divides_steps=True)
 
 
@@ -123,16 +129,14 @@ def usual_coarsening(steps: int) -> tuple[tuple[float, int], ...]:
     >>> usual_coarsening(7), usual_coarsening(6)
     (((1.5, 2), (2.4, 2)), ((1.5, 1), (2.4, 1)))
     """
-    step_ratios = _step_ratios(steps, divides=False)
+    step_ratios = _step_ratios(steps)
     return tuple(
-        (spacing, step_ratio)
-        for (spacing, _), step_ratio in zip(CELL_RATIOS, step_ratios, strict=True)
+        (spacing, step_ratio) for spacing, step_ratio in zip(CELL_RATIOS, step_ratios, strict=True)
     )
 
 
-def _step_ratios(steps: int, *, divides: bool) -> tuple[int, int]:
-    first, second = next(step_ratios for least, step_ratios in STEP_RATIOS if steps >= least)
-    return (first, first) if divides else (first, second)
+def _step_ratios(steps: int) -> tuple[int, int]:
+    return next(step_ratios for least, step_ratios in STEP_RATIOS if steps >= least)
 
 
 def march_coarser_run(
@@ -187,23 +191,24 @@ def history_of(states: Sequence[ContactState]) -> History:
     }
 
 
-def _is_symmetric(run: RunSetup) -> bool:
-    """Test whether the body mirrors itself on an even number of cells along x and y."""
-    return is_even(run.open_gap, 0) and is_even(run.open_gap, 1)
+def _parities(run: RunSetup) -> tuple[bool, bool]:
+    """Grids that keep the parity of the run's numbers of cells, the finer one first.
 
-
-def _spacings(across: float, *, symmetric: bool) -> tuple[tuple[float, bool], ...]:
-    """Ratios of cells, closer to 1 if the run has few cells across its contact.
-
-    Of a symmetric run only a quarter of the cells is solved, also on a coarser grid that keeps the
-    parity: the larger one does.
+    Of a run that is symmetric on even numbers of cells only a quarter is solved: also on grids that
+    keep the parity. They all do where the body does not end, else the larger one.
     """
-    coarsest = CELL_RATIOS[-1][0]
+    if not (is_even(run.open_gap, 0) and is_even(run.open_gap, 1)):
+        return False, True
+    return True, bool(np.isfinite(run.open_gap).all())
+
+
+def _spacings(across: float, *, parities: tuple[bool, bool]) -> tuple[tuple[float, bool], ...]:
+    """Ratios of cells, closer to 1 if the run has few cells across its contact, and parities."""
+    coarsest = CELL_RATIOS[-1]
     most = min(coarsest, max(across / MIN_ACROSS, MIN_COARSENING))
     closer = (most - 1) / (coarsest - 1)
-    return tuple(
-        (1 + (spacing - 1) * closer, parity != symmetric) for spacing, parity in CELL_RATIOS
-    )
+    ratios = (1 + (spacing - 1) * closer for spacing in CELL_RATIOS)
+    return tuple(zip(ratios, parities, strict=True))
 
 
 def creeps(compliance: ContactCompliance, times: FloatArray) -> bool:

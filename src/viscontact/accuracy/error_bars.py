@@ -182,7 +182,7 @@ def _bar(
     # The relative error from the cells falls with their number in a growing contact.
     cells = np.maximum(history["contact_area"] / run.grid.cell_area, 1.0)
     relative = _around(cells * _over(by_cells, scale)) / cells
-    relative += np.nan_to_num(_around(_over(levels.by_steps, scale)))
+    relative += np.nan_to_num(_over(levels.by_steps, scale))
     relative += SOLVER_ERROR_FACTOR * run.problem.tolerance + run.hereditary.error
     bar = (relative + run.problem.compliance.inversion_error) * scale
     bar = np.maximum(bar, least_bar(run, name, kinds, history, by_cells))

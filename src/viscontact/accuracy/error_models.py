@@ -29,15 +29,15 @@ class ErrorModel:
 
 #: Approach, force and work, also where a contact reaches the end of a body: pressure is singular
 #: there, and the cells approximate the end by a staircase.
-_BULK = ErrorModel(2.0, 1.0, at_end=ErrorModel(0.7, 1.2))
-_OFFSET = ErrorModel(2.0, 1.05, at_end=ErrorModel(0.7, 0.8))
-_WORK = ErrorModel(2.0, 1.65, at_end=ErrorModel(0.7, 1.2))
+_BULK = ErrorModel(2.0, 1.1, at_end=ErrorModel(0.7, 1.2))
+_OFFSET = ErrorModel(2.0, 1.15, at_end=ErrorModel(0.7, 0.8))
+_WORK = ErrorModel(2.0, 1.75, at_end=ErrorModel(0.7, 1.2))
 
 #: Area and peak, also where contact consists of spots of fewer cells across, in the mean: some of
 #: them exist on one grid only. Calibrated on self-affine surfaces, 2 to 9 cells across.
 COARSE_SPOT_CELLS = 8.0
 _AREA = ErrorModel(2.0, 1.1, of_spots=ErrorModel(1.0, 1.5))
-_PEAK = ErrorModel(2.0, 1.45, at_end=ErrorModel(1.0, 1.5), of_spots=ErrorModel(2.0, 4.0))
+_PEAK = ErrorModel(2.0, 1.6, at_end=ErrorModel(1.0, 1.5), of_spots=ErrorModel(2.0, 4.0))
 
 #: Peak of the line load, a mean over a twentieth of the contact. Calibrated on ellipses, crowned
 #: rollers, and rollers and punches with sharp ends, 15 to 80 cells long.

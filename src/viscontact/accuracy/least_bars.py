@@ -19,14 +19,14 @@ SOLVER_ERROR_FACTOR = 3.0
 #: Smallest error of extents in cells, however well two grids agree; with spots of few cells; at a
 #: straight end; at a sharp one, towards which the contact widens without a limit; and where
 #: the contact may end in the last cells of the body.
-RIM_CELLS, SPOT_RIM_CELLS, END_RIM_CELLS, SHARP_RIM_CELLS, LAST_CELLS = 0.045, 1.0, 1.5, 3.5, 1.5
+RIM_CELLS, SPOT_RIM_CELLS, END_RIM_CELLS, SHARP_RIM_CELLS, LAST_CELLS = 0.033, 1.0, 1.5, 3.5, 1.5
 
 #: Cells across the contact at which the first of them is twice as large, as its rim is curved.
 FEW_CELLS = 9.0
 
 #: Least relative error of the area, times the square of the cells across; and times these cells
 #: where the pressure is largest near the rim.
-LEAST_AREA_ERROR, STEEP_AREA_ERROR = 0.2, 0.05
+LEAST_AREA_ERROR, STEEP_AREA_ERROR = 0.35, 0.05
 
 #: Relative difference below which all grids agree on an extent: it is that of the body.
 AGREEMENT_TOLERANCE = 1e-6
@@ -39,9 +39,10 @@ TIP_CELLS, TIP_AREA = 0.1, 0.3
 
 #: Where a contact on a creeping body has shrunk by less than LATE_CELLS since it last grew, or is
 #: that much smaller than it has been, the surface that it left is still almost closed and its rim
-#: is found too far outside. Least error of the rim over the way that it has moved, and its largest
-#: value in cells: balls under forces err by 0.02 cells in the median, 9 of 10 by less than 0.2.
-LATE_PART, LATE_CELLS, MOST_LATE = 0.5, 2.0, 0.1
+#: is found too far outside. Least error of the rim over the way that it has moved, and its smallest
+#: and largest value in cells: balls under forces err by 0.02 cells in the median, 9 of 10 by less
+#: than 0.2.
+LATE_PART, LATE_CELLS, LEAST_LATE, MOST_LATE = 0.5, 2.0, 0.02, 0.1
 
 #: Extents of the contact along x and y, and scalars that follow from the moments.
 EXTENTS = ("contact_length", "contact_width")
@@ -59,6 +60,9 @@ LONG_CONTACT = 0.15
 #: the cells along the contact: the approach of a round flat punch is too large by 0.24 +- 0.10.
 #: Straight ends lie alike within the cells of all grids, whose differences show the error.
 LEAST_END_ERROR = 0.4
+
+#: Least relative error of the tilt there: that of an eccentric round punch is up to 1.5.
+LEAST_END_TILT_ERROR = 1.0
 
 #: Least relative error of the area of a contact that ends with the body along one axis only, times
 #: the cells along the contact.
@@ -110,7 +114,8 @@ def least_bar(
         smooth = np.maximum(_least_rim_area(run, kinds, history), _late_area(run, history))
         return np.maximum(_least_end_area(run, kinds, history), smooth)
     if name in MOMENTS:
-        return _least_moment_bar(run, name, history)
+        smooth = _least_moment_bar(run, name, history)
+        return np.maximum(smooth, _least_end_tilt(run, name, kinds, history))
     if name in LEAST_ERRORS and name != run.problem.load.control:
         return _least_bulk_bar(run, name, kinds, history)
     return 0.0
@@ -159,7 +164,8 @@ def _late_cells(run: RunSetup, history: History) -> Array:
     grows = np.diff(radius, prepend=0.0) > 0
     last = np.maximum.accumulate(np.where(grows, np.arange(len(radius)), 0))
     ways = np.stack([radius[last] - radius, np.maximum.accumulate(radius) - radius])
-    late = np.where(ways < LATE_CELLS, np.minimum(LATE_PART * ways, MOST_LATE), 0.0)
+    shrunk = (ways > 0) & (ways < LATE_CELLS)
+    late = np.where(shrunk, np.clip(LATE_PART * ways, LEAST_LATE, MOST_LATE), 0.0)
     return np.asarray(late.max(axis=0))
 
 
@@ -220,6 +226,14 @@ def _least_moment_bar(run: RunSetup, name: str, history: History) -> Array:
     lever = extent if name.startswith("eccentricity") else slope
     tolerance = SOLVER_ERROR_FACTOR * run.problem.tolerance
     return np.asarray(np.where(extent > 0, tolerance * lever, 0.0))
+
+
+def _least_end_tilt(run: RunSetup, name: str, kinds: ContactKinds, history: History) -> Array:
+    """Usual error of a tilt on the cells along a contact that reaches a curved end."""
+    given = name.startswith("eccentricity") or getattr(run.problem.load, name) is not None
+    uncertain = kinds.ended & (min(straight_ends(run)) == np.inf) & (not given)
+    relative = LEAST_END_TILT_ERROR / np.fmax.accumulate(_cells_along(run, history))
+    return np.asarray(np.where(uncertain, relative * np.abs(history[name]), 0.0))
 
 
 def _least_bulk_bar(run: RunSetup, name: str, kinds: ContactKinds, history: History) -> Array:

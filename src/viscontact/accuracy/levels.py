@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 
 #: Error over the difference from quarters of the steps: 16/15 at second order, 4/3 at first, more
 #: where a law creeps within the first quarter.
-DIVIDED_STEP_FACTOR = 1.2
+DIVIDED_STEP_FACTOR = 1.3
 
 #: Part of an estimated time error of the pressure, above a large one, by which the scalars err at
 #: least: halved steps may change little where all of them are long. The estimate is usually several
@@ -44,7 +44,9 @@ class RefinementLevels:
                 if grid.spacing == divided.spacing:
                     by_steps = DIVIDED_STEP_FACTOR * np.abs(row - aligned(name, times, divided))
         large = np.fmax(history["time_error"] - LARGE_TIME_ERROR, 0.0) * np.abs(own)
-        by_steps = np.where(np.isnan(by_steps), large, np.maximum(by_steps, PART_OF_LARGE * large))
+        known = np.maximum(by_steps, PART_OF_LARGE * large)
+        left_out = np.fmax(_interpolated(times, known), large)
+        by_steps = np.where(np.isnan(known), left_out, known)
         return cls((1.0, *(each.spacing for each in grids)), rows, by_steps)
 
     def by_cells(self, order: float) -> Array:
@@ -102,6 +104,12 @@ def aligned(name: str, times: Array, result: CoarserResult) -> Array:
     shared, known = np.isin(times, theirs), np.isin(theirs, times)
     values[shared] = result.scalars[name][known]
     return values
+
+
+def _interpolated(times: Array, values: Array) -> Array:
+    """Values at all times from the known ones, linearly."""
+    known = ~np.isnan(values)
+    return np.interp(times, times[known], values[known]) if known.any() else values
 
 
 #: Times on both sides of the window.

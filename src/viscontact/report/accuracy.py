@@ -92,7 +92,7 @@ def _coarser_runs(ds: xr.Dataset) -> str:
     if not any(str(name).endswith("_error") and name != "time_error" for name in ds.data_vars):
         return "none: the errors of the numbers above are not estimated"
     return (
-        "two coarser runs of the same problem, from which the errors are estimated: 95 of 100 true "
+        "coarser runs of the same problem, from which the errors are estimated: 95 of 100 true "
         "errors are expected to lie within the stated ones"
     )
 

@@ -44,7 +44,9 @@ def test_bars_hold_in_families_that_were_used_to_choose_factors(campaign) -> Non
 @pytest.mark.slow
 def test_bars_hold_in_families_that_were_held_out(campaign) -> None:
     """A seed that was not looked at when limits of the bars were set."""
-    records = solved(301, 40 * len(HELD_OUT), HELD_OUT)
+    records = solved(304, 40 * len(HELD_OUT), HELD_OUT)
     for each in report(records):
         campaign(f"held-out families, {each}")
-    assert shortfalls(values_of(records)) == []
+    values = values_of(records)
+    assert shortfalls(values) == []
+    assert all(value.warned for value in values if value.ratio < 1 / 3)

@@ -157,7 +157,7 @@ def _complete_march(checked: CheckedRun, record: Recorder, monitor: Monitor) -> 
                 record.checkpoint()
                 return False
     if recorded.errors:
-        monitor.say("estimating errors, from two coarser runs of the same case")
+        monitor.say("estimating errors, from coarser runs of the same case")
     record.finish(record.estimate_errors(partial(_stop_if_requested, monitor)))
     monitor.stops.over = True
     return True

@@ -114,8 +114,6 @@ def perform(task: RecordedTask, stops: StopRequests | None = None) -> Outcome:
     if stops.requested:
         return Outcome("not begun", INTERRUPTED)
     outcome = task.compute(stops)
-    if outcome.code != DONE and is_locked(task.directory):
-        return outcome  # another run has taken the directory over, and writes there now
     if is_locked(task.directory):
         return outcome  # another run has taken it over: its files are left alone
     if outcome.code == STOPPED:

@@ -125,7 +125,7 @@ def _message(run: ManagedRun, problems: Sequence[str]) -> str:
         "failed": problems[0] if problems else "the run stopped without a message",
     }
     if run.is_estimating:
-        return "all steps are done; estimating errors, from two coarser runs of the same case"
+        return "all steps are done; estimating errors, from coarser runs of the same case"
     return messages[entry.state]
 
 
