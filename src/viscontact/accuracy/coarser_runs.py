@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from viscontact.accuracy.coarser_grids import aligned_spacing, coarser_grid
 from viscontact.accuracy.coarser_steps import fewer_times, parts_of_shared_steps
 from viscontact.checks.mesh import cells_across_spots
-from viscontact.checks.singularities import bend_at, end_pressures, is_sharp, strain_of
+from viscontact.checks.singularities import bend_at, cells_at_end, is_sharp, strain_of
 from viscontact.errors import ConvergenceError, DomainError
 from viscontact.grid import is_even
 from viscontact.materials.compliance import ContactCompliance
@@ -70,7 +70,7 @@ class CoarserResult:
     spacing: float  # as in CoarserRun
     divides_steps: bool  # as in CoarserRun
     scalars: History
-    end_pressures: NDArray[np.float64]  # over the instants, see `singularities.end_pressures` [Pa]
+    end_pressures: NDArray[np.float64]  # over the instants, see `singularities.EndCells` [Pa]
     #: Growth of the largest pressure with the logarithm of the cells that the body's bend there can
     #: cause, over the mean pressure [-].
     bend_growth: NDArray[np.float64]
@@ -150,6 +150,7 @@ def march_coarser_run(
     rises: list[tuple[bool, bool]] = []
     peak = 0.0
     sharp = False
+    at_end = cells_at_end(run.open_gap)
     try:
         for state in March(run, warns=False):
             if on_step is not None:
@@ -157,7 +158,7 @@ def march_coarser_run(
             if state is None:
                 continue
             states.append(state.without_fields())
-            ends.append(end_pressures(run.open_gap, state.pressure))
+            ends.append(at_end.pressures(state.pressure))
             bends.append(_bend_growth(run, state))
             spots.append(cells_across_spots(state.pressure > 0, periodic=run.grid.periodic))
             drops.append(_drop_beside_peak(state.pressure))

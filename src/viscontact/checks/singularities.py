@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -23,22 +25,32 @@ CORNER_SHARE = 0.5
 MIN_ANGLE = 0.06
 
 
-def end_pressures(
-    open_gap: NDArray[np.float64], pressure: NDArray[np.float64]
-) -> tuple[float, float]:
-    """Largest pressures next to the indenter's end, and farther than END_DEPTH cells from it [Pa].
+@dataclass(frozen=True, eq=False)
+class EndCells:
+    """Cells next to the end of a body, and those farther than END_DEPTH cells from it."""
 
-    The open gap is +inf outside the indenter [m].
+    beside: NDArray[np.bool_]
+    inner: NDArray[np.bool_]
+
+    def pressures(self, pressure: NDArray[np.float64]) -> tuple[float, float]:
+        """Largest pressures in both [Pa]."""
+        at_end, farther = (pressure[cells].max(initial=0.0) for cells in (self.beside, self.inner))
+        return float(at_end), float(farther)
+
+
+def cells_at_end(open_gap: NDArray[np.float64]) -> EndCells:
+    """Cells at the end of a body whose open gap is +inf outside it [m].
 
     Examples
     --------
-    >>> end_pressures(np.array([[0.0, 0.0, 0.0, np.inf]]), np.array([[1.0, 2.0, 3.0, 0.0]]))
+    >>> ends = cells_at_end(np.array([[0.0, 0.0, 0.0, np.inf]]))
+    >>> ends.pressures(np.array([[1.0, 2.0, 3.0, 0.0]]))
     (3.0, 1.0)
     """
-    if not np.isinf(open_gap).any():
-        return 0.0, float(pressure.max())
-    beside, near = (end_cells(open_gap, depth).any(axis=0) for depth in (1, END_DEPTH))
-    return float(pressure[beside].max(initial=0.0)), float(pressure[~near].max(initial=0.0))
+    beside, near = (
+        np.logical_or.reduce(end_cells(open_gap, depth), axis=0) for depth in (1, END_DEPTH)
+    )
+    return EndCells(beside, ~near)
 
 
 def bend_at(open_gap: NDArray[np.float64], grid: Grid, place: tuple[int, int]) -> float:

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 import scipy
@@ -109,6 +110,8 @@ def step_shape(
     return StepShape(duration, rise, (trend.age + rise) / (trend.age + duration))
 
 
+# Cached, as several integrals take the same step.
+@lru_cache(maxsize=16)
 def longest_smooth_rise(
     compliance: ContactCompliance, duration: float, *, after_jump: bool = False
 ) -> float:
