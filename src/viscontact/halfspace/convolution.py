@@ -26,7 +26,8 @@ class Convolution:
     or y = 0 (`mirrored`; an even number of cells there) only the cells with positive coordinates
     are kept, and cosine transforms replace Fourier transforms of twice the length: a half-sample
     even sequence convolved with an even kernel is its DCT-II times the kernel's discrete Fourier
-    transform [2]_. `coefficients` are those of the whole block, from `influence_table` [m];
+    transform [2]_. `coefficients` are those of the whole block, from `influence_table` [m], even
+    along both axes but for a `signed` one, with the 2 n - 1 offsets of `moving_influence_table`;
     `single` precision takes half the time.
 
     References
@@ -54,21 +55,26 @@ class Convolution:
         *,
         mirrored: tuple[bool, bool] = (False, False),
         single: bool = False,
+        signed: int | None = None,
         transforms: Transforms | None = None,
     ) -> None:
         self._transforms = transforms or transforms_by(fastest_transforms())
-        self.shape = _halved(coefficients.shape, mirrored)
-        padded = [
-            _padded(cells, even) for cells, even in zip(coefficients.shape, mirrored, strict=True)
+        counts = [
+            (entries + 1) // 2 if axis == signed else entries
+            for axis, entries in enumerate(coefficients.shape)
         ]
+        self.shape = _halved(counts, mirrored)
+        padded = [_padded(cells, even) for cells, even in zip(counts, mirrored, strict=True)]
         # A real Fourier transform comes first, on the columns with data; the next one is complex.
         self._first = 0 if mirrored == (False, True) else 1
         self._second = 1 - self._first
         self._even = mirrored
         number = np.float32 if single else np.float64
-        self._symbol = _symbol(coefficients, padded, mirrored, self._first).astype(number)
+        complex_number = np.result_type(number, np.complex64)
+        symbol = _symbol(coefficients, padded, mirrored, self._first, signed)
+        self._symbol = symbol.astype(number if signed is None else complex_number)
         self._block = np.zeros(_put(self.shape, self._first, padded[self._first]), number)
-        kind = number if mirrored[self._first] else np.result_type(number, np.complex64)
+        kind = number if mirrored[self._first] else complex_number
         self._spectrum = np.zeros(self._symbol.shape, kind)
 
     def apply(
@@ -123,7 +129,7 @@ class Convolution:
         return cosine(as_reals(spectrum), self._second).view(spectrum.dtype)[..., 0]
 
 
-def _halved(shape: tuple[int, ...], mirrored: tuple[bool, bool]) -> tuple[int, int]:
+def _halved(shape: list[int], mirrored: tuple[bool, bool]) -> tuple[int, int]:
     nx, ny = (cells // (1 + even) for cells, even in zip(shape, mirrored, strict=True))
     return nx, ny
 
@@ -138,21 +144,24 @@ def _symbol(
     padded: list[int],
     mirrored: tuple[bool, bool],
     first: int,
-) -> NDArray[np.float64]:
-    """Transform of the kernel: real, since the kernel is even along both axes."""
+    signed: int | None,
+) -> NDArray[Any]:
+    """Transform of the kernel: real if the kernel is even along both axes."""
     index_x, index_y = (
-        _distances(count, cells, even)
-        for count, cells, even in zip(padded, coefficients.shape, mirrored, strict=True)
+        _signed_offsets(padded[axis], entries)
+        if axis == signed
+        else _distances(padded[axis], entries, mirrored[axis])
+        for axis, entries in enumerate(coefficients.shape)
     )
     symbol = coefficients[index_x[:, None], index_y[None, :]]
     for axis in (first, 1 - first):
         if mirrored[axis]:
             every = fft.dct(symbol, type=1, axis=axis)
             symbol = np.take(every, np.arange(padded[axis]), axis)
-        elif axis == first:
-            symbol = fft.rfft(symbol, axis=axis).real
         else:
-            symbol = fft.fft(symbol, axis=axis).real
+            symbol = (fft.rfft if axis == first else fft.fft)(symbol, axis=axis)
+        if signed is None:
+            symbol = symbol.real
     return np.ascontiguousarray(symbol)
 
 
@@ -163,6 +172,12 @@ def _distances(padded: int, cells: int, even: bool) -> NDArray[np.intp]:
     """
     index = np.arange(padded + even)
     return np.minimum(index if even else np.minimum(index, padded - index), cells - 1)
+
+
+def _signed_offsets(padded: int, entries: int) -> NDArray[np.intp]:
+    """Entries of a kernel at signed offsets in the order of the transform: 0, 1, ... (-2, -1)."""
+    index, middle = np.arange(padded), entries // 2
+    return np.clip(np.where(index <= middle, index, index - padded), -middle, middle) + middle
 
 
 def _put(shape: tuple[int, int], axis: int, count: int) -> tuple[int, int]:

@@ -81,6 +81,8 @@ class Spectra:
         # A real transform comes first, which keeps half of its spectrum; then a complex one.
         self._fourier = [axis for axis in (1, 0) if not mirrored[axis]]
         waves = [self._waves(axis, shape[axis], cell_size[axis]) for axis in (0, 1)]
+        #: Signed wave numbers along x and y, in the order of the transform [1/m].
+        self.wave_numbers = 2 * np.pi * waves[0], 2 * np.pi * waves[1]
         #: |q|/2 at each entry of a spectrum [1/m].
         self.half_wave_numbers = np.pi * np.hypot(waves[0][:, None], waves[1][None, :])
         self._block: NDArray[Any] = np.empty(shape, number)

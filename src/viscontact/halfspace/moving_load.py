@@ -1,0 +1,183 @@
+"""Half-space under a load that moves at constant speed: compliance and influence coefficients.
+
+In coordinates that move with the load towards +ξ at speed V, the surface at ξ had the load of
+ξ + V s a time s ago. With q = K p, the displacement per unit compliance under the elastic
+half-space's kernel, a retardation series J(t) = J0 + Σ Ji (1 - exp(-t/λi)) gives the steady
+displacement
+
+    u = J0 q + Σ Ji Ei q,   (E q)(ξ) = ∫ exp(-z/l) q(ξ + z) dz/l over z > 0,   l = V λ,
+
+so each cell has the influence coefficient J0 L + Σ Ji Ei L, with L that of Love. It is even across
+the motion, but not along it: the surface recovers behind the load.
+
+A wave exp(i k ξ) is multiplied by J0 + Σ Ji/(1 - i k li), the complex compliance at ω = k V.
+
+References
+----------
+S. C. Hunter, J. Appl. Mech. 28 (1961) 611; I. G. Goryacheva, Contact Mechanics in Tribology,
+Kluwer (1998), chapter 6.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import ive
+
+from viscontact.halfspace.influence import influence_coefficient
+
+#: Influence coefficients at offsets along and across the motion [m], for cells of two edges [m].
+Coefficient: TypeAlias = Callable[
+    [NDArray[np.float64], NDArray[np.float64], tuple[float, float]], NDArray[np.float64]
+]
+
+#: Gauss nodes of a panel. Interpolation between them is what limits the accuracy.
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(10)
+
+#: Panels from an edge of the loaded cell, where L has an infinite slope, to the middle between
+#: edges, each half as long as the one before.
+GRADED_PANELS = 10
+
+#: Distance of an edge from a whole number of cells that is rounding [cells].
+EDGE_ROUNDING = 1e-9
+
+#: Growth of the panels beyond the table, and the decay lengths after which they end.
+PANEL_GROWTH, DECAY_LENGTHS = 1.5, 45.0
+
+
+@dataclass(frozen=True, eq=False)
+class MovingCompliance:
+    """Contact compliance under a load in steady motion, as a series of retardation lengths.
+
+    Examples
+    --------
+    >>> rubber = MovingCompliance(1.0, np.array([9.0]), np.array([0.5]))
+    >>> rubber.relaxed, complex(rubber.at_wave_number(np.array(2.0)))
+    (10.0, (5.5+4.5j))
+    """
+
+    instant: float  # J0 [1/Pa]
+    amplitudes: NDArray[np.float64]  # Ji [1/Pa]
+    lengths: NDArray[np.float64]  # li = V λi [m]
+    #: Way after which the same material returns to the load [m]; inf for a half-space.
+    periods: NDArray[np.float64] = field(default_factory=lambda: np.empty(0))
+
+    def __post_init__(self) -> None:
+        if not self.periods.size:
+            object.__setattr__(self, "periods", np.full(self.lengths.shape, np.inf))
+
+    def of_period(self, period: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Amplitudes [1/Pa] and lengths [m] of the modes of material with this period [m]."""
+        chosen = self.periods == period
+        return self.amplitudes[chosen], self.lengths[chosen]
+
+    @property
+    def relaxed(self) -> float:
+        """Compliance at rest, J0 + Σ Ji [1/Pa]."""
+        return self.instant + float(self.amplitudes.sum())
+
+    def at_wave_number(self, wave_number: NDArray[np.float64]) -> NDArray[np.complex128]:
+        """Factor of a wave exp(i k ξ) along the motion, for wave numbers k [1/m]; in 1/Pa."""
+        total = np.full(np.shape(wave_number), self.instant, complex)
+        for amplitude, length in zip(self.amplitudes, self.lengths, strict=True):
+            total += amplitude / (1 - 1j * wave_number * length)
+        return total
+
+
+def moving_influence_table(
+    shape: tuple[int, int],
+    cell_size: tuple[float, float],
+    compliance: MovingCompliance,
+    axis: int,
+    coefficient: Coefficient = influence_coefficient,
+) -> NDArray[np.float64]:
+    """Displacement per unit pressure of a cell that moves along an axis [m/Pa].
+
+    Positive into the half-space. Entry k of the 2 n - 1 along the axis is at k - (n - 1) cells from
+    the loaded one, positive ahead of it; across the motion are the offsets 0, 1, 2, ... cells.
+    `coefficient` gives the coefficients of an elastic surface at offsets along and across the
+    motion, for cells of such edges.
+
+    In slow motion the compliance is that of rest, here ten times the instant one:
+
+    >>> zener = MovingCompliance(1.0, np.array([9.0]), np.array([1e-9]))
+    >>> table = moving_influence_table((2, 2), (1.0, 1.0), zener, axis=0)
+    >>> table.round(3).tolist()
+    [[3.304, 2.307], [11.222, 3.304], [3.304, 2.307]]
+    """
+    cell = (cell_size[axis], cell_size[1 - axis])
+    count = shape[axis]
+    offsets = np.arange(count, dtype=np.float64) * cell[0]
+    across = np.arange(shape[1 - axis], dtype=np.float64) * cell[1]
+    half = compliance.instant * coefficient(offsets[:, None], across[None, :], cell)
+    table: NDArray[np.float64] = np.concatenate([half[:0:-1], half])
+    for period in np.unique(compliance.periods):
+        modes = compliance.of_period(period)
+        table += _delayed(modes, period, count, across, cell, coefficient)
+    return np.ascontiguousarray(table if axis == 0 else table.T)
+
+
+def _delayed(
+    modes: tuple[NDArray[np.float64], NDArray[np.float64]],
+    period: float,
+    count: int,
+    across: NDArray[np.float64],
+    cell: tuple[float, float],
+    coefficient: Coefficient,
+) -> NDArray[np.float64]:
+    """Delayed part Σ Ji Ei L at signed offsets along the motion, shape (2 count - 1, across)."""
+    amplitudes, lengths = modes
+    last = (count - 1) * cell[0]
+    if last >= period / 2:
+        raise ValueError(f"a table over {2 * last:g} m is longer than the period of {period:g} m")
+    ahead = _panel_edges(count, cell[0], DECAY_LENGTHS * float(lengths.max()), period / 2)
+    # L is even: behind the loaded cell lie the same panels and samples in reverse.
+    nodes = ahead[:-1, None] + np.diff(ahead)[:, None] * (1 + NODES) / 2
+    samples = coefficient(nodes[..., None], across, cell)
+    behind = len(ahead) - 1 if np.isfinite(period) else int(np.searchsorted(ahead, last))
+    edges = np.concatenate([-ahead[behind:0:-1], ahead])
+    samples = np.concatenate([samples[behind - 1 :: -1, ::-1] if behind else samples[:0], samples])
+    table = np.zeros((2 * count - 1, len(across)))
+    delayed = np.zeros((len(lengths), len(across)))
+    # E at an edge is the integral over its panel, plus exp(-h/l) E at the next edge.
+    for start, end, values in reversed(list(zip(edges, edges[1:], samples, strict=False))):
+        delayed *= np.exp(-(end - start) / lengths)[:, None]
+        delayed += np.einsum("ij,jk->ik", _panel_weights((end - start) / (2 * lengths)), values)
+        cells = round(start / cell[0])
+        if abs(start / cell[0] - cells) < EDGE_ROUNDING and abs(cells) < count:
+            table[cells + count - 1] = np.einsum("i,ij->j", amplitudes, delayed)
+    if np.isfinite(period):
+        # Earlier passes: the recursion begins, at half a period, with the value where it ends.
+        offsets = np.arange(1 - count, count) * cell[0]
+        decay = np.exp((offsets[:, None] - period / 2) / lengths) / -np.expm1(-period / lengths)
+        table += np.einsum("oi,i,ij->oj", decay, amplitudes, delayed)
+    return table
+
+
+def _panel_edges(count: int, cell: float, reach: float, end: float) -> NDArray[np.float64]:
+    """Edges of the panels from 0 on, those of the table included, to a reach or before an end."""
+    graded = cell / 2 * (1 - 0.5 ** np.arange(GRADED_PANELS))
+    halves = cell / 2 * np.arange(2, 2 * max(count - 1, 2) + 1)
+    edges = np.concatenate([graded, cell - graded[::-1], halves[1:]])
+    edges = np.insert(edges, GRADED_PANELS, cell / 2)
+    far, end = float(edges[-1]), min(end, float(edges[-1]) + reach)
+    growing = far * PANEL_GROWTH ** np.arange(1, max(np.log(end / far) / np.log(PANEL_GROWTH), 0))
+    return np.append(np.concatenate([edges[edges < end], growing[growing < end]]), end)
+
+
+def _panel_weights(ratio: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Weights at the nodes of a panel from 0 to h for ∫ exp(-z/l) f(z) dz/l; ratio is h/(2 l).
+
+    Exact for polynomials that Gauss' rule interpolates: exp(-a ξ) in Legendre polynomials has the
+    coefficients (2n + 1) (-1)ⁿ i_n(a), modified spherical Bessel functions.
+    """
+    a = ratio[:, None]
+    order = np.arange(len(NODES))
+    bessel = np.sqrt(np.pi / (2 * a)) * ive(order + 0.5, a)
+    polynomials = np.polynomial.legendre.legvander(NODES, len(NODES) - 1)
+    coefficients = a * (2 * order + 1) * (-1.0) ** order * bessel
+    return np.asarray(np.einsum("in,jn->ij", coefficients, polynomials) * WEIGHTS)
