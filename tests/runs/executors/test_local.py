@@ -23,6 +23,7 @@ from viscontact.runs.executors import task as tasks
 from viscontact.runs.executors.driver import drive
 from viscontact.runs.executors.local import LocalTasks, LocalWorkers
 from viscontact.runs.executors.task import Outcome, Task, perform
+from viscontact.runs.executors.worker import perform_in_worker
 from viscontact.runs.processes.child import Ended
 from viscontact.runs.processes.job import Job, Standing
 from viscontact.runs.processes.request import RunRequest
@@ -97,6 +98,42 @@ def test_killed_worker_is_replaced_and_its_call_repeated_once(tmp_path: Path) ->
             broken.result(60)
         assert [each.result(60) for each in (*others, *later)] == [*range(20), *range(20)]
     assert len(list(twice.iterdir())) == 2
+
+
+@pytest.mark.parametrize("wait", [True, False])
+def test_shut_down_workers_finish_all_calls_before(wait: bool) -> None:
+    workers = LocalWorkers(1)
+    found = [workers.submit(abs, -number) for number in range(5)]
+    workers.shutdown(wait)
+    with pytest.raises(RuntimeError, match="after shutdown"):
+        workers.submit(abs, -1)
+    assert not wait or all(each.done() for each in found)
+    assert [each.result(60) for each in found] == [0, 1, 2, 3, 4]
+    cancelled = LocalWorkers(1)
+    first, *others = (cancelled.submit(abs, -number) for number in range(4))
+    cancelled.shutdown(wait, cancel_futures=True)
+    assert first.result(60) == 0
+    assert all(each.cancelled() for each in others)
+
+
+def test_worker_that_starts_after_the_request_to_stop_begins_no_run(case: Path) -> None:
+    with LocalWorkers(1) as workers:
+        workers.ask_to_stop()
+        task = Task(RunRequest(case), case.parent / "a", "")
+        assert workers.submit(clock.sleep, 0.5).result(60) is None  # the request arrives
+        assert workers.submit(perform_in_worker, task).result(60).word == "not begun"
+    assert not (case.parent / "a").exists()
+
+
+@pytest.mark.skipif(os.name == "nt", reason="without SIGKILL")
+def test_killed_workers_end_all_calls() -> None:
+    workers = LocalWorkers(1)
+    found = [workers.submit(clock.sleep, 100), *(workers.submit(abs, -1) for _ in range(3))]
+    began = clock.perf_counter()
+    workers.kill()
+    workers.shutdown()
+    assert clock.perf_counter() - began < 20
+    assert all(isinstance(each.exception(0), BrokenExecutor) for each in found)
 
 
 def test_a_thousand_empty_calls_take_seconds() -> None:

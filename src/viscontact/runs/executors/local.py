@@ -42,89 +42,100 @@ class LocalWorkers(Executor):
         self._idle: list[_Worker] = []
         self._busy: list[_Worker] = []
         self._waiting: deque[_Call] = deque()
-        self._closed = self._asked = False
-        self._lock = threading.RLock()
+        self._closed = self._unawaited = self._killed = self._asked = False
+        self._changed = threading.Condition(threading.RLock())
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
         """Call a function in the next worker that is free."""
-        if self._closed:
-            raise RuntimeError("cannot schedule new futures after shutdown")
         call = _Call(Future(), partial(fn, *args, **kwargs))
-        self._waiting.append(call)
-        self._dispatch()
+        with self._changed:
+            if self._closed:
+                raise RuntimeError("cannot schedule new futures after shutdown")
+            self._waiting.append(call)
+            self._dispatch()
         return call.future
 
     def ask_to_stop(self) -> None:
         """Request that tasks finish their step, save and end; at once with the second request."""
-        with self._lock:
+        with self._changed:
             self._asked = True
             for worker in (*self._idle, *self._busy):
                 worker.ask_to_stop()
 
     def kill(self) -> None:
         """Kill all workers; calls that are not finished end with a BrokenExecutor."""
-        self._closed = True
-        with self._lock:
+        with self._changed:
+            self._closed = self._killed = True
+            while self._waiting:
+                call = self._waiting.popleft()
+                if call.attempts or call.future.set_running_or_notify_cancel():
+                    call.future.set_exception(BrokenExecutor("the workers have been killed"))
             for worker in (*self._idle, *self._busy):
                 worker.kill()
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
         """End all workers, by default after all calls; without `wait` when they are free."""
-        self._closed = True
-        if cancel_futures:
-            with self._lock:
+        with self._changed:
+            self._closed, self._unawaited = True, not wait
+            if cancel_futures:
                 for call in self._waiting:
                     call.future.cancel()
-        for worker in (*self._idle, *self._busy):
+            if wait:
+                self._changed.wait_for(lambda: not self._busy and not self._waiting)
+            ending, self._idle = self._idle, []
+        for worker in ending:
             worker.close(wait=wait)
 
     def _dispatch(self) -> None:
-        with self._lock:
-            while self._waiting and (self._idle or len(self._busy) < self._count):
-                call = self._waiting.popleft()
-                if call.attempts or call.future.set_running_or_notify_cancel():
-                    self._start(call)
+        while self._waiting and (self._idle or len(self._busy) < self._count):
+            call = self._waiting.popleft()
+            if call.attempts or call.future.set_running_or_notify_cancel():
+                self._start(call)
 
     def _start(self, call: _Call) -> None:
         call.attempts += 1
         try:
-            worker = self._idle.pop() if self._idle else _Worker()
+            worker = self._idle.pop() if self._idle else _Worker(is_asked=self._asked)
             running = worker.submit(call.run)
         except BrokenExecutor:  # killed while it was idle
             call.attempts -= 1
             self._waiting.appendleft(call)
             return
-        except OSError as error:
+        except (OSError, RuntimeError) as error:  # no process, pipe or thread can be started
             call.future.set_exception(error)
             return
-        if self._asked and call.attempts > 1:  # this worker replaces one that was asked
-            worker.ask_to_stop()
         self._busy.append(worker)
         running.add_done_callback(partial(self._end, worker, call))
 
     def _end(self, worker: _Worker, call: _Call, running: Future[Any]) -> None:
         error = running.exception()
         is_killed = isinstance(error, BrokenExecutor)
-        with self._lock:
+        with self._changed:
             self._busy.remove(worker)
             if is_killed:
                 worker.close(wait=False)
             else:
                 self._idle.append(worker)
-            if is_killed and call.attempts < ATTEMPTS and not self._closed:
+            if is_killed and call.attempts < ATTEMPTS and not self._killed:
                 self._waiting.appendleft(call)
             elif error is not None:
                 call.future.set_exception(error)
             else:
                 call.future.set_result(running.result())
             self._dispatch()
+            if self._unawaited and not self._waiting:
+                while self._idle:
+                    self._idle.pop().close(wait=False)
+            self._changed.notify_all()
 
 
 class _Worker:
     """Warm process, and the pipe of the requests to stop."""
 
-    def __init__(self) -> None:
+    def __init__(self, *, is_asked: bool) -> None:
         self._receiver, self._sender = _SPAWN.Pipe(duplex=False)
+        if is_asked:
+            self.ask_to_stop()
         self._pool = ProcessPoolExecutor(
             1, mp_context=_SPAWN, initializer=begin_worker, initargs=(self._receiver,)
         )
