@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact import Grid
-from viscontact.results.variables import FIELDS, LINES, SCALARS
+from viscontact.results.variables import FIELDS, LINES, scalars_of
 from viscontact.runs.directory.netcdf_layout import Contents
 from viscontact.runs.directory.result_writer import ResultWriter
 from viscontact.state import ContactState, Outcome
@@ -19,7 +19,8 @@ GRID = Grid((6, 5), (2e-3, 1e-3))
 TIMES = np.arange(12) / 7.0
 SOME = [0.0, float(TIMES[4]), float(TIMES[5]), float(TIMES[11])]
 GIVEN = {"title": "µ", "tolerance": 1e-6}
-NUMBERS = [name for name in SCALARS if name not in ("outcome", "iterations", "cells_across")]
+NAMES = tuple(scalars_of(moving=False))
+NUMBERS = [name for name in NAMES if name not in ("outcome", "iterations", "cells_across")]
 
 
 def state(row: int, grid: Grid = GRID, times: NDArray[np.float64] = TIMES) -> ContactState:
@@ -55,7 +56,7 @@ def faults_of(
         rows = len(file.dimensions["time"])
         states = [state(row, times=times) for row in range(rows)]
         kept = [each for each in states if some is None or each.time in some]
-        truth = {name: [getattr(each, name) for each in states] for name in ("time", *SCALARS)}
+        truth = {name: [getattr(each, name) for each in states] for name in ("time", *NAMES)}
         if some != []:
             truth |= {name: [getattr(each, name) for each in kept] for name in (*FIELDS, *LINES)}
         if some:

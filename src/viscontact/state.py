@@ -83,6 +83,21 @@ class ContactState:
         Outcome of the solver.
     warnings : tuple of str
         Accuracy warnings that occur first at this instant.
+    position_x, position_y : float or None
+        Position of the axis of a moving body [m]. These and the following are None if no motion
+        is prescribed.
+    resistance_x, resistance_y : float or None
+        Force of the half-space on the body against +x and +y: positive if it holds back a body
+        that moves towards + [N].
+    friction_coefficient : float or None
+        Resistance against the motion over force; NaN at rest and without contact [-].
+    motion_work : float or None
+        Work of the motion against the resistance since the start [J].
+    dissipation : float or None
+        Power lost in the dashpots of the laws' retardation series [W]; NaN where the history is
+        kept as a Boltzmann sum.
+    heat : float or None
+        Energy lost in them since the start [J].
 
     Examples
     --------
@@ -120,6 +135,19 @@ class ContactState:
     cells_across: int
     outcome: Outcome
     warnings: tuple[str, ...] = ()
+    position_x: float | None = None
+    position_y: float | None = None
+    resistance_x: float | None = None
+    resistance_y: float | None = None
+    friction_coefficient: float | None = None
+    motion_work: float | None = None
+    dissipation: float | None = None
+    heat: float | None = None
+
+    @property
+    def moving(self) -> bool:
+        """True if a motion is prescribed."""
+        return self.position_x is not None
 
     def without_fields(self) -> ContactState:
         """Return the same state with empty fields, to save memory in long runs."""

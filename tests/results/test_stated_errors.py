@@ -31,7 +31,7 @@ from viscontact.report import report_page
 from viscontact.report.accuracy import error_rows
 from viscontact.results.formatting import format_error, format_percent, format_supported
 from viscontact.results.summary import headline, summary_rows
-from viscontact.results.variables import SCALARS
+from viscontact.results.variables import SCALARS, scalars_of, scalars_with_error
 
 CASE = """\
 indenter: {shape: sphere, radius: 10 mm}
@@ -325,7 +325,7 @@ def test_csv_of_an_older_result_has_no_empty_columns(
     vc.save(bare, tmp_path / "old.nc")
     assert main(["export", str(tmp_path / "old.nc")]) == 0
     header = capsys.readouterr().out.splitlines()[0].split(",")
-    assert len(header) == 1 + len(SCALARS)
+    assert len(header) == 1 + len(scalars_of(moving=False))
     assert header[-1] == "outcome"
 
 
@@ -527,5 +527,5 @@ def test_check_says_of_which_bodies_the_peak_depends_on_the_mesh(
 
 
 def test_scalars_that_promise_an_error_are_those_whose_error_is_estimated() -> None:
-    promised = {name for name, variable in SCALARS.items() if variable.has_error}
+    promised = set(scalars_with_error(moving=False))
     assert promised == {*ERROR_MODELS, "mean_pressure"}

@@ -8,11 +8,12 @@ import re
 from importlib.resources import files
 from pathlib import Path
 
+import numpy as np
 import pytest
 import xarray as xr
 
 import viscontact as vc
-from viscontact.accuracy.coarser_runs import HISTORY_NAMES
+from viscontact.accuracy.coarser_runs import history_of
 from viscontact.accuracy.error_bars import ZERO_WITHOUT_CONTACT
 from viscontact.accuracy.error_models import ERROR_MODELS
 from viscontact.cli import main
@@ -32,8 +33,12 @@ from viscontact.results.variables import (
     Place,
     Variable,
     error_name,
+    scalars_of,
+    scalars_with_error,
     shown_in,
 )
+from viscontact.runs.directory.netcdf_layout import Contents
+from viscontact.runs.directory.result_writer import ResultWriter
 from viscontact.runs.processes.child import Ended
 from viscontact.runs.processes.job import Job, Standing
 from viscontact.runs.processes.request import RunRequest
@@ -70,15 +75,33 @@ def test_table_has_every_scalar_of_a_state_and_of_a_dataset(ds: xr.Dataset) -> N
     fields = {field.name for field in dataclasses.fields(ContactState)}
     assert set(SCALARS) <= fields
     stored = [name for name in ds if ds[name].dims == ("time",) and name not in ("gap", "pressure")]
-    assert stored == list(SCALARS)
+    assert stored == list(scalars_of(moving=False))
+
+
+def test_only_results_of_moving_contacts_have_their_scalars(tmp_path: Path) -> None:
+    rubber, grid = vc.Material(vc.Elastic(1e6), 0.5), vc.Grid((24, 24), (2e-3, 2e-3))
+    standing = next(vc.march(vc.Sphere(0.01), rubber, vc.step(0.05), grid, [0.0]))
+    names = [name for name, variable in SCALARS.items() if variable.moving]
+    moving = dataclasses.replace(standing, **dict.fromkeys(names, 0.5))
+    path = tmp_path / "result.nc"
+    with ResultWriter(path, Contents(grid, np.zeros(1), "none", moving=True)) as writer:
+        writer.append(moving)
+        writer.finish()
+    stored = vc.open_results(path)
+    labelled = to_dataset([moving], "none", {})
+    for ds in (stored, labelled):
+        assert [float(ds[name][0]) for name in names] == [0.5] * len(names)
+    assert not set(names) & set(to_dataset([standing], "none", {}))
+    assert not set(names) & set(history_of([standing]))
+    assert {"friction_coefficient", "heat"} <= set(history_of([moving]))
 
 
 def test_estimated_errors_are_those_of_the_table() -> None:
     promised = [name for name, variable in SCALARS.items() if variable.has_error]
     # The mean pressure follows from force and area.
-    assert list(ERROR_MODELS) == [name for name in promised if name != "mean_pressure"]
+    standing = scalars_with_error(moving=False)
+    assert list(ERROR_MODELS) == [name for name in standing if name != "mean_pressure"]
     assert set(ZERO_WITHOUT_CONTACT) <= set(promised)
-    assert ("time", *promised, "cells_across", "time_error") == HISTORY_NAMES
 
 
 def test_every_scalar_that_is_shown_has_a_label_and_a_position_of_its_own() -> None:

@@ -181,15 +181,11 @@ def march_coarser_run(
     )
 
 
-#: Scalars of a state that are used to estimate its errors.
-HISTORY_NAMES = ("time", *scalars_with_error(), "cells_across", "time_error")
-
-
 def history_of(states: Sequence[ContactState]) -> History:
-    """Scalars of states over their instants."""
-    return {
-        name: np.array([getattr(state, name) for state in states], float) for name in HISTORY_NAMES
-    }
+    """Scalars of states that are used to estimate their errors, over their instants."""
+    scalars = scalars_with_error(moving=bool(states) and states[0].moving)
+    names = ("time", *scalars, "cells_across", "time_error")
+    return {name: np.array([getattr(state, name) for state in states], float) for name in names}
 
 
 def _parities(run: RunSetup) -> tuple[bool, bool]:

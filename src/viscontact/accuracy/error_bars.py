@@ -116,7 +116,7 @@ def error_bars_from(
     """Estimate errors from coarser runs that have been marched; NaN if there are none."""
     found = list(results)
     if not found:
-        return unknown_bars(len(history["time"]))
+        return unknown_bars(history)
     kinds = _contact_kinds(run, history, found)
     values = {
         name: _bar(run, name, RefinementLevels.of(name, history, found), kinds, history)
@@ -153,15 +153,16 @@ def _contact_kinds(run: RunSetup, history: History, results: list[CoarserResult]
     return ContactKinds(at_end, ended, of_spots, singular, rises_to_ends(times, results), drops)
 
 
-def unknown_bars(count: int) -> ErrorBars:
-    """Errors that are not known, over a number of times.
+def unknown_bars(history: History) -> ErrorBars:
+    """Errors of the scalars of a history that are not known.
 
     Examples
     --------
-    >>> unknown_bars(2).values["force"]
-    array([nan, nan])
+    >>> unknown_bars({"time": np.zeros(2), "force": np.ones(2)}).values
+    {'force': array([nan, nan])}
     """
-    return ErrorBars({name: np.full(count, np.nan) for name in scalars_with_error()}, ())
+    names = [name for name in scalars_with_error() if name in history]
+    return ErrorBars({name: np.full(len(history["time"]), np.nan) for name in names}, ())
 
 
 def _bar(

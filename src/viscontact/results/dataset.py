@@ -18,9 +18,9 @@ from viscontact.results.variables import (
     FIELDS,
     LINES,
     OUTCOME_FLAGS,
-    SCALARS,
     error_name,
     scalar_attributes,
+    scalars_of,
 )
 from viscontact.state import ContactState
 
@@ -39,7 +39,7 @@ def to_dataset(
             np.array([getattr(state, name) for state in states], dtype=variable.kind),
             scalar_attributes(name, errors=errors is not None),
         )
-        for name, variable in SCALARS.items()
+        for name, variable in scalars_of(moving=states[0].moving).items()
     }
     scalars |= {
         error_name(name): ("time", values, ERRORS[error_name(name)].attributes)

@@ -50,6 +50,7 @@ class Variable:
     has_error: bool = False  # estimated and stored with it
     places: Place = Place.NOWHERE
     rank: int = 0  # on pages, cards and figures; tables keep the order of `SCALARS`
+    moving: bool = False  # only results of moving contacts have it
 
     @property
     def attributes(self) -> dict[str, Any]:
@@ -80,16 +81,25 @@ LINES = {"line_load": Variable("N/m", "line load along x: pressure integrated ov
 
 
 def _scalar(
-    units: str, long_name: str, label: str, rank: int, places: Place = Place.NOWHERE
+    units: str,
+    long_name: str,
+    label: str,
+    rank: int,
+    places: Place = Place.NOWHERE,
+    *,
+    moving: bool = False,
 ) -> Variable:
     """A scalar that has an error bar."""
-    return Variable(units, long_name, label=label, has_error=True, places=places, rank=rank)
+    return Variable(
+        units, long_name, label=label, has_error=True, places=places, rank=rank, moving=moving
+    )
 
 
 _EXTENT = Place.TABLE | Place.CARD | Place.RESPONSE
 _MOTION = _EXTENT | Place.FIGURE
 _RESULT = _MOTION | Place.KEY | Place.FACTS | Place.LIVE
 _LINE_LOAD = Place.KEY | Place.CARD | Place.FACTS | Place.RESPONSE | Place.FIGURE
+_RESISTANCE = Place.CARD | Place.RESPONSE | Place.FIGURE
 _FORCE = Place.TABLE | Place.KEY | Place.CARD | Place.LOAD | Place.FIGURE
 
 SCALARS = {
@@ -131,12 +141,51 @@ SCALARS = {
     "loss_per_cycle": _scalar(
         "J", "work lost in the last complete cycle of the load", "Loss per cycle", 14
     ),
+    "position_x": Variable("m", "position of the body's axis along x", moving=True),
+    "position_y": Variable("m", "position of the body's axis along y", moving=True),
+    "resistance_x": _scalar(
+        *("N", "force of the half-space on the body against +x", "Resistance along x", 15),
+        *(_RESISTANCE,),
+        moving=True,
+    ),
+    "resistance_y": _scalar(
+        *("N", "force of the half-space on the body against +y", "Resistance along y", 16),
+        *(_RESISTANCE,),
+        moving=True,
+    ),
+    "friction_coefficient": _scalar(
+        *("1", "resistance against the motion over force", "Friction coefficient", 17),
+        *(_RESISTANCE | Place.KEY | Place.FACTS,),
+        moving=True,
+    ),
+    "motion_work": _scalar(
+        "J",
+        "work of the motion against the resistance since the start",
+        "Motion work",
+        18,
+        moving=True,
+    ),
+    "dissipation": _scalar(
+        "W", "power lost in the bodies", "Dissipation", 19, Place.RESPONSE, moving=True
+    ),
+    "heat": _scalar("J", "energy lost in the bodies since the start", "Heat", 20, moving=True),
     "time_error": Variable("1", "estimated relative error of pressure due to the time steps"),
     "iterations": Variable("1", "iterations of the contact solver", "i4"),
     "residual": Variable("1", "relative violation of the contact conditions"),
     "cells_across": Variable("1", "cells across the contact, along its shorter direction", "i4"),
     "outcome": Variable("1", "how the instant ended", "i1"),
 }
+
+
+def scalars_of(*, moving: bool) -> dict[str, Variable]:
+    """Scalars of a result: all for a moving contact, else those without motion.
+
+    Examples
+    --------
+    >>> set(SCALARS) - set(scalars_of(moving=False)) >= {"position_x", "resistance_x", "heat"}
+    True
+    """
+    return {name: each for name, each in SCALARS.items() if moving or not each.moving}
 
 
 #: Scalars that tables, figures and warnings read by name. A result without one of the others was
@@ -167,9 +216,9 @@ def labels_in(place: Place, stored: Container[Hashable] | None = None) -> dict[s
     return {name: SCALARS[name].label for name in shown_in(place, stored)}
 
 
-def scalars_with_error() -> list[str]:
-    """Names of the scalars whose error is estimated."""
-    return [name for name, variable in SCALARS.items() if variable.has_error]
+def scalars_with_error(*, moving: bool = True) -> list[str]:
+    """Names of the scalars whose error is estimated, of a moving contact or of a standing one."""
+    return [name for name, variable in scalars_of(moving=moving).items() if variable.has_error]
 
 
 #: CF's way to write an enumeration.

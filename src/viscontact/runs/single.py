@@ -125,7 +125,7 @@ def simulate(
             states.append(state if kept else state.without_fields())
     except (ConvergenceError, DomainError) as stop:
         if states:
-            bars = unknown_bars(len(states)) if errors else None
+            bars = unknown_bars(history_of(states)) if errors else None
             stop.partial = labelled(run, states, fields, clock.perf_counter() - started, bars)
         raise
     bars = _bars(run, states) if errors else None

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from viscontact.results.variables import SCALARS
+from viscontact.results.variables import scalars_of
 from viscontact.runs.directory.progress_log import ProgressLog
 from viscontact.state import ContactState
 from written_states import state
@@ -30,7 +30,7 @@ def lines_of(path: Path) -> list[dict[str, Any]]:
 
 def entries(of: ContactState) -> dict[str, Any]:
     """What a line has to say of a state, read back."""
-    found = {name: getattr(of, name) for name in ("time", *SCALARS)}
+    found = {name: getattr(of, name) for name in ("time", *scalars_of(moving=False))}
     known = {k: None if isinstance(v, float) and math.isnan(v) else v for k, v in found.items()}
     outcome = ("converged", "no_contact", "not_converged")[of.outcome]
     return {**known, "outcome": outcome, "warnings": list(of.warnings)}

@@ -14,7 +14,7 @@ import pytest
 import xarray as xr
 
 import viscontact as vc
-from viscontact.results.variables import FIELDS, LINES, SCALARS
+from viscontact.results.variables import FIELDS, LINES, scalars_of
 from viscontact.runs.directory import result_writer
 from viscontact.runs.directory.netcdf_layout import Contents
 from viscontact.runs.directory.result_writer import ResultWriter
@@ -99,7 +99,7 @@ def test_result_describes_itself(path: Path) -> None:
     with vc.open_results(path) as ds:
         assert dict(ds.sizes) == {"time": ROWS, "x": 6, "y": 5, "field_time": len(SOME)}
         assert ds.encoding["unlimited_dims"] == {"time", "field_time"}
-        for name in (*SCALARS, *FIELDS, *LINES, "time", "x", "y", "field_time"):
+        for name in (*scalars_of(moving=False), *FIELDS, *LINES, "time", "x", "y", "field_time"):
             assert ds[name].attrs["units"]
             assert ds[name].attrs["long_name"]
         assert ds["outcome"].attrs["flag_meanings"] == "converged no_contact not_converged"

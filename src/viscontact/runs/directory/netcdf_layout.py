@@ -24,6 +24,8 @@ from viscontact.results.variables import (
     Variable,
     error_name,
     scalar_attributes,
+    scalars_of,
+    scalars_with_error,
 )
 from viscontact.state import ContactState
 from viscontact.time_integration.run_times import field_instants
@@ -49,13 +51,17 @@ class Layout:
     axis: str | None  # dimension of the fields, ``time`` or ``field_time``; None without fields
     errors: bool = False  # True with room for the errors of scalars, NaN until they are known
     kind: str = "f8"  # NumPy's name of the type of the fields
+    moving: bool = False  # True with the scalars of a moving contact
 
     @property
     def columns(self) -> dict[str, tuple[Variable, tuple[str, ...]]]:
         """Each variable with its dimensions, in the order of the file."""
         columns = {name: (variable, (name,)) for name, variable in COORDINATES.items()}
-        scalars = SCALARS | ERRORS if self.errors else SCALARS
+        scalars = scalars_of(moving=self.moving)
         columns |= {name: (variable, ("time",)) for name, variable in scalars.items()}
+        if self.errors:
+            names = map(error_name, scalars_with_error(moving=self.moving))
+            columns |= {name: (ERRORS[name], ("time",)) for name in names}
         found: dict[str, tuple[Variable, tuple[str, ...]]] = dict(columns)
         if self.axis is None:
             return found
@@ -83,6 +89,7 @@ class Contents:
     attributes: Mapping[str, Any] = field(default_factory=dict)  # global ones
     errors: bool = False  # True if errors of the scalars will be added
     tolerance: float = 0.0  # relative error of the pressure, for the precision of the fields
+    moving: bool = False  # True with the scalars of a moving contact
 
     @property
     def kept(self) -> frozenset[float]:
@@ -98,7 +105,7 @@ class Contents:
         """
         axis = field_axis(self.fields) if self.kept else None
         kind = "f4" if self.tolerance >= SINGLE_PRECISION else "f8"
-        return Layout(grid, axis, self.errors, kind)
+        return Layout(grid, axis, self.errors, kind, self.moving)
 
 
 def created(path: Path, layout: Layout, attributes: Mapping[str, Any]) -> netCDF4.Dataset:
@@ -114,7 +121,7 @@ def created(path: Path, layout: Layout, attributes: Mapping[str, Any]) -> netCDF
     for name, (variable, dimensions) in layout.columns.items():
         _create(file, name, variable, dimensions)
     file["x"][:], file["y"][:] = layout.grid.x, layout.grid.y
-    for name in SCALARS:
+    for name in scalars_of(moving=layout.moving):
         file[name].setncatts(scalar_attributes(name, errors=layout.errors))
     file["outcome"].setncatts(OUTCOME_FLAGS)
     _keep_little(file)
@@ -153,14 +160,15 @@ def write_scalars(file: netCDF4.Dataset, row: int, states: Sequence[ContactState
     """Write the scalars of consecutive states, and their instants, from a row on."""
     if not states:
         return
-    for name, variable in {"time": COORDINATES["time"], **SCALARS}.items():
+    scalars = scalars_of(moving=states[0].moving)
+    for name, variable in {"time": COORDINATES["time"], **scalars}.items():
         values = np.array([getattr(state, name) for state in states], dtype=variable.kind)
         file.variables[name][row : row + len(states)] = values
 
 
 def read_scalars(file: netCDF4.Dataset) -> dict[str, NDArray[np.float64]]:
     """Read all scalars, and their instants, by name."""
-    names = ("time", *SCALARS)
+    names = [name for name in ("time", *SCALARS) if name in file.variables]
     return {name: np.asarray(file.variables[name][:], dtype=np.float64) for name in names}
 
 

@@ -14,7 +14,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.results.variables import SCALARS, error_name
+from viscontact.results.variables import error_name, scalars_of
 from viscontact.runs.directory.atomic_files import MAY_BE_HELD, flush_to_disk, fresh_name
 from viscontact.runs.directory.checkpoint import REMEDY
 from viscontact.runs.directory.lock_check import LockCheck, never_lost
@@ -175,7 +175,7 @@ def is_course(path: Path) -> bool:
 
 def _entries(state: ContactState) -> dict[str, Any]:
     entries: dict[str, Any] = {"time": float(state.time)}
-    for name, variable in SCALARS.items():
+    for name, variable in scalars_of(moving=state.moving).items():
         number = float(getattr(state, name))
         whole = variable.kind.startswith("i")
         # JSON has no NaN.
