@@ -1,8 +1,9 @@
 """A run in a directory whose file system has no locks, as a program and for its tests.
 
-`python leased_run.py DIRECTORY DURATION PAUSE` begins or resumes the run under a lease of a
-duration [s], waits in each step [s], and saves after every step. It prints ``begun`` after the
-first; its exit code is 3 if it has lost the lease, and 4 if another process holds it.
+`python leased_run.py DURATION PAUSE` reads the names of directories, a line each. In each it begins
+or resumes the run under a lease of a duration [s], waits in each step [s], and saves after every
+step. It prints ``begun`` after the first step, and at the end ``done``, or the error if it has lost
+the lease.
 """
 
 from __future__ import annotations
@@ -25,7 +26,6 @@ from viscontact.runs.directory.recorder import Recorder
 from viscontact.simulation.setup import RunSetup, prepare_run
 
 COUNT = 20
-LOST, IN_USE = 3, 4
 
 
 def sphere_run() -> RunSetup:
@@ -67,11 +67,9 @@ def main(directory: Path, duration: float, pause: float) -> None:
 
 
 if __name__ == "__main__":
-    try:
-        main(Path(sys.argv[1]), float(sys.argv[2]), float(sys.argv[3]))
-    except LockLost as error:
-        print(error)
-        sys.exit(LOST)
-    except lock.DirectoryInUse as error:
-        print(error)
-        sys.exit(IN_USE)
+    for line in sys.stdin:
+        try:
+            main(Path(line.rstrip("\n")), float(sys.argv[1]), float(sys.argv[2]))
+            print("done", flush=True)
+        except LockLost as error:
+            print(error, flush=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import os
 import random
+import select
 import signal
 import subprocess
 import sys
@@ -19,7 +20,7 @@ import pytest
 import xarray as xr
 
 import leased_run
-from leased_run import COUNT, LOST, leased, opened
+from leased_run import COUNT, leased, opened
 from viscontact.run_files import LOCK_NAME, PROGRESS_NAME, RESULT_NAME
 from viscontact.runs.directory import lease, lease_file, lock_probe
 from viscontact.runs.directory.lease import Lease, LeaseHeld
@@ -427,18 +428,43 @@ def assert_same(directory: Path, whole: Path) -> None:
     assert names(directory) == names(whole)
 
 
-@contextmanager
-def running(directory: Path, pause: float) -> Iterator[subprocess.Popen[str]]:
-    """The run as another process, after its first step."""
-    command = [sys.executable, leased_run.__file__, str(directory), str(SHORT), str(pause)]
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment) as process:
-        assert process.stdout
-        assert process.stdout.readline() == "begun\n"
-        try:
-            yield process
-        finally:
-            process.kill()
+class Runner:
+    """Another process, which computes the run in one directory after another."""
+
+    def __init__(self) -> None:
+        command = [sys.executable, leased_run.__file__, str(SHORT / 2), "0.01"]
+        environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
+        pipe = subprocess.PIPE
+        # Unbuffered, so that a line that can be read is one that was not read before.
+        self.process = subprocess.Popen(
+            command, stdin=pipe, stdout=pipe, env=environment, bufsize=0
+        )
+
+    def begin(self, directory: Path) -> None:
+        """Begin the run, and return after its first step."""
+        assert self.process.stdin
+        self.process.stdin.write(f"{directory}\n".encode())
+        assert self.line() == "begun"
+
+    def line(self) -> str:
+        """The next line of its output."""
+        assert self.process.stdout
+        return self.process.stdout.readline().decode().rstrip("\n")
+
+    def has_ended(self) -> bool:
+        """Whether the run has come to its end, which is not read yet."""
+        return bool(select.select([self.process.stdout], [], [], 0.0)[0])
+
+    def kill(self) -> None:
+        self.process.kill()
+        self.process.communicate()
+
+
+@pytest.fixture(scope="module")
+def runner() -> Iterator[Runner]:
+    found = Runner()
+    yield found
+    found.kill()
 
 
 def taken_over(directory: Path, at: int, act: Callable[[], None]) -> None:
@@ -457,44 +483,45 @@ def taken_over(directory: Path, at: int, act: Callable[[], None]) -> None:
         record.finish()
 
 
-def suspended_and_taken_over(directory: Path, delay: float, at: int) -> bool:
+def suspended_and_taken_over(runner: Runner, directory: Path, delay: float, at: int) -> bool:
     """Suspend a run, take it over, and let it go on while its successor marches.
 
     False if the run had ended before.
     """
-    with running(directory, 0.01) as process:
-        clock.sleep(delay)
-        process.send_signal(signal.SIGSTOP)
+    runner.begin(directory)
+    clock.sleep(delay)
+    runner.process.send_signal(signal.SIGSTOP)
+    os.waitpid(runner.process.pid, os.WUNTRACED)  # it is suspended now
+    has_ended, ends = runner.has_ended(), []
 
-        def resume() -> None:
-            if process.poll() is None:
-                process.send_signal(signal.SIGCONT)
-                said, _ = process.communicate(timeout=60)
-                assert (process.returncode, said.count("taken over")) == (LOST, 1), said
+    def resume() -> None:
+        if not ends:
+            runner.process.send_signal(signal.SIGCONT)
+            ends.append(runner.line())
 
-        was_running = process.poll() is None
-        taken_over(directory, at, resume)
-    return was_running
+    taken_over(directory, at, resume)
+    assert ends[0] == "done" if has_ended else ends[0].count("taken over") == 1, ends
+    return not has_ended
 
 
 @pytest.mark.parametrize(("delay", "at"), [(0.0, 0), (0.1, 8), (0.15, COUNT)])
 def test_run_that_was_suspended_stops_before_its_next_write_and_its_successor_gets_the_same_bits(
-    delay: float, at: int, tmp_path: Path, whole: Path
+    delay: float, at: int, tmp_path: Path, whole: Path, runner: Runner
 ) -> None:
-    assert suspended_and_taken_over(tmp_path, delay, at)
+    assert suspended_and_taken_over(runner, tmp_path, delay, at)
     assert_same(tmp_path, whole)
 
 
 @pytest.mark.slow
 def test_runs_that_are_suspended_at_random_moments_do_not_disturb_their_successors(
-    tmp_path: Path, whole: Path
+    tmp_path: Path, whole: Path, runner: Runner
 ) -> None:
     chance, suspended = random.Random(20261123), 0
     for number in range(40):
         directory = tmp_path / str(number)
         directory.mkdir()
         delay, at = chance.uniform(0, 0.3), chance.randrange(COUNT)
-        suspended += suspended_and_taken_over(directory, delay, at)
+        suspended += suspended_and_taken_over(runner, directory, delay, at)
         assert_same(directory, whole)
     assert suspended > 30
 
@@ -502,9 +529,9 @@ def test_runs_that_are_suspended_at_random_moments_do_not_disturb_their_successo
 def test_killed_run_is_resumed_by_another_process_to_the_same_bits(
     tmp_path: Path, whole: Path
 ) -> None:
-    with running(tmp_path, 0.01) as process:
-        clock.sleep(0.05)
-        process.kill()
-        process.wait(30)
+    runner = Runner()
+    runner.begin(tmp_path)
+    clock.sleep(0.05)
+    runner.kill()
     taken_over(tmp_path, 0, lambda: None)
     assert_same(tmp_path, whole)
