@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shlex
 import subprocess
 import sys
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import pytest
@@ -32,8 +34,8 @@ WORDS = ["run", "my ball.yaml", "--vary", "load.force=0.2 N,0.4 N,9 N", "-q"]
 BATCH = """\
 import os, re, subprocess, sys
 text = open(sys.argv[1], encoding="utf-8").read()
-tasks = re.search(r"^#(?:SBATCH --array=|PBS -J )([0-9,-]+)", text, re.MULTILINE)[1]
-for part in tasks.split(","):
+tasks = re.search(r"^#(?:SBATCH --array=|PBS -J )([0-9,-]+)", text, re.MULTILINE)
+for part in (tasks[1] if tasks else "0").split(","):
     first, _, last = part.partition("-")
     for number in range(int(first), int(last or first) + 1):
         index = {"SLURM_ARRAY_TASK_ID": str(number), "PBS_ARRAY_INDEX": str(number)}
@@ -99,9 +101,22 @@ def test_a_job_array_ends_in_the_bits_of_the_sweep_computed_here(
     assert failure["message"][0].endswith(here["message"][0])  # the path may be a whole one
     # What is left of it, as another array.
     words = [*WORDS, "-o", "out", "--resume", "-j", "2", "--array"]
-    assert main([*words, script]) == (0 if script.endswith("pbs") else 2)  # it is the same for PBS
-    assert main([*words, "left.sbatch"]) == 0
-    assert "#SBATCH --array=2%2\n" in Path("left.sbatch").read_text(encoding="utf-8")
+    assert main([*words, script]) == 2  # the script of all runs is kept
+    left = f"left{Path(script).suffix}"
+    assert main([*words, left]) == 0
+    submit = capsys.readouterr().out.strip()
+    Path("out/my ball_force=9N", FAILURE_NAME).unlink()
+    results = [Path("out", f"my ball_force={force}", RESULT_NAME) for force in ("0.2N", "0.4N")]
+    before = [result.stat().st_mtime_ns for result in results]
+    subprocess.run(submit, shell=True, check=True, capture_output=True)
+    assert Path("out/my ball_force=9N", FAILURE_NAME).exists()
+    assert [result.stat().st_mtime_ns for result in results] == before
+    text = Path(left).read_text(encoding="utf-8")
+    if script.endswith("pbs"):  # it has no lists of tasks, and no arrays of one
+        assert "#PBS -J" not in text
+        assert "runs=(2)\n" in text
+    else:
+        assert "#SBATCH --array=2%2\n" in text
 
 
 def test_a_task_resumes_its_run_and_leaves_a_finished_one_alone(
@@ -178,21 +193,27 @@ def test_scripts_request_what_the_runs_need() -> None:
     assert "#SBATCH --time=30:00:00\n" in slurm_script(array(10, seconds=36e3))
     assert "#PBS -l select=1:ncpus=1:mem=500mb\n" in pbs_script(array(10))
     assert "#PBS -J" not in pbs_script(array(1))
-    assert "#PBS -J 0-9%3\n" in pbs_script(array(10, left=[4], at_once=3))
+    assert "#PBS -J 0-2%3\n" in pbs_script(array(10, left=[4, 7, 8], at_once=3))
 
 
 @pytest.mark.skipif(os.name == "nt", reason="batch systems run on Unix")
-@pytest.mark.parametrize("count", [3, 9, 10, 11])
+@pytest.mark.parametrize("script", [slurm_script, pbs_script])
+@pytest.mark.parametrize(
+    "left", [range(3), range(9), range(10), [10], [0, 1, 6], [1, 2, 3, 5, 7, 8, 9, 10]]
+)
 def test_tasks_of_a_long_array_compute_each_run_once(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, count: int
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    left: Sequence[int],
+    script: Callable[[JobArray], str],
 ) -> None:
     monkeypatch.setattr(job_array, "MOST_TASKS", 4)
     program = f"echo >> {shlex.quote(str(tmp_path / 'ran'))}"
-    for text in (slurm_script(array(count, program=program)), pbs_script(array(count))):
-        assert "-3\n" in text or count == 9 or "-2\n" in text
-    script = tmp_path / "a.sbatch"
-    script.write_text(slurm_script(array(count, program=program)), encoding="utf-8")
+    text = script(array(11, left=left, program=program))
+    (tmp_path / "script").write_text(text, encoding="utf-8")
     (tmp_path / "batch.py").write_text(BATCH, encoding="utf-8")
-    subprocess.run([sys.executable, tmp_path / "batch.py", script], check=True)
+    subprocess.run([sys.executable, tmp_path / "batch.py", tmp_path / "script"], check=True)
     ran = (tmp_path / "ran").read_text(encoding="utf-8").splitlines()
-    assert [int(line.split()[2]) for line in ran] == list(range(count))
+    assert [int(line.split()[2]) for line in ran] == list(left)
+    numbers = re.search(r"(?:--array=|-J )0-(\d+)\n", text)
+    assert numbers is None or int(numbers[1]) < 4

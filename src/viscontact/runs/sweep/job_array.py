@@ -43,33 +43,35 @@ class JobArray:
     @property
     def runs_per_task(self) -> int:
         """Number of runs that a task computes one after another."""
-        return math.ceil(self.runs / MOST_TASKS)
+        return math.ceil(len(self.left) / MOST_TASKS)
 
     @property
-    def tasks(self) -> str:
-        """Numbers of the tasks, as `0-9,12`."""
-        if self.runs_per_task == 1:
-            return _ranges(self.left)
-        return f"0-{math.ceil(self.runs / self.runs_per_task) - 1}"
+    def tasks(self) -> int:
+        """Number of tasks."""
+        return math.ceil(len(self.left) / self.runs_per_task)
 
-    def command(self, index: str) -> str:
-        """Shell commands of a task, with the variable that holds its number."""
-        threads = f" --threads {self.threads}" if self.threads != 1 else ""
-        name = shlex.quote(str(self.manifest))
+    def numbered_command(self, index: str) -> str:
+        """Shell command of a task with the number of its run, in a variable."""
+        # In place of the shell, so that the signal to save reaches it.
+        return f"exec {self._run(f'${index}')}\n"
+
+    def listed_command(self, index: str) -> str:
+        """Shell commands of a task with its number, in a variable; they list all runs."""
         each = self.runs_per_task
+        listed = f"runs=({_numbers(self.left)})\n"
         if each == 1:
-            # In place of the shell, so that the signal to save reaches it.
-            return f"exec {self.program} run --task ${index} {name}{threads}\n"
+            return f"{listed}exec {self._run(f'${{runs[{index}]}}')}\n"
         return (
-            f"first=$(({index} * {each}))\n"
-            f"last=$((first + {each - 1} < {self.runs - 1} ? first + {each - 1} : "
-            f"{self.runs - 1}))\n"
-            "failed=0\n"
-            "for run in $(seq $first $last); do\n"
-            f"  {self.program} run --task $run {name}{threads} || failed=1\n"
+            f"{listed}failed=0\n"
+            f'for run in "${{runs[@]:{index} * {each}:{each}}}"; do\n'
+            f"  {self._run('$run')} || failed=1\n"
             "done\n"
             "exit $failed\n"
         )
+
+    def _run(self, number: str) -> str:
+        threads = f" --threads {self.threads}" if self.threads != 1 else ""
+        return f"{self.program} run --task {number} {shlex.quote(str(self.manifest))}{threads}"
 
     @property
     def megabytes(self) -> int:
@@ -86,12 +88,17 @@ class JobArray:
 
 def slurm_script(array: JobArray) -> str:
     """Script for ``sbatch``; a task is asked to save a minute before its time is over."""
+    index = "SLURM_ARRAY_TASK_ID"
+    if array.runs <= MOST_TASKS:
+        tasks, command = _ranges(array.left), array.numbered_command(index)
+    else:  # numbers of tasks are limited, too
+        tasks, command = f"0-{array.tasks - 1}", array.listed_command(index)
     limit = f"%{array.at_once}" if array.at_once else ""
     logs = str(array.logs).replace("%", "%%")
     return (
         "#!/bin/bash\n"
         f"#SBATCH --job-name={array.name}\n"
-        f"#SBATCH --array={array.tasks}{limit}\n"
+        f"#SBATCH --array={tasks}{limit}\n"
         f"#SBATCH --cpus-per-task={array.threads}\n"
         f"#SBATCH --mem={array.megabytes}M\n"
         f"#SBATCH --time={array.wall_time}\n"
@@ -99,39 +106,47 @@ def slurm_script(array: JobArray) -> str:
         "#SBATCH --requeue\n"
         "#SBATCH --open-mode=append\n"
         f'#SBATCH --output="{logs}/%a.txt"\n'
-        f"\n{array.command('SLURM_ARRAY_TASK_ID')}"
+        f"\n{command}"
     )
 
 
 def pbs_script(array: JobArray) -> str:
     """Script for ``qsub`` of PBS Professional and OpenPBS, whose arrays have two tasks or more."""
-    whole = _whole(array)
     limit = f"%{array.at_once}" if array.at_once else ""
     size = f"ncpus={array.threads}:mem={array.megabytes}mb"
     return (
         "#!/bin/bash\n"
         f"#PBS -N {array.name[:15]}\n"
-        + (f"#PBS -J {whole.tasks}{limit}\n" if whole.runs > 1 else "")
+        + (f"#PBS -J 0-{array.tasks - 1}{limit}\n" if array.tasks > 1 else "")
         + f"#PBS -l select=1:{size}\n"
         f"#PBS -l walltime={array.wall_time}\n"
         "#PBS -r y\n"
         "#PBS -j oe\n"
         f"#PBS -o {array.logs}/\n"
-        f"\nPBS_ARRAY_INDEX=${{PBS_ARRAY_INDEX:-0}}\n{whole.command('PBS_ARRAY_INDEX')}"
+        f"\nPBS_ARRAY_INDEX=${{PBS_ARRAY_INDEX:-0}}\n{array.listed_command('PBS_ARRAY_INDEX')}"
     )
 
 
-def _whole(array: JobArray) -> JobArray:
-    """Array of all runs: PBS knows no lists of numbers."""
-    return JobArray(**{**vars(array), "left": range(array.runs)})
-
-
 def _ranges(numbers: Sequence[int]) -> str:
-    """Numbers in rising order as ranges.
+    """Numbers in rising order, as SLURM takes them.
 
     >>> _ranges([0, 1, 2, 5, 7, 8])
     '0-2,5,7-8'
     """
-    runs = groupby(enumerate(numbers), key=lambda pair: pair[1] - pair[0])
-    found = [[number for _, number in pairs] for _, pairs in runs]
-    return ",".join(f"{each[0]}-{each[-1]}" if len(each) > 1 else f"{each[0]}" for each in found)
+    return ",".join(f"{a}-{b}" if b > a else f"{a}" for a, b in _intervals(numbers))
+
+
+def _numbers(numbers: Sequence[int]) -> str:
+    """Numbers in rising order, as Bash expands them.
+
+    >>> _numbers([0, 1, 2, 5, 7, 8])
+    '{0..2} 5 {7..8}'
+    """
+    return " ".join(f"{{{a}..{b}}}" if b > a else f"{a}" for a, b in _intervals(numbers))
+
+
+def _intervals(numbers: Sequence[int]) -> list[tuple[int, int]]:
+    """First and last of each group of consecutive numbers."""
+    groups = groupby(enumerate(numbers), key=lambda pair: pair[1] - pair[0])
+    found = [[number for _, number in pairs] for _, pairs in groups]
+    return [(each[0], each[-1]) for each in found]
