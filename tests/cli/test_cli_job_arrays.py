@@ -8,6 +8,8 @@ import re
 import shlex
 import subprocess
 import sys
+import threading
+import time as clock
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
@@ -15,7 +17,13 @@ import pytest
 import xarray as xr
 
 from viscontact.cli import main
-from viscontact.run_files import FAILURE_NAME, MANIFEST_NAME, RESULT_NAME
+from viscontact.run_files import (
+    FAILURE_NAME,
+    MANIFEST_NAME,
+    PROGRESS_NAME,
+    RESULT_NAME,
+    STOP_NAME,
+)
 from viscontact.runs.directory.lock import locked
 from viscontact.runs.sweep import job_array
 from viscontact.runs.sweep.job_array import JobArray, pbs_script, slurm_script
@@ -145,6 +153,33 @@ def test_a_task_resumes_its_run_and_leaves_a_finished_one_alone(
         assert main(["run", "--task", str(number), "out"]) == 2
         place = Path("out", f"my ball_force=0.{2 + 2 * number}N", FAILURE_NAME)
         assert place.exists() is is_failed
+
+
+def test_a_file_stops_tasks_until_the_next_array_is_written(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = [*WORDS, "--set", "time.steps=2000", "-o", "out", "--array"]
+    assert main([*words, "a.sbatch"]) == 0
+    run, stop = Path("out/my ball_force=0.2N"), Path("out", STOP_NAME)
+
+    def ask() -> None:
+        while not (run / PROGRESS_NAME).exists():
+            clock.sleep(0.01)
+        stop.touch()
+
+    asking = threading.Thread(target=ask)
+    asking.start()
+    assert main(["run", "--task", "0", "out", "-q"]) == 130
+    asking.join()
+    with xr.open_dataset(run / RESULT_NAME) as ds:
+        assert 0 < ds.sizes["time"] < 2001
+    assert "continue with: viscontact run" in capsys.readouterr().err
+    assert main(["run", "--task", "1", "out"]) == 130
+    assert f"{stop} asks the runs of this sweep to stop; remove it" in capsys.readouterr().err
+    assert not Path("out/my ball_force=0.4N").exists()
+    assert main([*words, "b.sbatch", "--resume"]) == 0
+    assert not stop.exists()
+    assert not list(Path("out").rglob(FAILURE_NAME))
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ from viscontact.cli.many.jobs import checked_sweep
 from viscontact.cli.many.request import ManyRequest
 from viscontact.cli.terminal.messages import refuse, say
 from viscontact.cli.terminal.streams import printing
-from viscontact.run_files import MANIFEST_NAME
+from viscontact.run_files import MANIFEST_NAME, STOP_NAME
 from viscontact.runs.directory.atomic_files import replacing
 from viscontact.runs.execution.checked_run import checked_run
 from viscontact.runs.execution.execution import before_the_first_step
@@ -59,6 +59,7 @@ def write_array(request: ManyRequest, script: Path) -> None:
         if script.exists() and script.read_text(encoding="utf-8", errors="replace") != text:
             refuse(f"{script}: exists already; submit it, remove it, or choose another name")
         sweep.recorded.write()
+        (directory / STOP_NAME).unlink(missing_ok=True)
         _write(script, text, array.logs)
     with printing():
         print(f"{submit} {shlex.quote(str(script))}")

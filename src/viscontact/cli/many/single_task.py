@@ -7,8 +7,16 @@ from pathlib import Path
 
 from viscontact.cli.many.request import ManyRequest
 from viscontact.cli.run.execution import execute
-from viscontact.cli.terminal.messages import REFUSED, STOPPED, CommandError, refuse
-from viscontact.run_files import MANIFEST_NAME, RESULT_NAME
+from viscontact.cli.terminal.interruption import watched_interruption
+from viscontact.cli.terminal.messages import (
+    INTERRUPTED,
+    REFUSED,
+    STOPPED,
+    CommandError,
+    refuse,
+    stop,
+)
+from viscontact.run_files import MANIFEST_NAME, RESULT_NAME, STOP_NAME
 from viscontact.runs.directory.failure import write_failure
 from viscontact.runs.directory.lock import is_locked
 from viscontact.runs.processes.request import RunRequest
@@ -34,12 +42,21 @@ def execute_task(asked: ManyRequest, array: Path | None, number: int) -> None:
     request = _request(path, _numbered(path, number), common)
     directory = request.output or Path()
     try:
-        execute(request)
+        _execute(request, path.parent / STOP_NAME)
     except CommandError as end:
         is_new = end.code == REFUSED and not (directory / RESULT_NAME).exists()
         if (is_new or end.code == STOPPED) and not is_locked(directory):
             write_failure(directory, "refused" if is_new else "stopped", STOPPED, end.lines)
         raise
+
+
+def _execute(request: RunRequest, file: Path) -> None:
+    """Compute a run, which a file in the directory of the sweep may stop."""
+    if file.exists():
+        stop(f"{file} asks the runs of this sweep to stop; remove it first", code=INTERRUPTED)
+    with watched_interruption() as interruption:
+        interruption.file = file
+        execute(request)
 
 
 def _request(path: Path, run: SweepRun, common: RunRequest) -> RunRequest:

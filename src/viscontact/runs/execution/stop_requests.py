@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
+import time as clock
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
+
+#: Time between two looks at a file that requests to stop [s].
+_PAUSE = 0.5
 
 
 class StopRequests:
     """State of the requests to stop.
 
-    `over`: the work is done, and further requests have no effect.
+    `over`: the work is done, and further requests have no effect. `file`: its existence is a
+    request, which any process that sees its disk can make.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, file: Path | None = None) -> None:
         self.over = False
+        self.file, self._looked_at = file, -_PAUSE
         self._requested = False
         self._marching = False
         self._postponed = 0
@@ -21,7 +28,11 @@ class StopRequests:
 
     @property
     def requested(self) -> bool:
-        """True after a request to stop after the current step."""
+        """True after a request to stop after the current step; the file is seen at intervals."""
+        now = clock.monotonic()
+        if self.file is not None and not self._requested and now - self._looked_at >= _PAUSE:
+            self._looked_at = now
+            self._requested = self.file.exists()
         return self._requested
 
     @contextmanager

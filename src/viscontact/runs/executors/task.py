@@ -26,8 +26,8 @@ from viscontact.state import ContactState
 
 #: Longest predicted duration of a run that is computed in the process of its task [s].
 LONGEST_WARM = 10.0
-#: Time between two looks at a process or a lock, and at a file that requests to stop [s].
-PAUSE, STOP_PAUSE = 0.1, 0.5
+#: Time between two looks at a process or a lock [s].
+PAUSE = 0.1
 #: Attempts of a run whose process is killed.
 ATTEMPTS = 2
 
@@ -68,23 +68,6 @@ class Outcome:
     said: tuple[str, ...] = ()
 
 
-class FileRequests(StopRequests):
-    """Request to stop by a file, which any process that sees its disk can make."""
-
-    def __init__(self, path: Path | None) -> None:
-        super().__init__()
-        self._path, self._looked_at = path, -STOP_PAUSE
-
-    @property
-    def requested(self) -> bool:
-        """True once the file is there; it is looked for at intervals."""
-        now = clock.monotonic()
-        if self._path is not None and not self._requested and now - self._looked_at >= STOP_PAUSE:
-            self._looked_at = now
-            self._requested = self._path.exists()
-        return self._requested
-
-
 class RecordedTask(Protocol):
     """Task that computes a run in its directory."""
 
@@ -108,7 +91,7 @@ def perform(task: RecordedTask, stops: StopRequests | None = None) -> Outcome:
 
     Short runs are computed in this process, one at a time; others are processes of their own.
     """
-    stops = FileRequests(task.stop) if stops is None else stops
+    stops = StopRequests(task.stop) if stops is None else stops
     while is_locked(task.directory) and not stops.requested:
         clock.sleep(PAUSE)  # the process of an earlier attempt, or of the run itself, is saving
     if stops.requested:
