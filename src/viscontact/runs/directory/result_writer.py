@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import shutil
 import time as clock
-from collections.abc import Iterator, Mapping
-from contextlib import AbstractContextManager, contextmanager, suppress
+from collections.abc import Mapping
+from contextlib import AbstractContextManager, suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, Self
@@ -33,6 +33,7 @@ from viscontact.runs.directory.netcdf_layout import (
     write_scalars,
 )
 from viscontact.runs.directory.stored_result import check_result, stored_grid
+from viscontact.runs.directory.write_guard import WriteGuard
 from viscontact.state import ContactState
 
 #: Rows of scalars that wait in memory at most.
@@ -88,7 +89,7 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
     def __init__(self, path: str | Path, contents: Contents, check: LockCheck = never_lost) -> None:
         self._set_up(Path(path), contents, START, check)
         self._layout = contents.layout(contents.grid)
-        with self._writing():
+        with self._guard.writing():
             self._create()
 
     @classmethod
@@ -105,12 +106,13 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
         # The result may be ahead of the position, on a larger grid.
         writer._layout = contents.layout(stored_grid(Path(path), writer.grid))
         check_result(writer._path, writer._layout, writer._done)
-        with writer._writing():
+        with writer._guard.writing():
             writer._create(writer._path, writer._layout)
         return writer
 
     def _set_up(self, path: Path, contents: Contents, position: Position, check: LockCheck) -> None:
         self._path, self._contents, self._check = path, contents, check
+        self._guard = WriteGuard(path, check)
         self._open: netCDF4.Dataset | None = None
         self._done = Extent(position["rows"], position["field_rows"])
         self._published: Extent | None = None
@@ -121,7 +123,6 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
         # States without fields, of rows from `_written` on.
         self._waiting: list[ContactState] = []
         self._written = self._done.rows
-        self._failed = False
         self._kept = contents.kept
 
     @property
@@ -145,7 +146,7 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
         rows, field_rows = self._done
         self._make_room(state.grid)
         if self._layout.axis == "time" or state.time in self._kept:
-            with self._writing():
+            with self._guard.writing():
                 write_fields(self._file(), self._layout, field_rows, state)
             field_rows += 1
         # What an interruption here has left does not count.
@@ -156,7 +157,7 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
         self._warnings += state.warnings
         self._done = Extent(rows + 1, field_rows)
         if len(self._waiting) >= WAITING:
-            with self._writing():
+            with self._guard.writing():
                 self._write_waiting()
 
     def publish(self) -> bool:
@@ -168,25 +169,25 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
 
     def reopen(self) -> None:
         """Make the working file for the next rows."""
-        with self._writing():
+        with self._guard.writing():
             self._file()
 
     def history(self) -> dict[str, NDArray[np.float64]]:
         """Return all scalars and instants so far."""
-        with self._writing():
+        with self._guard.writing():
             self._write_waiting()
             return read_scalars(self._file())
 
     def described_fields(self) -> dict[str, Any] | None:
         """Return the description of the stored fields; None without fields."""
-        with self._writing():
+        with self._guard.writing():
             self._write_waiting()
             return described_fields(self._file())
 
     def finish(self, bars: ErrorBars | None = None) -> None:
         """Publish the complete result, with the errors of its scalars, and close it."""
         if bars is not None:
-            with self._writing():
+            with self._guard.writing():
                 write_errors(self._file(), bars.values)
             self._warnings += bars.warnings
         self._complete = True
@@ -231,7 +232,7 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
         room, layout = self._layout.grid.shape, self._layout
         if grid.shape[0] <= room[0] and grid.shape[1] <= room[1]:
             return
-        with self._writing():
+        with self._guard.writing():
             self._write_waiting()
             self._close()
             self._layout = replace(layout, grid=grid)
@@ -244,7 +245,7 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
             before.unlink()
 
     def _publish(self) -> bool:
-        with self._writing():
+        with self._guard.writing():
             self._write_waiting()
             file = self._file()
             for name, value in self._attributes.items():
@@ -293,20 +294,3 @@ class ResultWriter(AbstractContextManager["ResultWriter"]):
             shutil.copyfile(self._path, self._working)
             self._open = opened(self._working, "a")
         return self._open
-
-    @contextmanager
-    def _writing(self) -> Iterator[None]:
-        """Refuse to write after a failure: a torn working file must not be published."""
-        if self._failed:
-            raise OSError(f"{self._path} could not be written before; resume the run from it")
-        self._check()
-        self._failed = True
-        try:
-            yield
-        except (OSError, RuntimeError) as error:
-            self._check()  # else the files are another run's, which may be the cause
-            if isinstance(error, OSError):
-                raise
-            # What netCDF says where the disk is full.
-            raise OSError(f"{self._path} cannot be written ({error}); is the disk full?") from error
-        self._failed = False
