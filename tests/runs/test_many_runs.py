@@ -12,10 +12,12 @@ import sys
 import time as clock
 import warnings
 from collections.abc import Callable
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 
 import numpy as np
+import psutil
 import pytest
 import xarray as xr
 
@@ -328,7 +330,7 @@ import viscontact as vc
 
 def wait():
     print("begun", flush=True)
-    time.sleep(100)
+    time.sleep(1000)
 
 if __name__ == "__main__":
     vc.simulate_many([wait, wait], workers=2)
@@ -340,12 +342,37 @@ if __name__ == "__main__":
 def test_simulations_whose_script_is_killed_end_with_it(tmp_path: Path) -> None:
     script = tmp_path / "script.py"
     script.write_text(ORPHANS, encoding="utf-8")
-    process = subprocess.Popen([sys.executable, str(script)], stdout=subprocess.PIPE, text=True)
-    assert process.stdout is not None
-    assert [process.stdout.readline() for _ in range(2)] == ["begun\n"] * 2
-    process.kill()
-    # Their output ends when the last of those that write to it has ended.
-    assert process.communicate(timeout=60) == ("", None)
+    with (tmp_path / "errors.txt").open("w+", encoding="utf-8") as errors:
+        process = subprocess.Popen(
+            [sys.executable, str(script)],
+            stdout=subprocess.PIPE,
+            stderr=errors,
+            text=True,
+            start_new_session=True,
+        )
+        assert process.stdout is not None
+        begun = [process.stdout.readline() for _ in range(2)]
+        process.kill()
+        # Their output ends when the last of those that write to it has ended.
+        try:
+            rest, _ = process.communicate(timeout=60)
+        except subprocess.TimeoutExpired:
+            rest = "\n".join(ended_survivors(process.pid))
+        errors.seek(0)
+        assert (begun, rest) == (["begun\n"] * 2, ""), errors.read()
+
+
+def ended_survivors(session: int) -> list[str]:
+    """End the processes of a session; return what they were and where they waited."""
+    found = []
+    for each in psutil.process_iter():
+        with suppress(psutil.Error, OSError):
+            if os.getsid(each.pid) == session:
+                place = Path(f"/proc/{each.pid}/wchan")
+                channel = place.read_text(encoding="ascii") if place.exists() else "?"
+                found.append(f"{each.pid} {each.status()} in {channel}: {each.cmdline()}")
+                each.kill()
+    return found
 
 
 @pytest.mark.slow  # three processes that import everything
