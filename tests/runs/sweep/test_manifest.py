@@ -132,7 +132,7 @@ def test_a_sweep_writes_its_manifest_before_its_first_run(
 ) -> None:
     names: list[list[str]] = []
 
-    def started(*_: object) -> None:
+    def started(*_: object, **__: object) -> None:
         assert len(list(read_manifest(folder / "out" / MANIFEST_NAME))) == 4
         names.append([each.name for each in (folder / "out").iterdir()])
         raise OSError("no process")
@@ -158,7 +158,7 @@ def test_a_sweep_writes_its_manifest_before_its_first_run(
 def test_several_cases_have_a_manifest_if_they_have_a_directory(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def started(*_: object) -> None:
+    def started(*_: object, **__: object) -> None:
         raise OSError("no process")
 
     monkeypatch.setattr("viscontact.runs.executors.local._Worker", started)
