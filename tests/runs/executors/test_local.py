@@ -23,7 +23,7 @@ from viscontact.runs.executors import task as tasks
 from viscontact.runs.executors.driver import drive
 from viscontact.runs.executors.local import LocalTasks, LocalWorkers
 from viscontact.runs.executors.task import Outcome, Task, perform
-from viscontact.runs.executors.worker import perform_in_worker
+from viscontact.runs.executors.worker import WorkerRequests, perform_in_worker
 from viscontact.runs.processes.child import Ended
 from viscontact.runs.processes.job import Job, Standing
 from viscontact.runs.processes.request import RunRequest
@@ -123,6 +123,32 @@ def test_worker_that_starts_after_the_request_to_stop_begins_no_run(case: Path) 
         assert workers.submit(clock.sleep, 0.5).result(60) is None  # the request arrives
         assert workers.submit(perform_in_worker, task).result(60).word == "not begun"
     assert not (case.parent / "a").exists()
+
+
+def test_signal_to_all_processes_and_the_request_that_follows_let_the_step_be_finished(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    requests, cut_off = WorkerRequests(), []
+    monkeypatch.setattr("_thread.interrupt_main", lambda: cut_off.append(True))
+    requests.begin()
+    requests.interrupt(signal.SIGTERM, None)  # as batch systems and `timeout` send it
+    assert requests.requested
+    requests.ask()
+    assert not cut_off
+    requests.ask()
+    assert cut_off
+    with pytest.raises(KeyboardInterrupt):
+        requests.interrupt(signal.SIGINT, None)
+
+
+def test_second_request_before_a_run_begins_leaves_the_worker_alone(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    requests = WorkerRequests()
+    monkeypatch.setattr("_thread.interrupt_main", lambda: requests.interrupt(signal.SIGINT, None))
+    requests.ask()
+    requests.ask()
+    assert requests.requested
 
 
 @pytest.mark.skipif(os.name == "nt", reason="without SIGKILL")

@@ -20,14 +20,15 @@ GROUP_SIGNALS = tuple(
 )  # fmt: skip
 
 
-class _Requests(StopRequests):
+class WorkerRequests(StopRequests):
     """Requests to stop that the parent process has sent."""
 
     def __init__(self) -> None:
         super().__init__()
+        self.over = True  # until a run begins
         self.idle = threading.Event()
         self.idle.set()
-        self._now = False
+        self._asked = self._now = False
 
     def begin(self) -> None:
         """Begin a run: requests have an effect until it is over."""
@@ -40,11 +41,14 @@ class _Requests(StopRequests):
         self.idle.set()
 
     def ask(self) -> None:
-        """Note a request in any thread: the second one stops at once."""
-        if self._requested:
+        """Note a request in any thread: the second one stops at once.
+
+        A signal that a batch system has sent to this process, too, is not the first of two.
+        """
+        if self._asked:
             self._now = True
             _thread.interrupt_main()
-        self._requested = True
+        self._asked = self._requested = True
 
     def interrupt(self, number: int, frame: FrameType | None) -> None:
         """Handle a signal; Ctrl-C at the terminal reaches this process, too, and is ignored."""
@@ -54,7 +58,7 @@ class _Requests(StopRequests):
             self.request()
 
 
-_REQUESTS = _Requests()
+_REQUESTS = WorkerRequests()
 
 
 def begin_worker(parent: Connection) -> None:
