@@ -29,6 +29,7 @@ from numpy.typing import NDArray
 from scipy.special import ive
 
 from viscontact.halfspace.influence import influence_coefficient
+from viscontact.units.formatting import format_quantity
 
 #: Influence coefficients at offsets along and across the motion [m], for cells of two edges [m].
 Coefficient: TypeAlias = Callable[
@@ -133,7 +134,8 @@ def _delayed(
     amplitudes, lengths = modes
     last = (count - 1) * cell[0]
     if last >= period / 2:
-        raise ValueError(f"a table over {2 * last:g} m is longer than the period of {period:g} m")
+        span, length = format_quantity(2 * last, "m"), format_quantity(period, "m")
+        raise ValueError(f"a table over {span} is longer than the period of {length}")
     ahead = _panel_edges(count, cell[0], DECAY_LENGTHS * float(lengths.max()), period / 2)
     # L is even: behind the loaded cell lie the same panels and samples in reverse.
     nodes = ahead[:-1, None] + np.diff(ahead)[:, None] * (1 + NODES) / 2
