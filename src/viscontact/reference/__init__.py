@@ -29,6 +29,13 @@ from viscontact.reference.punch_history import (
     punch_staircase,
     series_complex_compliance,
 )
+from viscontact.reference.steady_motion import (
+    MovingCylinder,
+    fast_sphere_friction_coefficient,
+    moving_cylinder,
+    moving_wave_resistance,
+    slow_friction_coefficient,
+)
 from viscontact.reference.ting import TingHump, ting_hump
 from viscontact.reference.ting_cycles import TingCycles, ting_cycles
 from viscontact.reference.ting_force_triangle import TingForceTriangle, ting_force_triangle
@@ -43,6 +50,7 @@ __all__ = [
     "FlatPunchContact",
     "LeeRadokContact",
     "LineContact",
+    "MovingCylinder",
     "PunchOscillation",
     "PunchProfile",
     "ResolutionError",
@@ -55,6 +63,7 @@ __all__ = [
     "WavyContact",
     "clustered_times",
     "cone",
+    "fast_sphere_friction_coefficient",
     "flat_punch",
     "full_contact_pressure",
     "hertz_elliptical",
@@ -62,12 +71,15 @@ __all__ = [
     "hertz_sphere",
     "lee_radok_ramp",
     "lee_radok_step",
+    "moving_cylinder",
+    "moving_wave_resistance",
     "press_axisymmetric",
     "punch_harmonic",
     "punch_harmonic_start",
     "punch_staircase",
     "resolution_error",
     "series_complex_compliance",
+    "slow_friction_coefficient",
     "ting_cycles",
     "ting_force_triangle",
     "ting_hump",
