@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.display import Displayable
+from viscontact.units.axis_flags import NEITHER, AxisFlags
 from viscontact.units.numbers import as_real, finite, positive, whole
 
 #: Quantities that a mesh can be chosen for.
@@ -29,12 +30,15 @@ class Grid(Displayable):
     Parameters
     ----------
     shape : tuple of int
-        Numbers of cells (nx, ny) along x and y; at least 4 each.
+        Numbers of cells (nx, ny) along x and y; at least 4 each, or 1 along a periodic axis along
+        which nothing varies.
     size : tuple of float
         Extents (lx, ly) of the whole grid [m].
-    periodic : bool, optional
+    periodic : bool or pair of bool, optional
         If true, the grid is one period of a surface that is periodic along x and y; otherwise it
-        is a part of a half-space without load outside.
+        is a part of a half-space without load outside. A pair gives each axis its own: with
+        ``(True, False)`` bodies and load repeat along x and are alone across (a line contact, a
+        row of rollers). The force is then that of one period, and the approach has no datum.
     centre : tuple of float, optional
         Position (x, y) of the middle of the grid [m]; the origin by default. Moments and
         eccentricities are about the origin on every grid.
@@ -42,9 +46,9 @@ class Grid(Displayable):
     Raises
     ------
     ValueError
-        If a number of cells is not a whole number of at least 4, an extent is not
-        positive and finite, periodic is neither true nor false, or the centre is no pair of finite
-        numbers.
+        If a number of cells is not a whole number of at least 4 (or 1 along a periodic axis), an
+        extent is not positive and finite, periodic is neither true nor false nor a pair of these,
+        or the centre is no pair of finite numbers.
 
     Examples
     --------
@@ -55,28 +59,41 @@ class Grid(Displayable):
     [-0.0075, -0.0025, 0.0025, 0.0075]
     >>> Grid(shape=(4, 8), size=(0.02, 0.02), centre=(0.5, 0.0)).x.tolist()
     [0.4925, 0.4975, 0.5025, 0.5075]
+    >>> Grid((1, 64), (1e-3, 2e-3), periodic=(True, False)).periodic
+    (True, False)
     """
 
     shape: tuple[int, int] = field(metadata={"unit": "1"})
     size: tuple[float, float] = field(metadata={"unit": "m"})
-    periodic: bool = False
+    periodic: AxisFlags = NEITHER
     centre: tuple[float, float] = field(
         default=(0.0, 0.0), kw_only=True, metadata={"unit": "m", "recorded": "if given"}
     )
 
+    if TYPE_CHECKING:  # any of these forms is kept as a pair
+
+        def __init__(
+            self,
+            shape: tuple[int, int],
+            size: tuple[float, float],
+            periodic: bool | tuple[bool, bool] = False,
+            *,
+            centre: tuple[float, float] = (0.0, 0.0),
+        ) -> None: ...
+
     def __post_init__(self) -> None:
         cells, extents = _pair("shape", self.shape), _pair("size", self.size)
-        for name, count in zip(("nx", "ny"), cells, strict=True):
-            whole(f"grid.shape: {name}", count, 4)
+        periodic = AxisFlags(self.periodic, "grid.periodic")
+        for name, count, repeats in zip(("nx", "ny"), cells, periodic, strict=True):
+            if not (repeats and as_real(count) == 1):
+                whole(f"grid.shape: {name}", count, 4)
         for name, extent in zip(("lx", "ly"), extents, strict=True):
             positive(f"grid.size: {name}", extent, "m")
-        if not isinstance(self.periodic, bool | np.bool_):
-            raise ValueError(f"grid.periodic must be true or false, got {self.periodic!r}")
         middle = _pair("centre", self.centre)
         for name, place in zip("xy", middle, strict=True):
             finite(f"grid.centre: {name}", place, "m")
         object.__setattr__(self, "centre", (float(middle[0]), float(middle[1])))
-        object.__setattr__(self, "periodic", bool(self.periodic))
+        object.__setattr__(self, "periodic", periodic)
         object.__setattr__(self, "shape", (int(cells[0]), int(cells[1])))
         object.__setattr__(self, "size", (float(extents[0]), float(extents[1])))
 
@@ -99,6 +116,15 @@ class Grid(Displayable):
     def area(self) -> float:
         """Area of the whole grid [m²]; the mean pressure of a period is its force over this."""
         return self.size[0] * self.size[1]
+
+    @property
+    def has_datum(self) -> bool:
+        """False if the grid is periodic along one axis only: the approach has no datum there.
+
+        The displacement under a load that repeats along a line goes as the logarithm of the
+        distance from it, so that no point of the half-space is at rest.
+        """
+        return self.periodic[0] == self.periodic[1]
 
     @property
     def x(self) -> NDArray[np.float64]:
@@ -170,7 +196,7 @@ class Grid(Displayable):
                 f"a grid of {self.shape} cells is widened by as many cells on either side, "
                 f"not to {shape}"
             )
-        if self.periodic and any(more):
+        if any(count and repeats for count, repeats in zip(more, self.periodic, strict=True)):
             raise ValueError(f"a period of {self.shape} cells has no more, got {shape}")
         pairs = zip(self.size, self.shape, shape, strict=True)
         along, across = (s if old == new else s / old * new for s, old, new in pairs)
@@ -270,32 +296,3 @@ def _centres(cells: int, extent: float, middle: float) -> NDArray[np.float64]:
     # Built from whole numbers so that mirrored centres are exact opposites around the origin.
     offsets = (2 * np.arange(cells) - (cells - 1)).astype(np.float64)
     return middle + offsets * (extent / (2 * cells))
-
-
-def height_over_neighbours(gap: NDArray[np.float64], axis: int) -> NDArray[np.float64]:
-    """Half the height of each point over the mean of its two neighbours along an axis [m].
-
-    The gap falls where the surface rises. 0 at dips, at the ends of a line and at holes (+inf).
-
-    Examples
-    --------
-    >>> height_over_neighbours(np.array([[3.0], [1.0], [3.0], [2.0]]), 0).ravel().tolist()
-    [0.0, 1.0, 0.0, 0.0]
-    """
-    height = np.zeros(gap.shape)
-    lines, out = np.moveaxis(gap, axis, 0), np.moveaxis(height, axis, 0)[1:-1]
-    known = np.isfinite(lines[:-2] + lines[1:-1] + lines[2:])
-    mean = (lines[:-2][known] + lines[2:][known]) / 2
-    out[known] = np.maximum(mean - lines[1:-1][known], 0.0) / 2
-    return height
-
-
-def is_even(field: NDArray[np.float64], axis: int) -> bool:
-    """Test whether a field's second half mirrors its first along an axis exactly.
-
-    False for an odd number of cells.
-
-    >>> is_even(np.array([[1.0, 2.0], [1.0, 2.0]]), 0), is_even(np.array([[1.0, 2.0]]), 1)
-    (True, False)
-    """
-    return field.shape[axis] % 2 == 0 and np.array_equal(field, np.flip(field, axis))

@@ -49,17 +49,17 @@ class ContactState:
     force : float
         Integral of the pressure [N].
     eccentricity_x, eccentricity_y : float
-        Position of that resultant [m]; NaN without contact, and on a periodic grid, which has no
-        centre.
+        Position of that resultant [m]; NaN without contact, and along a periodic axis, which has
+        no centre.
     approach : float
         Rigid approach of the bodies, positive when they come closer; on a periodic grid relative
-        to the mean plane of the displaced surface [m].
+        to the mean plane of the displaced surface, NaN on a grid periodic along one axis only [m].
     tilt_x, tilt_y : float
         Rigid slopes, positive when they press the +x or +y end deeper [rad].
     contact_area : float
         Area inside the rim, resolved below the cell size [m²].
     contact_length, contact_width : float
-        Extents of the contact along x and y, on a periodic grid at most a period [m].
+        Extents of the contact along x and y, along a periodic axis at most a period [m].
     peak_pressure, mean_pressure : float
         Largest cell pressure, and force over area [Pa].
     peak_line_load : float
@@ -67,7 +67,8 @@ class ContactState:
         sharp end of the body the line load itself has no limit as cells become smaller.
     work : float
         Work of the load on the contact since the start [J]; exact for an elastic body, across
-        jumps and at the first instant, otherwise second-order accurate in the step.
+        jumps and at the first instant, otherwise second-order accurate in the step. NaN where the
+        approach is.
     loss_per_cycle : float
         Work lost in the last complete cycle of the load; NaN before the first is complete [J].
     time_error : float

@@ -336,7 +336,7 @@ def test_adding_a_number_is_refused():
 @pytest.mark.parametrize(
     ("bad", "shown"),
     [
-        *((0.0, "0 "), (-1e-3, "-1 m"), (math.nan, "nan"), (math.inf, "inf")),
+        *((0.0, "0 "), (-1e-3, "-1 m"), (math.nan, "nan"), (-math.inf, "-inf")),
         *((True, "True"), ("5 mm", "'5 mm'"), (None, "None"), ([1.0], "[1.0]")),
     ],
 )
@@ -355,6 +355,24 @@ def test_bad_length_is_refused_with_its_name_and_value(make, name, bad, shown):
     with pytest.raises(ValueError, match=name) as refusal:
         make(bad)
     assert shown in str(refusal.value)
+
+
+@pytest.mark.parametrize(
+    ("make", "name"),
+    [
+        (lambda: Sphere(math.inf), "Sphere: radius"),
+        (lambda: Paraboloid(math.inf, math.inf), "one of radius_x and radius_y must be finite"),
+        (lambda: Roller(math.inf, 1.0), "Roller: radius"),
+        (lambda: Roller(1.0, math.inf), "Roller: half_length"),
+        (lambda: FlatPunch(half_length=math.inf, half_width=1.0), "half_length"),
+        (lambda: Cone(math.inf), "Cone: half_angle"),
+    ],
+)
+def test_no_body_is_infinite(make, name):
+    """But for a cylinder, with one infinite radius."""
+    with pytest.raises(ValueError, match=name):
+        make()
+    assert Paraboloid(math.inf, 1.0).curvatures == (0.0, 1.0)
 
 
 @pytest.mark.parametrize("bad", [0.0, -1.0, math.nan, math.inf, False, "75 mm"])

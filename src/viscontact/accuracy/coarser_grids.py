@@ -29,14 +29,15 @@ def coarser_grid(grid: Grid, spacing: tuple[float, float], parity: bool) -> Grid
     >>> coarser_grid(Grid((30, 31), (30.0, 31.0)), (2.0, 2.0), parity=True)
     Grid(shape=(16, 17), size=(32.0, 34.0), periodic=False)
     """
-    if grid.periodic:
-        counts = [max(4, round(n / by)) for n, by in zip(grid.shape, spacing, strict=True)]
-        return replace(grid, shape=(counts[0], counts[1]))
-    shape = []
-    for count, by in zip(grid.shape, spacing, strict=True):
+    shape, size = [], []
+    for axis, (count, by) in enumerate(zip(grid.shape, spacing, strict=True)):
+        if grid.periodic[axis]:
+            shape.append(max(min(4, count), round(count / by)))
+            size.append(grid.size[axis])
+            continue
         coarse = max(4, int(np.ceil(count / by - 1e-9)) + 1)
         shape.append(coarse + ((coarse - count) % 2 == parity))
-    size = [n * by * cell for n, by, cell in zip(shape, spacing, grid.cell_size, strict=True)]
+        size.append(shape[axis] * by * grid.cell_size[axis])
     return replace(grid, shape=(shape[0], shape[1]), size=(size[0], size[1]))
 
 
@@ -61,13 +62,18 @@ def straight_ends(run: RunSetup) -> tuple[float, float]:
     """Distances from the grid's centre to the body's straight ends along x and y, in cells.
 
     Those on +x and +y, or else on -x and -y; inf where there is none: the end of a round body has
-    no single place in a cell.
+    no single place in a cell, nor has the end of a body within a period.
     """
     inside = np.isfinite(run.open_gap)
-    if run.grid.periodic or inside.all():
+    if all(run.grid.periodic) or inside.all():
         return np.inf, np.inf
     outline = trace_outline(run.problem.indenter, run.grid)
-    return _straight_end(inside, outline.along_x), _straight_end(inside.T, outline.along_y.T)
+    along_x = _straight_end(inside, outline.along_x)
+    along_y = _straight_end(inside.T, outline.along_y.T)
+    return (
+        np.inf if run.grid.periodic[0] else along_x,
+        np.inf if run.grid.periodic[1] else along_y,
+    )
 
 
 def _straight_end(inside: NDArray[np.bool_], crossings: NDArray[np.float64]) -> float:

@@ -13,8 +13,8 @@ from viscontact.accuracy.coarser_grids import aligned_spacing, coarser_grid
 from viscontact.accuracy.coarser_steps import fewer_times, parts_of_shared_steps
 from viscontact.checks.mesh import cells_across_spots
 from viscontact.checks.singularities import bend_at, cells_at_end, is_sharp, strain_of
+from viscontact.contact.cell_fields import is_even
 from viscontact.errors import ConvergenceError, DomainError
-from viscontact.grid import is_even
 from viscontact.materials.compliance import ContactCompliance
 from viscontact.results.variables import scalars_with_error
 from viscontact.simulation.march import March
@@ -194,7 +194,8 @@ def _parities(run: RunSetup) -> tuple[bool, bool]:
     Of a run that is symmetric on even numbers of cells only a quarter is solved: also on grids that
     keep the parity. They all do where the body does not end, else the larger one.
     """
-    if not (is_even(run.open_gap, 0) and is_even(run.open_gap, 1)):
+    free = [axis for axis, repeats in enumerate(run.grid.periodic) if not repeats]
+    if not all(is_even(run.open_gap, axis) for axis in free):
         return False, True
     return True, bool(np.isfinite(run.open_gap).all())
 

@@ -146,10 +146,12 @@ def _tip_curvature(run: RunSetup, history: History) -> Array:
     """Logarithm of the cells along x, y over the radius of a slender contact's tip; (2, times).
 
     The contact counts as an ellipse, whose tip at the end of its half axis a has the radius b²/a.
-    It is smaller along an axis along which the contact is shorter.
+    It is smaller along an axis along which the contact is shorter. A strip through a whole period
+    has no tip.
     """
     extents = np.array([np.nan_to_num(history[name]) for name in EXTENTS])
-    touching = (history["contact_area"] > 0) & (extents > 0).all(axis=0)
+    strip = _fills_period(run, history).any(axis=0)
+    touching = (history["contact_area"] > 0) & (extents > 0).all(axis=0) & ~strip
     longest = np.where(touching, extents.max(axis=0), 1.0)
     breadth = np.where(touching, history["contact_area"] / (np.pi * longest / 2), 1.0)
     cells = np.array(run.grid.cell_size)[:, None] * longest / 2 / breadth**2
@@ -176,14 +178,26 @@ def _late_area(run: RunSetup, history: History) -> Array:
 
 
 def _half_breadth(run: RunSetup, history: History) -> Array:
-    """Shorter half axis of the contact as an ellipse, in cells."""
+    """Shorter half axis of the contact as an ellipse, or half width of a strip, in cells."""
     cells = history["contact_area"] / run.grid.cell_area
-    return np.asarray(cells / (np.pi / 2 * _cells_along(run, history)))
+    ellipse = np.asarray(cells / (np.pi / 2 * _cells_along(run, history)))
+    for axis, strip in enumerate(_fills_period(run, history)):
+        ellipse = np.where(strip, cells / (2 * run.grid.shape[axis]), ellipse)
+    return ellipse
+
+
+def _fills_period(run: RunSetup, history: History) -> NDArray[np.bool_]:
+    """Times at which the contact fills the only period of a grid, along x, y; (2, times)."""
+    fills = [
+        not run.grid.has_datum and repeats and np.nan_to_num(history[name]) >= size
+        for name, repeats, size in zip(EXTENTS, run.grid.periodic, run.grid.size, strict=True)
+    ]
+    return np.array(np.broadcast_arrays(*fills), dtype=bool)
 
 
 def _least_body_extent_bar(run: RunSetup, axis: int, kinds: ContactKinds) -> Array:
     """Cells in which the contact may end before the body does [m]: pressure falls to its ends."""
-    uncertain = ~kinds.rises[axis] & (not run.grid.periodic)
+    uncertain = ~kinds.rises[axis] & (not run.grid.periodic[axis])
     return np.asarray(np.where(uncertain, LAST_CELLS * run.grid.cell_size[axis], 0.0))
 
 
@@ -209,7 +223,7 @@ def _least_end_area(run: RunSetup, kinds: ContactKinds, history: History) -> Arr
 def _cells_across(run: RunSetup, history: History) -> Array:
     """Cells across the contact, infinite where a whole period is in contact: it has no rim."""
     covered = history["contact_area"] > (1 - ROUNDING) * run.grid.area
-    return np.where(run.grid.periodic & covered, np.inf, history["cells_across"])
+    return np.where(all(run.grid.periodic) & covered, np.inf, history["cells_across"])
 
 
 def _cells_along(run: RunSetup, history: History) -> Array:
@@ -222,7 +236,7 @@ def _least_moment_bar(run: RunSetup, name: str, history: History) -> Array:
     """Effect of the solver's tolerance of the moments, force times extent, on a symmetric body."""
     axis = "contact_length" if name.endswith("x") else "contact_width"
     extent = np.nan_to_num(history[axis])
-    slope = np.abs(history["approach"]) / np.maximum(extent, TINY)
+    slope = np.abs(np.nan_to_num(history["approach"])) / np.maximum(extent, TINY)
     lever = extent if name.startswith("eccentricity") else slope
     tolerance = SOLVER_ERROR_FACTOR * run.problem.tolerance
     return np.asarray(np.where(extent > 0, tolerance * lever, 0.0))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Annotated, Any, get_args
 
@@ -29,6 +30,9 @@ _SMALLEST, _LARGEST = 1e-100, 1e100
 # are refused.
 _MOST_CELLS, _MOST_STEPS = 10**9, 10**5
 
+#: Word for a radius of curvature without end.
+INFINITE = "infinite"
+
 ANY, NOT_NEGATIVE, POSITIVE = "any", "zero or more", "more than zero"
 
 
@@ -44,10 +48,13 @@ class Quantity:
 
     dimension: str
     sign: str = ANY
+    infinite: bool = False  # the word "infinite" is accepted as well
 
     def read(self, given: Any) -> float:
         """Return the SI value of a value in the file."""
         wanted = DIMENSIONS[self.dimension]
+        if self.infinite and given == INFINITE:
+            return math.inf
         if not isinstance(given, str):
             given = _as_text(given, wanted.name, wanted.example)
         try:
@@ -78,9 +85,10 @@ class Quantity:
         where a key has a description of its own; editors skip what begins with x-.
         """
         wanted = DIMENSIONS[self.dimension]
+        pattern = r"^\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?\s*[^\s\d].*$"
         return {
             "type": "string",
-            "pattern": r"^\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?\s*[^\s\d].*$",
+            "pattern": f"^{INFINITE}$|{pattern}" if self.infinite else pattern,
             "description": f"{wanted.name} with its unit, {self.sign}",
             "examples": [wanted.example],
             "x-dimension": self.dimension,
@@ -102,6 +110,7 @@ def _problem(why: str) -> PydanticCustomError:
 
 
 Length = Annotated[float, Quantity("length", POSITIVE)]
+LengthOrInfinite = Annotated[float, Quantity("length", POSITIVE, infinite=True)]
 NotNegativeLength = Annotated[float, Quantity("length", NOT_NEGATIVE)]
 Offset = Annotated[float, Quantity("length")]
 Angle = Annotated[float, Quantity("angle")]

@@ -14,6 +14,7 @@ from viscontact.case.time_grid_output import Cells, Output, Time
 from viscontact.grid import Grid
 from viscontact.loads import LoadHistory
 from viscontact.problem.problem import COARSEST_TOLERANCE, FINEST_TOLERANCE
+from viscontact.units.axis_flags import AxisFlags
 from viscontact.units.dimensions import DIMENSIONS
 
 
@@ -36,10 +37,10 @@ class CaseFile(Section):
 
     @model_validator(mode="after")
     def _accepted(self) -> CaseFile:
-        if self.load.is_by_pressure and not (self.grid and self.grid.periodic):
+        if self.load.is_by_pressure and not (self.grid and all(AxisFlags(self.grid.periodic))):
             raise ValueError(
-                "load.mean_pressure: it goes with a periodic grid, whose area makes a force of it; "
-                "write 'periodic: true' under grid, or give the force"
+                "load.mean_pressure: it goes with a periodic grid (along both axes), whose area "
+                "makes a force of it; write 'periodic: true' under grid, or give the force"
             )
         return self
 

@@ -26,6 +26,7 @@ from viscontact.time_integration.requested_times import (
     log_times,
     uniform_times,
 )
+from viscontact.units.axis_flags import AxisFlags
 from viscontact.units.formatting import format_quantity
 
 #: Default of `first` for log spacing, as a part of the end.
@@ -92,6 +93,16 @@ class Time(Section):
 _GOES_WITH = {"steps": ("uniform", "log"), "first": ("log",), "tolerance": ("adaptive",)}
 
 
+def _one_or_pair(given: Any) -> str:
+    return "pair" if isinstance(given, list | tuple) else "one"
+
+
+_Periodic = Annotated[
+    Annotated[bool, Tag("one")] | Annotated[tuple[bool, bool], Field(strict=False), Tag("pair")],
+    Discriminator(_one_or_pair),
+]
+
+
 class Cells(Section):
     """The grid of pressure cells, or the settings of an automatic one."""
 
@@ -107,9 +118,11 @@ class Cells(Section):
         "origin when left out",
         examples=[["12 mm", "0 mm"]],
     )
-    periodic: bool = Field(
+    periodic: _Periodic = Field(
         default=False,
-        description="whether the grid is one period of an infinite surface, in both directions",
+        description="whether the grid is one period of an infinite surface: in both directions, or "
+        "a pair along x and y",
+        examples=[True, [True, False]],
     )
     tolerance: GridTolerance | None = Field(
         default=None,
@@ -146,7 +159,7 @@ class Cells(Section):
                 f"{requests[0]} goes with an automatic grid, which has no {cells[0]} of yours; "
                 "leave out the one or the other"
             )
-        if self.periodic and not cells:
+        if AxisFlags(self.periodic) and not cells:
             raise ValueError(
                 "periodic goes with shape and size, an automatic grid knows no period; write e.g. "
                 "'shape: [128, 128]' and 'size: [1 mm, 1 mm]'"

@@ -109,13 +109,12 @@ def check_balance(
     solid = np.isfinite(open_gap)
     if not solid.any():
         raise ValueError("grid: no cell lies under the indenter; use a finer or larger grid")
-    if grid.periodic:
-        return  # each period carries its own part of the force
     support = LoadSupport(solid, grid)
+    along_x, along_y = grid.periodic  # each period carries its own part of the force
     for time, point in points:
         where = (
-            None if point.tilt_x is not None else point.eccentricity_x,
-            None if point.tilt_y is not None else point.eccentricity_y,
+            None if along_x or point.tilt_x is not None else point.eccentricity_x,
+            None if along_y or point.tilt_y is not None else point.eccentricity_y,
         )
         support.refuse_outside(where, time)
 

@@ -138,6 +138,7 @@ def strain_warnings(geometry: Geometry, rim: Rim, motion: NDArray[np.float64]) -
     # Without a radius, a steep slope is reported already, and the extents of a contact of few cells
     # are inaccurate.
     known = math.isfinite(radius) or (slope <= STEEP_SLOPE and _spans(rim.contact, FEW_CELLS))
+    known &= geometry.grid.has_datum
     approach = local_approach(geometry.grid, motion)
     if known and approach > most * measure:
         warnings["approach"] = (
@@ -156,7 +157,7 @@ def body_warnings(
     """
     warnings: dict[str, str] = {}
     half_width, (be, reach) = _half_width(rim), geometry._verbs
-    if geometry.grid.periodic and _touches_seam(geometry, rim):
+    if _touches_seam(geometry, rim):
         warnings["seam"] = (
             f"the contact {reach} the border of the period, where the body does not continue: "
             f"at the border it has a step, at which {DEPENDS_ON_MESH}; use a body that continues "
@@ -231,14 +232,17 @@ def _end_warnings(
 
 
 def _touches_seam(geometry: Geometry, rim: Rim) -> bool:
-    """True if contact lies at a step from the period's last cells to its first.
+    """True if contact lies at a step from a period's last cells to its first.
 
     A step is much larger than the differences between neighbouring cells elsewhere.
     """
     for axis, lines in enumerate((rim.rows, rim.columns)):
+        if not geometry.grid.periodic[axis]:
+            continue
         gap = np.moveaxis(geometry.open_gap, axis, 0)
         touched = np.isin([0, len(gap) - 1], lines[rim.contact.any(axis=1 - axis)])
-        seam, inner = np.abs(gap[0] - gap[-1]), np.abs(np.diff(gap, axis=0))
+        with np.errstate(invalid="ignore"):  # outside the body
+            seam, inner = np.abs(gap[0] - gap[-1]), np.abs(np.diff(gap, axis=0))
         known = np.isfinite(seam)
         largest = float(inner[np.isfinite(inner)].max(initial=0.0))
         if touched.any() and float(seam[known].max(initial=0.0)) > SEAM * largest:
@@ -253,7 +257,7 @@ def _spans(contact: NDArray[np.bool_], cells: int) -> bool:
 
 def _half_width(rim: Rim) -> float:
     """Half the smaller extent of a contact [m]."""
-    return min(rim.length, rim.width) / 2
+    return rim.breadth / 2
 
 
 def _ends_within(geometry: Geometry, rim: Rim, distance: float) -> bool:
@@ -272,7 +276,7 @@ def _around(lines: NDArray[np.intp], distance: int, grid: Grid, axis: int) -> ND
     """Lines of the grid from `distance` before the first given line to as many after the last."""
     count = grid.shape[axis]
     first, last = int(lines[0]) - distance, int(lines[-1]) + distance
-    if grid.periodic:
+    if grid.periodic[axis]:
         return np.arange(first, first + min((last - first) % count + 1, count)) % count
     return np.arange(max(first, 0), min(last + 1, count))
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,7 +48,9 @@ def mesh_warnings(cells_across: int, across_spots: float = math.inf) -> dict[str
     }
 
 
-def cells_across_spots(contact: NDArray[np.bool_], *, periodic: bool = False) -> float:
+def cells_across_spots(
+    contact: NDArray[np.bool_], *, periodic: Sequence[bool] = (False, False)
+) -> float:
     """Mean chord of a contact along the axis where it is smaller, in cells; 0 without contact.
 
     It shows what the extents of a contact hide: the spots of a rough surface, or a strip that lies
@@ -60,6 +63,6 @@ def cells_across_spots(contact: NDArray[np.bool_], *, periodic: bool = False) ->
     >>> cells_across_spots(spots)
     2.0
     """
-    if periodic and contact.all():
+    if any(periodic) and contact.all():
         return float(max(contact.shape))
     return float(mean_chords(contact, periodic=periodic).min())

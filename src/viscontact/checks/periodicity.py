@@ -15,6 +15,12 @@ from viscontact.loads import LoadHistory
 from viscontact.loads.arguments import TAIL
 from viscontact.units.formatting import format_quantity
 
+#: Reason why a line contact has no approach (Johnson 1985, Contact Mechanics, section 2.3).
+NO_DATUM = (
+    "under a load that repeats along a line the surface sinks as the logarithm of the distance "
+    "from which it is measured, so that the approach has no datum"
+)
+
 #: Relative difference below which a length equals the period.
 LENGTH_TOLERANCE = 1e-6
 
@@ -27,8 +33,9 @@ def check_period(
 ) -> None:
     """Refuse a shape or a load that does not fit into the period of a periodic grid.
 
-    A load must be centred and level, waves, dimples and height maps must fit into the period, and
-    an approach must not close the gap everywhere. `open_gap` is the gap on the grid [m].
+    Along a periodic axis a load must be centred and level, and waves, dimples and height maps must
+    fit into the period. An approach must not close the gap everywhere; along one periodic axis only
+    it has no datum. `open_gap` is the gap on the grid [m].
 
     Examples
     --------
@@ -44,13 +51,17 @@ def check_period(
     if not grid.periodic:
         return
     for name in TAIL:
-        if np.any(getattr(load, name, None) or 0.0):
+        if grid.periodic["xy".index(name[-1])] and np.any(getattr(load, name, None) or 0.0):
             raise ValueError(
                 f"load.{name}: must be 0 on a periodic grid, where a body that tilted would not "
                 "fit to its next period; leave it out"
             )
     for part in _parts(indenter):
         _refuse_misfit(part, grid)
+    _refuse_variation(indenter, grid)
+    if not grid.has_datum:
+        _refuse_approach(load)
+        return
     mean = float(open_gap.mean())
     if load.control == "approach" and load.largest_level >= mean:
         raise ValueError(
@@ -58,6 +69,66 @@ def check_period(
             "touch everywhere, and an approach says no more about the pressure, got "
             f"{format_quantity(load.largest_level, 'm', 6)}; prescribe the force"
         )
+
+
+def check_endless(indenter: Indenter, grid: Grid | None) -> None:
+    """Refuse a body that continues without end along an axis along which no period ends it.
+
+    `grid` is None for an automatic grid, which is not periodic.
+    """
+    periodic = grid.periodic if grid is not None else (False, False)
+    for name, endless, repeats in zip("xy", indenter.endless, periodic, strict=True):
+        if endless and not repeats:
+            pair = "[true, false]" if name == "x" else "[false, true]"
+            raise ValueError(
+                f"grid.periodic: the body continues along {name} without end, and the grid would "
+                f"cut it off; use a grid that is periodic along {name}, with 'periodic: {pair}', "
+                "'shape' and 'size'"
+            )
+
+
+def datum_warnings(grid: Grid) -> dict[str, str]:
+    """Warn that the approach has no datum on a grid that is periodic along one axis only.
+
+    >>> list(datum_warnings(Grid((1, 8), (1e-3, 1e-3), periodic=(True, False))))
+    ['datum']
+    """
+    if grid.has_datum:
+        return {}
+    return {
+        "datum": (
+            f"the grid is periodic along {'xy'[grid.periodic.index(True)]} only, and {NO_DATUM}: "
+            "approach, work and loss per cycle are not defined (NaN)"
+        )
+    }
+
+
+def _refuse_approach(load: LoadHistory) -> None:
+    """Refuse a prescribed approach where it has no datum."""
+    if load.control == "approach":
+        raise ValueError(
+            f"load.approach: on a grid that is periodic along one axis only {NO_DATUM}, and an "
+            "approach cannot be prescribed; give the force, or use a grid with periodic=False"
+        )
+
+
+def _refuse_variation(indenter: Indenter, grid: Grid) -> None:
+    """Refuse a body that varies along a period of a single cell."""
+    for axis, name in enumerate("xy"):
+        if grid.shape[axis] > 1:
+            continue
+        within = grid.centre[axis] + grid.size[axis] * np.linspace(-0.5, 0.5, 17)
+        places = [grid.x[:, None], grid.y[None, :]]
+        here = indenter.gap(*places)
+        places[axis] = np.expand_dims(within, 1 - axis)
+        there = indenter.gap(*places)
+        depth = float(np.ptp(here[np.isfinite(here)])) if np.isfinite(here).any() else 0.0
+        same = np.isclose(there, here, rtol=0.0, atol=LENGTH_TOLERANCE * depth)
+        if not same.all():
+            raise ValueError(
+                f"grid.shape: a single cell along {name} holds a body along which nothing varies, "
+                "and this one does; use at least 4 cells there"
+            )
 
 
 def _parts(indenter: Indenter) -> Iterator[Indenter]:
@@ -74,10 +145,10 @@ def _parts(indenter: Indenter) -> Iterator[Indenter]:
 def _refuse_misfit(part: Indenter, grid: Grid) -> None:
     """Refuse one shape of a body that does not repeat with the grid."""
     if isinstance(part, HeightMap):
-        for name, lines, centres, period in zip(
-            "xy", (part.x, part.y), (grid.x, grid.y), grid.size, strict=True
-        ):
-            _refuse_map(name, lines, centres, period)
+        axes = zip("xy", (part.x, part.y), (grid.x, grid.y), grid.size, grid.periodic, strict=True)
+        for name, lines, centres, period, repeats in axes:
+            if repeats:
+                _refuse_map(name, lines, centres, period)
     elif math.isfinite(part.period):
         _refuse_texture(part, grid)
     elif isinstance(part, PlacedIndenter) and isinstance(part.body, HeightMap):
@@ -114,6 +185,8 @@ def _refuse_texture(part: Indenter, grid: Grid) -> None:
     """Refuse waves or dimples of which the period does not hold a whole number."""
     here = part.gap(grid.x[:, None], grid.y[None, :])
     for axis, (name, period) in enumerate(zip("xy", grid.size, strict=True)):
+        if not grid.periodic[axis]:
+            continue
         shift = np.where(np.arange(2) == axis, period, 0.0)
         there = part.gap(grid.x[:, None] + shift[0], grid.y[None, :] + shift[1])
         if float(np.abs(there - here).max()) > TEXTURE_TOLERANCE * float(here.max()):

@@ -11,8 +11,9 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
+from viscontact.contact.cell_fields import height_over_neighbours
 from viscontact.contact.rim import Rim
-from viscontact.grid import Grid, height_over_neighbours
+from viscontact.grid import Grid
 from viscontact.indenters import Indenter
 from viscontact.indenters.textures import CELLS_OF_A_WAVE
 from viscontact.units.formatting import format_quantity
@@ -154,16 +155,17 @@ def sampling_warnings(
     missed = 0.0
     if not sampling.sees_all:
         missed = float(rim.cut(sampling.missed).max(where=rim.contact, initial=0.0))
-    extent = min(rim.length, rim.width)
+    extent = rim.breadth
     strain = 2 * local_approach(sampling.grid, motion) / extent if extent > 0 else math.inf
     cell = max(sampling.grid.cell_size)
     warnings = map_warnings(missed, cell, strain) | texture_warnings(
         sampling.indenter, sampling.grid
     )
-    if sampling.grid.periodic:
+    free = [axis for axis, repeats in enumerate(sampling.grid.periodic) if not repeats]
+    if not free:
         return warnings  # the neighbour is the next period, not the body
     # All pressure lies within the grid, so the displacement falls outwards from the grid's rim.
-    rim_displacement = max(displacement[[0, -1]].max(), displacement[:, [0, -1]].max())
+    rim_displacement = max(displacement.take([0, -1], axis).max() for axis in free)
     if sampling.reaches_beyond(motion, rim_displacement * (1 + 1e-9)):
         warnings["beyond"] = (
             "the body would touch outside the grid, too, where nothing is computed: the contact "
@@ -199,8 +201,10 @@ def texture_warnings(indenter: Indenter, grid: Grid) -> dict[str, str]:
 
 
 def _outside(grid: Grid, x: NDArray[np.float64], y: NDArray[np.float64]) -> Points:
-    """The points that lie outside a grid."""
-    outside = np.maximum(*_from_middle(grid, x, y)) > 0.5
+    """The points that lie outside a grid, within the period along an axis that has one."""
+    beyond = np.array(_from_middle(grid, x, y)) > 0.5
+    repeats = np.array(grid.periodic)
+    outside = beyond[~repeats].any(axis=0) & ~beyond[repeats].any(axis=0)
     return x[outside], y[outside]
 
 

@@ -69,8 +69,8 @@ def bend_at(open_gap: NDArray[np.float64], grid: Grid, place: tuple[int, int]) -
     """
     lines = [np.arange(middle - 2, middle + 3) for middle in place]
     lines = [
-        line % count if grid.periodic else line[(line >= 0) & (line < count)]
-        for line, count in zip(lines, grid.shape, strict=True)
+        line % count if repeats else line[(line >= 0) & (line < count)]
+        for line, count, repeats in zip(lines, grid.shape, grid.periodic, strict=True)
     ]
     around = np.where(np.isinf(open_gap[np.ix_(*lines)]), np.nan, open_gap[np.ix_(*lines)])
     bends = [np.abs(np.diff(around, 2, axis=axis)) / grid.cell_size[axis] for axis in (0, 1)]

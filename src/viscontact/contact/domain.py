@@ -8,11 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft
 
+from viscontact.contact.cell_fields import is_even
 from viscontact.contact.rigid_balance import Constraints, RigidPlane
 from viscontact.fourier import Transforms, fastest_transforms, transforms_by
-from viscontact.grid import Grid, is_even
+from viscontact.grid import Grid
 from viscontact.halfspace.convolution import Convolution
 from viscontact.halfspace.influence import influence_table
+from viscontact.halfspace.periodic_influence import periodic_influence_table
 from viscontact.halfspace.preconditioner import Preconditioner
 from viscontact.halfspace.spectral import PeriodicConvolution
 
@@ -59,9 +61,11 @@ class ContactDomain:
     contact stays in it for many steps.
 
     A problem that is even across x = 0 or y = 0 (`mirrored`) needs the cells beyond only: its
-    fields are reduced by `reduce_by_symmetry`, its constraints by `reduced_constraints`. A periodic
-    grid is not mirrored and has no patches: nothing is padded there, and the preconditioner is the
-    exact inverse.
+    fields are reduced by `reduce_by_symmetry`, its constraints by `reduced_constraints`. Along a
+    periodic axis a grid is not mirrored, patches are as long as the period, and nothing is padded;
+    on a grid periodic along both the preconditioner is the exact inverse. On one that is periodic
+    along one axis displacement counts from that at the distance of the grid's size across from a
+    line load.
 
     Examples
     --------
@@ -85,8 +89,8 @@ class ContactDomain:
             raise ValueError(f"a mirrored grid needs an even number of cells, got {grid.shape}")
         if np.any(np.logical_and(mirrored, grid.centre)):
             raise ValueError(f"a mirrored grid is centred on the origin, not on {grid.centre}")
-        if any(mirrored) and grid.periodic:
-            raise ValueError("a periodic grid is worked with as a whole, not mirrored")
+        if np.any(np.logical_and(mirrored, grid.periodic)):
+            raise ValueError("along a period a grid is worked with as a whole, not mirrored")
         self.grid = grid
         self.mirrored = mirrored
         self._transforms = transforms or transforms_by(fastest_transforms())
@@ -94,8 +98,8 @@ class ContactDomain:
             count // 2 if even else 0 for count, even in zip(grid.shape, mirrored, strict=True)
         )
         self.shape = (grid.shape[0] - self._first_row, grid.shape[1] - self._first_column)
-        if not grid.periodic:
-            self._coefficients = influence_table(grid.shape, grid.cell_size)
+        if not all(grid.periodic):
+            self._coefficients = _coefficients(grid)
         self.convolution = self._operator(self.shape, single=False)
         self.whole = self._patch(slice(0, self.shape[0]), slice(0, self.shape[1]))
         self._last = self.whole
@@ -128,9 +132,9 @@ class ContactDomain:
 
     def reduced_constraints(self, constraints: Constraints) -> Constraints:
         """The body's constraints on the independent part of the grid."""
-        if self.grid.periodic:
-            return constraints.level()
         for axis in (0, 1):
+            if self.grid.periodic[axis]:
+                constraints = constraints.level(axis)
             if self.mirrored[axis]:
                 constraints = constraints.halved(axis)
         return constraints
@@ -140,13 +144,9 @@ class ContactDomain:
 
         The last patch if it fits well, the whole grid if a patch would save little.
         """
-        if self.grid.periodic or not cells.any():
+        if all(self.grid.periodic) or not cells.any():
             return self.whole
-        rows, columns = _span(np.any(cells, axis=1)), _span(np.any(cells, axis=0))
-        if self.mirrored[0]:
-            rows = slice(0, rows.stop)
-        if self.mirrored[1]:
-            columns = slice(0, columns.stop)
+        rows, columns = (self._lines(np.any(cells, axis=1 - axis), axis) for axis in (0, 1))
         roomy = (
             _widened(rows, self.shape[0], one_sided=self.mirrored[0]),
             _widened(columns, self.shape[1], one_sided=self.mirrored[1]),
@@ -157,6 +157,13 @@ class ContactDomain:
         if not fits or _size(self._last.rows, self._last.columns) > 1.3 * _size(*roomy):
             self._last = self._patch(*roomy)
         return self._last
+
+    def _lines(self, occupied: NDArray[np.bool_] | np.bool_, axis: int) -> slice:
+        """Lines of cells that a patch must hold: up to the mirror, and all of a period."""
+        span = _span(occupied)
+        if self.grid.periodic[axis]:
+            return slice(0, self.shape[axis])
+        return slice(0, span.stop) if self.mirrored[axis] else span
 
     @property
     def kept_patch(self) -> tuple[int, int, int, int]:
@@ -180,7 +187,7 @@ class ContactDomain:
             rows,
             columns,
             grid.cell_area,
-            float(max(np.multiply(shape, grid.cell_size))),
+            _arm(shape, grid),
             self._operator(shape, single=True),
             Preconditioner(
                 shape, grid.cell_size, mirrored=self.mirrored, transforms=self._transforms
@@ -196,16 +203,34 @@ class ContactDomain:
     def _operator(self, shape: tuple[int, int], *, single: bool) -> Operator:
         """Convolution over a block of cells, or over the whole period."""
         transforms = self._transforms
-        if self.grid.periodic:
+        if all(self.grid.periodic):
             cell_size = self.grid.cell_size
             return PeriodicConvolution(shape, cell_size, single=single, transforms=transforms)
         nx, ny = (cells * (1 + even) for cells, even in zip(shape, self.mirrored, strict=True))
         return Convolution(
             self._coefficients[:nx, :ny],
             mirrored=self.mirrored,
+            periodic=(self.grid.periodic[0], self.grid.periodic[1]),
             single=single,
             transforms=transforms,
         )
+
+
+def _coefficients(grid: Grid) -> NDArray[np.float64]:
+    """Influence coefficients of a grid that is not periodic along both axes [m]."""
+    if not grid.periodic:
+        return influence_table(grid.shape, grid.cell_size)
+    if grid.periodic[0]:
+        return periodic_influence_table(grid.shape, grid.cell_size, grid.size[1])
+    turned = periodic_influence_table(grid.shape[::-1], grid.cell_size[::-1], grid.size[0])
+    return turned.T
+
+
+def _arm(shape: tuple[int, int], grid: Grid) -> float:
+    """Longest edge of a block along an axis without period, if there is one [m]."""
+    extents = np.multiply(shape, grid.cell_size)
+    free = [extent for extent, repeats in zip(extents, grid.periodic, strict=True) if not repeats]
+    return float(max(free or extents))
 
 
 def mirrored_axes(
@@ -216,7 +241,11 @@ def mirrored_axes(
     Moments are about the origin, so that the grid must be centred on it along the axis.
     """
     along_x, along_y = (
-        even_load[axis] and grid.centre[axis] == 0 and is_even(open_gap, axis) for axis in (0, 1)
+        even_load[axis]
+        and not grid.periodic[axis]
+        and grid.centre[axis] == 0
+        and is_even(open_gap, axis)
+        for axis in (0, 1)
     )
     return along_x, along_y
 

@@ -42,7 +42,7 @@ def peak_line_load(load: NDArray[np.float64], grid: Grid, length: float) -> floa
     window = PART * length / grid.cell_size[0]  # in cells
     if not (load.any() and window > 0):
         return float(load.max())
-    if grid.periodic:
+    if grid.periodic[0]:
         load = np.append(load, load[: int(np.ceil(window))])
     edges = np.arange(len(load) + 1)
     before = np.append(0.0, np.cumsum(load))

@@ -45,9 +45,11 @@ class Constraints:
         halves[1 + axis], motions[1 + axis] = None, 0.0
         return Constraints((halves[0], halves[1], halves[2]), (motions[0], motions[1], motions[2]))
 
-    def level(self) -> Constraints:
-        """Constraints of one period of a body, which cannot tilt."""
-        return Constraints((self.resultants[0], None, None), (self.motions[0], 0.0, 0.0))
+    def level(self, axis: int) -> Constraints:
+        """Constraints of one period of a body along an axis, along which it cannot tilt."""
+        (force, *moments), (approach, *tilts) = self.resultants, self.motions
+        moments[axis], tilts[axis] = None, 0.0
+        return Constraints((force, moments[0], moments[1]), (approach, tilts[0], tilts[1]))
 
     @cached_property
     def free(self) -> NDArray[np.bool_]:

@@ -9,6 +9,7 @@ outline.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -34,8 +35,8 @@ SEGMENT_LOSS, LEAST_SEGMENTS = 2.1, 0.1
 class Rim:
     """Cells in contact, and crossings of the rim with the lines between cell centres.
 
-    The fields cover a block around the contact. On a periodic grid it may cross the border; where
-    the contact does so all around, the block ends with the row that it begins with.
+    The fields cover a block around the contact. Along a periodic axis it may cross the border;
+    where the contact does so all around, the block ends with the row that it begins with.
     """
 
     grid: Grid
@@ -55,18 +56,29 @@ class Rim:
 
     @cached_property
     def length(self) -> float:
-        """Extent of the contact along x, on a periodic grid at most a period [m]."""
+        """Extent of the contact along x, at most a period where that is finite [m]."""
         if len(self.rows) > self.grid.shape[0]:
             return self.grid.size[0]
         return min(_extent(self.contact, self.along_x) * self.grid.cell_size[0], self.grid.size[0])
 
     @cached_property
     def width(self) -> float:
-        """Extent of the contact along y, on a periodic grid at most a period [m]."""
+        """Extent of the contact along y, at most a period where that is finite [m]."""
         if len(self.columns) > self.grid.shape[1]:
             return self.grid.size[1]
         cells = _extent(self.contact.T, self.along_y.T)
         return min(cells * self.grid.cell_size[1], self.grid.size[1])
+
+    @property
+    def breadth(self) -> float:
+        """Shorter extent of the contact [m].
+
+        An axis along which the contact continues through the whole period does not count, if there
+        is another.
+        """
+        extents = (self.length, self.width)
+        ended = [own for own, whole in zip(extents, self.grid.size, strict=True) if own < whole]
+        return min(ended or extents)
 
     @property
     def cells_across(self) -> int:
@@ -89,10 +101,12 @@ class Rim:
         return field[rows, columns]
 
 
-def mean_chords(contact: NDArray[np.bool_], *, periodic: bool = False) -> NDArray[np.float64]:
+def mean_chords(
+    contact: NDArray[np.bool_], *, periodic: Sequence[bool] = (False, False)
+) -> NDArray[np.float64]:
     """Mean numbers of consecutive cells in contact along x and along y.
 
-    On a periodic grid the last cell of a line is followed by the first.
+    Along a periodic axis the last cell of a line is followed by the first.
 
     Examples
     --------
@@ -102,8 +116,8 @@ def mean_chords(contact: NDArray[np.bool_], *, periodic: bool = False) -> NDArra
     [2.0, 5.0]
     """
     begun = []
-    for lines in (contact, contact.T):
-        before = lines[-1:] if periodic else np.zeros_like(lines[:1])
+    for lines, repeats in zip((contact, contact.T), periodic, strict=True):
+        before = lines[-1:] if repeats else np.zeros_like(lines[:1])
         begun.append(int(np.count_nonzero(lines & ~np.concatenate([before, lines[:-1]]))))
     return np.asarray(int(np.count_nonzero(contact)) / np.maximum(begun, 1))
 
@@ -161,10 +175,11 @@ def _trace_around(
     grid: Grid, contact: NDArray[np.bool_], gap: NDArray[np.float64], outline: Outline | None
 ) -> Rim:
     """Trace the rim of a contact that continues across the border of its period."""
-    segment = _mean_segment(contact, gap, periodic=True)
-    rows, columns = _turn(contact, axis=0), _turn(contact, axis=1)
-    # More cells on both sides, from which the rim in the block is extrapolated.
-    wide = np.ix_(_beyond(rows, grid.shape[0]), _beyond(columns, grid.shape[1]))
+    segment = _mean_segment(contact, gap, periodic=grid.periodic)
+    (rows, wide_rows, inner_rows), (columns, wide_columns, inner_columns) = (
+        _lines_around(contact, axis, repeats=grid.periodic[axis]) for axis in (0, 1)
+    )
+    wide = np.ix_(wide_rows, wide_columns)
     contact, gap = contact[wide], gap[wide]
     ends = None
     if outline is not None:
@@ -172,10 +187,20 @@ def _trace_around(
         end_x = np.pad(outline.along_x, ((0, 1), (0, 0)), constant_values=np.nan)[wide][:-1]
         end_y = np.pad(outline.along_y, ((0, 0), (0, 1)), constant_values=np.nan)[wide][:, :-1]
         ends = end_x, end_y
-    inner = slice(MARGIN, -MARGIN)
+    inner = inner_rows, inner_columns
     along_x, along_y = locate_rim(grid, contact, gap, ends)
-    block = contact[inner, inner]
-    return Rim(grid, block, along_x[inner, inner], along_y[inner, inner], rows, columns, segment)
+    return Rim(grid, contact[inner], along_x[inner], along_y[inner], rows, columns, segment)
+
+
+def _lines_around(
+    contact: NDArray[np.bool_], axis: int, *, repeats: bool
+) -> tuple[NDArray[np.intp], NDArray[np.intp], slice]:
+    """Lines of the block, more of a period from which its rim is extrapolated, and its place."""
+    if not repeats:
+        lines = np.arange(contact.shape[axis])[_block(contact, axis)]
+        return lines, lines, slice(None)
+    lines = _turn(contact, axis)
+    return lines, _beyond(lines, contact.shape[axis]), slice(MARGIN, -MARGIN)
 
 
 def _turn(contact: NDArray[np.bool_], axis: int) -> NDArray[np.intp]:
@@ -183,7 +208,7 @@ def _turn(contact: NDArray[np.bool_], axis: int) -> NDArray[np.intp]:
     touched = np.flatnonzero(contact.any(axis=1 - axis))
     count = contact.shape[axis]
     if len(touched) == 0:
-        return np.arange(2)
+        return np.zeros(2, dtype=np.intp) if count == 1 else np.arange(2)
     if len(touched) == count:
         return np.append(np.arange(count), 0)
     # The contact begins behind the widest opening.
@@ -198,7 +223,10 @@ def _beyond(lines: NDArray[np.intp], count: int) -> NDArray[np.intp]:
 
 
 def _mean_segment(
-    contact: NDArray[np.bool_], gap: NDArray[np.float64], *, periodic: bool = False
+    contact: NDArray[np.bool_],
+    gap: NDArray[np.float64],
+    *,
+    periodic: Sequence[bool] = (False, False),
 ) -> float:
     """Area between the rim and its chords per quarter turn, less the error of the crossings."""
     chords, beyond = mean_chords(contact, periodic=periodic), np.isinf(gap)

@@ -106,7 +106,7 @@ def _by_gaps(
     slope = (behind - before) / (2 * (rise - base))
     # Ratios that differ by rounding share a law.
     dx, dy = grid.cell_size
-    laws = [edge_law(round(ratio, 6), periodic=grid.periodic) for ratio in (dy / dx, dx / dy)]
+    laws = [edge_law(round(ratio, 6), periodic=all(grid.periodic)) for ratio in (dy / dx, dx / dy)]
     offset = np.where(intervals.axis == 0, laws[0].offset(slope), laws[1].offset(slope))
     distance = laws[0].distance(near, far, np.where(clear, farther, np.nan)) - offset
     return np.where(known, np.maximum(1 - distance, -0.5), 0.5), slope

@@ -26,9 +26,10 @@ class Convolution:
     or y = 0 (`mirrored`; an even number of cells there) only the cells with positive coordinates
     are kept, and cosine transforms replace Fourier transforms of twice the length: a half-sample
     even sequence convolved with an even kernel is its DCT-II times the kernel's discrete Fourier
-    transform [2]_. `coefficients` are those of the whole block, from `influence_table` [m], even
-    along both axes but for a `signed` one, with the 2 n - 1 offsets of `moving_influence_table`;
-    `single` precision takes half the time.
+    transform [2]_. Along a `periodic` axis, which is not mirrored, the convolution is circular.
+    `coefficients` are those of the whole block, from `influence_table` or
+    `periodic_influence_table` [m], even along both axes but for a `signed` one, with the 2 n - 1
+    offsets of `moving_influence_table`; `single` precision takes half the time.
 
     References
     ----------
@@ -54,6 +55,7 @@ class Convolution:
         coefficients: NDArray[np.float64],
         *,
         mirrored: tuple[bool, bool] = (False, False),
+        periodic: tuple[bool, bool] = (False, False),
         single: bool = False,
         signed: int | None = None,
         transforms: Transforms | None = None,
@@ -64,7 +66,10 @@ class Convolution:
             for axis, entries in enumerate(coefficients.shape)
         ]
         self.shape = _halved(counts, mirrored)
-        padded = [_padded(cells, even) for cells, even in zip(counts, mirrored, strict=True)]
+        padded = [
+            _padded(cells, unpadded=mirrored[axis], exact=periodic[axis])
+            for axis, cells in enumerate(counts)
+        ]
         # A real Fourier transform comes first, on the columns with data; the next one is complex.
         self._first = 0 if mirrored == (False, True) else 1
         self._second = 1 - self._first
@@ -134,9 +139,11 @@ def _halved(shape: list[int], mirrored: tuple[bool, bool]) -> tuple[int, int]:
     return nx, ny
 
 
-def _padded(cells: int, even: bool) -> int:
-    """Transform length for a number of cells of the whole block."""
-    return int(fft.next_fast_len(cells if even else 2 * cells - 1, real=True))
+def _padded(cells: int, *, unpadded: bool, exact: bool) -> int:
+    """Transform length for a number of cells of the whole block; exactly these in a period."""
+    if exact:
+        return cells
+    return int(fft.next_fast_len(cells if unpadded else 2 * cells - 1, real=True))
 
 
 def _symbol(

@@ -91,8 +91,8 @@ def stress_on_section(
     Raises
     ------
     ValueError
-        If both x and y are given, a depth is negative or no number, or Poisson's ratio is not
-        between 0 and 0.5.
+        If both x and y are given, a depth is negative or no number, Poisson's ratio is not between
+        0 and 0.5, or the grid is periodic along one axis only.
 
     Notes
     -----
@@ -111,10 +111,17 @@ def stress_on_section(
     1.0
     """
     below = _checked(depths, poisson_ratio)
+    if grid.periodic[0] != grid.periodic[1]:
+        raise ValueError(
+            "stresses on sections are not computed on a grid that is periodic along one axis only; "
+            "use a grid that is periodic along both, with a period across of several widths of the "
+            "contact, or one that is not periodic"
+        )
     if x is not None and y is not None:
         raise ValueError("a section lies at an x or at a y; give one of them")
     if x is not None:
-        turned = Grid(grid.shape[::-1], grid.size[::-1], grid.periodic, centre=grid.centre[::-1])
+        periodic = (grid.periodic[1], grid.periodic[0])
+        turned = Grid(grid.shape[::-1], grid.size[::-1], periodic, centre=grid.centre[::-1])
         stress = stress_on_section(pressure.T, turned, below, poisson_ratio, y=x)
         # x and y are exchanged on the turned grid.
         return Stress(stress.components[[1, 0, 2, 4, 3, 5]])

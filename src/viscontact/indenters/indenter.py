@@ -73,6 +73,18 @@ class Indenter(Displayable, ABC):
         return self.period, self.period
 
     @property
+    def endless(self) -> tuple[bool, bool]:
+        """Axes x and y along which the body continues without end at the same gap.
+
+        Examples
+        --------
+        >>> from viscontact.indenters import Paraboloid
+        >>> Paraboloid(math.inf, 0.01).endless
+        (True, False)
+        """
+        return False, False
+
+    @property
     def sample_spacing(self) -> tuple[float, float]:
         """Smallest steps along x and y between given points of the surface, 0 without any [m].
 
@@ -148,6 +160,12 @@ class CombinedIndenter(Indenter):
         """Sums of the parts' curvatures along x and y [1/m]."""
         along_x, along_y = zip(*(part.curvatures for part in self.parts), strict=True)
         return math.fsum(along_x), math.fsum(along_y)
+
+    @property
+    def endless(self) -> tuple[bool, bool]:
+        """Axes along which all parts continue without end."""
+        along_x, along_y = zip(*(part.endless for part in self.parts), strict=True)
+        return all(along_x), all(along_y)
 
     @property
     def period(self) -> float:
@@ -234,6 +252,15 @@ class PlacedIndenter(Indenter):
         x, y = positions(x, y)
         cosine, sine = self._turn
         return self.x + cosine * x - sine * y, self.y + sine * x + cosine * y
+
+    @property
+    def endless(self) -> tuple[bool, bool]:
+        """Axes of the body as it is turned; both, if it is endless along neither of them."""
+        along, across = self.body.endless
+        cosine, sine = self._turn
+        if sine == 0:
+            return along, across
+        return (across, along) if cosine == 0 else (along or across, along or across)
 
     @property
     def period(self) -> float:

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from viscontact.indenters.arc import arc_drop
 from viscontact.indenters.arguments import acute_angle, positions
 from viscontact.indenters.indenter import Indenter
-from viscontact.units.numbers import check_fields
+from viscontact.units.numbers import as_real, check_fields, positive
 
 
 @dataclass(frozen=True)
@@ -59,24 +59,29 @@ class Paraboloid(Indenter):
     Parameters
     ----------
     radius_x, radius_y : float
-        Radii of curvature at the apex, in the planes y = 0 and x = 0 [m].
+        Radii of curvature at the apex, in the planes y = 0 and x = 0 [m]. One of them may be
+        infinite: a parabolic cylinder, for grids that are periodic along it.
 
     Raises
     ------
     ValueError
-        If a radius is not a positive, finite number.
+        If a radius is not a positive number, or both are infinite.
 
     Examples
     --------
     >>> float(Paraboloid(radius_x=0.5, radius_y=2.0).gap(1.0, 2.0))
     2.0
+    >>> float(Paraboloid(radius_x=math.inf, radius_y=2.0).gap(1.0, 2.0))
+    1.0
     """
 
     radius_x: float = field(metadata={"unit": "m"})
     radius_y: float = field(metadata={"unit": "m"})
 
     def __post_init__(self) -> None:
-        check_fields(self, "radius_x", "radius_y")
+        check_fields(self, "radius_x", "radius_y", check=_radius)
+        if math.isinf(self.radius_x) and math.isinf(self.radius_y):
+            raise ValueError("Paraboloid: one of radius_x and radius_y must be finite")
 
     def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
         """Return x²/(2 R_x) + y²/(2 R_y); see `Indenter.gap`."""
@@ -87,6 +92,16 @@ class Paraboloid(Indenter):
     def curvatures(self) -> tuple[float, float]:
         """Curvatures 1/R_x and 1/R_y [1/m]."""
         return 1 / self.radius_x, 1 / self.radius_y
+
+    @property
+    def endless(self) -> tuple[bool, bool]:
+        """Axes of infinite radius."""
+        return math.isinf(self.radius_x), math.isinf(self.radius_y)
+
+
+def _radius(name: str, value: object, unit: str) -> float:
+    """Positive radius, which may be infinite."""
+    return math.inf if as_real(value) == math.inf else positive(name, value, unit)
 
 
 @dataclass(frozen=True)

@@ -89,18 +89,17 @@ class ContactEstimate:
     @cached_property
     def centre(self) -> tuple[float, float]:
         """Middle of the contact [m]; that of the grid along an axis whose period it fills."""
-        if self.grid.periodic:
-            x, y = self.grid.x[self.rim.rows], self.grid.y[self.rim.columns]
-            return (
-                float(np.median(x)) if self.rim.length < self.grid.size[0] else self.grid.centre[0],
-                float(np.median(y)) if self.rim.width < self.grid.size[1] else self.grid.centre[1],
-            )
-        contact = self.pressure > 0
-        rows, columns = np.flatnonzero(contact.any(axis=1)), np.flatnonzero(contact.any(axis=0))
-        return (
-            float(self.grid.x[rows[[0, -1]]].mean()),
-            float(self.grid.y[columns[[0, -1]]].mean()),
-        )
+        return self._middle(0), self._middle(1)
+
+    def _middle(self, axis: int) -> float:
+        """Middle of the contact along an axis [m]."""
+        lines, extents = (self.grid.x, self.grid.y)[axis], (self.rim.length, self.rim.width)
+        if self.grid.periodic[axis]:
+            inside = (self.rim.rows, self.rim.columns)[axis]
+            filled = extents[axis] >= self.grid.size[axis]
+            return self.grid.centre[axis] if filled else float(np.median(lines[inside]))
+        touched = np.flatnonzero((self.pressure > 0).any(axis=1 - axis))
+        return float(lines[touched[[0, -1]]].mean())
 
     @property
     def centre_x(self) -> float:

@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from viscontact.grid import height_over_neighbours
+from viscontact.contact.cell_fields import height_over_neighbours
 from viscontact.indenters import Indenter
 from viscontact.meshing.elastic_estimate import ContactEstimate
 

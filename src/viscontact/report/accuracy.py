@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from viscontact.results.formatting import format_bound
-from viscontact.results.recorded_case import case_of, prescribes_approach
+from viscontact.results.recorded_case import case_of, prescribes_approach, recorded_grid
 from viscontact.results.stated_errors import WHY_MESH_DEPENDENT, largest_error
 from viscontact.results.summary import SummaryRow, summary_rows, summary_scalars
 from viscontact.units.formatting import format_quantity
@@ -75,14 +75,9 @@ def _steps(ds: xr.Dataset) -> str:
 def _cells(ds: xr.Dataset) -> str:
     across = ds["cells_across"].values
     touching = across[ds["contact_area"].values > 0]
-    x, y = ds["x"].values, ds["y"].values
-    size = ""
-    if x.size > 1 and y.size > 1:
-        size = (
-            f" of {format_quantity(float(x[1] - x[0]), 'm', 3)} × "
-            f"{format_quantity(float(y[1] - y[0]), 'm', 3)}"
-        )
-    counted = f"{x.size} × {y.size} cells{size}"
+    grid = recorded_grid(ds)
+    edges = " × ".join(format_quantity(edge, "m", 3) for edge in grid.cell_size)
+    counted = f"{grid.shape[0]} × {grid.shape[1]} cells of {edges}"
     if not touching.size:
         return counted
     return f"{counted}; {int(touching.max())} across the shorter side of the largest contact"

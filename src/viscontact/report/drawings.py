@@ -18,7 +18,7 @@ from viscontact.plot import creep_curve, draw_indenter
 from viscontact.plot.layout.saving import as_svg
 from viscontact.plot.materials.creep import curve_times
 from viscontact.report.recorded_surface import is_left_out, recorded_surface
-from viscontact.results.recorded_case import case_of, recorded_object
+from viscontact.results.recorded_case import case_of, recorded_grid, recorded_object
 
 
 def geometry(ds: xr.Dataset) -> Element:
@@ -46,7 +46,8 @@ def _indenter(ds: xr.Dataset) -> Figure:
     indenter, x, y = _body(ds), ds["x"].values, ds["y"].values
     # Fields are known at the cells' centres, and not beyond.
     cells = (x.size - 1, y.size - 1) if is_drawn_from_fields(ds) else (x.size, y.size)
-    size = float(x[1] - x[0]) * cells[0], float(y[1] - y[0]) * cells[1]
+    along, across = recorded_grid(ds).cell_size
+    size = along * cells[0], across * cells[1]
     length, width = (float(ds[name].max()) for name in ("contact_length", "contact_width"))
     contact = None
     if length > 0 and width > 0:

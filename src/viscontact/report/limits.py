@@ -63,7 +63,11 @@ def assumptions(ds: xr.Dataset) -> Iterator[tuple[str, str]]:
 
 
 def _size(ds: xr.Dataset) -> str:
-    if (case_of(ds).get("grid") or {}).get("periodic"):
+    periodic = (case_of(ds).get("grid") or {}).get("periodic")
+    if isinstance(periodic, list):
+        axis = "xy"[periodic.index(True)]
+        return f": one period of it along {axis} is pressed here; the approach has no datum."
+    if periodic:
         return ": one period of it is pressed here; the approach is to its mean plane."
     length, width = (float(ds[name].max()) for name in ("contact_length", "contact_width"))
     return (
@@ -76,7 +80,7 @@ def _size(ds: xr.Dataset) -> str:
 def _approach(ds: xr.Dataset) -> str:
     approach, extents = np.abs(ds["approach"].values), ds["contact_width"].values
     shorter = float(min(ds["contact_length"].max(), extents.max()))
-    if shorter <= 0:
+    if shorter <= 0 or np.isnan(approach).all():
         return ""
     part = float(approach.max()) / shorter
     largest = format_quantity(float(approach.max()), "m", 3)

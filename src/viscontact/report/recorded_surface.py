@@ -22,7 +22,8 @@ def recorded_surface(ds: xr.Dataset) -> HeightMap:
     Notes
     -----
     From gap = initial gap + displacement - approach - tilt_x x - tilt_y y (eq. 1), at the last
-    stored instant: the grid is the whole one by then.
+    stored instant: the grid is the whole one by then. The level of a map does not matter, so that a
+    line contact, whose approach has no datum, counts from 0.
     """
     missing = {"gap", "displacement"} - set(ds.variables)
     if missing or not ds["gap"].size:
@@ -34,7 +35,7 @@ def recorded_surface(ds: xr.Dataset) -> HeightMap:
     last = ds[["gap", "displacement"]].isel({over: -1}).transpose("x", "y")
     motion = ds[["approach", "tilt_x", "tilt_y"]].sel(time=float(ds[over][-1]), method="nearest")
     x, y = ds["x"].values, ds["y"].values
-    rigid = motion["approach"].item() + motion["tilt_x"].item() * x[:, None]
+    rigid = np.nan_to_num(motion["approach"].item()) + motion["tilt_x"].item() * x[:, None]
     gap = last["gap"].values - last["displacement"].values + rigid + motion["tilt_y"].item() * y
     known = np.where(np.isfinite(gap), gap, np.nan)
     if not np.isfinite(known).any():

@@ -103,6 +103,10 @@ def _holds_objects(value: Any) -> bool:
 def _value(unit: str, key: str, value: Any) -> str:
     if isinstance(value, bool) or not isinstance(value, int | float | list):
         return "yes" if value is True else str(value)
+    if isinstance(value, list) and all(isinstance(each, bool) for each in value):
+        return "along " + " and ".join(
+            axis for axis, holds in zip("xy", value, strict=True) if holds
+        )
     if isinstance(value, list) and all(isinstance(each, str) for each in value):
         return ", ".join(each.replace("_", " ") for each in value)
     try:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import math
 from dataclasses import Field, fields, is_dataclass
 from inspect import isabstract
 from typing import Any
@@ -12,6 +13,7 @@ import numpy as np
 from viscontact import indenters, laws, loads
 from viscontact.grid import AutomaticGrid, Grid
 from viscontact.materials.material import Material
+from viscontact.units.axis_flags import AxisFlags
 
 _EXPORTED = [getattr(room, name) for room in (indenters, laws, loads) for name in room.__all__]
 
@@ -21,6 +23,9 @@ STORED_CLASSES: dict[str, Any] = {
     for each in (*_EXPORTED, Material, Grid, AutomaticGrid)
     if isinstance(each, type) and not (isabstract(each) or each is loads.LoadPoint)
 }
+
+#: The number for which JSON has no notation.
+INFINITE = "infinite"
 
 #: Larger maps (measured surfaces) are named by shape and fingerprint, not written out.
 LARGEST_ARRAY = 4096
@@ -47,8 +52,12 @@ def describe(obj: Any) -> Any:
         return _fingerprint(obj) if is_map else obj.tolist()
     if isinstance(obj, np.generic):
         return obj.item()
+    if isinstance(obj, AxisFlags):
+        obj = obj.plain
     if isinstance(obj, tuple | list):
         return [describe(item) for item in obj]
+    if isinstance(obj, float) and math.isinf(obj):
+        return INFINITE
     if obj is None or isinstance(obj, str | int | float):
         return obj
     return {"type": type(obj).__name__, "repr": repr(obj)}
@@ -67,6 +76,8 @@ def rebuild(description: Any) -> Any:
     >>> rebuild({"type": "Sphere", "radius": 0.01})
     Sphere(radius=0.01)
     """
+    if description == INFINITE:
+        return math.inf
     if isinstance(description, list):
         return [rebuild(item) for item in description]
     if not isinstance(description, dict):

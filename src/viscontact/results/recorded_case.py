@@ -44,13 +44,19 @@ def recorded_poisson_ratio(results: xr.Dataset) -> float:
 
 
 def recorded_grid(results: xr.Dataset) -> Grid:
-    """Grid of a result: shape, size and centre from its coordinates, periodic as in its case."""
+    """Grid of a result: shape, size and centre from its coordinates, periodic as in its case.
+
+    The length of a single cell, which coordinates do not show, is that of the case.
+    """
     x, y = results["x"].values, results["y"].values
-    shape = (x.size, y.size)
-    size = (float(x[1] - x[0]) * shape[0], float(y[1] - y[0]) * shape[1])
     recorded = case_of(results).get("grid") or {}
+    along, across = (
+        float(at[1] - at[0]) * at.size if at.size > 1 else float(recorded["size"][axis])
+        for axis, at in enumerate((x, y))
+    )
     centre = (float(x[0] + x[-1]) / 2, float(y[0] + y[-1]) / 2)
-    return Grid(shape, size, bool(recorded.get("periodic", False)), centre=centre)
+    periodic = recorded.get("periodic", False)
+    return Grid((x.size, y.size), (along, across), periodic, centre=centre)
 
 
 def prescribes_approach(ds: xr.Dataset) -> bool:

@@ -1,4 +1,4 @@
-"""Scalars that are shown of a result: the line load only of a contact that is long along x."""
+"""Scalars that are shown of a result: those that are of use for its contact and have values."""
 
 from __future__ import annotations
 
@@ -12,6 +12,9 @@ LONG = 3.0
 
 #: Scalars that are shown of such contacts only.
 OF_LONG_CONTACTS = ("peak_line_load",)
+
+#: Scalars without a value where the approach has no datum.
+WITH_DATUM = ("approach", "work", "loss_per_cycle")
 
 
 def is_long(ds: xr.Dataset) -> bool:
@@ -31,7 +34,21 @@ def is_long(ds: xr.Dataset) -> bool:
 
 def is_shown(ds: xr.Dataset, name: str) -> bool:
     """Test for a scalar that a result has and that is of use for it."""
-    return name in ds and (name not in OF_LONG_CONTACTS or is_long(ds))
+    if name not in ds or (name in WITH_DATUM and lacks_datum(ds)):
+        return False
+    return name not in OF_LONG_CONTACTS or is_long(ds)
+
+
+def lacks_datum(ds: xr.Dataset) -> bool:
+    """Test for a line contact, whose approach has no datum.
+
+    Examples
+    --------
+    >>> [lacks_datum(xr.Dataset({"approach": ("time", [one])})) for one in (np.nan, 1e-6)]
+    [True, False]
+    """
+    approach = ds["approach"].values
+    return bool(approach.size and np.isnan(approach).all())
 
 
 def shown_scalars(ds: xr.Dataset, place: Place) -> list[str]:

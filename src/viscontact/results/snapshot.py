@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.contact.body_edge import Outline
+from viscontact.units.axis_flags import NEITHER, AxisFlags
 from viscontact.units.formatting import format_quantity
 
 
@@ -22,7 +23,10 @@ class Snapshot:
     pressure: NDArray[np.float64]  # shape (nx, ny), positive in compression [Pa]
     gap: NDArray[np.float64]  # shape (nx, ny), positive when open [m]
     body_end: Outline | None = None  # where the indenter ends between the cells, if known
-    periodic: bool = False  # the fields are one period of an endless surface
+    periodic: AxisFlags = NEITHER  # axes along which the fields are one period
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "periodic", AxisFlags(self.periodic, "periodic"))
 
     @property
     def touching(self) -> bool:
@@ -70,11 +74,8 @@ class Snapshot:
             np.concatenate([at[0] - step[::-1], at, at[-1] + step])
             for at, step in zip((self.x, self.y), beyond.T, strict=True)
         )
-        if self.periodic:
-            pressure, gap = (np.pad(each, cells, mode="wrap") for each in (self.pressure, self.gap))
-        else:
-            pressure = np.pad(self.pressure, cells)
-            gap = np.pad(self.gap, cells, constant_values=np.inf)
+        pressure = _padded(self.pressure, cells, self.periodic, 0.0)
+        gap = _padded(self.gap, cells, self.periodic, np.inf)
         end = self.body_end
         body_end = None if end is None else _with_border(end, cells, self.periodic)
         return Snapshot(self.time, x, y, pressure, gap, body_end)
@@ -112,14 +113,22 @@ class Snapshot:
         return self.x, self.pressure.sum(axis=1) * self.cell_size[1]
 
 
-def _with_border(body_end: Outline, cells: int, periodic: bool) -> Outline:
+def _padded(
+    field: NDArray[np.float64], cells: int, periodic: AxisFlags, beyond: float
+) -> NDArray[np.float64]:
+    """Field with more cells at each border: those of the next period, or a value."""
+    for axis in (0, 1):
+        width = [(cells, cells) if axis == each else (0, 0) for each in (0, 1)]
+        if periodic[axis]:
+            field = np.pad(field, width, mode="wrap")
+        else:
+            field = np.pad(field, width, constant_values=beyond)
+    return field
+
+
+def _with_border(body_end: Outline, cells: int, periodic: AxisFlags) -> Outline:
     # Where the body ends between one period and the next is not known.
     along_x = np.pad(body_end.along_x, ((0, 1), (0, 0)), constant_values=np.nan)
     along_y = np.pad(body_end.along_y, ((0, 0), (0, 1)), constant_values=np.nan)
-    if periodic:
-        along_x, along_y = (np.pad(each, cells, mode="wrap") for each in (along_x, along_y))
-    else:
-        along_x, along_y = (
-            np.pad(each, cells, constant_values=np.nan) for each in (along_x, along_y)
-        )
+    along_x, along_y = (_padded(each, cells, periodic, np.nan) for each in (along_x, along_y))
     return Outline(along_x[:-1], along_y[:, :-1])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 import xarray as xr
@@ -13,6 +14,9 @@ from viscontact.grid import Grid
 from viscontact.results.recorded_case import recorded_grid, recorded_object
 from viscontact.results.snapshot import Snapshot as Snapshot
 from viscontact.units.formatting import format_quantity
+
+#: Cells that a single one along a period is shown as.
+SHOWN_CELLS = 4
 
 
 def field_times(results: xr.Dataset, figure: str) -> NDArray[np.float64]:
@@ -57,16 +61,23 @@ def take_snapshots(
 def snapshot_reader(results: xr.Dataset) -> Callable[[int], Snapshot]:
     """Prepare to read fields one stored instant at a time."""
     grid = recorded_grid(results)
-    body_end = _body_end(results, grid)
+    single = tuple(SHOWN_CELLS if count == 1 else 1 for count in grid.shape)
+    shown = replace(grid, shape=(grid.shape[0] * single[0], grid.shape[1] * single[1]))
+    body_end = _body_end(results, shown)
 
     def read(index: int) -> Snapshot:
         dimension = _time_dimension(results)
         fields = results[["pressure", "gap"]].isel({dimension: index})
         pressure, gap = (
             np.asarray(fields[name].transpose("x", "y").values, dtype=np.float64)
+            .repeat(single[0], axis=0)
+            .repeat(single[1], axis=1)
             for name in ("pressure", "gap")
         )
-        x, y = results["x"].values, results["y"].values
+        x, y = (
+            results[name].values if cells == 1 else lines
+            for name, cells, lines in zip("xy", single, (shown.x, shown.y), strict=True)
+        )
         return Snapshot(float(fields[dimension]), x, y, pressure, gap, body_end, grid.periodic)
 
     return read

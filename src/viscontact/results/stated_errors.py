@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
+from viscontact.results.shown_scalars import is_shown
 from viscontact.results.variables import error_name
 
 #: Of a value whose stated error is infinite, and why it is.
@@ -19,6 +20,8 @@ WHY_MESH_DEPENDENT = "the number is the largest mean over a cell, and smaller ce
 _ROUNDING_ECCENTRICITY = 1e-12
 #: Of the approach: a tilt that moves the ends of the contact by less is rounding.
 _ROUNDING_TILT = 1e-6
+#: Approach over extent of a contact whose approach has no datum, in place of it.
+_USUAL_STRAIN = 1e-3
 
 
 def stated_error(results: xr.Dataset, name: str) -> NDArray[np.float64] | None:
@@ -121,7 +124,9 @@ def is_rounding(ds: xr.Dataset, name: str) -> bool:
 def is_centred(ds: xr.Dataset, name: str) -> bool:
     """Test for a tilt or an eccentricity of rounding size, as a centred load leaves."""
     if name.startswith("tilt"):
-        return is_rounding_tilt(ds[name].values, ds["contact_length"].values, ds["approach"].values)
+        length = ds["contact_length"].values
+        approach = ds["approach"].values if is_shown(ds, "approach") else _USUAL_STRAIN * length
+        return is_rounding_tilt(ds[name].values, length, approach)
     return name.startswith("eccentricity") and _largest(ds[name].values) <= _ROUNDING_ECCENTRICITY
 
 

@@ -15,7 +15,7 @@ from viscontact.results.formatting import (
     format_scalar,
     format_with_error_in,
 )
-from viscontact.results.shown_scalars import is_shown
+from viscontact.results.shown_scalars import is_shown, lacks_datum
 from viscontact.results.stated_errors import (
     MESH_DEPENDENT,
     LargestError,
@@ -132,9 +132,11 @@ def headline(ds: xr.Dataset) -> str:
 
 
 def _contact(ds: xr.Dataset, index: int) -> str:
-    force, area, approach = (
-        format_scalar(ds, name, index) for name in ("force", "contact_area", "approach")
+    force, area, approach, peak = (
+        format_scalar(ds, name, index)
+        for name in ("force", "contact_area", "approach", "peak_pressure")
     )
     said = f"the contact covers {area} under {force}; "
-    peak = format_scalar(ds, "peak_pressure", index)
+    if lacks_datum(ds):
+        return said + f"the peak pressure is {peak}"
     return said + f"the approach is {approach} and the peak pressure {peak}"

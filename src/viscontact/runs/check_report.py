@@ -51,7 +51,7 @@ def needs(prepared: PreparedRun, expected: Forecast) -> list[tuple[str, str]]:
     (nx, ny), (lx, ly), (dx, dy) = run.grid.shape, run.grid.size, run.grid.cell_size
     chosen = " (automatic)" if run.problem.automatic_grid is not None else ""
     growing = "; more if the grid has to grow" if run.grows else ""
-    period = ", periodic" if run.grid.periodic else ""
+    period = _period(run.grid)
     free = f"of {_bytes(expected.available)} free"
     return [
         (
@@ -66,6 +66,13 @@ def needs(prepared: PreparedRun, expected: Forecast) -> list[tuple[str, str]]:
         ("memory", f"about {_bytes(expected.memory)} {free}{growing}"),
         ("run time", f"{_duration(expected.seconds)} on this machine"),
     ]
+
+
+def _period(grid: Grid) -> str:
+    """Periodicity of a grid, in words."""
+    if all(grid.periodic):
+        return ", periodic"
+    return f", periodic along {'xy'[grid.periodic.index(True)]}" if grid.periodic else ""
 
 
 def _place(grid: Grid) -> str:
@@ -127,12 +134,12 @@ def expectations(prepared: PreparedRun, expected: Forecast) -> tuple[str, list[t
     title = "What to expect, by a quick elastic solve on few cells:"
     if found is None:
         return title, []
-    # Of force and approach, the one that is not prescribed.
-    follows = (
+    # Of force and approach, the one that is not prescribed; a line contact has no approach.
+    follows = [
         ("approach", format_quantity(found.approach, "m", 3))
         if control == "force"
         else ("force", format_quantity(found.force, "N", 3))
-    )
+    ]
     return title, [
         ("estimate for", f"largest {control}, {expected.compliance}"),
         (
@@ -142,7 +149,7 @@ def expectations(prepared: PreparedRun, expected: Forecast) -> tuple[str, list[t
         ),
         ("cells in it", f"{expected.cells_along:.0f} along, {expected.cells_across:.0f} across"),
         ("peak pressure", _peak_pressure(expected, found)),
-        follows,
+        *(follows if found.grid.has_datum else []),
     ]
 
 
@@ -169,7 +176,8 @@ def warnings_of(prepared: PreparedRun, expected: Forecast) -> list[str]:
         )
     across = (expected.cells_along, expected.cells_across)
     # A contact that continues from period to period has no extent along that axis.
-    ended = [n for n, k in zip(across, grid.shape, strict=True) if not grid.periodic or n < k]
+    periods = zip(across, grid.shape, grid.periodic, strict=True)
+    ended = [n for n, k, repeats in periods if not repeats or n < k]
     if min(ended, default=math.inf) < WARNING_CELLS:
         warnings.append(
             f"fewer than {WARNING_CELLS} cells across the contact; use more cells or a smaller "

@@ -77,8 +77,10 @@ def forecast(run: RunSetup, *, errors: bool = False) -> Forecast:
         compliance=named,
         cells_along=along,
         cells_across=across,
-        fits=run.grid.periodic
-        or all(r < size / 2 for r, size in zip(reach, run.grid.size, strict=True)),
+        fits=all(
+            repeats or far < size / 2
+            for far, size, repeats in zip(reach, run.grid.size, run.grid.periodic, strict=True)
+        ),
         warnings=predicted_warnings(run, estimate, compliance),
     )
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from viscontact.checks.periodicity import check_endless
 from viscontact.grid import GRID_QUANTITIES, AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.loads import LoadHistory
@@ -72,4 +73,5 @@ def auto_grid(
     """
     request = AutomaticGrid(tolerance, quantities)
     problem = Problem(indenter, material, load, request, indenter_material=indenter_material)
+    check_endless(indenter, None)
     return choose_mesh(problem, end).grid

@@ -155,7 +155,8 @@ def _domain_of(run: RunSetup) -> ContactDomain:
 
 
 def _refuse_rim(run: RunSetup, step: Step, solution: StepSolution) -> None:
-    if run.grid.periodic or not any(overrun(solution.pressure)):
+    reached = zip(overrun(solution.pressure), run.grid.periodic, strict=True)
+    if not any(over and not repeats for over, repeats in reached):
         return
     raise DomainError(
         f"grid: the contact reaches the grid's rim at t = {format_quantity(step.time, 's', 6)}; "

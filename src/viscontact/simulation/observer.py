@@ -71,7 +71,7 @@ class Observer:
         contact = solution.pressure > 0
         rim = trace_rim(self._run.grid, contact, solution.gap, self._outline)
         # Work since the step before, and the loss of a cycle that ends here.
-        self._work += self._work_of(point, solution)
+        self._work += self._work_of(point, solution) if rim.grid.has_datum else math.nan
         self._cycles.record_work(step, self._work)
         if self._warns:
             self._collect_warnings(step, solution, rim)
@@ -147,8 +147,9 @@ class Observer:
     def _cells_across_spots(self) -> float:
         """Cells across the spots of the largest contact, counted on demand."""
         if self._largest is not None:
-            periodic = self._run.grid.periodic
-            self._spots_at_largest = cells_across_spots(self._largest, periodic=periodic)
+            self._spots_at_largest = cells_across_spots(
+                self._largest, periodic=self._run.grid.periodic
+            )
             self._largest = None
         return self._spots_at_largest
 
@@ -207,8 +208,8 @@ def _state(
 ) -> ContactState:
     force, moment_x, moment_y = (float(resultant) for resultant in solution.resultants)
     touching = force > 0
-    # A periodic surface has no centre from which the force could be offset.
-    centred = touching and not rim.grid.periodic
+    # Along its period a surface has no centre from which the force could be offset.
+    centred_x, centred_y = (touching and not repeats for repeats in rim.grid.periodic)
     peak = float(solution.pressure.max())
     # A few cells enclose next to nothing; but no mean pressure exceeds the peak.
     area = max(rim.area, force / peak) if touching else 0.0
@@ -221,9 +222,9 @@ def _state(
         line_load=load,
         grid=rim.grid,
         force=force,
-        eccentricity_x=moment_x / force if centred else math.nan,
-        eccentricity_y=moment_y / force if centred else math.nan,
-        approach=float(solution.motion[0]),
+        eccentricity_x=moment_x / force if centred_x else math.nan,
+        eccentricity_y=moment_y / force if centred_y else math.nan,
+        approach=float(solution.motion[0]) if rim.grid.has_datum else math.nan,
         tilt_x=float(solution.motion[1]),
         tilt_y=float(solution.motion[2]),
         contact_area=area,

@@ -17,7 +17,7 @@ from viscontact.checks.arguments import (
     check_touch,
     points_under_load,
 )
-from viscontact.checks.periodicity import check_period
+from viscontact.checks.periodicity import check_endless, check_period
 from viscontact.contact.domain import mirrored_axes
 from viscontact.fourier import fastest_transforms
 from viscontact.grid import Grid
@@ -104,10 +104,12 @@ def prepare_run(problem: Problem, threads: int = 1) -> RunSetup:
     check_magnitudes(problem)
     check_creep(problem)
     check_jumps(problem)
+    given = problem.grid if isinstance(problem.grid, Grid) else None
+    check_endless(problem.indenter, given)
     points = points_under_load(problem)
     # 2. Take the given grid, or choose one by elastic trial contacts.
-    if isinstance(problem.grid, Grid):
-        mesh, grid = None, problem.grid
+    if given is not None:
+        mesh, grid = None, given
     else:
         mesh = choose_mesh(problem, problem.end)
         grid = mesh.grid
@@ -126,8 +128,6 @@ def _gap_on(problem: Problem, grid: Grid) -> NDArray[np.float64]:
 
 
 def _mirrored(problem: Problem, open_gap: NDArray[np.float64], grid: Grid) -> tuple[bool, bool]:
-    if grid.periodic:
-        return False, False
     return mirrored_axes(grid, open_gap, (problem.load.is_even(0), problem.load.is_even(1)))
 
 

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from viscontact.checks.half_space_theory import Geometry
 from viscontact.checks.material import law_warnings, passivity_warnings
+from viscontact.checks.periodicity import datum_warnings
 from viscontact.checks.steps import (
     relative_change,
     release_warnings,
@@ -25,6 +26,7 @@ def setup_warnings(run: RunSetup) -> dict[str, str]:
     """Return the warnings, by kind, that hold for a whole run: law, conversion, chosen mesh."""
     problem = run.problem
     warnings = law_warnings(run.hereditary.error, problem.compliance.inversion_error)
+    warnings |= datum_warnings(run.grid)
     if run.mesh is not None:
         warnings |= run.mesh.warnings
     for body in problem.bodies:

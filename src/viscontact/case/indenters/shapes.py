@@ -17,7 +17,7 @@ from viscontact.case.indenters import more_shapes
 from viscontact.case.indenters.base import Shape
 from viscontact.case.indenters.height_maps import HeightMap
 from viscontact.case.indenters.profiles import AnyProfile
-from viscontact.case.quantities import Length, OpenAngle
+from viscontact.case.quantities import Length, LengthOrInfinite, OpenAngle
 
 
 class Sphere(Shape):
@@ -35,8 +35,13 @@ class Paraboloid(Shape):
     """An elliptic paraboloid, the shape of Hertz's theory."""
 
     shape: Literal["paraboloid"]
-    radius_x: Length = Field(description="radius of curvature along x")
-    radius_y: Length = Field(description="radius of curvature along y")
+    radius_x: LengthOrInfinite = Field(
+        description="radius of curvature along x; infinite for a cylinder along x, on a grid that "
+        "is periodic there"
+    )
+    radius_y: LengthOrInfinite = Field(
+        description="radius of curvature along y; infinite for a cylinder along y"
+    )
 
     def build(self) -> indenters.Paraboloid:
         """Return the paraboloid."""

@@ -16,6 +16,7 @@ from viscontact.plot.layout import style
 from viscontact.plot.layout.compared_runs import require_runs
 from viscontact.plot.layout.error_band import Band, draw_band, legend_entries
 from viscontact.plot.layout.page import Width, page_width
+from viscontact.results.shown_scalars import lacks_datum
 from viscontact.results.stated_errors import stated_error
 from viscontact.units.formatting import format_quantity, readable_unit
 
@@ -49,7 +50,7 @@ def hysteresis(
     Raises
     ------
     ValueError
-        If fewer than two steps lie in the span.
+        If fewer than two steps lie in the span, or the contact is a line contact.
 
     Examples
     --------
@@ -90,7 +91,7 @@ def compare_hysteresis(
     Raises
     ------
     ValueError
-        If there are no runs, or one has fewer than two steps in the span.
+        If there are no runs, or one has fewer than two steps in the span or is a line contact.
 
     Examples
     --------
@@ -108,6 +109,8 @@ def compare_hysteresis(
     ('Approach [µm]', 'Force [mN]')
     """
     require_runs(runs, _NAME)
+    if any(lacks_datum(run) for run in runs.values()):
+        raise ValueError(f"{_NAME}: the approach of a line contact has no datum; draw history")
     drawn = ("approach", "force")
     shown = {name: within_span(run, drawn, times, _NAME, name) for name, run in runs.items()}
     wide = page_width(width, style.ONE_COLUMN)

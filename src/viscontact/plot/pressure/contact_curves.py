@@ -134,7 +134,7 @@ def _limits(snapshots: list[Snapshot], along: Literal["x", "y"]) -> tuple[float,
     ends = np.array([s.extent()[side : side + 2] for s in snapshots if s.touching])
     low, high = float(ends[:, 0].min()), float(ends[:, 1].max())
     margin = 0.06 * (high - low)
-    if not snapshots[0].periodic:
+    if not snapshots[0].periodic[side // 2]:
         return low - margin, high + margin
     borders = snapshots[0].borders()
     return max(low - margin, borders[side]), min(high + margin, borders[side + 1])

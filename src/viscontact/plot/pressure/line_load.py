@@ -103,7 +103,7 @@ def compare_line_loads(
 def _values(snapshot: Snapshot) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     x, load = snapshot.line_load()
     cell, _ = snapshot.cell_size
-    if snapshot.periodic:
+    if snapshot.periodic[0]:
         return np.concatenate([x[:1] - cell, x, x[-1:] + cell]), np.pad(load, 1, mode="wrap")
     pressed = np.flatnonzero(load > 0)
     if not pressed.size:

@@ -1,0 +1,35 @@
+"""Fields on cells: mirror symmetry, and heights over the neighbouring cells."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def height_over_neighbours(gap: NDArray[np.float64], axis: int) -> NDArray[np.float64]:
+    """Half the height of each point over the mean of its two neighbours along an axis [m].
+
+    The gap falls where the surface rises. 0 at dips, at the ends of a line and at holes (+inf).
+
+    Examples
+    --------
+    >>> height_over_neighbours(np.array([[3.0], [1.0], [3.0], [2.0]]), 0).ravel().tolist()
+    [0.0, 1.0, 0.0, 0.0]
+    """
+    height = np.zeros(gap.shape)
+    lines, out = np.moveaxis(gap, axis, 0), np.moveaxis(height, axis, 0)[1:-1]
+    known = np.isfinite(lines[:-2] + lines[1:-1] + lines[2:])
+    mean = (lines[:-2][known] + lines[2:][known]) / 2
+    out[known] = np.maximum(mean - lines[1:-1][known], 0.0) / 2
+    return height
+
+
+def is_even(field: NDArray[np.float64], axis: int) -> bool:
+    """Test whether a field's second half mirrors its first along an axis exactly.
+
+    False for an odd number of cells.
+
+    >>> is_even(np.array([[1.0, 2.0], [1.0, 2.0]]), 0), is_even(np.array([[1.0, 2.0]]), 1)
+    (True, False)
+    """
+    return field.shape[axis] % 2 == 0 and np.array_equal(field, np.flip(field, axis))
