@@ -4,7 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from viscontact.verify import edges, elastic, fixed_contact, growing, periodic, unloading
+from viscontact.verify import (
+    edges,
+    elastic,
+    fixed_contact,
+    growing,
+    line_contact,
+    periodic,
+    unloading,
+)
 from viscontact.verify.case import Case, Result, run_case
 
 CASES: tuple[Case, ...] = (
@@ -14,6 +22,7 @@ CASES: tuple[Case, ...] = (
     *unloading.CASES,
     *fixed_contact.CASES,
     *periodic.CASES,
+    *line_contact.CASES,
 )
 
 #: Called before each case with the case, the number done and the total.
