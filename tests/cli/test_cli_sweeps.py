@@ -227,7 +227,13 @@ def test_sweep_stands_for_its_runs_in_a_comparison(
     (Path(sweep) / "force=3N" / STATE_NAME).touch()
     assert main(["compare", "sweep", "-o", "c.png"]) == 0
     assert compared == [names, names, ["force=2N", "force=4N"]]
-    assert capsys.readouterr().err == "sweep: 1 of 3 runs are not done and left out\n"
+    left_out = capsys.readouterr().err
+    assert left_out == (
+        "sweep: 1 of 3 runs is not done and left out; `viscontact status sweep` shows their "
+        "states\n"
+    )
+    assert main(["plot", "sweep", "response"]) == 0
+    assert capsys.readouterr().err == left_out
     monkeypatch.setattr("viscontact.cli.results.compared_runs.MOST", 1)
     assert main(["compare", "sweep"]) == 2
     assert "has 2 finished runs, of which a figure shows 1 at most" in capsys.readouterr().err

@@ -23,14 +23,29 @@ def panel(figure: Figure, label: str) -> Axes:
 
 def test_curves_are_the_largest_values_over_time() -> None:
     axes = panel(response(hertz_sweep(load__force=FORCES, indenter__radius=RADII)), "Approach")
-    assert (axes.get_xlabel(), axes.get_ylabel()) == ("force [kN]", "Approach [mm]")
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("Load force [kN]", "Approach [mm]")
     curves = [line for line in axes.lines if line.get_linestyle() == "-"]
-    for radius, line in zip(RADII[0], curves, strict=True):
+    for radius, line in zip(sorted(RADII[0]), curves, strict=True):
         np.testing.assert_allclose(line.get_xdata(), [1, 2, 8])
         expected = 1e-3 * (np.array(FORCES[0]) ** 2 / radius) ** (1 / 3)
         np.testing.assert_allclose(line.get_ydata(), expected)
-    labels = [text.get_text() for text in axes.figure.legends[0].get_texts()]
-    assert labels == ["radius 20 mm", "10 mm"]
+    [legend] = axes.figure.legends
+    assert legend.get_title().get_text() == "Indenter radius"
+    assert [text.get_text() for text in legend.get_texts()] == ["10 mm", "20 mm"]
+
+
+def test_curve_is_in_the_order_of_the_values_and_breaks_at_a_run_without_a_result() -> None:
+    ds = hertz_sweep(load__force=([4e3, 1e3, 8e3, 2e3], "N"))
+    ds["state"][3] = "failed"
+    ds["approach"][3] = np.nan
+    figure = response(ds)
+    curve, _, cross = panel(figure, "Approach").lines
+    assert curve.get_xdata().tolist() == [1, 2, 4, 8]
+    assert np.isnan(curve.get_ydata()).tolist() == [False, True, False, False]
+    assert (cross.get_marker(), cross.get_xdata().tolist()) == ("x", [2])
+    assert figure.get_suptitle() == (
+        "Largest values over time, with error bars; ×: no result (1 run of 4)"
+    )
 
 
 def test_bars_are_the_errors() -> None:
@@ -53,8 +68,8 @@ def test_large_grid_of_numbers_is_a_map() -> None:
     ds = hertz_sweep(load__force=(forces, "N"), indenter__radius=(radii, "m"))
     ds["approach"][0, 0] = np.nan  # without a result
     figure = response(ds)
-    [axes] = [each for each in figure.axes if each.get_ylabel().startswith("force")][:1]
-    assert axes.get_xlabel() == "radius [mm]"
+    [axes] = [each for each in figure.axes if each.get_ylabel().startswith("Load force")][:1]
+    assert axes.get_xlabel() == "Indenter radius [mm]"
     x, y = axes.lines[0].get_data()
     assert len(x) == 29
     assert (50.0, 1.0) not in set(zip(np.round(x, 9), np.round(y, 9), strict=True))
@@ -64,7 +79,7 @@ def test_large_grid_of_numbers_is_a_map() -> None:
 def test_texts_are_drawn_as_points() -> None:
     ds = hertz_sweep(material=(["pmma", "nylon"], "1"), load__force=FORCES)
     axes = panel(response(ds.transpose("material", ...)), "Approach")
-    assert axes.get_xlabel() == "force [kN]"
+    assert axes.get_xlabel() == "Load force [kN]"
     only = ds.isel({"load.force": [0]})
     only["approach"][1] = 2 * only["approach"][0]
     axes = panel(response(only.squeeze("load.force", drop=True)), "Approach")
@@ -76,7 +91,10 @@ def test_listed_runs_have_a_column_of_points_for_each_key() -> None:
     ds = listed(hertz_sweep(load__force=FORCES, indenter__radius=RADII))
     assert varied_keys(ds) == ["load.force", "indenter.radius"]
     figure = response(ds)
-    assert [axes.get_xlabel() for axes in figure.axes[-2:]] == ["force [kN]", "radius [mm]"]
+    assert [axes.get_xlabel() for axes in figure.axes[-2:]] == [
+        "Load force [kN]",
+        "Indenter radius [mm]",
+    ]
     over_radius = figure.axes[1].lines[0]
     np.testing.assert_allclose(over_radius.get_xdata(), [20, 10] * 3)
     np.testing.assert_allclose(over_radius.get_ydata(), 1e3 * ds.approach[:, 1])
@@ -126,5 +144,5 @@ def test_values_at_equal_ratios_have_a_logarithmic_axis_with_plain_numbers() -> 
 def test_key_with_a_single_value_is_no_axis() -> None:
     ds = hertz_sweep(material=(["pmma"], "1"), load__force=FORCES, indenter__radius=([0.01], "m"))
     axes = panel(response(ds), "Approach")
-    assert axes.get_xlabel() == "force [kN]"
+    assert axes.get_xlabel() == "Load force [kN]"
     np.testing.assert_allclose(axes.lines[0].get_ydata(), 1e3 * ds.approach[0, :, 0, 1])

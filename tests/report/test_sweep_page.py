@@ -24,7 +24,7 @@ def test_page_has_a_row_for_each_run(tmp_path: Path) -> None:
     write_sweep_report(hertz_sweep(load__force=FORCES), tmp_path / "a.html", title="forces")
     page = (tmp_path / "a.html").read_text(encoding="utf-8")
     head, *rows = cells(page)
-    assert head[:4] == ["run", "state", "force [kN]", "Approach [µm]"]
+    assert head[:4] == ["run", "state", "Load force [kN]", "Approach [µm]"]
     assert [row[:3] for row in rows] == [["0", "done", "1"], ["1", "done", "8"], ["2", "done", "2"]]
     # 1000**(2/3) and 8000**(2/3)
     assert [row[3] for row in rows[:2]] == ["100 ± 10", "400 ± 40"]

@@ -128,11 +128,11 @@ def _key_columns(ds: xr.Dataset) -> Iterator[tuple[str, list[str]]]:
     for key in varied_keys(ds):
         values = xr.broadcast(ds[key], ds["state"])[0].transpose(*run_dims(ds)).values.ravel()
         if not np.issubdtype(values.dtype, np.number):
-            yield key_label(ds, key), [str(value) for value in values]
+            yield key_label(key), [str(value) for value in values]
             continue
         unit = readable_unit(ds[key].attrs.get("units", "1"), values)
         texts = [format_compact(value, 4) if np.isfinite(value) else "" for value in unit(values)]
-        yield unit.label(key_label(ds, key)), texts
+        yield unit.label(key_label(key)), texts
 
 
 def _scalar_columns(ds: xr.Dataset) -> Iterator[tuple[str, list[str]]]:

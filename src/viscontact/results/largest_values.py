@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Hashable
 
 import numpy as np
@@ -31,11 +32,14 @@ def varied_keys(ds: xr.Dataset) -> list[str]:
     return [name for name in names if name not in _NO_KEYS and np.unique(ds[name]).size > 1]
 
 
-def key_label(ds: xr.Dataset, key: str) -> str:
-    """Last part of a key in words; the whole key where several keys end in the same part."""
-    last = [each.rpartition(".")[2] for each in varied_keys(ds)]
-    short = key.rpartition(".")[2]
-    return short.replace("_", " ") if last.count(short) == 1 else key
+def key_label(key: str) -> str:
+    """Key in words, for axes and headings of tables.
+
+    >>> key_label("material.delayed_modulus"), key_label("indenter[2].radius")
+    ('Material delayed modulus', 'Indenter 2 radius')
+    """
+    words = " ".join(re.findall(r"[^\W_]+", key))
+    return words[:1].upper() + words[1:]
 
 
 def largest_values(ds: xr.Dataset, name: str) -> tuple[xr.DataArray, xr.DataArray]:

@@ -41,6 +41,14 @@ def _finished(sweep: Path) -> list[Path]:
     except (ValueError, OSError) as error:
         refuse(str(error))
     found = [place for place in places if run_state(place).state is State.DONE]
-    if len(found) < len(places):
-        say(f"{sweep}: {len(places) - len(found)} of {len(places)} runs are not done and left out")
+    note_missing(sweep, len(places) - len(found), len(places))
     return found
+
+
+def note_missing(sweep: Path, missing: int, total: int) -> None:
+    """Print how many runs a figure leaves out, and the command that lists them."""
+    if missing:
+        say(
+            f"{sweep}: {missing} of {total} runs {'is' if missing == 1 else 'are'} not done and "
+            f"left out; `viscontact status {sweep}` shows their states"
+        )

@@ -12,11 +12,12 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from viscontact.cli.results.compared_runs import compared_runs
+from viscontact.cli.results.compared_runs import compared_runs, note_missing
 from viscontact.cli.results.stored import early_end, opened
 from viscontact.cli.terminal.messages import refuse, say
 from viscontact.cli.terminal.progress import counted
 from viscontact.runs.sweep.open_many import open_many
+from viscontact.runs.sweep.states import State
 from viscontact.units.formatting import format_quantity
 from viscontact.units.parsing import parse_quantity
 
@@ -65,9 +66,11 @@ def _sweep(directory: Path, instants: list[float] | None) -> xr.Dataset:
     if instants:
         refuse(f"--time: does not apply to the figure {RESPONSE}")
     try:
-        return open_many(directory)
+        ds = open_many(directory)
     except (OSError, ValueError) as error:
         refuse(f"{directory}: {RESPONSE} is a figure of a sweep: {error}")
+    note_missing(directory, int((ds["state"] != State.DONE.value).sum()), ds["state"].size)
+    return ds
 
 
 def draw_comparison(

@@ -73,12 +73,19 @@ def add_legend(axes: Axes, handles: Sequence[Artist], labels: Sequence[str], **h
 
 
 def add_legend_below(
-    figure: Figure, handles: Sequence[Artist], labels: Sequence[str], *, columns: int = 3
+    figure: Figure,
+    handles: Sequence[Artist],
+    labels: Sequence[str],
+    *,
+    columns: int = 3,
+    title: str | None = None,
 ) -> None:
     """Add a legend below all panels, with at most `columns` columns."""
     figure.legend(
         handles,
         labels,
+        title=title,
+        title_fontsize=TICK_SIZE,
         loc="outside lower center",
         ncols=columns_that_fit(figure, labels, columns),
         fontsize=TICK_SIZE,

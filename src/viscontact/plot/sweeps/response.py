@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
+from textwrap import fill
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
-from matplotlib.axis import Axis
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from numpy.typing import NDArray
 
 from viscontact.plot.layout import style
 from viscontact.plot.layout.page import NARROW, Width, page_width
+from viscontact.plot.sweeps.key_axis import KeyAxis, is_number, key_labels, place_log_ticks
 from viscontact.results.largest_values import (
     compared_scalars,
     key_label,
@@ -23,7 +22,7 @@ from viscontact.results.largest_values import (
     varied_keys,
 )
 from viscontact.results.variables import SCALARS
-from viscontact.units.formatting import ReadableUnit, format_compact, readable_unit
+from viscontact.units.formatting import ReadableUnit, readable_unit
 
 Floats = NDArray[np.float64]
 
@@ -31,8 +30,8 @@ Floats = NDArray[np.float64]
 _LEAST_MAP, _MOST_CURVES = 5, 8
 #: Number of points in a curve from which they are smaller.
 _MANY = 200
-#: Least ratio of the largest to the least value on a logarithmic axis.
-_DECADE = 9.0
+#: Width of a letter of a label [inch].
+_LETTER = 0.068
 #: Most keys and contours that are drawn.
 _MOST_KEYS, _CONTOURS = 4, 12
 
@@ -53,7 +52,7 @@ def response(results: xr.Dataset, *, width: Width | None = None) -> Figure:
         A panel for each chief scalar that differs between the runs. A grid of one or two keys has
         curves, or contours if both keys are numbers with five values or more; other sweeps have
         points over each key. Error bars are those of the results. A hollow marker is a value that
-        depends on the mesh. Runs without a result are left out.
+        depends on the mesh. A cross at the lower edge, or in a map, is a run without a result.
 
     Raises
     ------
@@ -67,7 +66,7 @@ def response(results: xr.Dataset, *, width: Width | None = None) -> Figure:
     >>> runs = {"state": ("load.force", ["done", "done"]), "approach": approach}
     >>> axes = response(xr.Dataset(runs, coords)).axes[0]
     >>> axes.get_xlabel(), axes.get_ylabel(), axes.lines[0].get_ydata().round(9).tolist()
-    ('force [N]', 'Approach [µm]', [10.0, 40.0])
+    ('Load force [N]', 'Approach [µm]', [10.0, 40.0])
     """
     scalars, keys = compared_scalars(results), varied_keys(results)
     if not scalars or not keys:
@@ -75,35 +74,74 @@ def response(results: xr.Dataset, *, width: Width | None = None) -> Figure:
         raise ValueError(f"response: no {what}; give a sweep of two finished runs or more")
     across = page_width(width, style.TWO_COLUMNS)
     single = [dim for dim in run_dims(results) if results.sizes[dim] == 1]
-    results = results.squeeze(single, drop=True)
-    dims = run_dims(results)
-    if not set(keys) <= set(dims) or len(keys) > 2:
-        return _points(results, scalars, keys[:_MOST_KEYS], across)
-    keys = sorted(keys, key=lambda key: _is_number(results, key) * results.sizes[key], reverse=True)
-    figure, panels = _panels(len(scalars), across)
-    for name, axes in zip(scalars, panels, strict=True):
-        sizes = [results.sizes[key] for key in keys]
-        numbers = all(_is_number(results, key) for key in keys)
-        if len(keys) == 2 and numbers and min(sizes) >= _LEAST_MAP:
-            _draw_map(axes, results, name, *keys)
-        else:
-            _draw_curves(axes, results, name, *keys)
-    _add_key(figure, panels, key_label(results, keys[-1]))
+    ds = results.squeeze(single, drop=True)
+    if not set(keys) <= set(run_dims(ds)) or len(keys) > 2:
+        figure, has_bars = _points(ds, scalars, keys[:_MOST_KEYS], across), True
+    else:
+        has_bars = not _suits_map(ds, keys)
+        figure = _panels(ds, scalars, keys, across, is_map=not has_bars)
+    heading = fill(_heading(ds, scalars, has_bars=has_bars), _letters(across))
+    figure.suptitle(heading, x=0.01, ha="left", fontsize=style.TICK_SIZE, color=style.INK)
+    return figure
+
+
+def _suits_map(ds: xr.Dataset, keys: list[str]) -> bool:
+    numbers = [key for key in keys if is_number(ds, key)]
+    return len(numbers) == 2 and min(ds.sizes[key] for key in keys) >= _LEAST_MAP
+
+
+def _heading(ds: xr.Dataset, scalars: list[str], *, has_bars: bool) -> str:
+    """Description of the values, and the number of runs without one."""
+    errors = [largest_values(ds, name)[1].values for name in scalars]
+    said = "Largest values over time"
+    if has_bars and any((np.isfinite(each) & (each > 0)).any() for each in errors):
+        said += ", with error bars"
+    if has_bars and any(np.isposinf(each).any() for each in errors):
+        said += "; hollow: depends on the mesh"
+    if missing := int((ds["state"] != "done").sum()):
+        runs = "1 run" if missing == 1 else f"{missing} runs"
+        said += f"; ×: no result ({runs} of {ds['state'].size})"
+    return said
+
+
+def _panels(
+    ds: xr.Dataset, scalars: list[str], keys: list[str], across: float, *, is_map: bool
+) -> Figure:
+    """Maps or curves of a grid of one or two keys: a panel for each scalar."""
+    numbers = [key for key in keys if is_number(ds, key)]
+    ds = ds.sortby(numbers)
+    keys = sorted(keys, key=lambda key: (key in numbers) * ds.sizes[key], reverse=True)
+    has_legend = len(keys) == 2 and not is_map
+    columns = 1 if across <= NARROW else 2 if len(scalars) in (2, 4) else min(3, len(scalars))
+    rows = -(-len(scalars) // columns)
+    height = (2.3 if columns == 3 else 2.6) * rows + (0.7 if has_legend else 0.3)
+    figure = style.new_figure(across, height)
+    panels = list(figure.subplots(rows, columns, squeeze=False).flat)
+    for unused in panels[len(scalars) :]:
+        unused.remove()
+    axis = KeyAxis.of(ds, keys[0])
+    for name, axes in zip(scalars, panels, strict=False):
+        style.dress(axes)
+        (_draw_map if is_map else _draw_curves)(axes, ds, name, axis, *keys)
+        axis.label(axes, _letters(across, columns))
+    if has_legend:
+        handles, labels = panels[0].get_legend_handles_labels()
+        style.add_legend_below(figure, handles, labels, columns=4, title=key_label(keys[1]))
     return figure
 
 
 def _points(ds: xr.Dataset, scalars: list[str], keys: list[str], across: float) -> Figure:
     """Points of all runs: a row of panels for each scalar, a column for each key."""
-    figure = style.new_figure(across, 1.9 * len(scalars) + 0.2)
+    figure = style.new_figure(across, 1.9 * len(scalars) + 0.4)
     grid = figure.subplots(len(scalars), len(keys), squeeze=False, sharey="row", sharex="col")
     for row, name in zip(grid, scalars, strict=True):
         values = _Values.of(ds, name)
         for key, axes in zip(keys, row, strict=True):
             style.dress(axes)
             places = xr.broadcast(ds[key], ds["state"])[0].transpose(*ds["state"].dims)
-            axis = _Axis.of(ds, key)
+            axis = KeyAxis.of(ds, key)
             values.draw(axes, axis.at(places.values.ravel()), style.LINE, joined=False)
-            axis.label(axes)
+            axis.label(axes, _letters(across, len(keys)))
         for axes in row[1:]:
             axes.set_ylabel("")
     for axes in grid[:-1].flat:
@@ -111,74 +149,27 @@ def _points(ds: xr.Dataset, scalars: list[str], keys: list[str], across: float) 
     return figure
 
 
-def _panels(count: int, across: float) -> tuple[Figure, list[Axes]]:
-    columns = 1 if across <= NARROW else 2 if count in (2, 4) else min(3, count)
-    rows = -(-count // columns)
-    figure = style.new_figure(across, {1: 2.6, 2: 2.6, 3: 2.3}[columns] * rows + 0.3)
-    panels = list(figure.subplots(rows, columns, squeeze=False).flat)
-    for unused in panels[count:]:
-        unused.remove()
-    for axes in panels[:count]:
-        style.dress(axes)
-    return figure, panels[:count]
-
-
-@dataclass(frozen=True)
-class _Axis:
-    """Axis of a key: numbers in a readable unit, or texts at equal distances."""
-
-    name: str
-    unit: ReadableUnit
-    texts: tuple[str, ...]  # empty for numbers
-    is_log: bool
-
-    @classmethod
-    def of(cls, ds: xr.Dataset, key: str) -> _Axis:
-        values = ds[key].values
-        if not _is_number(ds, key):
-            texts = tuple(dict.fromkeys(map(str, values.ravel())))
-            return cls(key_label(ds, key), ReadableUnit("", 1.0), texts, is_log=False)
-        known = np.unique(values[np.isfinite(values)])
-        unit = readable_unit(ds[key].attrs.get("units", "1"), known)
-        return cls(key_label(ds, key), unit, (), _suits_logarithm(known))
-
-    def at(self, values: NDArray[np.generic]) -> Floats:
-        """Places of values on the axis."""
-        if self.texts:
-            return np.array([self.texts.index(str(value)) for value in values], dtype=np.float64)
-        return self.unit(values)
-
-    def place_ticks(self, axis: Axis) -> None:
-        """Place plain numbers at the ticks of a logarithmic axis."""
-        if self.is_log:
-            axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-            axis.set_major_formatter(FuncFormatter(lambda value, _: format_compact(value)))
-            axis.set_minor_formatter(NullFormatter())
-
-    def label(self, axes: Axes) -> None:
-        """Label the horizontal axis, and choose its scale."""
-        axes.set_xlabel(self.unit.label(self.name))
-        if self.is_log:
-            axes.set_xscale("log")
-        self.place_ticks(axes.xaxis)
-        if self.texts:
-            axes.set_xticks(range(len(self.texts)), self.texts, rotation=30, ha="right")
+def _letters(across: float, columns: int = 1) -> int:
+    """Number of letters in a line below one of some panels [inch]."""
+    return int(across / columns / _LETTER)
 
 
 @dataclass(frozen=True)
 class _Values:
-    """Largest values of a scalar and their errors, in the order of the runs."""
+    """Largest values of a scalar, their errors, and the runs without a result, in their order."""
 
     name: str
     unit: ReadableUnit
     values: Floats
     errors: Floats
+    missing: NDArray[np.bool_]
 
     @classmethod
     def of(cls, ds: xr.Dataset, name: str, *order: str) -> _Values:
-        found = [each.transpose(*order).values for each in largest_values(ds, name)]
-        values, errors = found if len(order) > 1 else (each.ravel() for each in found)
-        return cls(name, readable_unit(SCALARS[name].units, values), values, errors)
+        arrays = (*largest_values(ds, name), ds["state"] != "done")
+        found = [each.transpose(*order).values for each in arrays]
+        values, errors, missing = found if len(order) > 1 else (each.ravel() for each in found)
+        return cls(name, readable_unit(SCALARS[name].units, values), values, errors, missing)
 
     def draw(
         self,
@@ -199,79 +190,48 @@ class _Values:
             places, values, "o-" if joined else "o", color=colour, markersize=size, label=label
         )
         axes.plot(places[marked], values[marked], "o", color="white", markersize=0.6 * size)
+        missing = places[self.missing if row is None else self.missing[:, row]]
+        low = axes.get_xaxis_transform()
+        axes.plot(
+            missing, np.full(missing.size, 0.02), "x", color=colour, markersize=4, transform=low
+        )
         bars = np.where(np.isfinite(errors), errors, 0.0)
         if (bars > 0).any():
             axes.errorbar(places, values, bars, fmt="none", ecolor=colour, elinewidth=0.8)
         axes.set_ylabel(self.unit.label(SCALARS[self.name].label))
 
 
-def _draw_curves(axes: Axes, ds: xr.Dataset, name: str, key: str, by: str | None = None) -> None:
+def _draw_curves(
+    axes: Axes, ds: xr.Dataset, name: str, axis: KeyAxis, key: str, by: str | None = None
+) -> None:
     """Curves of a scalar over a key, one for each value of another one."""
-    axis = _Axis.of(ds, key)
     places = axis.at(ds[key].values)
     if by is None:
         _Values.of(ds, name, key).draw(axes, places, style.LINE, joined=not axis.texts)
     else:
-        values, labels = _Values.of(ds, name, key, by), _labels(ds, by)
+        values, labels = _Values.of(ds, name, key, by), key_labels(ds, by)
         few = len(labels) <= _MOST_CURVES
         looks = style.run_styles(len(labels)) if few else ()
         colours = [look["color"] for look in looks] or style.time_colours(len(labels))
         for row, (label, colour) in enumerate(zip(labels, colours, strict=True)):
             label = label if few or row in (0, len(labels) - 1) else ""
             values.draw(axes, places, colour, joined=not axis.texts, row=row, label=label)
-    axis.label(axes)
 
 
-def _labels(ds: xr.Dataset, key: str) -> list[str]:
-    """Values of a key for a legend."""
-    values = ds[key].values
-    if not _is_number(ds, key):
-        return [str(value) for value in values]
-    unit = readable_unit(ds[key].attrs.get("units", "1"), values)
-    return [f"{format_compact(float(value))} {unit.symbol}".strip() for value in unit(values)]
-
-
-def _draw_map(axes: Axes, ds: xr.Dataset, name: str, key: str, by: str) -> None:
+def _draw_map(axes: Axes, ds: xr.Dataset, name: str, across: KeyAxis, key: str, by: str) -> None:
     """Contours of a scalar over two keys, with a dot for each run."""
-    found, across, up = _Values.of(ds, name, by, key), _Axis.of(ds, key), _Axis.of(ds, by)
-    x, order_x = _increasing(across.at(ds[key].values))
-    y, order_y = _increasing(up.at(ds[by].values))
-    values = np.ma.masked_invalid(found.unit(found.values)[np.ix_(order_y, order_x)])
+    found, up = _Values.of(ds, name, by, key), KeyAxis.of(ds, by)
+    x, y = across.at(ds[key].values), up.at(ds[by].values)
+    values = np.ma.masked_invalid(found.unit(found.values))
     drawn = axes.contourf(x, y, values, _CONTOURS, cmap="viridis")
     bar = style.figure_of(axes).colorbar(drawn, ax=axes)
     bar.ax.tick_params(labelsize=style.TICK_SIZE)
-    has_result = ~np.ma.getmaskarray(values)
+    has_value = ~np.ma.getmaskarray(values)
     points_x, points_y = np.meshgrid(x, y)
-    axes.plot(points_x[has_result], points_y[has_result], ".", color="white", markersize=2.0)
-    across.label(axes)
+    axes.plot(points_x[has_value], points_y[has_value], ".", color="white", markersize=2.0)
+    axes.plot(points_x[found.missing], points_y[found.missing], "x", color=style.INK, markersize=3)
     axes.set_ylabel(up.unit.label(up.name))
     if up.is_log:
         axes.set_yscale("log")
-    up.place_ticks(axes.yaxis)
+        place_log_ticks(axes.yaxis, up.span)
     style.add_heading(axes, found.unit.label(SCALARS[name].label))
-
-
-def _increasing(places: Floats) -> tuple[Floats, NDArray[np.intp]]:
-    order = np.argsort(places)
-    assert all(a < b for a, b in pairwise(places[order]))  # values of a dimension differ
-    return places[order], order
-
-
-def _add_key(figure: Figure, panels: list[Axes], key: str) -> None:
-    """Legend of the curves, which differ in a key."""
-    handles, labels = panels[0].get_legend_handles_labels()
-    if labels:
-        labels = [f"{key} {labels[0]}", *labels[1:]]
-        style.add_legend_below(figure, handles, labels, columns=4)
-
-
-def _suits_logarithm(values: Floats) -> bool:
-    """Test for increasing values over a decade or so whose ratios vary less than their steps."""
-    if values[0] <= 0 or values[-1] < _DECADE * values[0]:
-        return False
-    steps, ratios = np.diff(values), np.diff(np.log(values))
-    return bool(ratios.std() / ratios.mean() < steps.std() / steps.mean())
-
-
-def _is_number(ds: xr.Dataset, key: str) -> bool:
-    return bool(np.issubdtype(ds[key].dtype, np.number))
