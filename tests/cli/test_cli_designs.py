@@ -79,15 +79,22 @@ def test_zip_pairs_the_values(folder: Path) -> None:
 
 
 @pytest.mark.usefixtures("idle")
-def test_a_larger_sample_extends_the_smaller_one(folder: Path) -> None:
+def test_a_larger_sample_extends_the_smaller_one(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     words = ["--range", "load.force=0.5 N:2 N:log", "--range", "time.end=1 s:5 s", "--seed", "3"]
     assert sweep("--sample", "3", *words) == 130
     few = manifest()
-    Path("out/ball_0001").mkdir()  # has begun
+    Path("out/ball_0001").mkdir()
+    Path("out/ball_0001/state.npz").touch()  # has begun
     assert sweep("--sample", "5", *words, "--resume") == 130
     assert manifest()[:3] == few
     assert [each.directory for each in manifest()] == [f"ball_000{n}" for n in range(5)]
+    capsys.readouterr()
     assert sweep("--sample", "5", *words[:-1], "4", "--resume") == 2
+    assert "repeat the command that began it with its --range, --seed and --method" in (
+        capsys.readouterr().err
+    )
 
 
 def test_the_printed_command_names_all_options() -> None:

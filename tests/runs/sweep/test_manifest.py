@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 import tracemalloc
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -14,7 +15,7 @@ from hypothesis import strategies as st
 from viscontact.cli import main
 from viscontact.cli.many.recorded_sweep import RecordedSweep, recorded_runs
 from viscontact.cli.terminal.messages import CommandError
-from viscontact.run_files import MANIFEST_NAME
+from viscontact.run_files import FAILURE_NAME, MANIFEST_NAME, STATE_NAME
 from viscontact.runs.sweep.manifest import DESIGNS, SweepRun, read_manifest, write_manifest
 
 CASE = """\
@@ -180,30 +181,74 @@ def recorded(directory: Path, *forces: str, **others: str) -> RecordedSweep:
     return RecordedSweep(directory, runs, recorded_runs(directory))
 
 
-def test_the_manifest_of_another_sweep_is_not_replaced(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def begin(directory: Path) -> None:
+    """Leave the restart data of a run in a directory."""
+    directory.mkdir()
+    (directory / STATE_NAME).touch()
+
+
+def test_the_manifest_of_another_sweep_is_not_replaced(tmp_path: Path) -> None:
     recorded(tmp_path, "1N", "2N").write()
     kept = (tmp_path / MANIFEST_NAME).read_bytes()
-    recorded(tmp_path, "3N").refuse_another(resume=False)  # nothing would be lost
-    (tmp_path / "a_2N").mkdir()
+    recorded(tmp_path, "3N").continued(resume=False)  # nothing would be lost
+    begin(tmp_path / "a_2N")
     for now, resume, said in (
         (recorded(tmp_path, "3N"), False, "the 2 runs of its runs.jsonl"),
-        (recorded(tmp_path, "1N", "3N"), True, "its run a_2N is none of these runs"),
-        (recorded(tmp_path, "1N", "2N", load="5"), True, "has load=that of the case, not 5"),
+        (recorded(tmp_path, "1N", "3N"), True, "its run a_2N has results, and is none of these"),
+        (recorded(tmp_path, "1N", "2N", load="5"), True, "with the load of its case, not 5"),
         (recorded(tmp_path, "1N", "2N", "3N"), False, "add runs to it: with --resume"),
     ):
         with pytest.raises(CommandError) as refused:
-            now.refuse_another(resume=resume)
+            now.continued(resume=resume)
         assert said in " ".join(refused.value.lines)
-    again = recorded(tmp_path, "1N", "2N")
-    again.refuse_another(resume=False)  # each run is checked by itself
-    again.write()
+    # Each run is checked by itself.
+    recorded(tmp_path, "1N", "2N").continued(resume=False).write()
     assert (tmp_path / MANIFEST_NAME).read_bytes() == kept
-    more = recorded(tmp_path, "3N", "1N", "2N")
-    more.refuse_another(resume=True)
-    more.write()
+    recorded(tmp_path, "3N", "1N", "2N").continued(resume=True).write()
     assert [each.name for each in read_manifest(tmp_path / MANIFEST_NAME)] == ["3N", "1N", "2N"]
+
+
+def test_runs_without_results_may_change_and_be_left_out(tmp_path: Path) -> None:
+    recorded(tmp_path, "1N", "2N", "200N").write()
+    begin(tmp_path / "a_1N")
+    (tmp_path / "a_200N").mkdir()
+    (tmp_path / "a_200N" / FAILURE_NAME).touch()
+    again = recorded(tmp_path, "1N", "2N", "20N").continued(resume=True)
+    assert [each.directory for each in again.runs] == ["a_1N", "a_2N", "a_20N"]
+    other = recorded(tmp_path, "1N", "2N", "200N", load="5")
+    with pytest.raises(CommandError) as refused:
+        other.continued(resume=True)
+    place = tmp_path / MANIFEST_NAME
+    assert f"viscontact run --task 2 {place} --set KEY=VALUE" in refused.value.lines[1]
+    (tmp_path / "a_1N" / STATE_NAME).unlink()
+    assert other.continued(resume=True).runs == other.runs
+
+
+def test_equal_quantities_are_the_same_run_however_they_are_written(tmp_path: Path) -> None:
+    recorded(tmp_path, "1N", "2N", size="[1 mm, 2mm]", law="zener").write()
+    begin(tmp_path / "a_1N")
+    begin(tmp_path / "a_2N")
+    same = recorded(tmp_path, "1 N", "2000 mN", "3 N", size="[1mm, 0.2 cm]", law="zener")
+    found = same.continued(resume=True).runs
+    assert [each.directory for each in found] == ["a_1N", "a_2N", "a_3 N"]
+    assert found[:2] == same.earlier
+    for other in ({"size": "[1 mm, 3 mm]"}, {"law": "maxwell"}, {"size": "[1 mm, 2 um]"}):
+        given = {"size": "[1 mm, 2mm]", "law": "zener"} | other
+        with pytest.raises(CommandError):
+            recorded(tmp_path, "1N", "2N", **given).continued(resume=True)
+
+
+def test_settings_of_a_single_run_are_kept(tmp_path: Path) -> None:
+    first = recorded(tmp_path, "1N", "2N", size="1 mm")
+    changed = replace(first.runs[1], settings={KEY: "2N", "size": "3 mm"}, changed=("size",))
+    write_manifest(tmp_path, [first.runs[0], changed])
+    again = recorded(tmp_path, "1N", "2N", "3N", size="1 mm")
+    assert again.continued(resume=True).runs[1] == changed  # it has failed
+    begin(tmp_path / "a_2N")
+    found = again.continued(resume=True)
+    assert [each.settings["size"] for each in found.runs] == ["1 mm", "3 mm", "1 mm"]
+    found.write()
+    assert list(read_manifest(tmp_path / MANIFEST_NAME)) == found.runs
 
 
 def test_a_damaged_manifest_is_refused_when_the_sweep_is_resumed(

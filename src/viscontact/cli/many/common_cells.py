@@ -12,8 +12,15 @@ from viscontact.cli.many.request import PlannedRun
 from viscontact.cli.terminal.messages import CommandError, say
 from viscontact.run_files import CASE_NAME
 from viscontact.runs.processes.request import RunRequest
-from viscontact.runs.sweep.common_cells import KEY, cell_setting, common_cells, keeps_own_cells
+from viscontact.runs.sweep.common_cells import (
+    KEY,
+    cell_setting,
+    common_cells,
+    keeps_own_cells,
+    recorded_cells,
+)
 from viscontact.runs.sweep.manifest import SweepRun
+from viscontact.runs.sweep.varied_runs import case_name
 
 
 def with_common_cells(
@@ -48,11 +55,10 @@ def _added(
     try:
         if not design.keys or keeps_own_cells(case, design, settings):
             return ()
-        places = {each.output.name for each in requests if each.output is not None}
-        for run in earlier:
-            if run.directory in places:
-                cell = run.settings.get(f"grid.{KEY}")
-                return () if cell is None else (f"grid.{KEY}={cell}",)
+        if requests[0].output is not None:
+            name = case_name(case, requests[0].output.parent.resolve())
+            if (recorded := recorded_cells(earlier, name)) is not None:
+                return recorded
         begun = [found for each in requests if each.resume and (found := _begun_with(each))]
         if begun:
             return begun[0].settings

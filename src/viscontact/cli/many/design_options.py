@@ -82,7 +82,7 @@ class DesignOptions:
         """
         option, blank, rest = line.partition(" ")
         named = re.split(r"[:=\s]", rest, maxsplit=1)[0]
-        if option != "--set" or not any(_share_a_branch(named, key) for key in keys):
+        if option != "--set" or not any(share_a_branch(named, key) for key in keys):
             return line
         place = {"--table": f"{self.table}:", "--sample": "--range"}.get(self.option, "--vary")
         return f"{place}{blank}{rest}"
@@ -157,7 +157,12 @@ def _refuse_repeated(option: str, keys: Sequence[str], once: str) -> None:
         refuse(f"{option} {twice[0]}: is given twice; name {once}")
 
 
-def _share_a_branch(one: str, other: str) -> bool:
+def share_a_branch(one: str, other: str) -> bool:
+    """Test whether two keys are the same, or one is a part of the other.
+
+    >>> share_a_branch("load", "load.force"), share_a_branch("load.kind", "load.force")
+    (True, False)
+    """
     steps = zip(re.split(r"[.\[]", one), re.split(r"[.\[]", other), strict=False)
     return all(a == b for a, b in steps)
 

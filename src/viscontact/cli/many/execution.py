@@ -74,7 +74,7 @@ def _end(request: ManyRequest, sweep: CheckedSweep, ended: Sequence[Ended]) -> N
     if any(each.code == INTERRUPTED for each in runs):
         stop(*lines, "interrupted", f"continue with: {request.resuming}", code=INTERRUPTED)
     if stopped:
-        stop(*lines)
+        stop(*lines, *sweep.recorded.change_of_failed())
 
 
 def _not_marched(job: Job) -> Ended:

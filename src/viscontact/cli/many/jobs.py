@@ -7,7 +7,12 @@ from dataclasses import dataclass
 
 from viscontact.cli.many.checks import MOST_READ, checked_jobs
 from viscontact.cli.many.common_cells import with_common_cells
-from viscontact.cli.many.recorded_sweep import RecordedSweep, recorded_runs, sweep_runs
+from viscontact.cli.many.recorded_sweep import (
+    RecordedSweep,
+    any_begun,
+    recorded_runs,
+    sweep_runs,
+)
 from viscontact.cli.many.request import ManyRequest
 from viscontact.cli.terminal.messages import say
 from viscontact.runs import resources
@@ -30,12 +35,14 @@ def checked_sweep(request: ManyRequest) -> CheckedSweep:
     """Check all runs of a request; nothing is created."""
     common, planned = request.common, request.planned()
     earlier = recorded_runs(common.output)
-    option, kept = request.options.option, earlier if common.resume else ()
-    runs = with_common_cells(planned, option, common.settings, kept)
-    jobs = checked_jobs(request, planned, runs)
-    recorded = RecordedSweep(common.output, sweep_runs(common.output, planned, runs), earlier)
+    kept = earlier if common.resume and any_begun(common.output, earlier) else []
+    requests = with_common_cells(planned, request.options.option, common.settings, kept)
+    runs = sweep_runs(common.output, planned, requests)
+    recorded = RecordedSweep(common.output, runs, earlier)
     if not common.overwrite:
-        recorded.refuse_another(resume=common.resume)
+        recorded = recorded.continued(resume=common.resume)
+        requests = recorded.requests(requests)
+    jobs = checked_jobs(request, planned, requests)
     if len(jobs) > MOST_READ and not common.quiet:
         say(f"of {len(jobs)} runs, only some are checked now; each is checked as it begins")
     keys = dict.fromkeys(key for each in planned for key in each.design.keys)

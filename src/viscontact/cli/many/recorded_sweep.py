@@ -5,12 +5,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import NoReturn
 
 from viscontact.cli.many.request import PlannedRun
 from viscontact.cli.terminal.messages import refuse
-from viscontact.run_files import MANIFEST_NAME
-from viscontact.runs.processes.request import RunRequest
-from viscontact.runs.sweep.manifest import SweepRun, read_manifest, write_manifest
+from viscontact.run_files import FAILURE_NAME, MANIFEST_NAME
+from viscontact.runs.processes.request import RunRequest, command, no_option
+from viscontact.runs.sweep import continuation
+from viscontact.runs.sweep.continuation import OtherSweepError, continued, has_begun
+from viscontact.runs.sweep.manifest import SweepRun, write_manifest
 from viscontact.runs.sweep.varied_runs import case_name
 
 
@@ -25,49 +28,84 @@ class RecordedSweep:
     runs: list[SweepRun]
     earlier: list[SweepRun]
 
-    def refuse_another(self, *, resume: bool) -> None:
-        """Refuse to replace the manifest of other runs; a resumed sweep may have more runs."""
-        if self.directory is None or self._is_recorded:
-            return
-        if not any((self.directory / each.directory).exists() for each in self.earlier):
-            return  # none of them has begun
-        if not resume:
-            refuse(
-                f"{self.directory}: holds another sweep, the {len(self.earlier)} runs of its "
-                f"{MANIFEST_NAME}; choose another directory with -o DIR, replace it with "
-                "--overwrite, or add runs to it: with --resume, and all values of both"
-            )
-        now = {each.directory: each for each in self.runs}
-        for each in self.earlier:
-            if (change := _change(each, now.get(each.directory))) is not None:
+    def continued(self, *, resume: bool) -> RecordedSweep:
+        """Return the sweep with the directories and settings that equal runs have already.
+
+        A resumed sweep may have more runs; other runs than those with results are refused.
+        """
+        if self.directory is None or not self.earlier:
+            return self
+        try:
+            found = replace(self, runs=continued(self.directory, self.runs, self.earlier))
+        except OtherSweepError as error:
+            if resume:
                 refuse(
-                    f"{self.directory}: holds another sweep: its run {each.directory} {change}; "
-                    "repeat the command that began it, choose another directory with -o DIR, or "
-                    "replace it with --overwrite"
+                    f"{self.directory}: holds another sweep: {error}; repeat the command that "
+                    f"began it{self._same_sample}, choose another directory with -o DIR, or "
+                    "replace it with --overwrite",
+                    *replace(self, runs=self.earlier).change_of_failed(),
                 )
+            self._refuse_another()
+        is_new = found.runs != self.earlier
+        if is_new and not resume and any_begun(self.directory, self.earlier):
+            self._refuse_another()
+        return found
+
+    def requests(self, planned: Sequence[RunRequest]) -> list[RunRequest]:
+        """Return the requests with the directories and settings of the runs."""
+        if self.directory is None:
+            return list(planned)
+        return [
+            replace(each, output=self.directory / run.directory, settings=run.assignments)
+            for each, run in zip(planned, self.runs, strict=True)
+        ]
 
     def write(self) -> None:
         """Write the manifest, unless it is there already."""
-        if self.directory is None or self._is_recorded:
+        if self.directory is None or self.runs == self.earlier:
             return
         try:
             write_manifest(self.directory, self.runs)
         except OSError as error:
             refuse(f"{self.directory / MANIFEST_NAME}: cannot be written: {error}")
 
+    def _refuse_another(self) -> NoReturn:
+        refuse(
+            f"{self.directory}: holds another sweep, the {len(self.earlier)} runs of its "
+            f"{MANIFEST_NAME}; choose another directory with -o DIR, replace it with "
+            "--overwrite, or add runs to it: with --resume, and all values of both"
+        )
+
     @property
-    def _is_recorded(self) -> bool:
-        return [_key(each) for each in self.runs] == [_key(each) for each in self.earlier]
+    def _same_sample(self) -> str:
+        kinds = {each.design for each in self.earlier}
+        return " with its --range, --seed and --method" if "sample" in kinds else ""
+
+    def change_of_failed(self) -> list[str]:
+        """Line with the command that changes only the first run that has failed; else empty."""
+        if self.directory is None:
+            return []
+        for each in self.runs:
+            place = self.directory / each.directory
+            if (place / FAILURE_NAME).exists():
+                path = self.directory / MANIFEST_NAME
+                words = ["--task", str(each.run), no_option(path), "--set", "KEY=VALUE"]
+                again = ["--overwrite"] if has_begun(place) else []
+                return [f"to change only {each.directory}: {command(*words, *again)}"]
+        return []
 
 
 def recorded_runs(directory: Path | None) -> list[SweepRun]:
     """Runs in the manifest of a directory; none without a manifest."""
-    if directory is None or not (path := directory / MANIFEST_NAME).exists():
-        return []
     try:
-        return list(read_manifest(path))
+        return [] if directory is None else continuation.recorded_runs(directory)
     except (ValueError, OSError) as error:
         refuse(str(error))
+
+
+def any_begun(directory: Path | None, earlier: Sequence[SweepRun]) -> bool:
+    """Test whether any run of a manifest has results."""
+    return directory is not None and any(has_begun(directory / run.directory) for run in earlier)
 
 
 def sweep_runs(
@@ -87,25 +125,3 @@ def sweep_runs(
         keys, kind = plan.design.keys, plan.design.kind
         found.append(SweepRun(number, name, own, settings, keys, paths[each.case], kind))
     return found
-
-
-def _change(earlier: SweepRun, now: SweepRun | None) -> str | None:
-    """Difference of a run from the one of the same directory; None without any."""
-    if now is None:
-        return "is none of these runs"
-    if now.case != earlier.case:
-        return f"has the case {earlier.case}, not {now.case}"
-    for key in {**earlier.settings, **now.settings}:
-        before, after = earlier.settings.get(key), now.settings.get(key)
-        if _plain(before) != _plain(after):
-            return f"has {key}={before or 'that of the case'}, not {after or 'that of the case'}"
-    return None
-
-
-def _key(run: SweepRun) -> SweepRun:
-    """Run whose values are compared without blanks."""
-    return replace(run, settings={key: _plain(value) for key, value in run.settings.items()})
-
-
-def _plain(value: str | None) -> str:
-    return "".join((value or "").split())

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+from viscontact.cli.many.changed_run import changed_run, write_changed
 from viscontact.cli.many.request import ManyRequest
 from viscontact.cli.run.execution import execute
 from viscontact.cli.terminal.interruption import watched_interruption
@@ -19,6 +20,7 @@ from viscontact.cli.terminal.messages import (
 from viscontact.run_files import MANIFEST_NAME, RESULT_NAME, STOP_NAME
 from viscontact.runs.directory.failure import write_failure
 from viscontact.runs.directory.lock import is_locked
+from viscontact.runs.execution.checked_run import checked_run
 from viscontact.runs.processes.request import RunRequest
 from viscontact.runs.sweep.manifest import SweepRun, read_manifest
 
@@ -26,20 +28,24 @@ from viscontact.runs.sweep.manifest import SweepRun, read_manifest
 def execute_task(asked: ManyRequest, array: Path | None, number: int) -> None:
     """Compute the run of a manifest that has a number, or what is left of it.
 
-    The manifest is in the place of a case file. A failure is written to the run's directory.
+    The manifest is in the place of a case file. Settings replace those of the run there. A failure
+    is written to the run's directory.
     """
     common = asked.common
     if common.overwrite and common.resume:
         refuse("--resume continues a run and --overwrite starts it again: give one of them")
     is_plain = asked == ManyRequest(asked.cases, asked.common) and array is None
-    if len(asked.cases) > 1 or not is_plain or common.settings or common.output is not None:
+    if len(asked.cases) > 1 or not is_plain or common.output is not None:
         refuse(
             f"--task {number}: takes the manifest of a sweep, which names the case, the settings "
             f"and the directory of the run: viscontact run --task {number} DIR/{MANIFEST_NAME}"
         )
     (manifest,) = asked.cases
     path = manifest / MANIFEST_NAME if manifest.is_dir() else manifest
-    request = _request(path, _numbered(path, number), common)
+    run = _numbered(path, number)
+    if common.settings:
+        run = _changed(path, run, common)
+    request = _request(path, run, common)
     directory = request.output or Path()
     try:
         _execute(request, path.parent / STOP_NAME)
@@ -57,6 +63,16 @@ def _execute(request: RunRequest, file: Path) -> None:
     with watched_interruption() as interruption:
         interruption.file = file
         execute(request)
+
+
+def _changed(path: Path, run: SweepRun, common: RunRequest) -> SweepRun:
+    """Run with other settings, which are checked and written to its manifest."""
+    directory = path.parent / run.directory
+    changed = changed_run(run, common.settings, directory, overwrite=common.overwrite)
+    if changed != run:
+        checked_run(_request(path, changed, common))
+        write_changed(path, changed)
+    return changed
 
 
 def _request(path: Path, run: SweepRun, common: RunRequest) -> RunRequest:

@@ -21,6 +21,7 @@ from viscontact.runs.execution.checked_run import prepare
 from viscontact.runs.machine.memory import available_memory
 from viscontact.runs.sweep.designs import Design
 from viscontact.runs.sweep.extremes import extreme_rows
+from viscontact.runs.sweep.manifest import SweepRun
 from viscontact.simulation.setup import RunSetup
 from viscontact.units.formatting import format_quantity
 
@@ -51,6 +52,15 @@ class CommonCells:
 def cell_setting(dx: str, dy: str) -> tuple[str, ...]:
     """Setting of cells of given lengths."""
     return (f"grid.{KEY}=[{dx}, {dy}]",)
+
+
+def recorded_cells(earlier: Sequence[SweepRun], case: str) -> tuple[str, ...] | None:
+    """Setting of the common cells of the runs of a case in a manifest; None without such runs."""
+    for run in earlier:
+        if run.case == case and f"grid.{KEY}" not in run.changed:
+            cell = run.settings.get(f"grid.{KEY}")
+            return () if cell is None else (f"grid.{KEY}={cell}",)
+    return None
 
 
 def keeps_own_cells(case: Path, design: Design, settings: Sequence[str]) -> bool:

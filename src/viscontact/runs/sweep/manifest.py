@@ -33,6 +33,7 @@ class SweepRun:
     varied: tuple[str, ...]  # keys of the settings that differ between the runs of a case
     case: str  # path of the case file
     design: str  # one of `DESIGNS`
+    changed: tuple[str, ...] = ()  # keys of the settings that were set for this run alone
 
     @property
     def assignments(self) -> tuple[str, ...]:
@@ -51,6 +52,8 @@ def write_manifest(directory: Path, runs: Iterable[SweepRun]) -> Path:
     with replacing(path) as file:
         for each in runs:
             found = {**vars(each), "settings": dict(each.settings)}
+            if not each.changed:
+                del found["changed"]
             text = json.dumps(found, ensure_ascii=False)
             # A name that is not UTF-8 is escaped as JSON does it.
             file.write(text.encode("utf-8", "backslashreplace") + b"\n")
@@ -93,9 +96,10 @@ def _read(line: str, number: int) -> SweepRun:
         _entry(found, "name", str),
         _entry(found, "directory", str),
         _texts(found),
-        _names(found),
+        _names(found, "varied"),
         _entry(found, "case", str),
         _entry(found, "design", str),
+        _names(found, "changed") if "changed" in found else (),
     )
     if run.run != number - 1 or isinstance(found["run"], bool):
         raise ValueError(f"run: must be {number - 1}, the number of its line, got {found['run']}")
@@ -122,11 +126,11 @@ def _texts(found: dict[str, Any]) -> dict[str, str]:
     return settings
 
 
-def _names(found: dict[str, Any]) -> tuple[str, ...]:
-    names = _entry(found, "varied", list)
+def _names(found: dict[str, Any], entry: str) -> tuple[str, ...]:
+    names = _entry(found, entry, list)
     for name in names:
         if not isinstance(name, str) or name not in found["settings"]:
-            raise ValueError(f"varied: {name!r} is none of the keys of the settings")
+            raise ValueError(f"{entry}: {name!r} is none of the keys of the settings")
     return tuple(names)
 
 

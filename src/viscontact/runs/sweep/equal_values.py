@@ -1,0 +1,47 @@
+"""Equality of settings: quantities are equal however they are written."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+from functools import lru_cache
+from typing import Any
+
+from viscontact.case.yaml_source import SourceError, parse_value
+from viscontact.units.parsing import parse_any_quantity
+
+
+@lru_cache(maxsize=4096)
+def comparable(key: str, text: str) -> Hashable:
+    """Value of a setting in a form that is the same for equal values.
+
+    Numbers are compared to 12 digits in SI units, and names of files letter by letter.
+
+    >>> comparable("load.force", "1 kN") == comparable("load.force", "1000N")
+    True
+    >>> comparable("grid.size", "[1 mm, 2 mm]") == comparable("grid.size", "[0.1cm,2mm]")
+    True
+    """
+    try:
+        value = parse_value(text)
+    except SourceError:
+        return text.strip()
+    return value if _last_part(key) == "file" and isinstance(value, str) else _comparable(value)
+
+
+def _last_part(key: str) -> str:
+    return key.rpartition(".")[2]
+
+
+def _comparable(value: Any) -> Hashable:
+    if isinstance(value, list):
+        return tuple(map(_comparable, value))
+    if isinstance(value, dict):
+        return tuple(sorted((str(key), repr(_comparable(each))) for key, each in value.items()))
+    if value is None or isinstance(value, bool):
+        return repr(value)
+    text = str(value)
+    try:
+        number, unit = parse_any_quantity(text)
+    except ValueError:
+        return " ".join(text.split())
+    return f"{number:.12g}", unit

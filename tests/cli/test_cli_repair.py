@@ -1,0 +1,103 @@
+"""Runs of a sweep that have failed, and are computed with other settings."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+import viscontact as vc
+from viscontact.cli import main
+from viscontact.run_files import MANIFEST_NAME, RESULT_NAME
+from viscontact.runs.sweep.manifest import read_manifest
+
+CASE = """\
+indenter: {shape: sphere, radius: 10 mm}
+material: {law: elastic, shear_modulus: 1 MPa, poisson_ratio: 0.5}
+load: {kind: step, force: 0.2 N}
+time: {end: 1 s, steps: 1}
+grid: {shape: [24, 24], size: [5 mm, 5 mm]}
+output: {errors: false, fields: none}
+"""
+LARGER = ["--set", "grid.size=[10 mm, 10 mm]"]
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    (tmp_path / "ball.yaml").write_text(CASE, encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def sweep(*words: str) -> int:
+    return main(["run", "ball.yaml", "-o", "out", "-q", *words])
+
+
+def tasks(design: list[str], *codes: int) -> None:
+    """Compute the runs of a design one by one, in this process, which end with some codes."""
+    Path("a.sbatch").unlink(missing_ok=True)
+    assert sweep(*design, "--array", "a.sbatch") == 0
+    for number, code in enumerate(codes):
+        assert main(["run", "-q", "--task", f"{number}", "out"]) == code
+
+
+def written() -> list[int]:
+    return [path.stat().st_mtime_ns for path in sorted(Path("out").rglob(RESULT_NAME))]
+
+
+def test_a_setting_of_one_task_repairs_its_run_alone(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Hertz (1882): the approach of a sphere grows with F**(2/3)."""
+    vary = ["--vary", "load.force=0.2 N,9 N,0.4 N"]
+    task = ["run", "-q", "--task", "1", "out/runs.jsonl"]
+    assert sweep(*vary) == 1  # the second contact reaches the border
+    said = capsys.readouterr().err.splitlines()
+    path = Path("out") / MANIFEST_NAME
+    change = f"viscontact run --task 1 {path} --set KEY=VALUE"
+    assert said[-2:] == [
+        "1 of 3 runs stopped: ball_force=9N",
+        f"to change only ball_force=9N: {change}",
+    ]
+    done = written()
+    assert sweep(*vary, *LARGER, "--resume") == 2
+    first, second = capsys.readouterr().err.splitlines()
+    assert "ball_force=0.2N has results with the grid.size of its case, not [10 mm, 10 mm]" in first
+    assert second == f"to change only ball_force=9N: {change}"
+    kept = path.read_bytes()
+    assert main([*task, "--set", "grid.sizes=[10 mm, 10 mm]"]) == 2
+    assert main([*task, "--set", "load.force=1 N"]) == 2
+    assert "--set load.force: differs between the runs of this sweep" in capsys.readouterr().err
+    assert path.read_bytes() == kept
+    assert main([*task, *LARGER]) == 0
+    assert sweep(*vary, "--resume") == 0
+    assert written()[:-1] == done
+    run = list(read_manifest(path))[1]
+    assert (run.settings["grid.size"], run.changed) == ("[10 mm, 10 mm]", ("grid.size",))
+    ds = vc.open_many("out")
+    assert float(ds.approach[1, -1] / ds.approach[0, -1]) == pytest.approx(45 ** (2 / 3), rel=0.03)
+
+
+def test_results_are_not_replaced_by_those_of_other_settings(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    tasks(["--vary", "load.force=0.2 N,0.4 N"], 0, 0)
+    kept, task = Path("out/runs.jsonl").read_bytes(), ["run", "-q", "--task", "0", "out"]
+    assert main([*task, *LARGER]) == 2
+    assert "has results with other settings; replace them with --over" in capsys.readouterr().err
+    assert main([*task, "--set", "load=5 N"]) == 2
+    assert Path("out/runs.jsonl").read_bytes() == kept
+    assert main([*task, *LARGER, "--overwrite"]) == 0
+    assert main([*task, "--set", "grid.size=[1 cm, 1cm]"]) == 0  # the same lengths
+    assert vc.open_results("out/ball_force=0.2N").sizes["time"] == 2
+
+
+def test_a_row_of_a_table_is_corrected_in_the_table(folder: Path) -> None:
+    plan = Path("plan.csv")
+    plan.write_text("load.force [N]\n0.2\n9\n", encoding="utf-8")
+    tasks(["--table", "plan.csv"], 0, 1)
+    done = written()
+    plan.write_text("load.force [N]\n0.2\n0.4\n", encoding="utf-8")
+    tasks(["--table", "plan.csv", "--resume"], 0, 0)
+    assert written()[:1] == done
+    assert vc.open_many("out")["load.force"].values.tolist() == [0.2, 0.4]
