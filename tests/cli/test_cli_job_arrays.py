@@ -191,7 +191,7 @@ def test_a_file_stops_tasks_until_the_next_array_is_written(
         (["--task", "0", "my ball.yaml"], "my ball.yaml:1: is not a line of JSON"),
         (["--task", "0", "out", "out"], "--task 0: takes the manifest of a sweep, which names"),
         (["--task", "0", "out", "-o", "x"], "--task 0: takes the manifest of a sweep, which"),
-        (["--task", "0", "out", "--set", "a=1"], "--task 0: takes the manifest of a sweep"),
+        (["--task", "0", "out", "--set", "a=1"], "--set a: unknown key"),
         (["--task", "0", "out", "--vary", "a=1"], "--task 0: takes the manifest of a sweep"),
         (["--task", "0", "out", "--array", "a.pbs"], "--task 0: takes the manifest of a sweep"),
         (["--task", "0", "out", "--scheduler", "local"], "--array and --task do not go with it"),
