@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -98,8 +99,7 @@ class ContactDomain:
             count // 2 if even else 0 for count, even in zip(grid.shape, mirrored, strict=True)
         )
         self.shape = (grid.shape[0] - self._first_row, grid.shape[1] - self._first_column)
-        if not all(grid.periodic):
-            self._coefficients = _coefficients(grid)
+        self._coefficients = self._influence_table()
         self.convolution = self._operator(self.shape, single=False)
         self.whole = self._patch(slice(0, self.shape[0]), slice(0, self.shape[1]))
         self._last = self.whole
@@ -189,9 +189,7 @@ class ContactDomain:
             grid.cell_area,
             _arm(shape, grid),
             self._operator(shape, single=True),
-            Preconditioner(
-                shape, grid.cell_size, mirrored=self.mirrored, transforms=self._transforms
-            ),
+            self._preconditioner(shape),
             RigidPlane(
                 grid.x[self._first_row :][rows],
                 grid.y[self._first_column :][columns],
@@ -199,6 +197,15 @@ class ContactDomain:
                 self.mirrored,
             ),
         )
+
+    def _influence_table(self) -> NDArray[np.float64]:
+        """Influence coefficients between all cells of the grid; none for a periodic one."""
+        return np.empty((0, 0)) if all(self.grid.periodic) else _coefficients(self.grid)
+
+    def _preconditioner(self, shape: tuple[int, int]) -> Preconditioner:
+        """Approximate inverse of the convolution over a block of cells."""
+        options: Any = {"mirrored": self.mirrored, "transforms": self._transforms}
+        return Preconditioner(shape, self.grid.cell_size, **options)
 
     def _operator(self, shape: tuple[int, int], *, single: bool) -> Operator:
         """Convolution over a block of cells, or over the whole period."""

@@ -27,9 +27,13 @@ class ContactProblem:
         return replace(self, open_gap=patch.cut(self.open_gap))
 
     def coarsened(self) -> ContactProblem:
-        """Same problem in cells twice as long and wide, with the mean gap of the four."""
+        """Same problem in cells twice as long and wide, with the mean gap of the four.
+
+        An axis with a single cell keeps it.
+        """
         nx, ny = self.open_gap.shape
-        fours = self.open_gap.reshape(nx // 2, 2, ny // 2, 2)
+        pair_x, pair_y = min(nx, 2), min(ny, 2)
+        fours = self.open_gap.reshape(nx // pair_x, pair_x, ny // pair_y, pair_y)
         return replace(self, open_gap=fours.mean(axis=(1, 3)))
 
 

@@ -81,6 +81,11 @@ class MovingCompliance:
         """Compliance at rest, J0 + Σ Ji [1/Pa]."""
         return self.instant + float(self.amplitudes.sum())
 
+    def scaled(self, factor: float) -> MovingCompliance:
+        """Compliance times a factor."""
+        amplitudes = factor * self.amplitudes
+        return MovingCompliance(factor * self.instant, amplitudes, self.lengths, self.periods)
+
     def at_wave_number(self, wave_number: NDArray[np.float64]) -> NDArray[np.complex128]:
         """Factor of a wave exp(i k ξ) along the motion, for wave numbers k [1/m]; in 1/Pa."""
         total = np.full(np.shape(wave_number), self.instant, complex)
@@ -116,7 +121,7 @@ def moving_influence_table(
     across = np.arange(shape[1 - axis], dtype=np.float64) * cell[1]
     half = compliance.instant * coefficient(offsets[:, None], across[None, :], cell)
     table: NDArray[np.float64] = np.concatenate([half[:0:-1], half])
-    for period in np.unique(compliance.periods):
+    for period in np.unique(compliance.periods):  # none without modes
         modes = compliance.of_period(period)
         table += _delayed(modes, period, count, across, cell, coefficient)
     return np.ascontiguousarray(table if axis == 0 else table.T)

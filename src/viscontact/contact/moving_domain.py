@@ -1,0 +1,158 @@
+"""Half-space operators on a grid that moves with a body at constant speed."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.contact.domain import ContactDomain, Operator
+from viscontact.fourier import Transforms
+from viscontact.grid import Grid
+from viscontact.halfspace.convolution import Convolution
+from viscontact.halfspace.influence import influence_coefficient
+from viscontact.halfspace.moving_load import (
+    Coefficient,
+    MovingCompliance,
+    moving_influence_table,
+)
+from viscontact.halfspace.preconditioner import MovingPreconditioner
+
+#: Fewest cells of a coarser grid along an axis.
+COARSEST = 32
+
+
+class MovingDomain(ContactDomain):
+    """Half-space under a body in steady motion, in the coordinates of the body.
+
+    The unit displacement is that of the moving contact over a reference compliance
+    (`compliance`): that of a wave as long as the grid, so that it has the size of an elastic one.
+    Only evenness across the motion halves the problem.
+
+    `axis` is that of the motion, which is towards its positive end; `mirrored` means even across
+    it. `added` is an elastic compliance added to the operator [1/Pa], for the proximal point
+    method; `moving_table` the influence table without it, if it is known.
+    """
+
+    def __init__(
+        self,
+        grid: Grid,
+        moving_compliance: MovingCompliance,
+        axis: int,
+        *,
+        mirrored: bool = False,
+        added: float = 0.0,
+        transforms: Transforms | None = None,
+        coefficient: Coefficient = influence_coefficient,
+        moving_table: NDArray[np.float64] | None = None,
+    ) -> None:
+        self.moving_compliance, self.axis = moving_compliance, axis
+        self._added, self._coefficient, self._moving_table = added, coefficient, moving_table
+        wave = np.array(2 * np.pi / grid.size[axis])
+        #: Compliance that unit displacements are relative to [1/Pa].
+        self.compliance = abs(complex(moving_compliance.at_wave_number(wave)))
+        even = (mirrored and axis == 1, mirrored and axis == 0)
+        super().__init__(grid, mirrored=even, transforms=transforms)
+
+    def coarser(self) -> MovingDomain | None:
+        """Same region in cells twice as long and wide; None if their number is odd or too small.
+
+        An axis with a single cell keeps it.
+        """
+        shape = coarser_shape(self.grid.shape)
+        if shape is None or np.any(np.logical_and(self.mirrored, np.mod(shape, 2))):
+            return None
+        return self._on(replace(self.grid, shape=shape))
+
+    def with_elastic(self, added: float) -> MovingDomain:
+        """Same region with an elastic compliance added to the operator [1/Pa]."""
+        return self._on(self.grid, added, self._moving_table)
+
+    @cached_property
+    def elastic(self) -> Operator:
+        """Displacement per unit elastic compliance [Pa m] of pressure [Pa] on all cells."""
+        return self._convolved(self._elastic_table, self.shape)
+
+    @cached_property
+    def loss(self) -> Operator:
+        """Slope of the delayed displacement, Σ (Ji/li) (K p - Ei K p) [-], of pressure [Pa]."""
+        moving = self.moving_compliance
+        rates = replace(moving, instant=0.0, amplitudes=moving.amplitudes / moving.lengths)
+        grid = self.grid
+        delayed = moving_influence_table(
+            grid.shape, grid.cell_size, rates, self.axis, self._coefficient
+        )
+        return self._convolved(rates.relaxed * self._elastic_table - delayed, self.shape)
+
+    def _on(
+        self, grid: Grid, added: float = 0.0, moving_table: NDArray[np.float64] | None = None
+    ) -> MovingDomain:
+        return MovingDomain(
+            grid,
+            self.moving_compliance,
+            self.axis,
+            mirrored=any(self.mirrored),
+            added=added,
+            transforms=self._transforms,
+            coefficient=self._coefficient,
+            moving_table=moving_table,
+        )
+
+    @cached_property
+    def _elastic_table(self) -> NDArray[np.float64]:
+        rest = MovingCompliance(1.0, np.empty(0), np.empty(0))
+        return moving_influence_table(
+            self.grid.shape, self.grid.cell_size, rest, self.axis, self._coefficient
+        )
+
+    def _influence_table(self) -> NDArray[np.float64]:
+        if self._moving_table is None:
+            relative = self.moving_compliance.scaled(1 / self.compliance)
+            self._moving_table = moving_influence_table(
+                self.grid.shape, self.grid.cell_size, relative, self.axis, self._coefficient
+            )
+        if not self._added:
+            return self._moving_table
+        return self._moving_table + self._added / self.compliance * self._elastic_table
+
+    def _preconditioner(self, shape: tuple[int, int]) -> MovingPreconditioner:
+        moving = self.moving_compliance
+        total = replace(moving, instant=moving.instant + self._added).scaled(1 / self.compliance)
+        options: Any = {"mirrored": self.mirrored, "transforms": self._transforms}
+        return MovingPreconditioner(shape, self.grid.cell_size, total, self.axis, **options)
+
+    def _operator(self, shape: tuple[int, int], *, single: bool) -> Operator:
+        return self._convolved(self._coefficients, shape, single=single)
+
+    def _convolved(
+        self, table: NDArray[np.float64], shape: tuple[int, int], *, single: bool = False
+    ) -> Operator:
+        """Convolution with a table over a block of the domain's cells."""
+        axis = self.axis
+        along, across = shape[axis], shape[1 - axis] * (1 + any(self.mirrored))
+        middle = table.shape[axis] // 2
+        signed = slice(middle - along + 1, middle + along)
+        part = (signed, slice(across)) if axis == 0 else (slice(across), signed)
+        return Convolution(
+            table[part],
+            mirrored=self.mirrored,
+            single=single,
+            signed=axis,
+            transforms=self._transforms,
+        )
+
+
+def coarser_shape(shape: tuple[int, int]) -> tuple[int, int] | None:
+    """Half the numbers of cells; None if they are odd or too small. A single cell is kept.
+
+    Examples
+    --------
+    >>> coarser_shape((64, 1)), coarser_shape((64, 62))
+    ((32, 1), None)
+    """
+    if max(shape) == 1 or any(n > 1 and (n % 2 or n < 2 * COARSEST) for n in shape):
+        return None
+    return max(shape[0] // 2, 1), max(shape[1] // 2, 1)
