@@ -27,8 +27,8 @@ NESTED_TOLERANCE = 1e-4
 #: Newton steps from a guess, before the search starts from a coarser grid.
 STEPS_FROM_GUESS = 8
 
-#: First added elastic compliance of the proximal point method, relative to that of a wave as long as
-#: the grid, and its factors after a success and after a failure [-].
+#: First added elastic compliance of the proximal point method, relative to that of a wave as long
+#: as the grid, and its factors after a success and after a failure [-].
 FIRST_SHARE, AFTER_SUCCESS, AFTER_FAILURE = 0.3, 0.5, 3.0
 
 #: Accuracy of its problems, relative to the error before, and to the tolerance at the end [-].
