@@ -61,8 +61,10 @@ from .laws import Zener as Zener
 from .loads import ApproachHistory as ApproachHistory
 from .loads import ForceHistory as ForceHistory
 from .loads import LoadHistory as LoadHistory
+from .loads import Travel as Travel
 from .loads import harmonic as harmonic
 from .loads import ramp as ramp
+from .loads import reciprocating as reciprocating
 from .loads import step as step
 from .loads import triangle as triangle
 from .materials.cards import Card as Card

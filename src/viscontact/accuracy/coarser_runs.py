@@ -11,6 +11,11 @@ from numpy.typing import NDArray
 
 from viscontact.accuracy.coarser_grids import aligned_spacing, coarser_grid
 from viscontact.accuracy.coarser_steps import fewer_times, parts_of_shared_steps
+from viscontact.accuracy.moving_levels import (
+    aligned_along,
+    fewer_moving_times,
+    whole_cell_ratios,
+)
 from viscontact.checks.mesh import cells_across_spots
 from viscontact.checks.singularities import bend_at, cells_at_end, is_sharp, strain_of
 from viscontact.contact.cell_fields import is_even
@@ -92,16 +97,19 @@ def plan_coarser_runs(run: RunSetup, history: History) -> Iterator[CoarserRun]:
     one divides the steps that these two take like the run: the first ones behind kinks and jumps of
     the load, and all of a run of few steps.
     """
-    times, load = history["time"], run.problem.load
+    times, load = history["time"], run.problem.history
     own = step_ends(plan_steps(times, load))
     creeping = creeps(run.problem.compliance, times)
     divides = creeping and (len(own) < FEW_STEPS or not _has_small_time_error(history))
     step_ratios = _step_ratios(len(own))
     across = float(history["cells_across"].max(initial=0.0))
     spacings = _spacings(across, parities=_parities(run))
+    if run.problem.motion is not None and (whole := whole_cell_ratios(across)):
+        spacings = tuple((by, parity) for (by, _), (_, parity) in zip(whole, spacings, strict=True))
+        step_ratios = (whole[0][1], whole[1][1])
     # Steps between two times become longer without leaving any of these out.
     leaves_out = len(own) < STEPS_BETWEEN * len(times)
-    kept = (fewer_times(times, load.stops, by) if leaves_out else times for by in step_ratios)
+    kept = (_kept_times(run, times, by) if leaves_out else times for by in step_ratios)
     levels = list(zip(spacings, step_ratios, kept, strict=True))
     for spacing, step_ratio, left in reversed(levels):
         yield _coarser_run(run, *spacing, step_ratio, left)
@@ -110,6 +118,14 @@ def plan_coarser_runs(run: RunSetup, history: History) -> Iterator[CoarserRun]:
         parts = parts_of_shared_steps(own, step_ends(plan_steps(left, load, step_ratio)))
         divided = _coarser_run(run, *spacing, step_ratio, np.union1d(left, parts))
         yield replace(divided, divides_steps=True)
+
+
+def _kept_times(run: RunSetup, times: FloatArray, step_ratio: int) -> FloatArray:
+    """Times of a run of which about every `step_ratio`-th one is kept."""
+    motion, stops = run.problem.motion, run.problem.history.stops
+    if motion is None:
+        return fewer_times(times, stops, step_ratio)
+    return fewer_moving_times(times, stops, motion, run.grid, step_ratio)
 
 
 def _has_small_time_error(history: History) -> bool:
@@ -217,8 +233,13 @@ def creeps(compliance: ContactCompliance, times: FloatArray) -> bool:
 def _coarser_run(
     run: RunSetup, spacing: float, parity: bool, step_ratio: int, times: FloatArray
 ) -> CoarserRun:
-    ratios = aligned_spacing(run, spacing, parity)
-    coarse = run.on(coarser_grid(run.grid, ratios, parity))
+    if (motion := run.problem.motion) is None:
+        ratios = aligned_spacing(run, spacing, parity)
+        coarse = run.on(coarser_grid(run.grid, ratios, parity))
+    else:
+        ratios = spacing, spacing
+        grid = coarser_grid(run.grid, ratios, parity)
+        coarse = run.on(aligned_along(grid, run.grid, motion))
     problem = replace(
         run.problem, grid=coarse.grid, times=times, fields="none", step_ratio=float(step_ratio)
     )

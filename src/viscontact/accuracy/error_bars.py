@@ -21,13 +21,8 @@ from viscontact.accuracy.coarser_runs import (
     march_coarser_run,
     plan_coarser_runs,
 )
-from viscontact.accuracy.error_models import COARSE_SPOT_CELLS, ERROR_MODELS
-from viscontact.accuracy.least_bars import (
-    SOLVER_ERROR_FACTOR,
-    ContactKinds,
-    least_bar,
-    least_peak_bar,
-)
+from viscontact.accuracy.error_models import COARSE_SPOT_CELLS, ERROR_MODELS, MOVING_MODELS
+from viscontact.accuracy.least_bars import ContactKinds, least_bar, least_peak_bar
 from viscontact.accuracy.levels import (
     RefinementLevels,
     aligned,
@@ -39,6 +34,7 @@ from viscontact.accuracy.levels import (
     rises_to_ends,
     spots_across,
 )
+from viscontact.accuracy.moving_bars import SOLVER_ERROR_FACTOR
 from viscontact.accuracy.singular_peaks import peak_bars, singular_warnings, unbounded_peak
 from viscontact.results.variables import scalars_with_error
 from viscontact.simulation.setup import RunSetup
@@ -121,8 +117,9 @@ def error_bars_from(
     values = {
         name: _bar(run, name, RefinementLevels.of(name, history, found), kinds, history)
         for name in ERROR_MODELS
+        if name in history
     }
-    values["peak_pressure"] = np.fmax(values["peak_pressure"], least_peak_bar(kinds, history))
+    values["peak_pressure"] = np.fmax(values["peak_pressure"], least_peak_bar(run, kinds, history))
     values["mean_pressure"] = _mean_pressure_bar(history, values)
     left_out = run.mesh is not None and "peak" in run.mesh.warnings
     values["peak_pressure"] = peak_bars(values["peak_pressure"], history, found, left_out=left_out)
@@ -172,6 +169,8 @@ def _bar(
     own = np.abs(levels.values[0])
     scale = moving_maximum(own)
     model = ERROR_MODELS[name]
+    if run.problem.motion is not None:
+        model = MOVING_MODELS.get(name, model)
     by_cells = model.of(levels)
     if model.at_end is not None:
         ended = kinds.ended if name in ERRORS_KEPT else kinds.at_end

@@ -9,12 +9,15 @@ from numpy.typing import NDArray
 
 from viscontact.accuracy.coarser_grids import straight_ends
 from viscontact.accuracy.coarser_runs import History, creeps
+from viscontact.accuracy.moving_bars import (
+    RESISTANCES,
+    SOLVER_ERROR_FACTOR,
+    entry_rise,
+    least_resistance_bar,
+)
 from viscontact.simulation.setup import RunSetup
 
 Array = NDArray[np.float64]
-
-#: Errors of the scalars, in tolerances of the solver, which bounds the gap.
-SOLVER_ERROR_FACTOR = 3.0
 
 #: Smallest error of extents in cells, however well two grids agree; with spots of few cells; at a
 #: straight end; at a sharp one, towards which the contact widens without a limit; and where
@@ -116,17 +119,19 @@ def least_bar(
     if name in MOMENTS:
         smooth = _least_moment_bar(run, name, history)
         return np.maximum(smooth, _least_end_tilt(run, name, kinds, history))
+    if name in RESISTANCES:
+        return least_resistance_bar(run, name, history)
     if name in LEAST_ERRORS and name != run.problem.load.control:
         return _least_bulk_bar(run, name, kinds, history)
     return 0.0
 
 
-def least_peak_bar(kinds: ContactKinds, history: History) -> Array:
+def least_peak_bar(run: RunSetup, kinds: ContactKinds, history: History) -> Array:
     """Lower limit of the bar of the peak pressure, from its drop to the cells next to it [Pa]."""
     drops = kinds.drops
-    return np.asarray(
-        LEAST_PEAK_ERROR * drops**2 / (drops + SMOOTH_DROP) * history["peak_pressure"]
-    )
+    relative = LEAST_PEAK_ERROR * drops**2 / (drops + SMOOTH_DROP)
+    relative = np.fmax(relative, np.where(kinds.steep, entry_rise(run, history["time"]), 0.0))
+    return np.asarray(relative * history["peak_pressure"])
 
 
 def _least_extent_bar(run: RunSetup, axis: int, kinds: ContactKinds, history: History) -> Array:
@@ -163,6 +168,8 @@ def _late_cells(run: RunSetup, history: History) -> Array:
     radius = _half_breadth(run, history)
     if not creeps(run.problem.compliance, history["time"]):
         return np.zeros_like(radius)
+    if run.problem.motion is not None:  # the rear edge leaves a surface that is almost closed
+        return np.full_like(radius, MOST_LATE)
     grows = np.diff(radius, prepend=0.0) > 0
     last = np.maximum.accumulate(np.where(grows, np.arange(len(radius)), 0))
     ways = np.stack([radius[last] - radius, np.maximum.accumulate(radius) - radius])

@@ -87,7 +87,7 @@ def check_endless(indenter: Indenter, grid: Grid | None) -> None:
             )
 
 
-def datum_warnings(grid: Grid) -> dict[str, str]:
+def datum_warnings(grid: Grid, *, moving: bool = False) -> dict[str, str]:
     """Warn that the approach has no datum on a grid that is periodic along one axis only.
 
     >>> list(datum_warnings(Grid((1, 8), (1e-3, 1e-3), periodic=(True, False))))
@@ -95,10 +95,11 @@ def datum_warnings(grid: Grid) -> dict[str, str]:
     """
     if grid.has_datum:
         return {}
+    undefined = "approach, work, dissipation, heat" if moving else "approach, work"
     return {
         "datum": (
             f"the grid is periodic along {'xy'[grid.periodic.index(True)]} only, and {NO_DATUM}: "
-            "approach, work and loss per cycle are not defined (NaN)"
+            f"{undefined} and loss per cycle are not defined (NaN)"
         )
     }
 

@@ -93,6 +93,7 @@ class ContactDomain:
         if np.any(np.logical_and(mirrored, grid.periodic)):
             raise ValueError("along a period a grid is worked with as a whole, not mirrored")
         self.grid = grid
+        self._axis = (0.0, 0.0)
         self.mirrored = mirrored
         self._transforms = transforms or transforms_by(fastest_transforms())
         self._first_row, self._first_column = (
@@ -110,7 +111,23 @@ class ContactDomain:
             return None
         nx, ny = self.grid.shape
         halved = replace(self.grid, shape=(nx // 2, ny // 2))
-        return ContactDomain(halved, mirrored=self.mirrored, transforms=self._transforms)
+        domain = ContactDomain(halved, mirrored=self.mirrored, transforms=self._transforms)
+        domain.move_axis(self._axis)
+        return domain
+
+    def move_axis(self, axis: tuple[float, float]) -> None:
+        """Set the body's axis (x, y), about which rigid planes and moments are taken [m]."""
+        if axis == self._axis:
+            return
+        self._axis = axis
+        whole_is_last = self._last is self.whole
+        self.whole = replace(self.whole, plane=self._plane(self.whole.rows, self.whole.columns))
+        last = self._last
+        self._last = (
+            self.whole
+            if whole_is_last
+            else replace(last, plane=self._plane(last.rows, last.columns))
+        )
 
     def reduce_by_symmetry(self, field: NDArray[np.float64]) -> NDArray[np.float64]:
         """The independent part of a field on the grid."""
@@ -190,12 +207,7 @@ class ContactDomain:
             _arm(shape, grid),
             self._operator(shape, single=True),
             self._preconditioner(shape),
-            RigidPlane(
-                grid.x[self._first_row :][rows],
-                grid.y[self._first_column :][columns],
-                grid.cell_size,
-                self.mirrored,
-            ),
+            self._plane(rows, columns),
         )
 
     def _influence_table(self) -> NDArray[np.float64]:
@@ -206,6 +218,11 @@ class ContactDomain:
         """Approximate inverse of the convolution over a block of cells."""
         options: Any = {"mirrored": self.mirrored, "transforms": self._transforms}
         return Preconditioner(shape, self.grid.cell_size, **options)
+
+    def _plane(self, rows: slice, columns: slice) -> RigidPlane:
+        """Rigid motions over rows and columns of the domain, about the body's axis."""
+        x, y = self.grid.x[self._first_row :][rows], self.grid.y[self._first_column :][columns]
+        return RigidPlane(x - self._axis[0], y - self._axis[1], self.grid.cell_size, self.mirrored)
 
     def _operator(self, shape: tuple[int, int], *, single: bool) -> Operator:
         """Convolution over a block of cells, or over the whole period."""

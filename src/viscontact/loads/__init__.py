@@ -5,6 +5,7 @@ from viscontact.loads.force import ForceHistory
 from viscontact.loads.harmonic import HarmonicHistory, harmonic
 from viscontact.loads.history import LoadHistory, LoadPoint
 from viscontact.loads.standard import ramp, step, triangle
+from viscontact.loads.travel import Reciprocation, Travel, reciprocating
 
 __all__ = [
     "ApproachHistory",
@@ -12,8 +13,11 @@ __all__ = [
     "HarmonicHistory",
     "LoadHistory",
     "LoadPoint",
+    "Reciprocation",
+    "Travel",
     "harmonic",
     "ramp",
+    "reciprocating",
     "step",
     "triangle",
 ]

@@ -130,6 +130,11 @@ class LoadHistory(Displayable, ABC):
         return math.inf
 
     @property
+    def curved_until(self) -> float:
+        """Time up to which steps are at most `longest_step` [s]."""
+        return float(self.kinks[-1])
+
+    @property
     def load_cycles(self) -> tuple[Cycle, ...]:
         """Cycles of the load, in order: where each begins and ends [s], before or after a jump."""
         return ()

@@ -13,10 +13,12 @@ from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.loads import LoadHistory, LoadPoint
 from viscontact.loads.largest_load import largest_load
+from viscontact.loads.motion import Motion, MovingLoad
 from viscontact.materials.compliance import ContactCompliance
 from viscontact.materials.material import Material
 from viscontact.time_integration.adaptive_steps import AdaptiveSteps, estimated_steps
 from viscontact.time_integration.fixed_steps import FixedSteps, Step, plan_steps
+from viscontact.time_integration.moving_times import moving_times
 from viscontact.time_integration.requested_times import AdaptiveTimes
 from viscontact.time_integration.run_times import field_instants, run_instants
 from viscontact.units.numbers import as_real
@@ -49,6 +51,8 @@ class Problem:
         Times whose fields are kept [s].
     step_ratio : float
         Longest step between given times, relative to the longest one that the load allows [-].
+    motion : Motion or None
+        Motion of the body over the surface; None for a standing contact.
     """
 
     indenter: Indenter
@@ -60,6 +64,7 @@ class Problem:
     tolerance: float = 1e-6
     fields: str | Sequence[float] = "all"
     step_ratio: float = 1.0
+    motion: Motion | None = None
 
     def __post_init__(self) -> None:
         for name, kinds, optional in (
@@ -68,6 +73,7 @@ class Problem:
             ("load", (LoadHistory,), False),
             ("grid", (Grid, AutomaticGrid), True),
             ("indenter_material", (Material,), True),
+            ("motion", (Motion,), True),
         ):
             value = getattr(self, name)
             if not (isinstance(value, kinds) or (optional and value is None)):
@@ -103,8 +109,15 @@ class Problem:
         return self.times if isinstance(self.times, AdaptiveTimes) else None
 
     @cached_property
+    def history(self) -> LoadHistory:
+        """The load, of a moving body with the kinks and cycles of its path."""
+        return self.load if self.motion is None else MovingLoad(self.load, self.motion)
+
+    @cached_property
     def instants(self) -> NDArray[np.float64]:
         """Times of the states [s]; of adaptive steps the prescribed ones, the end last."""
+        if self.times is None and self.motion is not None and isinstance(self.grid, Grid):
+            return moving_times(self.motion, self.load, self.grid.cell_size)
         return run_instants(self.times, self.fields, self.load, self.compliance)
 
     @cached_property
@@ -125,7 +138,7 @@ class Problem:
     @cached_property
     def planned_steps(self) -> tuple[Step, ...]:
         """Steps through the given times; not for adaptive steps."""
-        return plan_steps(self.instants, self.load, self.step_ratio)
+        return plan_steps(self.instants, self.history, self.step_ratio)
 
     @property
     def step_count(self) -> float:

@@ -16,6 +16,7 @@ from viscontact.errors import AccuracyWarning, ConvergenceError, DomainError
 from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.loads import LoadHistory
+from viscontact.loads.motion import Motion
 from viscontact.materials.material import Material
 from viscontact.problem.problem import Problem
 from viscontact.results.dataset import field_axis, to_dataset
@@ -40,6 +41,7 @@ def simulate(
     threads: int = 1,
     progress: Progress | None = None,
     errors: bool = True,
+    motion: Motion | None = None,
 ) -> xr.Dataset:
     """Simulate an indenter pressed on a creeping half-space, and return its contact over time.
 
@@ -72,6 +74,9 @@ def simulate(
     errors : bool, optional
         Estimate the errors of the scalars, ``peak_pressure_error`` and so on, from two
         coarser runs, which take about two thirds of the run's own time.
+    motion : Travel or Reciprocation, optional
+        Motion of the body over the surface, see `Travel` and `reciprocating`; at rest when left
+        out. It needs a given grid, which is fixed to the surface.
 
     Returns
     -------
@@ -113,7 +118,10 @@ def simulate(
     >>> round(float(ds.approach[-1] / ds.approach[0]), 2)  # (J(5 s)/J(0))**(2/3)
     1.58
     """
-    problem = Problem(indenter, material, load, grid, times, indenter_material, tolerance, fields)
+    problem = Problem(
+        *(indenter, material, load, grid, times, indenter_material, tolerance, fields),
+        motion=motion,
+    )
     run = prepare_run(problem, threads)
     started = clock.perf_counter()
     states: list[ContactState] = []

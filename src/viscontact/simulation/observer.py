@@ -25,6 +25,7 @@ from viscontact.grid import MIN_CELLS_ACROSS
 from viscontact.loads.history import LoadPoint
 from viscontact.simulation.grid_enlargement import GridEnlargement
 from viscontact.simulation.load_cycles import LoadCycleWork
+from viscontact.simulation.moving_contact import MovingContact
 from viscontact.simulation.setup import RunSetup
 from viscontact.simulation.step_solution import StepSolution
 from viscontact.simulation.warning_rules import geometry_of, loading_warnings, setup_warnings
@@ -42,22 +43,24 @@ class Observer:
     def __init__(self, run: RunSetup, *, warns: bool = True) -> None:
         self._warns = warns
         self._set_geometry(run)
+        self._motion = None if run.problem.motion is None else MovingContact(run)
         self._warnings = WarningCollector()
         self._open = setup_warnings(run) if warns else {}
         self._work = 0.0
         self._before: StepSolution | None = None
         self._point: LoadPoint | None = None
-        self._cycles = LoadCycleWork(run.problem.load.load_cycles)
+        self._held = False  # the load of the last step
+        self._cycles = LoadCycleWork(run.problem.history.load_cycles)
         self._largest_area, self._cells_at_largest = 0.0, 0
         self._largest: NDArray[np.bool_] | None = None  # its spots are not counted yet
         self._spots_at_largest = 0.0
         self._peak, self._peak_time, self._peak_reported = 0.0, 0.0, 0.0
         self._peak_checked = 0.0
 
-    def _set_geometry(self, run: RunSetup) -> None:
-        self._run = run
-        self._outline = trace_outline(run.problem.indenter, run.grid)
-        self._geometry = geometry_of(run.problem, run.open_gap, run.grid)
+    def _set_geometry(self, run: RunSetup, time: float = 0.0) -> None:
+        self._run, indenter = run, run.indenter_at(time)
+        self._outline = trace_outline(indenter, run.grid)
+        self._geometry = geometry_of(run.problem, run.gap_at(time), run.grid, indenter=indenter)
 
     def map_fields(self, run: RunSetup, enlargement: GridEnlargement) -> None:
         """Continue the same run on a larger grid."""
@@ -67,15 +70,25 @@ class Observer:
 
     def evaluate(self, step: Step, point: LoadPoint, solution: StepSolution) -> ContactState:
         """Return the state at the end of a step, still without warnings."""
+        if self._motion is not None:
+            self._set_geometry(self._run, step.time)
         # Cells in contact, and the rim within cells, from the gap beside them.
         contact = solution.pressure > 0
         rim = trace_rim(self._run.grid, contact, solution.gap, self._outline)
         # Work since the step before, and the loss of a cycle that ends here.
         self._work += self._work_of(point, solution) if rim.grid.has_datum else math.nan
-        self._cycles.record_work(step, self._work)
+        moved = None
+        if self._motion is not None:
+            moved = self._motion.evaluate(step, solution)
+            # The surface takes up the work of the load and that of the motion.
+            self._work -= 0.0 if self._held else self._motion.added
+        total = self._work + (self._motion.work if self._motion is not None else 0.0)
+        self._cycles.record_work(step, total)
         if self._warns:
             self._collect_warnings(step, solution, rim)
         state = _state(step, solution, rim, self._work, self._cycles.last_loss)
+        if moved is not None:
+            state = replace(state, **vars(moved))
         # Kept for the end: the mesh is judged at the largest contact, and a peak between
         # requested times is reported.
         if state.contact_area > self._largest_area:
@@ -92,11 +105,14 @@ class Observer:
         At the last state the mesh is judged by the largest contact of the run.
         """
         self._peak_reported = max(self._peak_reported, state.peak_pressure)
-        mesh, unreported = {}, {}
+        mesh, unreported, moving = {}, {}, {}
         if last and self._largest_area:
             mesh = mesh_warnings(self._cells_at_largest, self._cells_across_spots())
             unreported = unreported_peak_warnings(self._peak, self._peak_time, self._peak_reported)
-        return replace(state, warnings=self._warnings.new(self._open, mesh, unreported))
+        if last and self._motion is not None:
+            moving = self._motion.warnings()
+        found = self._warnings.new(self._open, mesh, unreported | moving)
+        return replace(state, warnings=found)
 
     def refuse_coarse_mesh(self) -> None:
         """Raise DomainError at the end if the largest contact had fewer than four cells across."""
@@ -124,6 +140,7 @@ class Observer:
             "spots_at_largest": self._cells_across_spots(),
             "peak": [self._peak, self._peak_time, self._peak_reported],
             "peak_checked": self._peak_checked,
+            "motion": None if self._motion is None else self._motion.restart_data(),
         }
 
     def restore(self, restart_data: RestartData) -> None:
@@ -143,6 +160,8 @@ class Observer:
         self._spots_at_largest = restart_data["spots_at_largest"]
         self._peak, self._peak_time, self._peak_reported = restart_data["peak"]
         self._peak_checked = restart_data["peak_checked"]
+        if self._motion is not None:
+            self._motion.restore(restart_data["motion"])
 
     def _cells_across_spots(self) -> float:
         """Cells across the spots of the largest contact, counted on demand."""
@@ -188,10 +207,11 @@ class Observer:
         reciprocity, however far the step goes.
         """
         before, point_before = self._before, self._point
-        self._point = point
+        self._point, self._held = point, False
         if before is None:  # every run starts with a jump
             return self._run.problem.compliance.instant * solution.energy
         if point == point_before:
+            self._held = True
             travel = solution.motion - before.motion
             return float((before.resultants + solution.resultants) @ travel / 2)
         mean = (before.pressure + solution.pressure) / 2

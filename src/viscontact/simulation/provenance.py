@@ -29,11 +29,13 @@ def run_attributes(run: RunSetup) -> dict[str, Any]:
 
 def describe_problem(problem: Problem, grid: Grid) -> dict[str, Any]:
     """Describe a contact problem, solved on a grid, as plain data."""
+    motion = {} if problem.motion is None else {"motion": describe(problem.motion)}
     return {
         "indenter": describe(problem.indenter),
         "material": describe(problem.material),
         "indenter_material": describe(problem.indenter_material),
         "load": describe(problem.load),
+        **motion,
         "grid": describe(grid),
         "automatic": describe(problem.automatic_grid),
         "times": describe(problem.instants),

@@ -17,12 +17,15 @@ from viscontact.checks.arguments import (
     check_touch,
     points_under_load,
 )
+from viscontact.checks.motion import check_motion, check_path
 from viscontact.checks.periodicity import check_endless, check_period
 from viscontact.contact.domain import mirrored_axes
 from viscontact.fourier import fastest_transforms
 from viscontact.grid import Grid
+from viscontact.indenters import Indenter, PlacedIndenter
 from viscontact.meshing.mesh_choice import Mesh, choose_mesh
 from viscontact.problem.problem import Problem
+from viscontact.simulation.moving_body import PeriodicBody, cells_seen
 from viscontact.time_integration.fixed_steps import step_ends
 from viscontact.time_integration.plan import HereditaryPlan, plan_hereditary_integral
 
@@ -42,7 +45,7 @@ class RunSetup:
     grid : Grid
         The cells.
     open_gap : ndarray, shape (nx, ny)
-        The indenter's gap on the grid [m], +inf outside its outline.
+        The indenter's gap on the grid [m], +inf outside its outline; that at time 0 if it moves.
     hereditary : HereditaryPlan
         Method of the hereditary integral.
     mesh : Mesh or None
@@ -76,6 +79,20 @@ class RunSetup:
         """Return the same run on another grid."""
         return replace(self, grid=grid, open_gap=_gap_on(self.problem, grid))
 
+    def position_at(self, time: float) -> tuple[float, float]:
+        """Position of the body's axis at a time [m]; the origin if it does not move."""
+        return _position(self.problem, time)
+
+    def gap_at(self, time: float) -> NDArray[np.float64]:
+        """The indenter's gap on the grid at a time [m]."""
+        if self.problem.motion is None:
+            return self.open_gap
+        return _gap_on(self.problem, self.grid, time)
+
+    def indenter_at(self, time: float) -> Indenter:
+        """The indenter at its position at a time."""
+        return _indenter_at(self.problem, self.grid, time)
+
 
 def prepare_run(problem: Problem, threads: int = 1) -> RunSetup:
     """Check a contact problem and complete it to a run.
@@ -99,6 +116,7 @@ def prepare_run(problem: Problem, threads: int = 1) -> RunSetup:
     """
     if not (isinstance(threads, Integral) and 1 <= int(threads) <= 1024):
         raise ValueError(f"threads must be a whole number >= 1, and at most 1024, got {threads!r}")
+    check_motion(problem)
     # 1. Refuse what can be refused without a grid: times, magnitudes, creep law, jumps.
     check_times(problem)
     check_magnitudes(problem)
@@ -115,20 +133,58 @@ def prepare_run(problem: Problem, threads: int = 1) -> RunSetup:
         grid = mesh.grid
     # 3. Refuse what the body on this grid cannot carry.
     open_gap = _gap_on(problem, grid)
-    check_touch(problem, points[0][1], open_gap, grid)
+    about_body = _about_body(problem, grid)
+    check_touch(problem, points[0][1], open_gap, about_body)
     check_period(problem.indenter, open_gap, grid, problem.load)
-    check_balance(points[1:], open_gap, grid)
+    check_balance(points[1:], open_gap, about_body)
+    check_path(problem, grid)
     # 4. Plan the hereditary integral: internal variables, or the whole history.
     plan = plan_history(problem, open_gap, grid)
     return RunSetup(problem, grid, open_gap, plan, mesh, int(threads), fastest_transforms())
 
 
-def _gap_on(problem: Problem, grid: Grid) -> NDArray[np.float64]:
-    return problem.indenter.gap(grid.x[:, None], grid.y[None, :])
+def _about_body(problem: Problem, grid: Grid) -> Grid:
+    """The grid in positions from the body's axis at time 0."""
+    if problem.motion is None:
+        return grid
+    x, y = (middle - at for middle, at in zip(grid.centre, _position(problem, 0.0), strict=True))
+    return replace(grid, centre=(x, y))
+
+
+def _position(problem: Problem, time: float) -> tuple[float, float]:
+    if problem.motion is None:
+        return 0.0, 0.0
+    x, y = problem.motion.position_at(time).tolist()
+    return x, y
+
+
+def _indenter_at(problem: Problem, grid: Grid, time: float) -> Indenter:
+    x, y = _position(problem, time)
+    if x == y == 0:
+        return problem.indenter
+    body = PeriodicBody(problem.indenter, grid) if grid.periodic else problem.indenter
+    return PlacedIndenter(body, x=x, y=y)
+
+
+def _gap_on(problem: Problem, grid: Grid, time: float = 0.0) -> NDArray[np.float64]:
+    return _indenter_at(problem, grid, time).gap(grid.x[:, None], grid.y[None, :])
 
 
 def _mirrored(problem: Problem, open_gap: NDArray[np.float64], grid: Grid) -> tuple[bool, bool]:
-    return mirrored_axes(grid, open_gap, (problem.load.is_even(0), problem.load.is_even(1)))
+    if problem.motion is None:
+        return mirrored_axes(grid, open_gap, (problem.load.is_even(0), problem.load.is_even(1)))
+    # Across the motion only, on the axis, and with all of the body that the grid comes to see.
+    seen = cells_seen(grid, problem.motion)
+    even = mirrored_axes(
+        grid,
+        problem.indenter.gap(seen[0][:, None], seen[1]),
+        (problem.load.is_even(0), problem.load.is_even(1)),
+    )
+    along_x, along_y = (
+        each and limits == (0.0, 0.0)
+        for each, limits in zip(even, problem.motion.reach, strict=True)
+    )
+    return along_x, along_y
 
 
 def plan_history(problem: Problem, open_gap: NDArray[np.float64], grid: Grid) -> HereditaryPlan:

@@ -12,6 +12,7 @@ from viscontact.errors import AccuracyWarning
 from viscontact.grid import AutomaticGrid, Grid
 from viscontact.indenters import Indenter
 from viscontact.loads import LoadHistory
+from viscontact.loads.motion import Motion
 from viscontact.materials.material import Material
 from viscontact.problem.problem import Problem
 from viscontact.simulation.march import March
@@ -36,6 +37,7 @@ def march(
     fields: Literal["all", "none"] | Sequence[float] = "all",
     threads: int = 1,
     progress: Progress | None = None,
+    motion: Motion | None = None,
 ) -> Iterator[ContactState]:
     """Simulate an indenter pressed on a creeping half-space, and yield its state at each instant.
 
@@ -65,6 +67,9 @@ def march(
         Threads of one Fourier transform.
     progress : callable, optional
         Called with (state, done, total) after each instant.
+    motion : Travel or Reciprocation, optional
+        Motion of the body over the surface, see `Travel` and `reciprocating`; at rest when left
+        out. It needs a given grid, which is fixed to the surface.
 
     Returns
     -------
@@ -101,7 +106,10 @@ def march(
     >>> round(next(states).approach, 4)
     0.0133
     """
-    problem = Problem(indenter, material, load, grid, times, indenter_material, tolerance, fields)
+    problem = Problem(
+        *(indenter, material, load, grid, times, indenter_material, tolerance, fields),
+        motion=motion,
+    )
     run = prepare_run(problem, threads)
     return march_run(run, progress)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,7 +21,8 @@ class StepSolution:
     [N m]; `energy` the elastic energy of the pressure on a half-space of unit compliance [J Pa];
     `residual` the relative violation of the contact conditions [-]. `resolved` is False where the
     step was long against the law; `time_error` estimates the relative error of the pressure from
-    all steps so far [-].
+    all steps so far [-]. `heat` [J] is the energy that the bodies lose in the step of a moving
+    contact, `power` [W] the rate at its end; NaN where they are not known.
     """
 
     pressure: NDArray[np.float64]
@@ -35,3 +37,5 @@ class StepSolution:
     outcome: Outcome
     resolved: bool
     time_error: float = 0.0
+    heat: float = math.nan
+    power: float = math.nan

@@ -14,6 +14,7 @@ It departs from the paper in step 2: within a step the pressure is linear in tim
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -33,6 +34,7 @@ from viscontact.time_integration.extrapolation import (
     EXTRAPOLATION_POINTS,
     ElasticReference,
     predict,
+    shifted,
 )
 from viscontact.time_integration.fixed_steps import Step
 from viscontact.time_integration.hereditary_integral import HereditaryResponse, response_to
@@ -79,7 +81,6 @@ class Stepper:
 
     def __init__(self, run: RunSetup, domain: ContactDomain) -> None:
         self._run, self._domain = run, domain
-        self._open_gap = domain.reduce_by_symmetry(run.open_gap)
         # Of pressure [Pa] and unit displacement K p [Pa m], and of the force [N].
         self._memory = run.hereditary.integral((2, *domain.shape))
         self._force_memory = InternalVariables(run.hereditary.prony_approximation, (1,))
@@ -122,7 +123,6 @@ class Stepper:
         """Continue the same run on a larger grid."""
         mapped = enlargement.pairs
         self._run, self._domain = run, enlargement.large
-        self._open_gap = self._domain.reduce_by_symmetry(run.open_gap)
         self._memory.map_fields(mapped)
         self._errors.map_fields(mapped)
         self._references = [
@@ -137,8 +137,11 @@ class Stepper:
         )
         reference_force = float(force_response.of(_force(point))[0])
         drive = reference_force if point.approach is None else point.approach
+        position = self._run.position_at(step.time)
+        self._domain.move_axis(position)
+        open_gap = self._domain.reduce_by_symmetry(self._run.gap_at(step.time))
         problem = ContactProblem(  # step 2: the history widens the gap
-            self._open_gap + response.history[1],
+            open_gap + response.history[1],
             response.compliance,
             self._domain.reduced_constraints(Constraints.of(point)),
             self._scale,
@@ -152,29 +155,77 @@ class Stepper:
         else:
             # A jump breaks the extrapolation: what came before it does not count.
             known = [] if step.is_jump else self._reference_history(step)
-            self._references = [*known[1 - EXTRAPOLATION_POINTS :], trial.reference]
+            self._references = [*known[1 - EXTRAPOLATION_POINTS :], self._known_from(trial)]
         self._motion = trial.solution.motion
+        loss = self._loss(trial.solution.values)
         self._memory.accept(trial.solution.values)
         self._force_memory.accept(_force(trial.point))
         time_error = self._errors.after(step, trial.solution.values, trial.error)
         largest = float(trial.reference.fields[1].max())
         self._scale = max(self._scale, PAST_DISPLACEMENT_WEIGHT * largest)
-        return _on_full_grid(self._domain, trial, time_error)
+        return replace(_on_full_grid(self._domain, trial, time_error), heat=loss[0], power=loss[1])
+
+    def _known_from(self, trial: TrialStep) -> ElasticReference:
+        """What the next guess is extrapolated from: of a moving body pressures, over the load.
+
+        Its elastic reference has a trace of where it was, which pressures have not.
+        """
+        if self._run.problem.motion is None:
+            return trial.reference
+        return replace(trial.reference, drive=trial.point.level, fields=trial.solution.values)
+
+    def _loss(self, values: NDArray[np.float64]) -> tuple[float, float]:
+        """Heat [J] of a step and power [W] lost at its end.
+
+        NaN without internal variables, and without a datum: part of it is lost by the approach.
+        """
+        memory, run = self._memory, self._run
+        if run.problem.motion is None or not run.grid.has_datum:
+            return math.nan, math.nan
+        if not isinstance(memory, InternalVariables):
+            return math.nan, math.nan
+        area = self._domain.symmetry_count * self._domain.grid.cell_area
+        heat, power = memory.loss(values)
+        return heat * area, power * area
 
     def _reference_history(self, step: Step) -> list[ElasticReference]:
         """The references that the next one is extrapolated from; after a kink, the last one."""
         return self._references[-EXTRAPOLATION_POINTS:] if step.smooth else self._references[-1:]
+
+    def _guess(self, step: Step, posed: StepProblem) -> Guess | None:
+        """Guess from earlier steps; of a moving body from their pressures, moved with it."""
+        known = self._reference_history(step)
+        if self._run.problem.motion is None:
+            return _guess(predict(known, step.time, posed.drive), posed.response)
+        moved = predict(self._moved(known, step), step.time, posed.point.level)
+        return None if moved is None else Guess(moved.fields[0], moved.fields[1], moved.motion)
+
+    def _moved(self, known: list[ElasticReference], step: Step) -> list[ElasticReference]:
+        """Known solutions, moved by whole cells to where the body is at the end of a step."""
+        run = self._run
+        there = np.array(run.position_at(step.time))
+        moved = []
+        for each in known:
+            way = there - run.position_at(each.time)
+            cells = np.rint(way / run.grid.cell_size).astype(int)
+            fields = shifted(
+                each.fields,
+                (cells[0], cells[1]),
+                periodic=(run.grid.periodic[0], run.grid.periodic[1]),
+            )
+            moved.append(replace(each, fields=fields))
+        return moved
 
     def _solved(self, step: Step, posed: StepProblem) -> tuple[ContactSolution, Outcome]:
         """Solve the equilibrium of a step (step 3); without force there is nothing to solve."""
         point, problem, response = posed.point, posed.problem, posed.response
         if point.force == 0:
             untouched = not response.history[1].any()
-            return self._first_touch(problem, untouched=untouched), Outcome.NO_CONTACT
+            return self._first_touch(step, problem, untouched=untouched), Outcome.NO_CONTACT
         given = problem.constraints.with_prescribed(self._motion)
         if point.force is None and self._is_separated(problem, given):
             return _without_pressure(problem, self._domain, given), Outcome.NO_CONTACT
-        guess = _guess(predict(self._reference_history(step), step.time, posed.drive), response)
+        guess = self._guess(step, posed)
         tolerance = self._run.problem.tolerance
         solution = solve_contact(problem, self._domain, guess, tolerance=tolerance)
         if not solution.converged:
@@ -190,13 +241,15 @@ class Stepper:
         plane = self._domain.whole.plane.field(motion)
         return bool((problem.open_gap >= plane).all())
 
-    def _first_touch(self, problem: ContactProblem, *, untouched: bool) -> ContactSolution:
+    def _first_touch(
+        self, step: Step, problem: ContactProblem, *, untouched: bool
+    ) -> ContactSolution:
         """Place a body without force where it just touches the surface; free tilts are kept."""
         tilts = problem.constraints.with_prescribed(self._motion) * np.array([0.0, 1.0, 1.0])
         distance = problem.open_gap - self._domain.whole.plane.field(tilts)
         motion = tilts + np.array([float(distance.min()), 0.0, 0.0])
         apart = _without_pressure(problem, self._domain, motion)
-        return _at_lowest_point(self._run, apart) if untouched else apart
+        return _at_lowest_point(self._run, step.time, apart) if untouched else apart
 
 
 def _force(point: LoadPoint) -> NDArray[np.float64]:
@@ -222,15 +275,18 @@ def _without_pressure(
     return ContactSolution(nothing, motion, gap, 0.0, 0, 0, converged=True)
 
 
-def _at_lowest_point(run: RunSetup, apart: ContactSolution) -> ContactSolution:
+def _at_lowest_point(run: RunSetup, time: float, apart: ContactSolution) -> ContactSolution:
     """Let the body's lowest point touch a flat surface, in place of the nearest cell centre."""
     tilts = apart.motion[1:]
-    cells = run.open_gap - np.add.outer(tilts[0] * run.grid.x, tilts[1] * run.grid.y)
+    at_x, at_y = run.position_at(time)
+    slopes = np.add.outer(tilts[0] * (run.grid.x - at_x), tilts[1] * (run.grid.y - at_y))
+    cells = run.gap_at(time) - slopes
     i, j = np.unravel_index(int(cells.argmin()), cells.shape)
     part = np.linspace(-1.0, 1.0, 2 * TOUCH_SAMPLES + 1)
     x = run.grid.x[i] + part[:, None] * run.grid.cell_size[0]
     y = run.grid.y[j] + part[None, :] * run.grid.cell_size[1]
-    lowest = float((run.problem.indenter.gap(x, y) - tilts[0] * x - tilts[1] * y).min())
+    gap = run.indenter_at(time).gap(x, y)
+    lowest = float((gap - tilts[0] * (x - at_x) - tilts[1] * (y - at_y)).min())
     below = apart.motion[0] - lowest
     motion = apart.motion - np.array([below, 0.0, 0.0])
     return replace(apart, motion=motion, gap=apart.gap + below)
@@ -251,7 +307,10 @@ def _on_full_grid(domain: ContactDomain, trial: TrialStep, time_error: float) ->
     cell_area = domain.symmetry_count * domain.grid.cell_area  # with its mirror images
     energy = float(np.einsum("ij,ij->", found.pressure, found.unit_displacement)) / 2
     return StepSolution(
-        **fields,
+        pressure=fields["pressure"],
+        gap=fields["gap"],
+        displacement=fields["displacement"],
+        reference=fields["reference"],
         motion=found.motion,
         resultants=domain.whole.plane.sums(found.pressure) * cell_area,
         energy=energy * cell_area,

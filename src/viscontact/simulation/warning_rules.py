@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from viscontact.checks.half_space_theory import Geometry
 from viscontact.checks.material import law_warnings, passivity_warnings
+from viscontact.checks.motion import axle_warnings
 from viscontact.checks.periodicity import datum_warnings
 from viscontact.checks.steps import (
     relative_change,
@@ -15,6 +16,7 @@ from viscontact.checks.steps import (
     touch_warnings,
 )
 from viscontact.grid import Grid
+from viscontact.indenters import Indenter
 from viscontact.problem.problem import Problem
 from viscontact.simulation.setup import RunSetup
 from viscontact.simulation.step_solution import StepSolution
@@ -26,20 +28,29 @@ def setup_warnings(run: RunSetup) -> dict[str, str]:
     """Return the warnings, by kind, that hold for a whole run: law, conversion, chosen mesh."""
     problem = run.problem
     warnings = law_warnings(run.hereditary.error, problem.compliance.inversion_error)
-    warnings |= datum_warnings(run.grid)
+    warnings |= datum_warnings(run.grid, moving=problem.motion is not None)
     if run.mesh is not None:
         warnings |= run.mesh.warnings
+    warnings |= axle_warnings(problem)
     for body in problem.bodies:
         warnings |= passivity_warnings(body.law, problem.end)
     return warnings
 
 
 def geometry_of(
-    problem: Problem, open_gap: NDArray[np.float64], grid: Grid, *, predicted: bool = False
+    problem: Problem,
+    open_gap: NDArray[np.float64],
+    grid: Grid,
+    *,
+    predicted: bool = False,
+    indenter: Indenter | None = None,
 ) -> Geometry:
-    """Return what the warnings about a contact's geometry need to know of the bodies."""
+    """Return what the warnings about a contact's geometry need to know of the bodies.
+
+    `indenter` is the indenter at its position, if it moves.
+    """
     return Geometry(
-        problem.indenter,
+        indenter or problem.indenter,
         open_gap,
         grid,
         thickness=problem.thickness,

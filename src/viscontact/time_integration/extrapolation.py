@@ -58,6 +58,27 @@ def predict(past: Sequence[ElasticReference], time: float, drive: float) -> Elas
     return ElasticReference(time, drive, fields, motion)
 
 
+def shifted(
+    fields: NDArray[np.float64], cells: tuple[int, int], *, periodic: tuple[bool, bool]
+) -> NDArray[np.float64]:
+    """Fields moved by whole cells along the last two axes.
+
+    What enters at a border is a copy of the last values there, along a period what leaves.
+
+    Examples
+    --------
+    >>> shifted(np.array([[1.0, 2.0, 3.0]]), (0, 1), periodic=(False, False)).tolist()
+    [[1.0, 1.0, 2.0]]
+    """
+    for axis, by, repeats in zip((-2, -1), cells, periodic, strict=True):
+        if by:
+            count = fields.shape[axis]
+            source = np.arange(count) - by
+            source = source % count if repeats else np.clip(source, 0, count - 1)
+            fields = np.take(fields, source, axis=axis)
+    return fields
+
+
 def _is_steady(drives: Sequence[float]) -> bool:
     """True if the drive moves one way, by steps of similar size."""
     steps = np.diff(drives)

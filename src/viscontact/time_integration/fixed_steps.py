@@ -136,7 +136,7 @@ def _divisions(instants: list[float], load: LoadHistory, longest_step: float) ->
     """Times that divide intervals longer than the load allows, while it moves."""
     if math.isinf(longest_step):
         return
-    swings = min(instants[-1], float(load.kinks[-1])) / longest_step
+    swings = min(instants[-1], load.curved_until) / longest_step
     if swings > MAX_STEPS:
         raise ValueError(
             f"load: takes {swings:.3g} steps of {format_quantity(longest_step, 's', 3)} for "
@@ -144,7 +144,7 @@ def _divisions(instants: list[float], load: LoadHistory, longest_step: float) ->
             "earlier"
         )
     for begin, end in itertools.pairwise(instants):
-        if end > load.kinks[-1]:
+        if end > load.curved_until:
             return
         parts = math.ceil((end - begin) / longest_step * (1 - KINK_TOLERANCE))
         yield from np.linspace(begin, end, parts + 1)[1:-1].tolist()

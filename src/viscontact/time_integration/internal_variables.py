@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.materials.compliance import SeriesCompliance
+from viscontact.time_integration.dissipation import heat_of_step, power_lost
 from viscontact.time_integration.hereditary_integral import (
     HereditaryIntegral,
     HereditaryResponse,
@@ -79,9 +80,7 @@ class InternalVariables(HereditaryIntegral):
         """Update the internal variables with the new value of the field, and close the step."""
         self._jumped = self._next_jumps
         value = value.copy() if value.flags.writeable else value
-        values = [(self._next.old, self._value), (self._next.new, value)]
-        if self._trend is not None and not self._shape.is_level:
-            values.append((self._next.trend, self._trend.mean))
+        values = self._weighted_values(value)
         # d(t + h) = decay d(t) + w_old q(t) + w_new q(t + h) + w_trend (mean of q), term by term.
         for index, field in enumerate(self._fields):
             field *= self._next.decay[index]
@@ -89,6 +88,23 @@ class InternalVariables(HereditaryIntegral):
                 field += np.multiply(weights[index], each, out=self._term)
         self._trend = self._shape.trend(value, self._trend) if self._next_smooth else None
         self._value = value
+
+    def loss(self, value: NDArray[np.float64]) -> tuple[float, float]:
+        """Heat of the step to a new value of the field, and the power lost at its end.
+
+        The field is a pair of pressure and unit displacement; both are over the area of a cell
+        [J/m², W/m²]. To be called before `accept`.
+        """
+        shape, turned = self._shape, value
+        if self._trend is not None and not shape.is_level:
+            turned = shape.turn_weight * value + (1 - shape.turn_weight) * self._trend.mean
+        parts = [(shape.rise, self._value, turned), (shape.slow, turned, value)]
+        heat = heat_of_step(self._compliance, self._fields, parts) if shape.duration > 0 else 0.0
+        compliance = self._compliance
+        variables = self._next.decay[:, None, None, None] * self._fields
+        for weights, each in self._weighted_values(value):
+            variables += weights[:, None, None, None] * each
+        return heat, power_lost(compliance, variables, value)
 
     def restart_data(self) -> RestartData:
         """Restart data: internal variables, last value and trend."""
@@ -111,6 +127,15 @@ class InternalVariables(HereditaryIntegral):
         self._value, self._jumped = restart_data["value"], restart_data["jumped"]
         trend = restart_data["trend"]
         self._trend = None if trend is None else Trend(**trend)
+
+    def _weighted_values(
+        self, value: NDArray[np.float64]
+    ) -> list[tuple[NDArray[np.float64], NDArray[np.float64]]]:
+        """Weights of the step, for each term, with the values that they belong to."""
+        values = [(self._next.old, self._value), (self._next.new, value)]
+        if self._trend is not None and not self._shape.is_level:
+            values.append((self._next.trend, self._trend.mean))
+        return values
 
     def _response(self) -> HereditaryResponse:
         """Response to the step whose weights are set."""

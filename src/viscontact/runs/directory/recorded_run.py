@@ -73,6 +73,7 @@ class RecordedRun:
             attributes,
             self.errors,
             problem.tolerance if _fits_single_precision(problem) else 0.0,
+            moving=problem.motion is not None,
         )
 
     @property

@@ -1,0 +1,96 @@
+"""Force of the half-space on a body against its motion: in two forms, equal in the limit.
+
+F = ∫ p (∂h/∂x - tilt) dA, from the slope of the body, or F = -∫ p ∂u/∂x dA, from the displacement
+of the surface, which follows the body under pressure. In the second one the elastic part cancels
+out on any grid, since the convolution is symmetric; it is used where little is left of the first.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.grid import Grid
+from viscontact.indenters import Indenter
+
+
+def resistance_by_slope(
+    pressure: NDArray[np.float64],
+    grid: Grid,
+    indenter: Indenter,
+    tilts: tuple[float, float],
+) -> tuple[float, float]:
+    """Resistance along x and y [N] from the body's slopes under the pressure.
+
+    Examples
+    --------
+    >>> from viscontact.indenters import Paraboloid
+    >>> grid = Grid((4, 4), (4.0, 4.0))
+    >>> ahead = np.zeros((4, 4))
+    >>> ahead[3, 1:3] = 1.0  # at x = 1.5, where the slope of the body is 1.5/R
+    >>> found = resistance_by_slope(ahead, grid, Paraboloid(10.0, 10.0), (0.0, 0.0))
+    >>> round(found[0], 12), found[1]
+    (0.3, 0.0)
+    """
+    i, j = np.nonzero(pressure)
+    if i.size == 0:
+        return 0.0, 0.0
+    x, y, (dx, dy) = grid.x[i], grid.y[j], grid.cell_size
+    force = pressure[i, j] * grid.cell_area
+    found = []
+    for (shift_x, shift_y), cell, tilt in zip(((dx, 0.0), (0.0, dy)), (dx, dy), tilts, strict=True):
+        ahead, behind = (
+            indenter.gap(x + part * shift_x, y + part * shift_y) for part in (0.5, -0.5)
+        )
+        rise = np.nan_to_num(ahead - behind, posinf=0.0, neginf=0.0)
+        found.append(float(force @ (rise / cell - tilt)))
+    return found[0], found[1]
+
+
+def reaches_end(pressure: NDArray[np.float64], grid: Grid, indenter: Indenter) -> tuple[bool, bool]:
+    """Test whether the contact reaches an end of the body along x, and along y.
+
+    The pressure on an edge is singular, and its force along the surface is in neither form.
+
+    Examples
+    --------
+    >>> from viscontact.indenters import FlatPunch
+    >>> punch = FlatPunch(half_length=1.0, half_width=9.0)
+    >>> reaches_end(np.ones((4, 4)), Grid((4, 4), (2.0, 2.0)), punch)
+    (True, False)
+    """
+    i, j = np.nonzero(pressure)
+    x, y, (dx, dy) = grid.x[i], grid.y[j], grid.cell_size
+    along_x, along_y = (
+        any(np.isinf(indenter.gap(x + by * shift[0], y + by * shift[1])).any() for by in (-1, 1))
+        for shift in ((dx, 0.0), (0.0, dy))
+    )
+    return along_x, along_y
+
+
+def resistance_by_displacement(
+    pressure: NDArray[np.float64], displacement: NDArray[np.float64], grid: Grid
+) -> tuple[float, float]:
+    """Resistance along x and y [N] from the slopes of the surface under the pressure.
+
+    Slopes are central differences of fourth order: antisymmetric, so that the elastic part cancels.
+
+    Examples
+    --------
+    >>> grid = Grid((8, 8), (8.0, 8.0))
+    >>> pressed = np.zeros((8, 8))
+    >>> pressed[3:5, 3:5] = 1.0
+    >>> found = resistance_by_displacement(pressed, np.add.outer(-0.1 * grid.x, 0 * grid.y), grid)
+    >>> round(found[0], 12)
+    0.4
+    """
+    found = []
+    for axis, cell in enumerate(grid.cell_size):
+        # <p, u moved by n cells>, n = 1 and 2 either way; there is no pressure at a free border.
+        ahead, behind, far_ahead, far_behind = (
+            float(np.einsum("ij,ij->", pressure, np.roll(displacement, by, axis)))
+            for by in (-1, 1, -2, 2)
+        )
+        slope = (8 * (ahead - behind) - (far_ahead - far_behind)) / (12 * cell)
+        found.append(-slope * grid.cell_area)
+    return found[0], found[1]

@@ -1,0 +1,130 @@
+"""Motion of the body over the surface: base class, and the load of a moving body."""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from viscontact.loads.history import Control, Cycle, LoadHistory
+
+#: Relative difference below which a kink of the path is taken at a kink of the load.
+SAME_TIME = 1e-9
+
+
+class Motion(ABC):
+    """Position of the body's axis over time, along x and y.
+
+    A derived class defines `position_at`, `velocity_at`, `kinks` and `moves`, `reach` and
+    `times_at_cells`, and `longest_step` if its path is curved between its kinks.
+    """
+
+    #: True if the material of both bodies flows through the contact, False if the body slides.
+    rolling: bool | None = None
+
+    @abstractmethod
+    def position_at(self, times: ArrayLike) -> NDArray[np.float64]:
+        """Return the positions (x, y) of the body's axis, shape (..., 2) [m]."""
+
+    @abstractmethod
+    def velocity_at(self, time: float) -> tuple[float, float]:
+        """Return the velocity along x and y with which the body arrives at an instant [m/s]."""
+
+    @property
+    @abstractmethod
+    def kinks(self) -> NDArray[np.float64]:
+        """Times of kinks of the path, with its begin and end, increasing [s]."""
+
+    @property
+    @abstractmethod
+    def reach(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Least and largest positions along x, and along y [m]."""
+
+    @abstractmethod
+    def times_at_cells(self, cell_size: tuple[float, float]) -> NDArray[np.float64]:
+        """Times at which the body has moved by whole cells (dx, dy) since its start [s]."""
+
+    @property
+    def moves(self) -> tuple[bool, bool]:
+        """True along x and along y if the position changes there."""
+        along_x, along_y = (low < high for low, high in self.reach)
+        return along_x, along_y
+
+    @property
+    def end(self) -> float:
+        """Time from which the body is at rest [s]."""
+        return float(self.kinks[-1])
+
+    @property
+    def longest_step(self) -> float:
+        """Longest step on which the path is nearly straight in time [s]; inf if it is straight."""
+        return math.inf
+
+    @property
+    @abstractmethod
+    def top_speed(self) -> float:
+        """Largest speed [m/s]."""
+
+    @property
+    def cycles(self) -> tuple[Cycle, ...]:
+        """Begins and ends of the cycles of a reciprocating motion, in order [s]."""
+        return ()
+
+
+@dataclass(frozen=True, eq=False)
+class MovingLoad(LoadHistory):
+    """Load of a moving body: its kinks and cycles are those of the load and of the path."""
+
+    load: LoadHistory
+    motion: Motion
+
+    @property
+    def control(self) -> Control:  # type: ignore[override]
+        """Quantity that the load prescribes."""
+        return self.load.control
+
+    def level_at(self, times: ArrayLike, *, side: str = "right") -> NDArray[np.float64]:
+        """Return the force [N] or the approach [m] at many instants [s], any shape."""
+        return self.load.level_at(times, side=side)
+
+    @property
+    def largest_level(self) -> float:
+        """Largest force [N] or approach [m] of the whole history."""
+        return self.load.largest_level
+
+    @property
+    def kinks(self) -> NDArray[np.float64]:
+        """Kinks of load and path, increasing [s]."""
+        known = self.load.kinks
+        others = self.motion.kinks
+        distance = np.abs(others[:, None] - known).min(axis=1)
+        return np.unique([*known, *others[distance > SAME_TIME * others]])
+
+    @property
+    def jumps(self) -> NDArray[np.float64]:
+        """Jumps of the load, increasing [s]."""
+        return self.load.jumps
+
+    @property
+    def longest_step(self) -> float:
+        """Longest step on which load and path are nearly linear [s]."""
+        return min(self.load.longest_step, self.motion.longest_step)
+
+    @property
+    def curved_until(self) -> float:
+        """Time up to which load or path are curved [s]."""
+        curved = (each for each in (self.load, self.motion) if math.isfinite(each.longest_step))
+        return max((float(each.kinks[-1]) for each in curved), default=0.0)
+
+    @property
+    def load_cycles(self) -> tuple[Cycle, ...]:
+        """Cycles of the load, or of the path if the load has none."""
+        return self.load.load_cycles or self.motion.cycles
+
+    @property
+    def touches(self) -> NDArray[np.float64]:
+        """Instants between kinks at which undeformed bodies come to touch, increasing [s]."""
+        return self.load.touches

@@ -1,0 +1,52 @@
+"""Times of a moving contact for which none are given: a cell of way each, and times at rest."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.loads import LoadHistory
+from viscontact.loads.motion import Motion, MovingLoad
+
+#: Times while the body rests, and the first of them after its stop, as a part of the rest.
+REST_TIMES, FIRST_REST_TIME = 20, 1e-3
+
+#: Times closer than this part of the whole coincide.
+SAME_TIME = 1e-9
+
+
+def moving_times(
+    motion: Motion, load: LoadHistory, cell_size: tuple[float, float]
+) -> NDArray[np.float64]:
+    """Times at which the body has passed whole cells (dx, dy), and kinks of load and path [s].
+
+    Alignment of body and cells is then the same at all of them, so that the resistance does not
+    scatter. At rest they are in geometric progression.
+
+    Examples
+    --------
+    >>> from viscontact.loads import Travel, step
+    >>> path = Travel([0.0, 1.0], y=[0.0, 1e-3])
+    >>> moving_times(path, step(1.0), (1e-4, 2.5e-4)).round(9).tolist()
+    [0.0, 0.25, 0.5, 0.75, 1.0]
+    """
+    kinks = MovingLoad(load, motion).kinks
+    end = float(kinks[-1])
+    ends = np.unique([0.0, *kinks])
+    found = [motion.times_at_cells(cell_size)]
+    for begin, stop in itertools.pairwise(ends.tolist()):
+        if (motion.position_at(begin) == motion.position_at(stop)).all() and not any(
+            begin < time < stop for time in found[0]
+        ):
+            parts = np.geomspace(FIRST_REST_TIME, 1.0, REST_TIMES)
+            found.append(begin + (stop - begin) * parts)
+    times = np.unique(np.concatenate([ends, *found]))
+    times = times[times <= end]
+    # Of times that coincide the kink is kept, else the first.
+    distance = np.abs(times[:, None] - ends).min(axis=1)
+    rounded = (distance > 0) & (distance < SAME_TIME * end)
+    times = times[~rounded]
+    apart = np.append(True, np.diff(times) > SAME_TIME * end)
+    return np.asarray(times[apart | np.isin(times, ends)])

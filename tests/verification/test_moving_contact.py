@@ -1,0 +1,291 @@
+"""Moving contacts against exact solutions, symmetries and the conservation of energy."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import viscontact as vc
+from viscontact.accuracy.coarser_runs import plan_coarser_runs
+from viscontact.problem.problem import Problem
+from viscontact.runs.directory.recorded_run import RecordedRun
+from viscontact.runs.directory.recorder import Recorder
+from viscontact.simulation.setup import prepare_run
+
+#: A Zener body that relaxes from 2000 to 200 with a retardation time of 10; J = Phi for nu = 0.
+J0, J1, TIME = 1 / 2000, 1 / 200 - 1 / 2000, 10.0
+ZENER = vc.Material(vc.CreepSeries(J0, [J1], [TIME]), poisson_ratio=0.0)
+ELASTIC = vc.Material(vc.Elastic(1 / (2 * J0)), poisson_ratio=0.0)
+BODY = vc.Paraboloid(10.0, 10.0)
+LEVEL = vc.step(10.0, tilt_x=0.0, tilt_y=0.0)
+
+pytestmark = pytest.mark.filterwarnings("ignore::viscontact.AccuracyWarning")
+
+
+def travelled(
+    material: vc.Material = ZENER,
+    along: Literal["x", "y"] = "y",
+    way: float = 1.6,
+    *,
+    cell: float = 0.08,
+    cells_a_step: float = 1,
+    speed: float = 0.1,
+    load: Any = LEVEL,
+    **options: Any,
+) -> xr.Dataset:
+    """A paraboloid pressed with 10 N, moved from rest over a way of some contact radii."""
+    size, far = 3.2, abs(way)
+    shape = [round(size / cell), round((size + far) / cell)]
+    centre = [0.0, way / 2]
+    if along == "x":
+        shape, centre = shape[::-1], centre[::-1]
+    grid = vc.Grid(
+        (shape[0], shape[1]),
+        (shape[0] * cell, shape[1] * cell),
+        centre=(centre[0], centre[1]),
+    )
+    step = cells_a_step * cell / speed
+    times = step * np.arange(round(far / speed / step) + 1)
+    path = vc.Travel([0.0, times[-1]], **{along: [0.0, way]})
+    options = {"fields": "none", "errors": False} | options
+    return vc.simulate(BODY, material, load, grid, times, motion=path, **options)
+
+
+@pytest.mark.slow
+def test_wave_in_full_contact_loses_the_loss_modulus() -> None:
+    # Without friction the wave's pressure lags by the loss angle of M*(k V): the mean of p dh/dy
+    # is (k D)²/4 M''(k V), as each wave number of an elastic half-space has u = 2 J p/k.
+    height, length, speed = 1e-4, 1.0, 0.05
+    wave_number = 2 * np.pi / length
+    loss = (1 / (J0 + J1 / (1 + 1j * wave_number * speed * TIME))).imag
+    expected = wave_number**2 * height**2 / 4 * loss
+    errors = []
+    for count in (16, 32):
+        grid = vc.Grid((4, count), (4 * length / count, length), periodic=True)
+        times = np.arange(4 * count + 1) * length / count / speed
+        path = vc.Travel([0.0, times[-1]], y=[0.0, 4 * length])
+        ds = vc.simulate(
+            vc.Waviness(height, wavelength_y=length),
+            *(ZENER, vc.step(200 * grid.area), grid, times),
+            motion=path,
+            fields="none",
+            errors=False,
+        )
+        assert float(ds.contact_area[-1]) == pytest.approx(grid.area)
+        errors.append(float(ds.resistance_y[-1]) / grid.area / expected - 1)
+    assert errors[0] == pytest.approx(1.77e-3, rel=0.1)
+    assert 3.5 < errors[0] / errors[1] < 4.5  # of second order in step and cell
+
+
+@pytest.mark.slow
+def test_cylinder_reaches_the_steady_friction_of_hunter() -> None:
+    # 8 times the way during the retardation time; Hunter's cylinder is in steady motion.
+    speed, cell, way = 0.1, 0.02, 8.0
+    count = round((way + 2.4) / cell)
+    grid = vc.Grid((1, count), (1.0, count * cell), periodic=(True, False), centre=(0.0, way / 2))
+    ds = vc.simulate(
+        *(vc.Paraboloid(np.inf, 10.0), ZENER, LEVEL, grid),
+        motion=vc.Travel([0.0, way / speed], y=[0.0, way]),
+        fields="none",
+        errors=False,
+    )
+    exact = vc.reference.moving_cylinder(10.0, 10.0, J0, J1, TIME, speed)
+    assert float(ds.friction_coefficient[-1]) == pytest.approx(exact.friction_coefficient, rel=1e-3)
+    assert ds.heat.isnull().all()
+
+
+def test_elastic_body_loses_nothing() -> None:
+    ds = travelled(ELASTIC)
+    assert float(abs(ds.resistance_y).max()) / 10 < 1e-9
+    assert float(abs(ds.heat).max()) == float(abs(ds.dissipation).max()) == 0.0
+
+
+def test_direction_of_motion_does_not_matter() -> None:
+    first = travelled(way=0.8)
+    for along, way in (("y", -0.8), ("x", 0.8), ("x", -0.8)):
+        other = travelled(along=along, way=way)
+        for name in ("friction_coefficient", "approach", "heat"):
+            scale = float(abs(first[name]).max())
+            assert other[name].values == pytest.approx(
+                first[name].values, abs=1e-6 * scale, nan_ok=True
+            )
+        held_back = float(other[f"resistance_{along}"][-1]) * np.sign(way)
+        assert held_back == pytest.approx(float(first.resistance_y[-1]), rel=1e-6)
+
+
+def test_error_is_of_second_order_in_steps_of_whole_cells() -> None:
+    found = [
+        float(travelled(cell=0.04, cells_a_step=count).friction_coefficient[-1])
+        for count in (8, 4, 2)
+    ]
+    finest = float(travelled(cell=0.04).friction_coefficient[-1])
+    changes = np.diff([*found, finest])
+    assert ((changes[:-1] / changes[1:] > 3.5) & (changes[:-1] / changes[1:] < 4.5)).all()
+
+
+def test_body_with_free_tilt_turns_by_its_friction_coefficient() -> None:
+    # The moment of a parabola about its axis is resistance times radius: with none, mu = -tilt.
+    with pytest.warns(vc.AccuracyWarning, match="axle give tilt_y = 0"):
+        ds = travelled(load=vc.step(10.0, tilt_x=0.0))
+    assert ds.friction_coefficient.values[1:] == pytest.approx(-ds.tilt_y.values[1:], rel=1e-6)
+
+
+@pytest.mark.slow
+def test_work_of_a_cycle_that_ends_unloaded_is_heat() -> None:
+    # All stored energy is returned or lost until long after the load has gone.
+    load = vc.ForceHistory([0, 1, 16, 17, 400], [0, 10, 10, 0, 0], tilt_x=0.0, tilt_y=0.0)
+    rises, cycle = np.linspace(0, 1, 6), np.linspace(1, 16, 41)
+    falls, rest = np.linspace(16, 17, 13), 17 + np.geomspace(0.2, 383, 16)
+    times = np.unique(np.concatenate([rises, cycle, falls, rest]))
+    grid = vc.Grid((28, 40), (3.08, 4.4))
+    path = vc.reciprocating(0.6, 15.0, cycles=1)
+    ds = vc.simulate(BODY, ZENER, load, grid, times, motion=path, fields="none", errors=False)
+    work = float(ds.work[-1] + ds.motion_work[-1])
+    assert float(ds.motion_work[-1]) > 0.3 * work
+    assert float(ds.heat[-1]) == pytest.approx(work, rel=2e-3)
+    assert float(ds.dissipation[-1]) < 1e-9
+
+
+def test_steps_of_a_cell_take_few_convolutions(monkeypatch: pytest.MonkeyPatch) -> None:
+    import viscontact.simulation.stepper as stepper
+
+    counts, solve = [], stepper.solve_contact
+
+    def counted(*args: Any, **options: Any) -> Any:
+        solution = solve(*args, **options)
+        counts.append(solution.convolutions)
+        return solution
+
+    monkeypatch.setattr(stepper, "solve_contact", counted)
+    travelled(way=3.2)
+    assert np.mean(counts) < 8  # 12 are allowed at a tolerance of 1e-6
+
+
+def test_recorded_run_continues_to_the_same_bits(tmp_path: Path) -> None:
+    grid = vc.Grid((40, 48), (3.2, 3.84), centre=(0.0, 0.32))
+    path = vc.Travel([0.0, 3.2, 6.4], y=[0.0, 0.32, 0.64])
+    run = prepare_run(Problem(BODY, ZENER, LEVEL, grid, motion=path))
+    for name, stops in (("whole", ()), ("stopped", (1, 5))):
+        recorded = RecordedRun(tmp_path / name, run, "none", errors=True)
+        for stop in stops:
+            record = _opened(recorded)
+            for _ in range(stop):
+                next(record.steps())
+            record.checkpoint()
+            record.close()
+        record = _opened(recorded)
+        for _ in record.steps():
+            pass
+        record.finish(record.estimate_errors())
+        record.close()
+    whole, stopped = (vc.open_results(tmp_path / name) for name in ("whole", "stopped"))
+    whole.attrs = stopped.attrs = {}
+    assert whole.identical(stopped)
+    assert whole.sizes["time"] == 9
+    assert float(whole.heat_error[-1]) > 0
+
+
+def _opened(recorded: RecordedRun) -> Recorder:
+    try:
+        return Recorder.resume(recorded)
+    except FileNotFoundError:
+        recorded.directory.mkdir()
+        return Recorder(recorded)
+
+
+def test_result_is_read_as_it_was_saved(tmp_path: Path) -> None:
+    ds = travelled(way=0.4)
+    vc.save(ds, tmp_path / "result.nc")
+    assert vc.open_results(tmp_path / "result.nc").equals(ds)
+
+
+#: Scalars with error bars whose values depend on the motion.
+ESTIMATED = ("resistance_y", "friction_coefficient", "motion_work", "dissipation", "heat")
+
+
+@pytest.mark.parametrize("cells_a_step", [1, pytest.param(0.7, marks=pytest.mark.slow)])
+def test_error_bars_hold_the_values_on_finer_cells(cells_a_step: float) -> None:
+    way = {"way": 1.68, "speed": 0.2}
+    ds = travelled(cell=0.08, cells_a_step=cells_a_step, errors=True, **way)
+    finer = travelled(cell=0.04, cells_a_step=cells_a_step, **way)
+    finer = finer.sel(time=ds.time, method="nearest", tolerance=1e-9)
+    for name in (*ESTIMATED, "approach", "work", "contact_area", "peak_pressure"):
+        error, bar = abs(ds[name] - finer[name]), ds[f"{name}_error"]
+        assert float((error[1:] <= bar[1:]).mean()) > 0.9, name
+        assert float(bar[-1] / ds[name][-1]) < 0.6, name
+
+
+def test_coarser_runs_move_by_whole_cells_that_lie_alike() -> None:
+    grid = vc.Grid((60, 80), (3.0, 4.0), centre=(0.0, 0.36))
+    path = vc.Travel([0.0, 4.0, 8.0], y=[0.0, 0.6, 0.0])
+    run = prepare_run(Problem(BODY, ZENER, LEVEL, grid, motion=path))
+    history = {
+        "time": run.problem.instants,
+        "time_error": np.ones(run.problem.instants.size),
+        "peak_pressure": np.ones(run.problem.instants.size),
+        "cells_across": np.array([15.0]),
+    }
+    for coarser in plan_coarser_runs(run, history):
+        own = (path.position_at(coarser.run.problem.instants) - coarser.run.grid.y[0])[:, 1]
+        parts = own / coarser.run.grid.cell_size[1] % 1
+        assert parts == pytest.approx((0.0 - grid.y[0]) / 0.05 % 1)
+
+
+def test_force_on_the_edge_of_a_punch_is_not_known() -> None:
+    grid = vc.Grid((20, 24), (2.0, 2.4), centre=(0.0, 0.2))
+    with pytest.warns(vc.AccuracyWarning, match="force on this edge is not computed"):
+        ds = vc.simulate(
+            *(vc.FlatPunch(0.5), ZENER, LEVEL, grid),
+            motion=vc.Travel([0.0, 4.0], y=[0.0, 0.4]),
+            errors=False,
+        )
+    for name in ("resistance_y", "friction_coefficient", "motion_work"):
+        assert ds[name][1:].isnull().all()
+    assert (ds.resistance_x == 0).all()
+    assert (ds.dissipation > 0).all()
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"grid": None}, "a moving contact needs a given grid"),
+        ({"times": vc.adaptive_times(1.0, 1e-3)}, "adaptive steps .* not of the resistance"),
+        ({"indenter_material": ZENER}, "rolling=True .* False"),
+        ({"motion": vc.Travel([0, 1], y=[0, 9.0])}, "beyond the grid"),
+    ],
+)
+def test_what_is_not_available_is_refused_by_name(change: dict[str, Any], message: str) -> None:
+    given = {"grid": vc.Grid((40, 40), (3.2, 3.2)), "motion": vc.Travel([0, 1], y=[0, 0.4])}
+    with pytest.raises(ValueError, match=message):
+        next(vc.march(BODY, ZENER, LEVEL, **(given | change)))
+
+
+def test_a_jump_of_the_position_is_refused() -> None:
+    with pytest.raises(ValueError, match="the position cannot jump"):
+        vc.Travel([0.0, 1.0, 1.0], y=[0.0, 1.0, 2.0])
+
+
+def test_two_rolling_bodies_have_the_compliance_of_both() -> None:
+    path = {"way": 0.8}
+    twice = vc.Material(vc.CreepSeries(2 * J0, [2 * J1], [TIME]), poisson_ratio=0.0)
+    one = travelled(twice, **path)
+    grid = vc.Grid((40, 50), (3.2, 4.0), centre=(0.0, 0.4))
+    both = vc.simulate(
+        *(BODY, ZENER, LEVEL, grid, one.time.values),
+        indenter_material=ZENER,
+        motion=vc.Travel([0.0, 8.0], y=[0.0, 0.8], rolling=True),
+        fields="none",
+        errors=False,
+    )
+    assert both.resistance_y.values == pytest.approx(one.resistance_y.values, rel=1e-9)
+
+
+def test_long_steps_are_reported() -> None:
+    with pytest.warns(vc.AccuracyWarning, match="move at most"):
+        travelled(cells_a_step=5)
+    with pytest.warns(vc.AccuracyWarning, match="retardation times that cause 100% of the loss"):
+        travelled(speed=1e-3, way=0.4)
