@@ -77,8 +77,9 @@ def simulate_many(
         compute as many runs at a time as fit into it.
     directory : path-like, optional
         Record the runs there, each in a directory of its own, with a manifest ``runs.jsonl``. Then
-        results stay on this disk, which all workers must see. The same call again computes only
-        what is left. The runs are mappings or those of `vary`.
+        results stay on this disk, which all workers must see. The same call again, also with
+        further runs, computes only what is left. The runs are mappings or those of `vary`, whose
+        values are equal however their quantities are written.
     workers : int, optional
         Number of parallel processes; by default the number of cores that this process may use
         (its binding, control group and SLURM job), or fewer if the runs do not fit into the free

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -10,7 +11,6 @@ import xarray as xr
 
 from viscontact.grid import Grid
 from viscontact.materials.material import Material
-from viscontact.run_files import MANIFEST_NAME
 from viscontact.runs.execution.stop_requests import StopRequests
 from viscontact.runs.executors.driver import Active, Workers, drive
 from viscontact.runs.executors.simulation_task import SimulationTask
@@ -19,8 +19,9 @@ from viscontact.runs.processes.child import Ended
 from viscontact.runs.processes.job import Job, Standing
 from viscontact.runs.processes.request import INTERRUPTED, STOPPED, RunRequest
 from viscontact.runs.resources import PROGRAM, least_memory
-from viscontact.runs.sweep.manifest import SweepRun, read_manifest, write_manifest
-from viscontact.runs.sweep.varied_runs import VariedRun, case_name
+from viscontact.runs.sweep.continuation import OtherSweepError, continued, recorded_runs
+from viscontact.runs.sweep.manifest import SweepRun, write_manifest
+from viscontact.runs.sweep.varied_runs import VariedRun, sweep_run, with_recorded_cells
 
 #: Specification of a run: arguments of `simulate` by name, or a function that returns a result.
 Recipe = Mapping[str, Any] | Callable[[], xr.Dataset]
@@ -55,8 +56,7 @@ def record_many(
     ValueError if a run cannot be recorded, or the directory holds other runs; RuntimeError after
     the end of all runs if any has failed, unless `return_exceptions`.
     """
-    runs = [_sweep_run(number, recipe, directory) for number, recipe in enumerate(recipes)]
-    _write_once(directory, runs)
+    runs = _recorded(recipes, directory)
     jobs = [_job(run, recipe, directory) for run, recipe in zip(runs, recipes, strict=True)]
     given = {job.directory: recipe for job, recipe in zip(jobs, recipes, strict=True)}
 
@@ -77,29 +77,36 @@ def record_many(
         raise RuntimeError("\n".join((f"{len(failed)} of {len(jobs)} runs failed", *lines)))
 
 
-def _sweep_run(number: int, recipe: Recipe, directory: Path) -> SweepRun:
+def _recorded(recipes: Sequence[Recipe], directory: Path) -> list[SweepRun]:
+    """Write the manifest of runs, and return its lines; ValueError if it is one of other runs."""
+    if not recipes:
+        raise ValueError("runs: there are none to record")
+    earlier = recorded_runs(directory)
+    runs = [_sweep_run(n, recipe, directory, earlier) for n, recipe in enumerate(recipes)]
+    try:
+        found = continued(directory, runs, earlier)
+    except OtherSweepError as error:
+        raise ValueError(f"{directory}: holds other runs: {error}; choose another one") from None
+    place, count = Counter(each.directory for each in found).most_common(1)[0]
+    if count > 1:
+        raise ValueError(f"runs: {count} of them would go to {directory / place}; give each once")
+    if found != earlier:
+        write_manifest(directory, found)
+    return found
+
+
+def _sweep_run(
+    number: int, recipe: Recipe, directory: Path, earlier: Sequence[SweepRun]
+) -> SweepRun:
     """Line of the manifest of a run."""
     if isinstance(recipe, VariedRun):
-        case = case_name(recipe.case, directory.resolve())
-        given = (dict(recipe.settings), recipe.varied, case, recipe.design)
-        return SweepRun(number, recipe.name, recipe.directory, *given)
+        return sweep_run(number, with_recorded_cells(recipe, earlier, directory), directory)
     if isinstance(recipe, Mapping):
         return SweepRun(number, f"run{number}", f"run{number}", {}, (), "", "cases")
     raise ValueError(
         f"runs[{number}]: a run in a directory is given by the arguments of simulate or by vary, "
         f"got {recipe!r}"
     )
-
-
-def _write_once(directory: Path, runs: list[SweepRun]) -> None:
-    """Write the manifest; ValueError if there is one of other runs."""
-    path = directory / MANIFEST_NAME
-    if not path.exists():
-        write_manifest(directory, runs)
-    elif list(read_manifest(path)) != runs:
-        raise ValueError(
-            f"{directory}: holds other runs, those of its {MANIFEST_NAME}; choose another directory"
-        )
 
 
 def _job(run: SweepRun, recipe: Recipe, directory: Path) -> Job:

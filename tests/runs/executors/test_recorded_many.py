@@ -19,8 +19,16 @@ import pytest
 import viscontact as vc
 from interrupted_runs import CASE
 from viscontact.cli import main
-from viscontact.run_files import FAILURE_NAME, RESULT_NAME
+from viscontact.run_files import FAILURE_NAME, MANIFEST_NAME, RESULT_NAME
+from viscontact.runs.sweep.manifest import read_manifest
 
+AUTOMATIC = """\
+indenter: {shape: sphere, radius: 10 mm}
+material: {law: elastic, shear_modulus: 1 MPa, poisson_ratio: 0.5}
+load: {kind: step, force: 0.5 N}
+time: {end: 1 s, steps: 1}
+output: {errors: false, fields: none}
+"""
 RUBBER = vc.Material(vc.Zener(1e6, 1e6, 1e6), poisson_ratio=0.5)
 SMALL = vc.Grid((24, 24), (3e-3, 3e-3))
 
@@ -88,8 +96,8 @@ def test_recorded_runs_are_not_repeated_and_a_failed_one_is_not_a_number(tmp_pat
         assert "rim" in str(ds.message[2].values)
         assert np.isnan(ds.approach[2]).all()
         assert np.isfinite(ds.approach[:2]).all()
-        with pytest.raises(ValueError, match="holds other runs"):
-            vc.simulate_many(given[:2], executor=pool, directory=sweep)
+        with pytest.raises(ValueError, match="run1 has results, and is none of these"):
+            vc.simulate_many(given[:1], executor=pool, directory=sweep)
         with pytest.raises(RuntimeError, match=r"run0: .* holds the result of another run"):
             vc.simulate_many(runs(0.06, 0.1, 50.0), executor=pool, directory=sweep)
 
@@ -116,6 +124,33 @@ def test_runs_of_a_case_are_recorded_as_at_the_command_line(tmp_path: Path) -> N
         assert ds[name].values.tobytes() == at_command[name].values.tobytes()
     names = {path.name for path in (tmp_path / "api" / "case_force=2N").iterdir()}
     assert names == {"case.yaml", "progress.jsonl", "result.nc"}
+
+
+def test_further_runs_of_a_case_are_added_on_the_same_cells(tmp_path: Path) -> None:
+    case = tmp_path / "case.yaml"
+    case.write_text(AUTOMATIC, encoding="utf-8")
+    sweep = tmp_path / "sweep"
+
+    def compute(*forces: str, **settings: object) -> list[float]:
+        given = vc.vary(case, {"load.force": list(forces)}, settings=settings)
+        with ThreadPoolExecutor(1) as pool:
+            ds = vc.simulate_many(given, executor=pool, directory=sweep)
+        assert ds.state.values.tolist() == ["done"] * len(forces)
+        return [float(force) for force in ds["load.force"]]
+
+    assert compute("0.2 N", "0.4 N") == [0.2, 0.4]
+    done = [path.stat().st_mtime_ns for path in sorted(sweep.rglob(RESULT_NAME))]
+    # A smaller force alone would have smaller cells.
+    assert compute("0.05 N", "200mN", "0.4N") == [0.05, 0.2, 0.4]
+    cells = {run.settings["grid.largest_cell"] for run in read_manifest(sweep / MANIFEST_NAME)}
+    assert len(cells) == 1
+    written = {path: path.stat().st_mtime_ns for path in sweep.rglob(RESULT_NAME)}
+    assert len(written) == 3
+    assert set(done) < set(written.values())
+    with pytest.raises(ValueError, match=r"has results with the time\.end of its case, not 2 s"):
+        compute("0.05 N", "200mN", "0.4N", **{"time.end": "2 s"})
+    with pytest.raises(ValueError, match=r"2 of them would go to .*0.4N; give each once"):
+        compute("0.05 N", "0.2 N", "0.4 N", "400 mN")
 
 
 MPI = """\

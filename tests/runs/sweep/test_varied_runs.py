@@ -11,8 +11,8 @@ import pytest
 import viscontact as vc
 from viscontact.case import CaseError
 from viscontact.cli import main
-from viscontact.runs.sweep.manifest import read_manifest
-from viscontact.runs.sweep.varied_runs import sweep_runs
+from viscontact.runs.sweep.manifest import SweepRun, read_manifest
+from viscontact.runs.sweep.varied_runs import VariedRun, sweep_run
 
 CASE = """\
 indenter: {shape: sphere, radius: 10 mm}
@@ -31,12 +31,16 @@ def case(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return Path("ball.yaml")
 
 
+def lines(runs: list[VariedRun]) -> list[SweepRun]:
+    return [sweep_run(number, run, Path("out")) for number, run in enumerate(runs)]
+
+
 def test_runs_are_those_of_the_command_line(case: Path) -> None:
     runs = vc.vary(case, FORCES, settings={"material.poisson_ratio": 0.4})
     assert pickle.loads(pickle.dumps(runs)) == runs
     words = ["--vary", "load.force=0.2 N,0.4 N", "--set", "material.poisson_ratio=0.4"]
     assert main(["run", "ball.yaml", "-o", "out", "-q", *words]) == 0
-    ours, theirs = sweep_runs(Path("out"), runs), list(read_manifest(Path("out/runs.jsonl")))
+    ours, theirs = lines(runs), list(read_manifest(Path("out/runs.jsonl")))
     assert ours == theirs
     assert "grid.largest_cell" in ours[0].settings  # automatic grids of one size of cells
     for run, line in zip(runs, theirs, strict=True):
@@ -69,7 +73,7 @@ def test_other_designs_are_those_of_the_command_line(case: Path, kind: str) -> N
     fixed = ["--set", "grid.shape=[16, 16]", "--set", 'grid.size=["4 mm", "4 mm"]']
     script = ["-o", "out", "--array", "a.sbatch", "-q"]
     assert main(["run", "ball.yaml", *words, *fixed, *script]) == 0
-    assert sweep_runs(Path("out"), runs) == list(read_manifest(Path("out/runs.jsonl")))
+    assert lines(runs) == list(read_manifest(Path("out/runs.jsonl")))
 
 
 def test_values_may_be_numbers_lists_and_paths(case: Path, tmp_path: Path) -> None:

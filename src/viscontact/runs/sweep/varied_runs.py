@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
 from os import PathLike
 from pathlib import Path
 from typing import Any, Literal
@@ -16,7 +17,12 @@ import xarray as xr
 from viscontact.case import CaseError, read_case
 from viscontact.runs.ending import CommandError
 from viscontact.runs.single import simulate
-from viscontact.runs.sweep.common_cells import common_cells, keeps_own_cells
+from viscontact.runs.sweep.common_cells import (
+    KEY,
+    common_cells,
+    keeps_own_cells,
+    recorded_cells,
+)
 from viscontact.runs.sweep.design_table import read_design
 from viscontact.runs.sweep.designs import Design, grid_design, paired_design
 from viscontact.runs.sweep.extremes import extreme_rows
@@ -37,6 +43,7 @@ class VariedRun:
     name: str
     directory: str  # name of its run directory
     design: str
+    has_common_cells: bool = False  # chosen for all runs, and not given in the settings
 
     @property
     def assignments(self) -> tuple[str, ...]:
@@ -127,7 +134,8 @@ def vary(
     path = Path(case)
     chosen = _design(values, design, runs, seed, method)
     fixed = tuple(f"{key}={_text(value)}" for key, value in (settings or {}).items())
-    added = (*fixed, *_checked_cells(path, chosen, fixed))
+    own_cells = _keep_own_cells(path, chosen, fixed)
+    added = fixed if own_cells else (*fixed, *_common_cells(path, chosen, fixed))
     whole = path.parent.resolve() / path.name
     return [
         VariedRun(
@@ -137,25 +145,28 @@ def vary(
             chosen.name(row),
             f"{path.stem}_{chosen.name(row)}",
             chosen.kind,
+            has_common_cells=not own_cells,
         )
         for row in range(len(chosen.rows))
     ]
 
 
-def sweep_runs(directory: Path, runs: Iterable[VariedRun]) -> list[SweepRun]:
-    """Lines of the manifest of runs below the directory of a sweep."""
-    return [
-        SweepRun(
-            number,
-            run.name,
-            run.directory,
-            run.settings,
-            run.varied,
-            case_name(run.case, directory.resolve()),
-            run.design,
-        )
-        for number, run in enumerate(runs)
-    ]
+def sweep_run(number: int, run: VariedRun, directory: Path) -> SweepRun:
+    """Line of the manifest of a run in the directory of a sweep."""
+    case = case_name(run.case, directory.resolve())
+    given = (dict(run.settings), run.varied, case, run.design)
+    return SweepRun(number, run.name, run.directory, *given)
+
+
+def with_recorded_cells(run: VariedRun, earlier: Sequence[SweepRun], directory: Path) -> VariedRun:
+    """Return a run with the common cells of the runs of its case in a manifest."""
+    if not run.has_common_cells:
+        return run
+    cells = recorded_cells(earlier, case_name(run.case, directory.resolve()))
+    if cells is None:
+        return run
+    own = {key: value for key, value in run.settings.items() if key != f"grid.{KEY}"}
+    return replace(run, settings={**dict(text.split("=", 1) for text in cells), **own})
 
 
 def case_name(case: Path, place: Path) -> str:
@@ -199,18 +210,31 @@ def _text(value: Any) -> str:
     return json.dumps(value.item() if isinstance(value, np.generic) else value)
 
 
-def _checked_cells(case: Path, design: Design, settings: Sequence[str]) -> tuple[str, ...]:
-    """Setting of the common cells of checked runs; none if they keep their own."""
-    try:
+def _keep_own_cells(case: Path, design: Design, settings: Sequence[str]) -> bool:
+    """Test whether runs keep their own cells; they are checked then."""
+    with _case_errors():
         if not keeps_own_cells(case, design, settings):
-            return common_cells(case, design, settings).settings
+            return False
         for row in extreme_rows(design):
             read_case(case, (*settings, *design.settings(row)))
+    return True
+
+
+def _common_cells(case: Path, design: Design, settings: Sequence[str]) -> tuple[str, ...]:
+    """Setting of the common cells of checked runs; none if there are too many of them."""
+    with _case_errors():
+        return common_cells(case, design, settings).settings
+
+
+@contextmanager
+def _case_errors() -> Iterator[None]:
+    """Raise refusals and faults of a case as a CaseError that names no option."""
+    try:
+        yield
     except CommandError as error:
         raise CaseError(*map(_without_option, error.lines)) from None
     except CaseError as error:
         raise CaseError(*map(_without_option, error.problems)) from None
-    return ()
 
 
 def _without_option(problem: str) -> str:
