@@ -115,3 +115,24 @@ def test_figures_show_the_largest_stress_and_its_depth(results: xr.Dataset) -> N
     drawn = above.lines[0].get_ydata()
     assert drawn == pytest.approx(found.von_mises.max(("z", "x")).values / 1e3, rel=0.01)
     assert below.lines[0].get_ydata()[0] < below.lines[0].get_ydata()[1]
+
+
+@pytest.mark.filterwarnings("ignore:the grid is periodic along x only")
+def test_stresses_of_a_cylinder_lie_across_it() -> None:
+    """Largest in-plane shear 0.300 p0 at 0.786 half widths: Johnson 1985, section 4.2."""
+    grid = vc.Grid((1, 96), (1e-3, 2.6e-3), periodic=(True, False))
+    rubber = vc.Material(vc.Elastic(1e6), poisson_ratio=0.5)
+    ds = vc.simulate(vc.Paraboloid(np.inf, 0.01), rubber, vc.step(0.25), grid, [0.0], errors=False)
+    half_width, peak = float(ds.contact_width[0]) / 2, float(ds.peak_pressure[0])
+    found = vc.section_stresses(ds)
+    assert found.von_mises.dims == ("time", "z", "y")
+    assert float(found.z[-1]) == pytest.approx(2 * half_width)
+    in_plane = np.hypot((found.stress_yy - found.stress_zz) / 2, found.stress_yz)[0]
+    assert float(in_plane.max()) == pytest.approx(0.300 * peak, rel=2e-3)
+    place = in_plane.argmax(("z", "y"))
+    assert float(in_plane.z[place["z"]]) == pytest.approx(0.786 * half_width, abs=0.03 * half_width)
+    axes = plot.stress_section(ds).axes[0]
+    assert axes.get_xlabel() == "y [mm]"
+    assert axes.get_ylim()[0] == pytest.approx(2e3 * half_width, rel=0.05)
+    # von Mises stress for ν = 0.5, √3 times the in-plane shear
+    assert f"largest {3**0.5 * float(in_plane.max()) / 1e3:.3g}" in axes.get_title(loc="left")

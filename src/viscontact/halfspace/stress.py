@@ -14,11 +14,15 @@ from numpy.typing import ArrayLike, NDArray
 from scipy import fft
 
 from viscontact.grid import Grid
+from viscontact.halfspace.periodic_stress import periodic_stress_coefficients
 from viscontact.halfspace.stress_influence import COMPONENTS, stress_coefficients
 
 #: Depth, as a part of a cell's edge, at which the surface is evaluated: only on the surface itself
 #: the stress jumps with the pressure from cell to cell; just below, it takes the mean value.
 SURFACE = 1e-6
+
+#: Places of the components after an exchange of x and y.
+EXCHANGED = [1, 0, 2, 4, 3, 5]
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,16 +95,17 @@ def stress_on_section(
     Raises
     ------
     ValueError
-        If both x and y are given, a depth is negative or no number, Poisson's ratio is not between
-        0 and 0.5, or the grid is periodic along one axis only.
+        If both x and y are given, a depth is negative or no number, or Poisson's ratio is not
+        between 0 and 0.5.
 
     Notes
     -----
     Each line of cells acts on the section as a convolution with Love's closed form
     (`stress_influence`), by zero-padded fast Fourier transforms; exact for pressure that is
-    constant within cells. On a periodic grid each wave of the pressure has its own stresses
-    (Johnson 1985, Contact Mechanics, section 13.2, turned to its direction), and the mean
-    pressure causes no strain along the surface: σxx = σyy = ν/(1 - ν) σzz.
+    constant within cells. On a grid that is periodic along one axis the images of a cell are
+    summed (`periodic_stress`). On one that is periodic along both, each wave of the pressure has
+    its own stresses (Johnson 1985, Contact Mechanics, section 13.2, turned to its direction), and
+    the mean pressure causes no strain along the surface: σxx = σyy = ν/(1 - ν) σzz.
 
     Examples
     --------
@@ -111,12 +116,6 @@ def stress_on_section(
     1.0
     """
     below = _checked(depths, poisson_ratio)
-    if grid.periodic[0] != grid.periodic[1]:
-        raise ValueError(
-            "stresses on sections are not computed on a grid that is periodic along one axis only; "
-            "use a grid that is periodic along both, with a period across of several widths of the "
-            "contact, or one that is not periodic"
-        )
     if x is not None and y is not None:
         raise ValueError("a section lies at an x or at a y; give one of them")
     if x is not None:
@@ -124,9 +123,9 @@ def stress_on_section(
         turned = Grid(grid.shape[::-1], grid.size[::-1], periodic, centre=grid.centre[::-1])
         stress = stress_on_section(pressure.T, turned, below, poisson_ratio, y=x)
         # x and y are exchanged on the turned grid.
-        return Stress(stress.components[[1, 0, 2, 4, 3, 5]])
+        return Stress(stress.components[EXCHANGED])
     y = grid.centre[1] if y is None else y
-    if grid.periodic:
+    if all(grid.periodic):
         return _below_period(pressure, grid, below, poisson_ratio, y)
     lines = np.flatnonzero(pressure.any(axis=0))
     loaded = slice(lines[0], lines[-1] + 1) if lines.size else slice(0, 1)
@@ -141,24 +140,56 @@ def _along_x(
     poisson_ratio: float,
     y: float,
 ) -> Stress:
-    cells, (dx, dy) = len(grid.x), grid.cell_size
-    padded = fft.next_fast_len(2 * cells - 1, real=True)
-    spectrum = fft.rfft(pressure, padded, axis=0)  # zero-padded: no periodic images
-    # Offsets from a cell to the point, the negative ones wrapped to the end.
-    offsets = np.arange(-cells + 1, cells) * dx
-    x_edges = np.append(offsets, offsets[-1] + dx) - dx / 2
-    y_edges = y - np.append(grid.y[loaded] - dy / 2, grid.y[loaded][-1] + dy / 2)
+    """Stress by a convolution along the section, circular along a period, summed across it."""
+    cells = len(grid.x)
+    # Zero-padded where there are no periodic images.
+    padded = cells if grid.periodic[0] else fft.next_fast_len(2 * cells - 1, real=True)
+    spectrum = fft.rfft(pressure, padded, axis=0)
     found = np.empty((6, len(depths), cells))
-    for index, depth in enumerate(np.maximum(depths, SURFACE * min(dx, dy)).tolist()):
-        # The edges rise along x, so that the first difference has the other sign.
-        kernel = -stress_coefficients(x_edges, y_edges, depth, poisson_ratio)
-        wrapped = np.zeros((6, padded, kernel.shape[2]))
-        wrapped[:, :cells] = kernel[:, cells - 1 :]
-        wrapped[:, padded - cells + 1 :] = kernel[:, : cells - 1]
+    for index, depth in enumerate(np.maximum(depths, SURFACE * min(grid.cell_size)).tolist()):
+        if grid.periodic[0]:
+            wrapped = _along_period(grid, loaded, depth, poisson_ratio, y)
+        else:
+            kernel = _of_offsets(grid, loaded, depth, poisson_ratio, y)
+            wrapped = np.zeros((6, padded, kernel.shape[2]))
+            wrapped[:, :cells] = kernel[:, cells - 1 :]
+            wrapped[:, padded - cells + 1 :] = kernel[:, : cells - 1]
         # Multiply along x, sum over the loaded lines of cells along y.
         product = np.einsum("cky,ky->ck", fft.rfft(wrapped, axis=1), spectrum)
         found[:, index] = fft.irfft(product, padded, axis=1)[:, :cells]
     return Stress(found)
+
+
+def _along_period(
+    grid: Grid, loaded: slice, depth: float, poisson_ratio: float, y: float
+) -> NDArray[np.float64]:
+    """Influence of the loaded lines at offsets along a period, the negative ones at the end."""
+    cells, (dx, dy) = len(grid.x), grid.cell_size
+    y_edges = y - np.append(grid.y[loaded] - dy / 2, grid.y[loaded][-1] + dy / 2)
+    first = -(cells // 2) * dx
+    kernel = periodic_stress_coefficients(first, cells, dx, y_edges, depth, poisson_ratio)
+    return np.asarray(fft.ifftshift(kernel, axes=1))
+
+
+def _of_offsets(
+    grid: Grid, loaded: slice, depth: float, poisson_ratio: float, y: float
+) -> NDArray[np.float64]:
+    """Influence of the loaded lines at all offsets along x, ascending; shape (6, 2 nx - 1, lines).
+
+    With their images, if the grid is periodic across the section.
+    """
+    (cells, lines), (dx, dy) = grid.shape, grid.cell_size
+    x_edges = (np.arange(-cells + 1, cells + 1, dtype=np.float64) - 0.5) * dx
+    if not grid.periodic[1]:
+        y_edges = y - np.append(grid.y[loaded] - dy / 2, grid.y[loaded][-1] + dy / 2)
+        # The edges rise along x, so that the first difference has the other sign.
+        return -stress_coefficients(x_edges, y_edges, depth, poisson_ratio)
+    # Distances from the lines to the section, within half a period.
+    beyond = (y - grid.y[0]) % dy
+    first = beyond - (lines // 2) * dy
+    turned = -periodic_stress_coefficients(first, lines, dy, x_edges, depth, poisson_ratio)
+    places = np.rint((y - beyond - grid.y[loaded]) / dy).astype(int) + lines // 2
+    return turned[EXCHANGED].swapaxes(1, 2)[:, :, places % lines]
 
 
 def _below_period(

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscontact.contact.body_edge import Outline
+from viscontact.grid import Grid
 from viscontact.units.axis_flags import NEITHER, AxisFlags
 from viscontact.units.formatting import format_quantity
 
@@ -27,6 +28,12 @@ class Snapshot:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "periodic", AxisFlags(self.periodic, "periodic"))
+
+    @property
+    def grid(self) -> Grid:
+        """Cells of the fields."""
+        (nx, ny), (dx, dy) = self.pressure.shape, self.cell_size
+        return Grid((nx, ny), (nx * dx, ny * dy), self.periodic.plain, centre=self.middle)
 
     @property
     def touching(self) -> bool:

@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
+from viscontact.grid import Grid
 from viscontact.halfspace.stress import Stress, stress_on_section
 from viscontact.halfspace.stress_influence import COMPONENTS
 from viscontact.results.recorded_case import recorded_grid, recorded_poisson_ratio
@@ -36,7 +37,8 @@ def section_stresses(
         Depths below the surface, 0 or positive [m]; from 0 to two half widths of the largest
         contact when left out.
     x, y : float, optional
-        Position of the plane, one of them [m]; when both are left out, the y of the grid's middle.
+        Position of the plane, one of them [m]; when both are left out, the plane of given y
+        through the grid's middle, or that of given x across a grid that is periodic along x only.
     times : sequence of float, optional
         Instants [s], the nearest stored ones are taken; all when left out.
     poisson_ratio : float, optional
@@ -77,9 +79,14 @@ def section_stresses(
             "or a list of instants in the case file, fields= in Python)"
         )
     ratio = recorded_poisson_ratio(results) if poisson_ratio is None else poisson_ratio
-    below = _usual_depths(results) if depths is None else np.atleast_1d(np.asarray(depths, float))
-    pressure = _chosen(results["pressure"], times)
     grid = recorded_grid(results)
+    if depths is None:
+        below = _usual_depths(results, grid)
+    else:
+        below = np.atleast_1d(np.asarray(depths, float))
+    if x is None and y is None and grid.periodic == (True, False):
+        x = grid.centre[0]
+    pressure = _chosen(results["pressure"], times)
     fields = (np.asarray(field, dtype=np.float64) for field in pressure.values)
     found = [stress_on_section(field, grid, below, ratio, x=x, y=y) for field in fields]
     return _labelled(results, pressure, found, below, "x" if x is None else "y")
@@ -90,9 +97,12 @@ def _chosen(pressure: xr.DataArray, times: Sequence[float] | None) -> xr.DataArr
     return pressure if times is None else pressure.sel(time=list(times), method="nearest")
 
 
-def _usual_depths(results: xr.Dataset) -> NDArray[np.float64]:
-    extents = np.minimum(results["contact_length"], results["contact_width"])
-    half_width = float(extents.max()) / 2
+def _usual_depths(results: xr.Dataset, grid: Grid) -> NDArray[np.float64]:
+    extents = [results["contact_length"].values, results["contact_width"].values]
+    for axis, size in enumerate(grid.size):
+        if not grid.has_datum and grid.periodic[axis]:  # a strip through the period has no end
+            extents[axis] = np.where(extents[axis] >= size, np.inf, extents[axis])
+    half_width = float(np.minimum(*extents).max()) / 2
     if not half_width > 0:
         raise ValueError("there is no contact at any instant; give depths=")
     return np.linspace(0.0, REACH * half_width, DEPTHS)

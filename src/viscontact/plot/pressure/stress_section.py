@@ -13,13 +13,12 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import ArrayLike, NDArray
 
-from viscontact.grid import Grid
 from viscontact.halfspace.stress import stress_on_section
 from viscontact.plot.layout import style
 from viscontact.plot.layout.contour_labels import label_contours
 from viscontact.plot.layout.error_band import peak_note
 from viscontact.plot.layout.page import Width, page_width
-from viscontact.results.recorded_case import recorded_grid, recorded_poisson_ratio
+from viscontact.results.recorded_case import recorded_poisson_ratio
 from viscontact.results.snapshots import Snapshot, take_snapshots
 from viscontact.units.formatting import ReadableUnit, format_quantity, readable_unit, time_labels
 
@@ -95,7 +94,7 @@ def stress_section(
     """
     ratio = recorded_poisson_ratio(results)
     snapshots = take_snapshots(results, times, _NAME, count=2)
-    sections = stress_sections(snapshots, recorded_grid(results), ratio)
+    sections = stress_sections(snapshots, ratio)
     length = readable_unit("m", *(section.half_width * _ASIDE for section in sections))
     stress = readable_unit("Pa", max(section.largest[0] for section in sections))
     levels = _levels(sections, stress)
@@ -123,31 +122,40 @@ def stress_section(
     return figure
 
 
-def stress_sections(snapshots: list[Snapshot], grid: Grid, poisson_ratio: float) -> list[Section]:
+def stress_sections(snapshots: list[Snapshot], poisson_ratio: float) -> list[Section]:
     """Sections at the given instants with contact."""
     touching = [snapshot for snapshot in snapshots if snapshot.touching]
     half_width = max(_half_width(snapshot) for snapshot in touching)
-    return [_section(snapshot, grid, half_width, poisson_ratio) for snapshot in touching]
+    return [_section(snapshot, half_width, poisson_ratio) for snapshot in touching]
+
+
+def _extents(snapshot: Snapshot) -> tuple[float, float]:
+    """Extents of the contact along x and y, infinite along the only period if it fills it [m]."""
+    left, right, front, back = snapshot.extent()
+    length, width = right - left, back - front
+    grid = snapshot.grid
+    filled = np.array([length, width]) > np.array(grid.size) - np.array(grid.cell_size) / 2
+    endless = filled & np.array(grid.periodic) & (not grid.has_datum)
+    return np.inf if endless[0] else length, np.inf if endless[1] else width
 
 
 def _half_width(snapshot: Snapshot) -> float:
-    left, right, front, back = snapshot.extent()
-    half_width = min(right - left, back - front) / 2
-    if not snapshot.periodic:
-        return half_width
+    extents, grid = _extents(snapshot), snapshot.grid
     # Contact across the border has no width: the section is as wide as the period.
-    x_low, x_high, y_low, y_high = snapshot.borders()
-    return min(half_width, min(x_high - x_low, y_high - y_low) / (2 * _ASIDE))
+    pairs = zip(grid.size, grid.periodic, extents, strict=True)
+    periods = [size for size, repeats, extent in pairs if repeats and extent < np.inf]
+    return min(*extents, *(period / _ASIDE for period in periods)) / 2
 
 
-def _section(snapshot: Snapshot, grid: Grid, half_width: float, poisson_ratio: float) -> Section:
+def _section(snapshot: Snapshot, half_width: float, poisson_ratio: float) -> Section:
     """Section at one instant, as deep as the largest shown contact requires."""
     left, right, front, back = snapshot.extent()
-    is_long = right - left >= back - front
+    length, width = _extents(snapshot)
+    is_long = length >= width
     i, j = _place_of_peak(snapshot)
     depths = np.linspace(0.0, _DEEP * half_width, _DEPTHS)
     where: dict[str, Any] = {"x": float(snapshot.x[i])} if is_long else {"y": float(snapshot.y[j])}
-    stress = stress_on_section(snapshot.pressure, grid, depths, poisson_ratio, **where)
+    stress = stress_on_section(snapshot.pressure, snapshot.grid, depths, poisson_ratio, **where)
     across = snapshot.y if is_long else snapshot.x
     middle = (front + back) / 2 if is_long else (left + right) / 2
     near = np.abs(across - middle) <= _ASIDE * half_width

@@ -1,0 +1,81 @@
+"""Stress influence coefficients of a rectangle that repeats along one axis.
+
+The images of a cell at up to `IMAGES` periods are summed one by one. Those beyond, where the stress
+f(m) of the image m is smooth, are replaced by the midpoint rule with two corrections,
+
+    Σ_{m > M} f(m) = F + (1 - h²) δf/24 - (17 - 10 h² - 7 h⁴) δ³f/5760 + ...,
+
+with the central differences δf, δ³f at m = M + 1/2. F is the stress of a strip that begins there
+and has no end, with the cell's pressure spread over its period; h is the cell's part of the period.
+The terms in h allow for the end of the strip, which is sharp instead of blurred over a cell, and
+for differences in place of derivatives in the Euler-Maclaurin formula.
+All terms are finite, unlike the displacement of such a row (`periodic_influence`).
+
+References
+----------
+M. Abramowitz, I. A. Stegun, Handbook of Mathematical Functions (1964), eq. 25.4.2.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from viscontact.halfspace.stress_influence import stress_coefficients
+
+#: Images on either side that are summed one by one.
+IMAGES = 4
+
+#: Length of a strip without end, in the largest of the other lengths.
+ENDLESS = 1e10
+
+
+def periodic_stress_coefficients(
+    first: float,
+    cells: int,
+    edge: float,
+    y_edges: NDArray[np.float64],
+    depth: float,
+    poisson_ratio: float,
+) -> NDArray[np.float64]:
+    """Stress per unit pressure on cells that repeat along x with a period of `cells` edges [-].
+
+    At points at x = first, first + edge, ... from a cell's centre [m], within half a period or so.
+    Components xx, yy, zz, yz, xz, xy, shape (6, cells, ny); the other arguments are those of
+    `stress_coefficients`.
+
+    Under the middle of a strip of half width a, at the depth a, σyy is the stress across,
+    -(1/π) (π/2 - 1) p (Johnson 1985, eqs. 2.32):
+
+    >>> stress = periodic_stress_coefficients(0.0, 1, 5.0, np.array([1.0, -1.0]), 1.0, 0.3)
+    >>> round(float(stress[1, 0, 0] * np.pi), 6)
+    -0.570796
+    """
+
+    def at(x_edges: NDArray[np.float64]) -> NDArray[np.float64]:
+        # The edges rise along x, so that the first difference has the other sign.
+        return -stress_coefficients(x_edges, y_edges, depth, poisson_ratio)
+
+    period, places = cells * edge, np.arange(cells, dtype=np.float64) * edge + first
+    # 1. The images nearby, and those that the correction takes.
+    images = 2 * IMAGES + 5
+    steps = np.arange(images * cells + 1, dtype=np.float64) - (IMAGES + 2) * cells - 0.5
+    near = at(first + steps * edge).reshape(6, images, cells, -1)
+    found = np.einsum("cmxy,m->cxy", near, _weights(1 / cells))
+    # 2. The strips beyond, from each place on.
+    begin = (IMAGES + 0.5) * period
+    endless = ENDLESS * max(period, depth, float(np.abs(y_edges).max()))
+    after = at(np.append(places + begin, endless))[:, ::-1].cumsum(axis=1)[:, ::-1]
+    before = at(np.append(-endless, places - begin)).cumsum(axis=1)
+    return np.asarray(found + (after + before) / cells)
+
+
+def _weights(part: float) -> NDArray[np.float64]:
+    """Weights of the images from one side to the other, the corrections of both ends included."""
+    slope, third = (1 - part**2) / 24, -(17 - 10 * part**2 - 7 * part**4) / 5760
+    end = np.array([-third, -slope + 3 * third, slope - 3 * third, third])
+    weights = np.ones(2 * IMAGES + 5)
+    weights[:2] = weights[-2:] = 0.0
+    weights[-4:] += end
+    weights[:4] += end[::-1]
+    return weights
